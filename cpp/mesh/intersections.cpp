@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "mesh/crossings/box_pairs.h"
+#include "mesh/crossings/graphs.h"
+#include "mesh/crossings/spatial_order.h"
 #include "predicates/orientation_3d.h"
 #include "support/stepped_tasks.h"
 
@@ -17,10 +19,6 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr std::int8_t no_axis = -1;
 
-/// A view along an axis, which keeps orders of rotation.
-Vec2 along(int axis, const Vec3& p) noexcept {
-  return axis == 0 ? Vec2{p.y(), p.z()} : axis == 1 ? Vec2{p.z(), p.x()} : Vec2{p.x(), p.y()};
-}
 int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   return orientation(along(axis, a), along(axis, b), along(axis, c));
 }
@@ -246,11 +244,14 @@ bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexce
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor) {
   SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
-  const BoxPairs near(vertices, triangles, std::move(sound.numbers), monitor, options.threads);
+  std::vector<std::int32_t> order = spatial_order(vertices, triangles, std::move(sound.numbers), monitor, options.threads);
+  const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, order, options.threads, monitor);
+  const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, options.threads);
   std::vector<Intersections> of_part(near.parts());
   const auto ask = [&](std::size_t part, Monitor&) {
     FirstPairs first(options.limit, of_part[part]);
     near.each(part, [&](std::size_t i, std::size_t j) {
+      if (graph[i] >= 0 && graph[i] == graph[j]) return;
       if (parted_at_neighbour(vertices, triangles[i], triangles[j], sound.axis[i], sound.inside[i])) return;
       Vec3 place;
       if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))

@@ -336,6 +336,8 @@ inline constexpr double many_for_background = 4000;
 /// Nodes of the coarsest level, and sweeps on the others.
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
+/// Of unit crosses. Sweeps end where none moves farther in one: a thousandth of a degree.
+inline constexpr double cross_at_rest = 1e-5;
 
 // Division of large domains (division)
 /// Triangles. Of a piece, about. [90 000: a fifth more time on one thread at a million]

@@ -17,9 +17,14 @@ constexpr std::size_t most_kept = 4096;
 
 BoxPairs::BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                    std::vector<std::int32_t> numbers, Monitor& monitor, int threads)
+    : BoxPairs(vertices, triangles, spatial_order(vertices, triangles, std::move(numbers), monitor, threads), {},
+               monitor, threads) {}
+
+BoxPairs::BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> order,
+                   std::span<const std::int32_t> set, Monitor& monitor, int threads)
     : vertices_(vertices),
       triangles_(triangles),
-      order_(spatial_order(vertices, triangles, std::move(numbers), monitor, threads)),
+      order_(std::move(order)),
       blocks_((order_.size() + block_size - 1) / block_size) {
   if (blocks_ == 0) return;
   std::size_t nodes = 0;
@@ -38,6 +43,22 @@ BoxPairs::BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> tri
   for (std::size_t level = 1; level < first_.size(); ++level) {
     const std::size_t below = first_[level - 1], end = first_[level];
     for (std::size_t k = below; k < end; ++k) boxes_[end + (k - below) / 2].add(boxes_[k]);
+  }
+  if (!set.empty()) find_sets(set);
+}
+
+void BoxPairs::find_sets(std::span<const std::int32_t> set) {
+  set_.assign(boxes_.size(), -1);
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    const auto of = [&](std::size_t k) { return set[static_cast<std::size_t>(order_[b * block_size + k])]; };
+    std::size_t k = 1;
+    while (k < size_of(b) && of(k) == of(0)) ++k;
+    if (k == size_of(b)) set_[b] = of(0);
+  }
+  for (std::size_t level = 1; level < first_.size(); ++level) {
+    const std::size_t below = first_[level - 1], end = first_[level];
+    for (std::size_t k = below; k < end; k += 2)
+      if (k + 1 == end || set_[k] == set_[k + 1]) set_[end + (k - below) / 2] = set_[k];
   }
 }
 
@@ -68,7 +89,7 @@ bool BoxPairs::find_some(Meeting& meeting) const {
   while (!meeting.todo.empty() && meeting.blocks.size() < most_kept) {
     const auto [a, b] = meeting.todo.back();
     meeting.todo.pop_back();
-    if (b.end() <= a.begin() || box(a).is_apart(box(b))) continue;
+    if (b.end() <= a.begin() || are_of_one_set(a, b) || box(a).is_apart(box(b))) continue;
     if (a.level > 0 || b.level > 0)
       go_down(a, b, meeting.todo);
     else

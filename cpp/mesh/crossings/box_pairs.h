@@ -30,6 +30,11 @@ class BoxPairs {
   BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> numbers,
            Monitor& monitor, int threads);
 
+  /// The same without pairs of one set: some of them may come all the same. `order`: neighbours near each other, as far
+  /// as they may be apart from those of other sets; `set`: by triangle of the mesh; -1: of none.
+  BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> order,
+           std::span<const std::int32_t> set, Monitor& monitor, int threads);
+
   [[nodiscard]] std::size_t parts() const noexcept {
     return blocks_ == 0 ? 0 : (blocks_ + blocks_of_part - 1) / blocks_of_part;
   }
@@ -73,6 +78,11 @@ class BoxPairs {
   };
 
   [[nodiscard]] const Box& box(const Node& node) const noexcept { return boxes_[first_[node.level] + node.index]; }
+  [[nodiscard]] bool are_of_one_set(const Node& a, const Node& b) const noexcept {
+    if (set_.empty()) return false;
+    const std::int32_t of_a = set_[first_[a.level] + a.index];
+    return of_a >= 0 && of_a == set_[first_[b.level] + b.index];
+  }
   [[nodiscard]] std::size_t size_of(std::size_t block) const noexcept {
     return std::min(block_size, order_.size() - block * block_size);
   }
@@ -82,6 +92,7 @@ class BoxPairs {
       box.add(vertices_[static_cast<std::size_t>(v)]);
     return box;
   }
+  void find_sets(std::span<const std::int32_t> set);
   [[nodiscard]] Part boxes_of(std::size_t part) const;
   void load(std::size_t block, Loaded& loaded) const;
   void start(std::size_t part, Meeting& meeting) const;
@@ -94,14 +105,20 @@ class BoxPairs {
   void compare(const Part& own, std::size_t a, const Loaded& other, const Look& look) const {
     const Box* boxes = own.boxes.data() + (a - own.first) * block_size;
     const std::int32_t *of_a = order_.data() + a * block_size, *of_b = order_.data() + other.block * block_size;
-    const Box& all_of_a = box({0, a});
-    const std::size_t size = size_of(a);
+    const Box &all_of_a = box({0, a}), &all_of_b = box({0, other.block});
+    std::array<std::uint8_t, block_size> near_b;  // those of a
+    std::size_t count = 0;
+    for (std::size_t k = 0, size = size_of(a); k < size; ++k)
+      if (!all_of_b.is_apart(boxes[k])) near_b[count++] = static_cast<std::uint8_t>(k);
     for (std::size_t l = 0; l < other.size; ++l) {
       if (all_of_a.is_apart(other.boxes[l])) continue;
-      for (std::size_t k = 0; k < (a == other.block ? l : size); ++k)
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t k = near_b[i];
+        if (a == other.block && k >= l) break;
         if (!boxes[k].is_apart(other.boxes[l]))
           look(static_cast<std::size_t>(std::min(of_a[k], of_b[l])),
                static_cast<std::size_t>(std::max(of_a[k], of_b[l])));
+      }
     }
   }
 
@@ -111,6 +128,7 @@ class BoxPairs {
   std::size_t blocks_ = 0;
   std::vector<std::size_t> first_;  // by level: in boxes_
   std::vector<Box> boxes_;          // of nodes, level by level: those of blocks first
+  std::vector<std::int32_t> set_;   // of nodes: the set of all their triangles, or -1; empty: none is known
 };
 
 }  // namespace carreau

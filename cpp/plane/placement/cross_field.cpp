@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plane/thresholds.h"
+#include "support/infinity.h"
 
 namespace carreau::plane {
 
@@ -23,6 +24,16 @@ Complex fourth_power(Complex z) noexcept {
 }
 Complex times(Complex a, Complex b) noexcept {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+// Of a unit number, on the side of positive ones.
+Complex square_root(Complex z) noexcept {
+  if (z.real() >= 0) {
+    const double x = std::sqrt((1 + z.real()) / 2);
+    return {x, z.imag() / (2 * x)};
+  }
+  const double y = std::copysign(std::sqrt((1 - z.real()) / 2), z.imag());
+  return {z.imag() / (2 * y), y};
 }
 
 /// Minimise the sum of |x_i - t_ij x_j|^2 over links: one level of cascadic aggregation.
@@ -60,6 +71,7 @@ void set_links(Level& level, const std::vector<Triple>& triples) {
   for (std::size_t i = 0; i < level.size(); ++i) end[i + 1] += end[i];
   std::vector<Level::Link> all(triples.size());
   for (const Triple& t : triples) all[end[t.from]++] = {t.to, t.transport};  // end[i] is that of row i afterwards
+  level.start.reserve(level.size() + 1), level.links.reserve(triples.size());
   level.start.assign(1, 0);
   for (std::size_t i = 0, first = 0; i < level.size(); ++i) {
     const auto row = all.begin() + static_cast<std::ptrdiff_t>(first), last = all.begin() + end[i];
@@ -104,6 +116,7 @@ void aggregate(Level& fine, Level& coarse, Monitor& monitor) {
   coarse.fixed.assign(static_cast<std::size_t>(count), 0);
   coarse.diagonal.assign(static_cast<std::size_t>(count), 0);
   std::vector<Triple> triples;
+  triples.reserve(fine.links.size());
   for (std::int32_t i = 0; i < n; ++i) {
     if (i % steps_between_checks == 0) monitor.checkpoint();
     const std::int32_t I = fine.aggregate[i];
@@ -121,17 +134,23 @@ void aggregate(Level& fine, Level& coarse, Monitor& monitor) {
   set_links(coarse, triples);
 }
 
+// Until nothing moves any more.
 void relax(Level& level, int sweeps, Monitor& monitor) {
   const auto n = static_cast<std::int32_t>(level.size());
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  double moved = infinity;  // squared, in one sweep
+  for (int sweep = 0; sweep < sweeps && moved > cross_at_rest * cross_at_rest; ++sweep) {
     monitor.checkpoint();
+    moved = 0;
     for (std::int32_t m = 0; m < n; ++m) {
       const std::int32_t i = sweep % 2 == 0 ? m : n - 1 - m;
       if (level.fixed[i] != 0) continue;
       Complex sum(0, 0);
       for (std::int32_t k = level.start[i]; k < level.start[i + 1]; ++k)
         sum += times(level.links[k].transport, level.value[level.links[k].to]);
-      if (level.diagonal[i] > 0) level.value[i] = (1 / level.diagonal[i]) * sum;
+      if (!(level.diagonal[i] > 0)) continue;
+      const Complex now = (1 / level.diagonal[i]) * sum;
+      moved = std::max(moved, std::norm(now - level.value[i]));
+      level.value[i] = now;
     }
   }
 }
@@ -178,16 +197,16 @@ MetricFrame::MetricFrame(Metric2 m) noexcept
     : p(std::sqrt(m.a)), q(m.b / p), r(std::sqrt(std::max(m.c - q * q, 1e-12 * m.c))) {}
 
 CrossField::CrossField(const Triangulation& mesh, Monitor& monitor) : mesh_(mesh) {
-  std::vector<MetricFrame> frames;
-  frames.reserve(mesh.vertices.size());
-  for (const Vertex& v : mesh.vertices) frames.emplace_back(v.metric());
+  frames_.reserve(mesh.vertices.size());
+  for (const Vertex& v : mesh.vertices) frames_.emplace_back(v.metric());
   std::vector<Level> levels(1);
   Level& level = levels.front();
-  level.value.assign(frames.size(), Complex(0, 0));
-  level.fixed.assign(frames.size(), 0);
-  level.diagonal.assign(frames.size(), 0);
-  fix_at_imposed_edges(mesh, frames, level);
+  level.value.assign(frames_.size(), Complex(0, 0));
+  level.fixed.assign(frames_.size(), 0);
+  level.diagonal.assign(frames_.size(), 0);
+  fix_at_imposed_edges(mesh, frames_, level);
   std::vector<Triple> triples;
+  triples.reserve(3 * mesh.triangles.size());
   monitor.checkpoint();
   for (const Triangle& T : mesh.triangles) {
     if (T.v[0] < 0) continue;
@@ -195,7 +214,7 @@ CrossField::CrossField(const Triangulation& mesh, Monitor& monitor) : mesh_(mesh
       const std::int32_t a = T.v[next3[i]], b = T.v[prev3[i]];
       if (T.n[i] != no_edge && a > b) continue;
       const Vec2 d = mesh.at(b) - mesh.at(a);
-      const Complex turn = times(unit(frames[a].to_frame(d)), std::conj(unit(frames[b].to_frame(d))));
+      const Complex turn = unit(times(frames_[a].to_frame(d), std::conj(frames_[b].to_frame(d))));
       const Complex transport = fourth_power(turn);  // from b to a
       triples.push_back({a, b, transport});
       triples.push_back({b, a, std::conj(transport)});
@@ -218,16 +237,14 @@ Complex CrossField::arm(const Vec2& p, const MetricFrame& at_p, int& triangle) c
                                      std::max(0., cross(a - p, b - p))};
   Complex sum(0, 0);
   for (int i = 0; i < 3; ++i) {
+    if (weight[i] == 0) continue;
     const Vec2 d = p - mesh_.at(T.v[i]);
     Complex z = cross_[T.v[i]];
-    if (d != Vec2{0, 0}) {
-      const MetricFrame frame(mesh_.vertices[T.v[i]].metric());
-      z = times(z, fourth_power(times(unit(at_p.to_frame(d)), std::conj(unit(frame.to_frame(d))))));
-    }
+    if (d != Vec2{0, 0})
+      z = times(z, fourth_power(unit(times(at_p.to_frame(d), std::conj(frames_[T.v[i]].to_frame(d))))));
     sum += weight[i] * z;
   }
-  const double angle = std::atan2(sum.imag(), sum.real()) / 4;
-  return {std::cos(angle), std::sin(angle)};
+  return square_root(square_root(unit(sum)));
 }
 
 }  // namespace carreau::plane

@@ -37,6 +37,7 @@ class CrossField {
 
  private:
   const Triangulation& mesh_;
+  std::vector<MetricFrame> frames_;  // by vertex, like
   std::vector<std::complex<double>> cross_;
 };
 

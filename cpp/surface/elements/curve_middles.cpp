@@ -101,13 +101,30 @@ std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t c
   return middle;
 }
 
+namespace {
+
+// By vertex of the face: whether an edge of a curve ends there.
+std::vector<char> ends_of(const std::vector<Segment>& segments, const std::vector<std::int32_t>& vertices) {
+  std::vector<std::int32_t> ends;
+  for (const Segment& segment : segments) ends.insert(ends.end(), segment.key.begin(), segment.key.end());
+  std::sort(ends.begin(), ends.end());
+  std::vector<char> is_end;
+  is_end.reserve(vertices.size());
+  for (const std::int32_t v : vertices) is_end.push_back(std::binary_search(ends.begin(), ends.end(), v) ? 1 : 0);
+  return is_end;
+}
+
+}  // namespace
+
 std::vector<CurveSide> curve_sides(const ElementWork& work, std::size_t face) {
   const std::vector<Segment> segments = segments_of(work, face);
   const FaceMesh& mesh = work.result.mesh.faces[face];
+  const std::vector<char> is_end = ends_of(segments, mesh.vertex);
   std::vector<CurveSide> sides;
   for (const std::array<std::int32_t, 3>& t : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t a = t[i], b = t[(i + 1) % 3], va = mesh.vertex[a], vb = mesh.vertex[b];
+      if (is_end[a] == 0 || is_end[b] == 0) continue;
       const auto found = std::lower_bound(segments.begin(), segments.end(), Segment{ordered(va, vb), 0, 0});
       if (found == segments.end() || found->key != ordered(va, vb)) continue;
       const bool forward = work.result.mesh.curves[found->curve].vertices[found->segment] == va;

@@ -75,16 +75,18 @@ class Pairing {
     if (quality < least_pair) return;
     const std::array<Vec3, 4> p{rules_.position(quad[0]), rules_.position(quad[1]), rules_.position(quad[2]),
                                 rules_.position(quad[3])};
-    if (!(turn(p) <= rules_.most_turn) || !(scaled_jacobian(p) > rules_.least_jacobian)) return;
+    if (turns_too_much(p) || !(scaled_jacobian(p) > rules_.least_jacobian)) return;
     pairs_.push_back({{t, u}, pair_bonus + quality});
     quads_.push_back(quad);
   }
 
-  // Angle between the normals of the triangles on both sides of the diagonal from p[0] to p[2].
-  static double turn(const std::array<Vec3, 4>& p) {
+  // By the angle between the normals of the triangles on both sides of the diagonal from p[0] to p[2].
+  [[nodiscard]] bool turns_too_much(const std::array<Vec3, 4>& p) const {
     const Vec3 diagonal = p[2] - p[0];
     const Vec3 right = cross(p[1] - p[0], diagonal), left = cross(diagonal, p[3] - p[0]);
-    return std::atan2(norm(cross(right, left)), dot(right, left));
+    const double along = dot(right, left), across = norm(cross(right, left));
+    if (along > 0 && across < 0.99 * std::min(rules_.most_turn, 1.) * along) return false;  // an arc is shorter than its tangent
+    return !(std::atan2(across, along) <= rules_.most_turn);
   }
 
   std::vector<MixedCell>& cells_;

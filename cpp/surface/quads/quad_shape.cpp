@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "predicates/convex_quad.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -69,12 +69,50 @@ Measures measure(const std::array<Vec3, 4>& p) noexcept {
 double quad_quality(const std::array<Vec2, 4>& p) noexcept { return measure(p).quality(); }
 double quad_quality(const std::array<Vec3, 4>& p) noexcept { return measure(p).quality(); }
 double scaled_jacobian(const std::array<Vec2, 4>& p) noexcept { return measure(p).jacobian(); }
-double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept { return measure(p).jacobian(); }
 
-bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
-  const auto at = [&](int k) -> const Vec2& { return patch.uv[cell[k]]; };
-  if (corners_of(cell) == 3) return orientation(at(0), at(1), at(2)) > 0;
-  return is_convex_quad(at(0), at(1), at(2), at(3));
+double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept {
+  const std::array<Vec3, 4> side{p[1] - p[0], p[2] - p[1], p[3] - p[2], p[0] - p[3]};
+  const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
+  const double size = norm(normal);
+  std::array<double, 4> edge;
+  for (int k = 0; k < 4; ++k) edge[k] = norm(side[k]);
+  double least = 1;
+  for (int k = 0; k < 4; ++k) {
+    const double sides = edge[k] * edge[(k + 3) % 4] * size;
+    least = std::min(least, sides > 0 ? dot(normal, cross(side[(k + 3) % 4], side[k])) / sides : -1);
+  }
+  return least;
+}
+
+bool is_turned_over(const std::array<Vec3, 4>& p) noexcept {
+  const std::array<Vec3, 4> side{p[1] - p[0], p[2] - p[1], p[3] - p[2], p[0] - p[3]};
+  const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
+  for (int k = 0; k < 4; ++k)
+    if (!(dot(normal, cross(side[(k + 3) % 4], side[k])) > 0)) return true;
+  return false;
+}
+
+double least_shape(const std::array<Vec3, 4>& p) noexcept {
+  const Measures m = measure(p);
+  const double jacobian = m.jacobian();
+  return jacobian > 0 ? std::min(jacobian, m.quality()) : jacobian;
+}
+
+// Where corners move by d, an area of two sides changes by 2 d (sum of their coordinates) + 8 d^2 at most.
+double leeway(const QuadPatch& patch, const MixedCell& cell) noexcept {
+  const int n = corners_of(cell);
+  constexpr double rounding = 1e-14;  // of some passes
+  double area = infinity, sides = 0, reach = 0;
+  Vec2 from = patch.uv[cell[0]] - patch.uv[cell[n - 1]];
+  for (int k = 0; k < n; ++k) {
+    const Vec2 to = patch.uv[cell[k + 1 < n ? k + 1 : 0]] - patch.uv[cell[k]];
+    area = std::min(area, cross(from, to));
+    sides = std::max(sides, std::abs(from.x()) + std::abs(from.y()) + std::abs(to.x()) + std::abs(to.y()));
+    reach = std::max(reach, patch.uv[cell[k]].cwiseAbs().maxCoeff());
+    from = to;
+  }
+  // As area <= sides^2 / 4, that is at most .89 of it.
+  return sides > 0 ? std::max(0., area / (3 * sides) - rounding * (sides + reach)) : 0;
 }
 
 bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "predicates/convex_quad.h"
 #include "surface/quads/quad_patch.h"
 
 namespace carreau {
@@ -17,9 +18,18 @@ double quad_quality(const std::array<Vec3, 4>& p) noexcept;
 /// Least sine of the angles at the corners; below 0 where one is turned over.
 double scaled_jacobian(const std::array<Vec2, 4>& p) noexcept;
 double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept;
+/// Whether that is not above 0.
+bool is_turned_over(const std::array<Vec3, 4>& p) noexcept;
+/// The less of scaled Jacobian and quality, in space.
+double least_shape(const std::array<Vec3, 4>& p) noexcept;
 
 /// Strictly convex and counterclockwise in (u, v), exactly; of triangles: counterclockwise.
-bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept;
+inline bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
+  const Vec2 &a = patch.uv[cell[0]], &b = patch.uv[cell[1]], &c = patch.uv[cell[2]];
+  return corners_of(cell) == 3 ? orientation(a, b, c) > 0 : is_convex_quad(a, b, c, patch.uv[cell[3]]);
+}
+/// How far each corner of such a cell may move, by the larger coordinate, so that it stays what it is whatever the others do.
+double leeway(const QuadPatch& patch, const MixedCell& cell) noexcept;
 /// Whether two sides of it, between fixed vertices, are edges of curves that go on smoothly into each other: `flat` as in
 /// QuadPatch.
 bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,
@@ -34,6 +44,13 @@ double cell_quality(const QuadPatch& patch, const Chart& chart, const MixedCell&
 
 /// The same, and below 0 the scaled Jacobian, for cells that are turned over somewhere: what a search can follow.
 double untangling_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
+
+/// Of a quadrilateral, in a frame.
+template <typename Way>
+struct Diagonals {
+  Vec2 first, second;  ///< corner 0 less 2, 1 less 3
+  Way between;         ///< half the way from the middle of the second one to that of the first
+};
 
 /// The cells of one face as the passes of this room see them, whose other surface is SpaceQuads. Keeps references.
 class PlaneQuads {
@@ -52,6 +69,8 @@ class PlaneQuads {
   [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return patch_.flat; }
 
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept { return carreau::is_convex(patch_, cell); }
+  /// How far corners of a convex cell may move, by the larger coordinate, without making it another one.
+  [[nodiscard]] double leeway(const MixedCell& cell) const noexcept { return carreau::leeway(patch_, cell); }
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept {
     return carreau::has_flat_corner(patch_.fixed, patch_.flat, cell);
   }
@@ -88,6 +107,14 @@ class PlaneQuads {
       return charts_.empty() ? linear_[c].at(uv[cell[k]] - uv[cell[0]]) : charts_[c].at(uv[cell[k]]);
     }
     [[nodiscard]] Way way(std::size_t c, const Vec2& y) const noexcept { return linear_[c].offset(y); }
+    [[nodiscard]] Diagonals<Way> diagonals(std::size_t c, const MixedCell& cell) const noexcept {
+      const std::vector<Vec2>& uv = quads_.patch_.uv;
+      const Vec2 &p = uv[cell[0]], &q = uv[cell[1]], &r = uv[cell[2]], &s = uv[cell[3]];
+      const Linear& linear = linear_[c];
+      if (charts_.empty()) return {linear.at(p - r), linear.at(q - s), 0.25 * (p + r - q - s)};
+      const Vec2 y0 = charts_[c].at(p), y1 = charts_[c].at(q), y2 = charts_[c].at(r), y3 = charts_[c].at(s);
+      return {y0 - y2, y1 - y3, linear.offset(0.25 * (y0 + y2 - y1 - y3))};
+    }
 
    private:
     /// What a chart does near its origin, and back.

@@ -116,7 +116,7 @@ class Quadrilaterals {
   static bool is_turned(const FaceQuads& quads, const MixedCell& c) {
     if (corners_of(c) == 3) return false;
     const auto at = [&](int k) -> const Vec3& { return quads.xyz[c[k]]; };
-    return !is_convex(quads.patch, c) || !(scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > 0);
+    return !is_convex(quads.patch, c) || is_turned_over({at(0), at(1), at(2), at(3)});
   }
 
   // Half of the edges that were cut is what they are now.

@@ -18,17 +18,21 @@ namespace {
 
 using namespace thresholds::quads;
 
-// The square that fits four points best: mean + z i^k, z their first Fourier coefficient.
-std::array<Vec2, 4> fitted_square(const std::array<Vec2, 4>& y, double radius, double pull) {
-  const Vec2 mean = 0.25 * (y[0] + y[1] + y[2] + y[3]);
-  Vec2 z{0.25 * (y[0].x() + y[1].y() - y[2].x() - y[3].y()), 0.25 * (y[0].y() - y[1].x() - y[2].y() + y[3].x())};
-  const double size = norm(z);
-  if (size > 0) z = ((1 - pull) + pull * radius / size) * z;
-  const Vec2 iz{-z.y(), z.x()};
-  return {mean + z, mean + iz, mean - z, mean - iz};
-}
+// What is to be added to the corners of a cell, so that they are those of the square that fits them best, mean + z i^k: the
+// four points are mean + z i^k + w (-1)^k + c (-i)^k. `diagonals`: corner 0 less 2 and 1 less 3, where z and c are wanted.
+struct ToSquare {
+  Vec2 even, odd;  // without w: to corner 0 (and, the other way, to 2), to corner 1 (to 3)
 
-std::array<Vec2, 4> fitted_triangle(const std::array<Vec2, 4>& y, double radius, double pull) {
+  ToSquare(const Vec2& d, const Vec2& e, double radius, double pull) noexcept {
+    const Vec2 z{0.25 * (d.x() + e.y()), 0.25 * (d.y() - e.x())}, c{0.25 * (d.x() - e.y()), 0.25 * (d.y() + e.x())};
+    const double size = norm(z), grown = size > 0 ? pull * (radius / size - 1) : 0;
+    even = grown * z - c;
+    const Vec2 s = grown * z + c;
+    odd = {-s.y(), s.x()};
+  }
+};
+
+std::array<Vec2, 3> fitted_triangle(const std::array<Vec2, 3>& y, double radius, double pull) {
   const Vec2 mean = (1.0 / 3) * (y[0] + y[1] + y[2]);
   const auto turned = [](const Vec2& p, double sine) -> Vec2 {
     return {-0.5 * p.x() - sine * p.y(), sine * p.x() - 0.5 * p.y()};
@@ -37,7 +41,7 @@ std::array<Vec2, 4> fitted_triangle(const std::array<Vec2, 4>& y, double radius,
   Vec2 z = (1.0 / 3) * (y[0] + turned(y[1], -s) + turned(y[2], s));
   const double size = norm(z);
   if (size > 0) z = ((1 - pull) + pull * radius / size) * z;
-  return {mean + z, mean + turned(z, s), mean + turned(z, -s), mean};
+  return {mean + z, mean + turned(z, s), mean + turned(z, -s)};
 }
 
 /// Quads: PlaneQuads or SpaceQuads.
@@ -60,6 +64,7 @@ class Smoothing {
     for (std::size_t v = 0; v < count.size(); ++v)
       if (!quads.is_fixed(v) && count[v] > 0 && (how.moving.empty() || how.moving[v] != 0))
         movers_.push_back({static_cast<std::int32_t>(v), how.share / count[v], Quads::no_way()});
+    convex_until_.assign(cells_.size(), -1);
   }
 
   void run() {
@@ -67,13 +72,16 @@ class Smoothing {
       monitor_.checkpoint();
       propose();
       before_ = quads_.places();
+      double longest = 0;
       const double kept = pass + plain_passes < how_.passes ? how_.momentum : 0;
       for (std::size_t i = 0; i < movers_.size(); ++i) {
         if (i % cells_between_checks == 0) monitor_.checkpoint();
         Mover& m = movers_[i];
         m.step = kept * m.step + m.share * sum_[m.vertex];
         quads_.move(m.vertex, m.step);
+        longest = std::max(longest, m.step.cwiseAbs().maxCoeff());
       }
+      moved_ += longest;
       take_back();
     }
   }
@@ -92,30 +100,48 @@ class Smoothing {
     std::fill(sum_.begin(), sum_.end(), Quads::no_way());
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (c % cells_between_checks == 0) monitor_.checkpoint();
-      const MixedCell& cell = cells_[c];
-      const int n = corners_of(cell);
-      std::array<Vec2, 4> y;
-      for (int k = 0; k < n; ++k) y[k] = frames_.at(c, cell, k);
-      const std::array<Vec2, 4> wanted =
-          n == 4 ? fitted_square(y, how_.unit * std::numbers::sqrt2 / 2, how_.pull)
-                 : fitted_triangle(y, how_.unit / std::numbers::sqrt3, how_.pull);
-      for (int k = 0; k < n; ++k) sum_[cell[k]] += weight(n) * frames_.way(c, wanted[k] - y[k]);
+      if (corners_of(cells_[c]) == 4)
+        propose_square(c, cells_[c]);
+      else
+        propose_triangle(c, cells_[c]);
     }
   }
 
+  void propose_square(std::size_t c, const MixedCell& cell) {
+    using Way = typename Quads::Way;
+    const auto diagonals = frames_.diagonals(c, cell);
+    const ToSquare to(diagonals.first, diagonals.second, how_.unit * std::numbers::sqrt2 / 2, how_.pull);
+    const Way &between = diagonals.between, even = frames_.way(c, to.even), odd = frames_.way(c, to.odd);
+    sum_[cell[0]] += even - between, sum_[cell[2]] -= even + between;
+    sum_[cell[1]] += odd + between, sum_[cell[3]] += between - odd;
+  }
+
+  void propose_triangle(std::size_t c, const MixedCell& cell) {
+    std::array<Vec2, 3> y;
+    for (int k = 0; k < 3; ++k) y[k] = frames_.at(c, cell, k);
+    const std::array<Vec2, 3> wanted = fitted_triangle(y, how_.unit / std::numbers::sqrt3, how_.pull);
+    for (int k = 0; k < 3; ++k) sum_[cell[k]] += triangle_weight * frames_.way(c, wanted[k] - y[k]);
+  }
+
   // Vertices of cells that have turned over go back, and then those of others that have because of that: only cells whose
-  // vertices went back in the round before or in this one need a look. They have no momentum then.
+  // vertices went back in the round before or in this one need a look. They have no momentum then. Nor need cells that stay
+  // convex however their corners have moved since the last look.
   void take_back() {
     went_back_.assign(quads_.vertices(), 0);
     int round = 1;
     for (bool any = true; any; ++round) {
       any = false;
-      for (const MixedCell& cell : cells_) {
+      for (std::size_t c = 0; c < cells_.size(); ++c) {
+        if (convex_until_[c] >= moved_) continue;
+        const MixedCell& cell = cells_[c];
         const int n = corners_of(cell);
         if (round > 1 && std::none_of(cell.begin(), cell.begin() + n,
                                       [&](std::int32_t v) { return went_back_[v] + 1 >= round; }))
           continue;
-        if (quads_.is_convex(cell)) continue;
+        if (quads_.is_convex(cell)) {
+          convex_until_[c] = moved_ + quads_.leeway(cell);
+          continue;
+        }
         for (int k = 0; k < n; ++k)
           if (!quads_.is_at(cell[k], before_[cell[k]]))
             quads_.put(cell[k], before_[cell[k]]), went_back_[cell[k]] = round, any = true;
@@ -134,6 +160,8 @@ class Smoothing {
   std::vector<Mover> movers_;
   std::vector<typename Quads::Way> sum_;
   std::vector<typename Quads::Place> before_;
+  double moved_ = 0;                  // the longest ways of all passes, together, by the larger coordinate
+  std::vector<double> convex_until_;  // by cell: it is convex as long as moved_ is not more
   std::vector<int> went_back_;  // by vertex: the round of take_back() in which it did
 };
 

@@ -8,6 +8,7 @@
 
 #include "metric/chart.h"
 #include "surface/quads/quad_patch.h"
+#include "surface/quads/quad_shape.h"
 #include "surface/surface_place.h"
 
 namespace carreau {
@@ -48,6 +49,7 @@ class SpaceQuads {
 
   /// About its own normal, which is on the side of those of the surface.
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
+  static double leeway(const MixedCell& /*cell*/) noexcept { return 0; }  // normals turn
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
   [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
   /// The same, and below 0 the least sine of an angle, for cells that are turned over somewhere.
@@ -76,6 +78,10 @@ class SpaceQuads {
       return quads_.at(frames_[c], cell[k]);
     }
     [[nodiscard]] Way way(std::size_t c, const Vec2& y) const noexcept { return SpaceQuads::way(frames_[c], y); }
+    [[nodiscard]] Diagonals<Way> diagonals(std::size_t c, const MixedCell& cell) const noexcept {
+      const Vec2 y0 = at(c, cell, 0), y1 = at(c, cell, 1), y2 = at(c, cell, 2), y3 = at(c, cell, 3);
+      return {y0 - y2, y1 - y3, way(c, 0.25 * (y0 + y2 - y1 - y3))};
+    }
 
    private:
     const SpaceQuads& quads_;
