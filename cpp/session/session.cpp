@@ -74,6 +74,7 @@ struct Session::State {
   std::shared_ptr<BackgroundField> background;
   std::shared_ptr<TeamLink> team_link;
   std::unique_ptr<Team> team;  // of team_link; null: this process is alone
+  bool is_together = false;    // in a run of the team
   BackgroundReport background_report;
   SurfaceMesh previous;
   bool has_previous = false;
@@ -317,11 +318,22 @@ const QualitySummary& Session::quality() const {
   return *s.quality;
 }
 
+void Session::together(const std::function<void(const Crew&)>& body) const {
+  State& s = *state_;
+  const Crew crew{s.team.get(), threads_of(s.parameters)};
+  if (crew.team == nullptr || s.is_together) return body(crew);
+  s.is_together = true;
+  try {
+    crew.team->run([&] { body(crew); });
+  } catch (...) {
+    s.is_together = false;
+    throw;
+  }
+  s.is_together = false;
+}
+
 void Session::make_mesh(double from, double to) {
-  if (Team* const team = state_->team.get(); team != nullptr)
-    team->run([&] { make_mesh_alone(from, to); });
-  else
-    make_mesh_alone(from, to);
+  together([&](const Crew&) { make_mesh_alone(from, to); });
 }
 
 void Session::make_mesh_alone(double from, double to) {
