@@ -475,8 +475,8 @@ CARREAU_API void carreau_stop(carreau_session* session);
 
 /* Processes (ranks, from 0) can make one mesh together. This is the interface for whatever connects them; libcarreau_mpi
  * does it by MPI (carreau_mpi.h). Every rank has a session with the same geometry, model and parameters, and the callbacks
- * of its own; all call carreau_mesh_generate together. Faces are dealt out, every rank gets the whole mesh, and it is
- * that of one process, bit for bit. An error of one rank ends the run of all. Where a rank's callbacks or parameters
+ * of its own; all call carreau_mesh_generate together, and carreau_adapt, _estimate, _transfer, _transfer_files (rank 0 writes), _set_background_fields,
+ * _triangles_distances, _triangles_bounds, with the same values. Work is dealt out, every rank gets all, and it is that of one process, bit for bit. An error of one rank ends the run of all. Where a rank's callbacks or parameters
  * are others the run ends with CARREAU_ERR_MODEL or CARREAU_ERR_INTERNAL and a sentence that names the rank.
  *
  * A callback returns 0, CARREAU_ERR_MEMORY when some rank has not enough memory (the run ends with CARREAU_ERR_LIMIT), or

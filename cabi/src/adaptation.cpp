@@ -219,6 +219,7 @@ carreau_status carreau_estimate(carreau_session* session, const carreau_estimato
       throw InvalidArgument("neither out_sizes nor out_metrics is given: there is no place for the result");
     if (options.shape != carreau::ErrorShape::isotropic && out_metrics == nullptr)
       throw InvalidArgument("the shape of the estimator gives metrics, but out_metrics is NULL");
+    session->monitor.begin_run();
     const VertexPrescriptions wanted =
         carreau::estimate_on_mesh(session->session, std::span(required(values, "values"), rows), options);
     for (std::size_t v = 0; v < rows; ++v) {
@@ -246,8 +247,13 @@ carreau_status carreau_transfer(carreau_session* session, int32_t components, in
     check_capacity(capacity, rows == carreau::node_count(from) ? carreau::node_count(to) : to.vertices.size(), "nodes");
     required(out_values, "out_values");
     const auto width = static_cast<std::size_t>(components);
-    const carreau::TransferredField result =
-        carreau::transfer_field(from, to, std::span(required(values, "values"), rows * width), width);
+    const std::span<const double> given(required(values, "values"), rows * width);
+    carreau::TransferredField result;
+    session->monitor.begin_run();
+    session->session.together([&](const carreau::Crew& crew) {
+      carreau::require_same_values(crew, given, {});
+      result = carreau::transfer_field(from, to, given, width, crew, &session->monitor);
+    });
     std::copy(result.values.begin(), result.values.end(), out_values);
     if (out_outside != nullptr) *out_outside = result.outside;
   });
@@ -257,6 +263,7 @@ carreau_status carreau_set_background_fields(carreau_session* session, const cha
   return guarded(session, [&] {
     required(mesh_path, "mesh_path");
     required(sol_path, "sol_path");
+    session->monitor.begin_run();
     session->commit_model();
     use_background(*session, carreau::background_of_fields(session->session, mesh_path, sol_path));
   });
@@ -266,6 +273,7 @@ carreau_status carreau_transfer_files(carreau_session* session, const char* mesh
                                       const char* out_path, int64_t* out_outside) {
   return guarded(session, [&] {
     mesh_of(*session);
+    session->monitor.begin_run();
     const std::int64_t outside =
         carreau::transfer_files(session->session, required(mesh_path, "mesh_path"), required(sol_path, "sol_path"),
                                 required(out_path, "out_path"));

@@ -197,10 +197,12 @@ carreau_status carreau_triangles_distances(carreau_session* session, double out_
     const discrete::Triangulation& input = surface_of(*session).mesh();
     const FlatMesh flat = mesh_of_triangles(*session);
     session->monitor.begin_run();
-    out_distances[0] =
-        largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor);
-    out_distances[1] =
-        largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor);
+    session->session.together([&](const carreau::Crew& crew) {
+      out_distances[0] =
+          largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor, crew);
+      out_distances[1] =
+          largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor, crew);
+    });
   });
 }
 
@@ -216,10 +218,11 @@ carreau_status carreau_triangles_bounds(carreau_session* session, double share, 
     session->monitor.begin_run();
     carreau::DistanceTolerance tolerance;
     if (share > 0) tolerance.share = share;
-    const int threads = carreau::threads_of(*session->parameters);
     const carreau::TrianglesOfSpace made{flat.vertices, flat.triangles}, given{input.vertices, input.triangles};
-    const carreau::DistanceBounds there = bound_distance(made, given, tolerance, threads, session->monitor),
-                                  back = bound_distance(given, made, tolerance, threads, session->monitor);
-    out_bounds[0] = there.lower, out_bounds[1] = there.upper, out_bounds[2] = back.lower, out_bounds[3] = back.upper;
+    session->session.together([&](const carreau::Crew& crew) {
+      const carreau::DistanceBounds there = bound_distance(made, given, tolerance, crew, session->monitor),
+                                    back = bound_distance(given, made, tolerance, crew, session->monitor);
+      out_bounds[0] = there.lower, out_bounds[1] = there.upper, out_bounds[2] = back.lower, out_bounds[3] = back.upper;
+    });
   });
 }

@@ -123,7 +123,12 @@ carreau_status Adaptation::run_formula(carreau_session* session, double diagonal
   adaptation.iterations = choice_.iterations;
   adaptation.differences = choice_.differences ? 1 : 0;
   adaptation.convergence = choice_.convergence;
-  return carreau_adapt(session, &adaptation, nullptr);
+  const carreau_status status = carreau_adapt(session, &adaptation, nullptr);
+  // Another process's formula has failed at a place that this one was not asked for.
+  const std::string sentence = carreau_last_error(session);
+  if (status == CARREAU_ERR_CALLBACK && failure_.empty() && sentence.find("callback of the field") != std::string::npos)
+    failure_ = "the formula '" + formula_->text() + "' has no finite value somewhere (" + sentence + ")";
+  return status;
 }
 
 std::int32_t Adaptation::field_at(std::int64_t n, const double* xyz, double* values, void* user) noexcept {

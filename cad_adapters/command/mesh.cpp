@@ -250,9 +250,10 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   else
     write(files);
   run.seconds_writing = writing.seconds();
-  if (!options.quiet) {
-    for (const std::string& line : summary_lines(run)) progress.line(line);
-    if (const std::string line = input->of_mesh(run.session); !line.empty()) progress.line(line);
+  if (!given.quiet) {  // ranks that say nothing share the work
+    const std::string line = input->of_mesh(run.session);
+    for (const std::string& before : summary_lines(run)) progress.line(before);
+    if (!line.empty()) progress.line(line);
   }
   run.warnings = progress.warnings();
   if (options.json) print_json(run);

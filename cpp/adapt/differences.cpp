@@ -67,6 +67,21 @@ std::vector<double> steps_of(const Refined& mesh) {
   return steps;
 }
 
+// Functions of the ranks, at every so many points.
+void require_same_function(std::span<const Vec3> points, const FieldFunction& exact, Team& team) {
+  std::vector<Vec3> some;
+  for (std::size_t i = 0; i < points.size(); i += points_of_one_compared) some.push_back(points[i]);
+  std::vector<double> values(some.size());
+  exact(some, values);
+  LongChecksum sum;
+  sum.add(some), sum.add(values);
+  const std::vector<std::string> all = team.exchange("field", sum.text());
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
+    if (all[rank] != all[0])
+      throw InvalidModel("the field is another one on rank " + std::to_string(rank) +
+                         " than on rank 0: its callback differs, or its parameters do");
+}
+
 double length_along(const VertexPrescriptions& p, std::size_t vertex, const Vec3& edge) {
   return p.metrics.empty() ? norm(edge) / p.sizes[vertex] : length(p.metrics[vertex], edge);
 }
@@ -95,9 +110,24 @@ std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> point
   return derivatives;
 }
 
+FieldFunction shared_function(const FieldFunction& exact, const Crew& crew, Monitor& monitor) {
+  if (crew.team == nullptr) return exact;
+  return [&exact, crew, &monitor](std::span<const Vec3> points, std::span<double> values) {
+    require_same_function(points, exact, *crew.team);
+    const auto ask = [&](std::size_t first, std::size_t last, double* out, Monitor&) {
+      exact(points.subspan(first, last - first), {out, last - first});
+    };
+    const std::size_t n = points.size();
+    const std::vector<double> all = shared_rows(
+        crew, "values of a field", {.count = n, .at_once = at_once(n), .bound = true}, ask, monitor);
+    std::ranges::copy(all, values.begin());
+  };
+}
+
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
-                                      const FieldFunction& exact, const EstimatorOptions& options) {
+                                      const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew,
+                                      Monitor* monitor) {
   for (const Vec3& p : vertices)
     if (p.z() != 0)
       throw InvalidArgument("a field is estimated by its own derivatives on meshes of the plane z = 0 only");
@@ -105,7 +135,8 @@ VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
   std::vector<double> values(fine.vertices.size());
   exact(fine.vertices, values);
   const VertexPrescriptions all = estimate({fine.vertices, fine.triangles, values},
-                                           difference_derivatives(fine.vertices, steps_of(fine), exact), options);
+                                           difference_derivatives(fine.vertices, steps_of(fine), exact), options, crew,
+                                           monitor);
   VertexPrescriptions result = all;
   for (std::size_t e = 0; e < fine.edges.size(); ++e) {
     const std::size_t ends[2] = {static_cast<std::size_t>(fine.edges[e][0]),

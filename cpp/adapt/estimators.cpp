@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapt/thresholds.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
@@ -12,6 +13,8 @@
 
 namespace carreau {
 namespace {
+
+using namespace thresholds::adapt;
 
 void check_options(const ScalarField& field, const EstimatorOptions& o) {
   if (!(o.hmin > 0) || !(o.hmax >= o.hmin) || !std::isfinite(o.hmax))
@@ -164,8 +167,34 @@ struct PlaneMetrics {
   std::vector<char> reliable;
 };
 
+/// Who makes rows by vertex.
+struct Sharing {
+  Sharing(const Crew& of, Monitor* told) : crew(of), monitor(told != nullptr ? *told : silent) {}
+  Crew crew;
+  Monitor silent;
+  Monitor& monitor;
+
+  /// metric_at(v) for each vertex below n.
+  template <typename MetricAt>
+  std::vector<Metric2> metrics(std::size_t n, const MetricAt& metric_at) {
+    constexpr std::size_t width = 3;
+    const auto fill = [&](std::size_t first, std::size_t last, double* out, Monitor&) {
+      for (std::size_t v = first; v < last; ++v, out += width) {
+        const Metric2 m = metric_at(v);
+        out[0] = m.a, out[1] = m.b, out[2] = m.c;
+      }
+    };
+    const std::vector<double> rows =
+        shared_rows(crew, "metrics of a field", {.count = n, .width = width, .at_once = at_once(n)}, fill, monitor);
+    std::vector<Metric2> result;
+    result.reserve(n);
+    for (const double* row = rows.data(); result.size() < n; row += width) result.push_back({row[0], row[1], row[2]});
+    return result;
+  }
+};
+
 PlaneMetrics plane_metrics(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
-                           const EstimatorOptions& options) {
+                           const EstimatorOptions& options, Sharing& sharing) {
   check_field(field);
   check_options(field, options);
   if (derivatives.size() != field.vertices.size())
@@ -173,27 +202,29 @@ PlaneMetrics plane_metrics(const ScalarField& field, const std::vector<LocalDeri
                           std::to_string(derivatives.size()));
   const Estimate estimate(field, options);
   PlaneMetrics result;
-  for (std::size_t v = 0; v < derivatives.size(); ++v) {
-    result.metrics.push_back(estimate.metric_at(v, derivatives[v]));
-    result.reliable.push_back(derivatives[v].reliable ? 1 : 0);
-  }
+  result.metrics =
+      sharing.metrics(derivatives.size(), [&](std::size_t v) { return estimate.metric_at(v, derivatives[v]); });
+  for (const LocalDerivatives& d : derivatives) result.reliable.push_back(d.reliable ? 1 : 0);
   return result;
 }
 
-std::vector<LocalDerivatives> derivatives_of(const ScalarField& field, const EstimatorOptions& options) {
-  return options.recovery == Recovery::projection ? project_derivatives(field) : recover_derivatives(field);
+std::vector<LocalDerivatives> derivatives_of(const ScalarField& field, const EstimatorOptions& options, Sharing& sharing) {
+  return options.recovery == Recovery::projection ? project_derivatives(field)
+                                                  : recover_derivatives(field, sharing.crew, &sharing.monitor);
 }
 
-PlaneMetrics intersection_of(const std::vector<PlaneMetrics>& each) {
-  PlaneMetrics all = each.front();
-  std::vector<Metric2> here(each.size());
-  for (std::size_t v = 0; v < all.metrics.size() && each.size() > 1; ++v) {
-    for (std::size_t f = 0; f < each.size(); ++f) {
-      here[f] = each[f].metrics[v];
-      all.reliable[v] = static_cast<char>(all.reliable[v] & each[f].reliable[v]);
-    }
-    all.metrics[v] = intersection(here);
-  }
+PlaneMetrics intersection_of(std::vector<PlaneMetrics> each, Sharing& sharing) {
+  if (each.size() == 1) return std::move(each.front());
+  PlaneMetrics all;
+  all.metrics = sharing.metrics(each.front().metrics.size(), [&](std::size_t v) {
+    std::vector<Metric2> here;
+    for (const PlaneMetrics& one : each) here.push_back(one.metrics[v]);
+    return intersection(here);
+  });
+  all.reliable = each.front().reliable;
+  for (const PlaneMetrics& one : each)
+    for (std::size_t v = 0; v < all.reliable.size(); ++v)
+      all.reliable[v] = static_cast<char>(all.reliable[v] & one.reliable[v]);
   return all;
 }
 
@@ -214,22 +245,27 @@ VertexPrescriptions prescriptions_of(const PlaneMetrics& found, const std::vecto
 }  // namespace
 
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
-                             const EstimatorOptions& options) {
-  return prescriptions_of(plane_metrics(field, derivatives, options), derivatives, options.shape);
+                             const EstimatorOptions& options, const Crew& crew, Monitor* monitor) {
+  Sharing sharing(crew, monitor);
+  return prescriptions_of(plane_metrics(field, derivatives, options, sharing), derivatives, options.shape);
 }
 
-VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options) {
+VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Crew& crew,
+                             Monitor* monitor) {
   check_field(field);
   check_options(field, options);
-  return estimate(field, derivatives_of(field, options), options);
+  Sharing sharing(crew, monitor);
+  return estimate(field, derivatives_of(field, options, sharing), options, crew, monitor);
 }
 
 VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const std::array<std::int32_t, 3>> triangles,
-                                 std::span<const double> values, std::size_t fields, const EstimatorOptions& options) {
+                                 std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
+                                 const Crew& crew, Monitor* monitor) {
   if (fields == 0 || values.size() != fields * vertices.size())
     throw InvalidArgument("an estimator needs a value of each of " + std::to_string(fields) + " fields at each of " +
                           std::to_string(vertices.size()) + " vertices; there are " + std::to_string(values.size()));
+  Sharing sharing(crew, monitor);
   std::vector<double> one(vertices.size());
   std::vector<LocalDerivatives> derivatives;
   std::vector<PlaneMetrics> each;
@@ -238,10 +274,10 @@ VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
     const ScalarField field{vertices, triangles, one};
     check_field(field);
     check_options(field, options);
-    derivatives = derivatives_of(field, options);  // frames are those of the mesh, whatever the field
-    each.push_back(plane_metrics(field, derivatives, options));
+    derivatives = derivatives_of(field, options, sharing);  // frames are those of the mesh, whatever the field
+    each.push_back(plane_metrics(field, derivatives, options, sharing));
   }
-  return prescriptions_of(intersection_of(each), derivatives, options.shape);
+  return prescriptions_of(intersection_of(std::move(each), sharing), derivatives, options.shape);
 }
 
 }  // namespace carreau

@@ -54,17 +54,20 @@ struct VertexPrescriptions {
 
 /// Prescribes at each vertex of field's mesh. Throws InvalidArgument unless 0 < hmin <= hmax, tolerance > 0 and
 /// ratio >= 1, and what check_field throws; for `curvature`, `deformation` and `graph` the mesh is in the plane z = 0.
-VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options);
+/// The same for any crew; `monitor` may be null.
+VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Crew& crew = {},
+                             Monitor* monitor = nullptr);
 
 /// For several fields on one mesh at once: the smallest of the sizes, or the intersection of the metrics in the mesh's
 /// plane (RR-2818 sec. 4.3.4). `values` holds vertex by vertex one value of each field. Tolerance and floor are those
 /// of each field by itself. Throws InvalidArgument when values are no multiple of `fields`, and as above.
 VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const std::array<std::int32_t, 3>> triangles,
-                                 std::span<const double> values, std::size_t fields, const EstimatorOptions& options);
+                                 std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
+                                 const Crew& crew = {}, Monitor* monitor = nullptr);
 
 /// The same from derivatives that are already known (an exact Hessian, project_derivatives()).
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
-                             const EstimatorOptions& options);
+                             const EstimatorOptions& options, const Crew& crew = {}, Monitor* monitor = nullptr);
 
 }  // namespace carreau

@@ -64,13 +64,11 @@ std::vector<VertexFrame> frames_of(const ScalarField& field) {
   return frames;
 }
 
-/// Fits one vertex after the other; keeps its memory.
+/// Fits one vertex after the other; keeps its memory, and references.
 class Fitter {
  public:
-  explicit Fitter(const ScalarField& field)
-      : field_(field),
-        neighbours_(neighbours_of(field.vertices.size(), field.triangles)),
-        mark_(field.vertices.size(), -1) {}
+  Fitter(const ScalarField& field, const Neighbours& neighbours)
+      : field_(field), neighbours_(neighbours), mark_(field.vertices.size(), -1) {}
 
   LocalDerivatives fit(std::int32_t v, const VertexFrame& frame) {
     LocalDerivatives result;
@@ -143,7 +141,7 @@ class Fitter {
   }
 
   const ScalarField& field_;
-  Neighbours neighbours_;
+  const Neighbours& neighbours_;
   std::vector<std::int32_t> mark_, around_;
   std::vector<Vec2> offset_;
   Equations equations_;
@@ -183,15 +181,39 @@ std::vector<Vec2> projected_gradients(const ScalarField& field, const auto& valu
   return gradient;
 }
 
+/// A row of numbers: gradient, Hessian, whether it is reliable. Frames each process has.
+constexpr std::size_t row_width = 6;
+
+void put_row(const LocalDerivatives& d, double* row) {
+  row[0] = d.gradient.x(), row[1] = d.gradient.y();
+  row[2] = d.hessian.a, row[3] = d.hessian.b, row[4] = d.hessian.c;
+  row[5] = d.reliable ? 1 : 0;
+}
+
+LocalDerivatives of_row(const VertexFrame& frame, const double* row) {
+  return {frame, {row[0], row[1]}, {row[2], row[3], row[4]}, row[5] != 0};
+}
+
 }  // namespace
 
-std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field) {
+std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Crew& crew, Monitor* monitor) {
   check_field(field);
   const std::vector<VertexFrame> frames = frames_of(field);
-  Fitter fitter(field);
+  const Neighbours neighbours = neighbours_of(field.vertices.size(), field.triangles);
+  const auto fit = [&](std::size_t first, std::size_t last, double* out, Monitor& of_task) {
+    Fitter fitter(field, neighbours);
+    for (std::size_t v = first; v < last; ++v, out += row_width) {
+      if (v % between_checkpoints == 0) of_task.checkpoint();
+      put_row(fitter.fit(static_cast<std::int32_t>(v), frames[v]), out);
+    }
+  };
+  Monitor silent;
+  const std::vector<double> rows =
+      shared_rows(crew, "derivatives of a field", {.count = frames.size(), .width = row_width, .at_once = at_once(frames.size())}, fit,
+                  monitor != nullptr ? *monitor : silent);
   std::vector<LocalDerivatives> result;
   result.reserve(frames.size());
-  for (std::size_t v = 0; v < frames.size(); ++v) result.push_back(fitter.fit(static_cast<std::int32_t>(v), frames[v]));
+  for (std::size_t v = 0; v < frames.size(); ++v) result.push_back(of_row(frames[v], rows.data() + row_width * v));
   return result;
 }
 

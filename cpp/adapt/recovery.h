@@ -7,6 +7,7 @@
 
 #include "adapt/scalar_field.h"
 #include "metric/metric2.h"
+#include "support/ranks/crew.h"
 
 namespace carreau {
 
@@ -28,8 +29,10 @@ struct LocalDerivatives {
 /// Quadratic polynomials through each vertex that fit its neighbours by least squares, the nearer the better; of two
 /// rings, or three, where one ring does not determine them (the boundary). Exact on quadratics. On smooth fields the
 /// error of the gradient is of order 2, that of the Hessian of order 1 (2 where neighbours lie symmetrically). The
-/// plane of a vertex is that of the mean of its triangles' normals weighted by area. Throws what check_field throws.
-std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field);
+/// plane of a vertex is that of the mean of its triangles' normals weighted by area. The same for any crew. Throws what
+/// check_field throws, and Cancelled soon after `monitor`, which may be null, was asked to stop.
+std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Crew& crew = {},
+                                                  Monitor* monitor = nullptr);
 
 /// The integral of each triangle's gradient, averaged over the triangles of a vertex by area, twice: the double L2
 /// projection with lumped masses. Smoother than the fit; of order 1 on meshes that are nearly regular, biased on the

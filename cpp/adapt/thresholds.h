@@ -2,6 +2,9 @@
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 namespace carreau::thresholds::adapt {
 
 // In brackets: the tests that rest on it, all of tests/cpp/adapt.
@@ -19,6 +22,15 @@ inline constexpr double largest_step = 1e-4;
 /// Ratio. An edge so many times longer than what its ends see of the function is blind.
 /// [EstimateFunction.SeesBetweenVertices]
 inline constexpr double blind = 2;
+
+// Pieces of work that threads and processes share [time only]
+/// Rows at a time of `n`: at least so few that each of 64 takers has some, and so many that handing them out costs nothing.
+inline constexpr std::size_t least_at_once = 256, most_at_once = 16384;
+inline constexpr std::size_t at_once(std::size_t n) noexcept { return std::clamp(n / 64, least_at_once, most_at_once); }
+/// Points of which one is asked of each process, so that functions that differ are found: 1.6 % more calls.
+inline constexpr std::size_t points_of_one_compared = 64;
+/// Vertices between two looks for a stop.
+inline constexpr std::size_t between_checkpoints = 256;
 
 // Transfer
 /// Ratio. What is linear in (u, v) is carried over exactly: the place in (u, v) counts while the triangles of the old

@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "adapt/curved_elements.h"
 #include "adapt/thresholds.h"
@@ -89,48 +95,112 @@ NearestOnMesh Neighbourhood::nearest(const Vec3& p, std::int32_t start) const {
 struct Piece {
   TriangleSearch tree;
   std::vector<Triangle> carriers;
-  CurvedElements curved;  // none: linear interpolation
-  std::int32_t last = 0;
+  CurvedElements curved;                // none: linear interpolation
+  std::optional<Neighbourhood> around;  // in space; none: the tree is of space
 };
 
-Piece piece_of(const FaceMesh& face) {
+std::unique_ptr<const Piece> piece_of(const SurfaceMesh& mesh, const FaceMesh& face, bool at_nodes) {
   std::vector<Vec3> vertices;
   for (const Vec2& p : face.uv) vertices.push_back({p.x(), p.y(), 0});
   std::vector<Triangle> triangles = face.triangles;
   triangles.insert(triangles.end(), face.flattened.begin(), face.flattened.end());
-  Piece piece;
+  auto piece = std::make_unique<Piece>();
   for (const auto& t : triangles) {
     const auto global = [&](std::size_t k) { return face.vertex[static_cast<std::size_t>(t[k])]; };
-    piece.carriers.push_back({global(0), global(1), global(2)});
+    piece->carriers.push_back({global(0), global(1), global(2)});
   }
-  piece.tree = TriangleSearch(vertices, triangles);
+  piece->tree = TriangleSearch(vertices, triangles);
+  if (at_nodes) piece->curved = CurvedElements(mesh, face);
+  piece->around.emplace(mesh.vertices, piece->carriers);
   return piece;
 }
 
-Piece piece_of(const SurfaceMesh& mesh) {
-  Piece piece;
+std::unique_ptr<const Piece> piece_of(const SurfaceMesh& mesh, bool at_nodes) {
+  auto piece = std::make_unique<Piece>();
   for (const FaceMesh& face : mesh.faces)
     for (const auto& t : face.triangles) {
       const auto global = [&](std::size_t k) { return face.vertex[static_cast<std::size_t>(t[k])]; };
-      piece.carriers.push_back({global(0), global(1), global(2)});
+      piece->carriers.push_back({global(0), global(1), global(2)});
     }
-  piece.tree = TriangleSearch(mesh.vertices, piece.carriers);
+  piece->tree = TriangleSearch(mesh.vertices, piece->carriers);
+  if (at_nodes) piece->curved = CurvedElements(mesh);
   return piece;
 }
+
+/// Pieces that are being looked up in, made by the first thread that needs one.
+class Pieces {
+ public:
+  /// make(i) is called once for a piece that is asked for, or again after one that has gone. `kept` are the most that are at hand at a time.
+  Pieces(std::function<std::unique_ptr<const Piece>(std::size_t)> make, std::size_t kept)
+      : make_(std::move(make)), kept_(kept) {}
+
+  std::shared_ptr<const Piece> at(std::size_t i) {
+    std::shared_ptr<Slot> slot;
+    {
+      const std::scoped_lock lock(mutex_);
+      auto& known = slots_[i];
+      if (!known) known = std::make_shared<Slot>();
+      slot = known;
+      if (slots_.size() > kept_) slots_.erase(slots_.begin()->first == i ? std::next(slots_.begin()) : slots_.begin());
+    }
+    std::call_once(slot->made, [&] { slot->piece = make_(i); });
+    return {slot, slot->piece.get()};
+  }
+
+ private:
+  struct Slot {
+    std::once_flag made;
+    std::unique_ptr<const Piece> piece;
+  };
+  std::function<std::unique_ptr<const Piece>(std::size_t)> make_;
+  std::size_t kept_;
+  std::mutex mutex_;
+  std::map<std::size_t, std::shared_ptr<Slot>> slots_;
+};
+
+/// A row of the new mesh: where it is looked up.
+struct Wanted {
+  std::size_t row;
+  Vec3 p;  // of the parameter plane or of space
+};
 
 class Transfer {
  public:
   Transfer(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values, std::size_t components)
       : from_(from), to_(to), values_(values), components_(components) {
     at_nodes_ = values.size() == node_count(from) * components;
-    const std::size_t rows = at_nodes_ ? node_count(to) : to.vertices.size();
-    result_.values.assign(rows * components, 0);
-    done_.assign(rows, 0);
     for (const Vec3& p : from.vertices)
       largest_coordinate_ = std::max({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    list_rows();
   }
 
-  TransferredField run() {
+  TransferredField run(const Crew& crew, Monitor& monitor) {
+    Pieces pieces([&](std::size_t i) { return old_faces_[i] != nullptr ? piece_of(from_, *old_faces_[i], at_nodes_) : piece_of(from_, at_nodes_); },
+                  static_cast<std::size_t>(std::max(crew.threads, 1)) + 1);
+    const std::size_t width = components_ + 1;
+    const auto look_up = [&](std::size_t first, std::size_t last, double* out, Monitor& of_task) {
+      std::int32_t guess = 0;
+      std::shared_ptr<const Piece> piece;
+      for (std::size_t k = first, at = pieces_.size(); k < last; ++k, out += width) {
+        if (k % between_checkpoints == 0) of_task.checkpoint();
+        if (const std::size_t now = piece_with(k); !piece || now != at) piece = pieces.at(at = now), guess = 0;
+        look_up_in(*piece, rows_[k], guess, out);
+      }
+    };
+    const std::vector<double> found = shared_rows(
+        crew, "fields on the next mesh", {.count = rows_.size(), .width = width, .at_once = at_once(rows_.size())}, look_up, monitor);
+    return gathered(found, width);
+  }
+
+ private:
+  // Each in the first face of both meshes that has it, or in space.
+  void list_rows() {
+    const std::size_t all = at_nodes_ ? node_count(to_) : to_.vertices.size();
+    std::vector<char> listed(all, 0);
+    const auto list = [&](std::size_t row, const Vec3& p) {
+      if (listed[row] == 0) rows_.push_back({row, p});
+      listed[row] = 1;
+    };
     std::map<int, const FaceMesh*> old_faces;
     for (const FaceMesh& face : from_.faces)
       if (!face.triangles.empty()) old_faces.emplace(face.ref, &face);
@@ -139,47 +209,37 @@ class Transfer {
     for (const FaceMesh& face : to_.faces) {
       const auto old = old_faces.find(face.ref);
       if (old == old_faces.end() || !by_faces) continue;
-      Piece piece = piece_of(*old->second);
-      if (at_nodes_) piece.curved = CurvedElements(from_, *old->second);
-      const Neighbourhood space(from_.vertices, piece.carriers);
+      pieces_.push_back(rows_.size()), old_faces_.push_back(old->second);
       for (std::size_t i = 0; i < face.vertex.size(); ++i)
-        look_up(piece, {face.uv[i].x(), face.uv[i].y(), 0}, static_cast<std::size_t>(face.vertex[i]), &space);
+        list(static_cast<std::size_t>(face.vertex[i]), {face.uv[i].x(), face.uv[i].y(), 0});
       for (std::size_t i = 0; at_nodes_ && i < face.mid_uv.size(); ++i)
-        look_up(piece, {face.mid_uv[i].x(), face.mid_uv[i].y(), 0},
-                to_.vertices.size() + static_cast<std::size_t>(face.mid_vertex[i]), &space);
+        list(to_.vertices.size() + static_cast<std::size_t>(face.mid_vertex[i]), {face.mid_uv[i].x(), face.mid_uv[i].y(), 0});
     }
-    if (std::find(done_.begin(), done_.end(), 0) != done_.end()) {
-      Piece whole = piece_of(from_);
-      if (at_nodes_) whole.curved = CurvedElements(from_);
-      for (std::size_t v = 0; v < done_.size(); ++v) look_up(whole, place_in_space(v), v, nullptr);
-    }
-    return std::move(result_);
+    pieces_.push_back(rows_.size()), old_faces_.push_back(nullptr);
+    for (std::size_t row = 0; row < all; ++row) list(row, place_in_space(row));
   }
 
- private:
+  [[nodiscard]] std::size_t piece_with(std::size_t row) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(pieces_, row) - pieces_.begin()) - 1;
+  }
+
   [[nodiscard]] const Vec3& place_in_space(std::size_t row) const {
     return row < to_.vertices.size() ? to_.vertices[row] : to_.mid_vertices[row - to_.vertices.size()];
   }
 
-  /// `space` is null when p is a point of space.
-  void look_up(Piece& piece, Vec3 p, std::size_t vertex, const Neighbourhood* space) {
-    if (done_[vertex] != 0) return;
-    done_[vertex] = 1;
-    NearestOnMesh found = piece.tree.nearest(p, piece.last);
-    piece.last = found.triangle;
-    if (found.distance > outside_share * piece.tree.longest_edge(found.triangle)) {
-      ++result_.outside;
-      result_.farthest = std::max(result_.farthest, found.distance);
-    }
-    bool in_space = space == nullptr;
-    if (space != nullptr) {
-      const NearestOnMesh nearer = space->nearest(place_in_space(vertex), found.triangle);
-      const double away = norm(place_of(piece, found) - place_in_space(vertex));
+  /// Values, then the distance where the vertex is outside, and 0 where it is not.
+  void look_up_in(const Piece& piece, const Wanted& wanted, std::int32_t& guess, double* out) const {
+    NearestOnMesh found = piece.tree.nearest(wanted.p, guess);
+    guess = found.triangle;
+    out[components_] = found.distance > outside_share * piece.tree.longest_edge(found.triangle) ? found.distance : 0;
+    bool in_space = !piece.around;
+    if (piece.around) {
+      const NearestOnMesh nearer = piece.around->nearest(place_in_space(wanted.row), found.triangle);
+      const double away = norm(place_of(piece, found) - place_in_space(wanted.row));
       if (away > as_near * nearer.distance + place_rounding * largest_coordinate_) found = nearer, in_space = true;
     }
     if (piece.curved.has(found.triangle)) {
-      piece.curved.interpolate(found.triangle, in_space ? place_in_space(vertex) : p, in_space, values_, components_,
-                               &result_.values[vertex * components_]);
+      piece.curved.interpolate(found.triangle, in_space ? place_in_space(wanted.row) : wanted.p, in_space, values_, components_, out);
       return;
     }
     const Triangle& carrier = piece.carriers[static_cast<std::size_t>(found.triangle)];
@@ -187,8 +247,20 @@ class Transfer {
       double sum = 0;
       for (std::size_t k = 0; k < 3; ++k)
         sum += found.weight[k] * values_[static_cast<std::size_t>(carrier[k]) * components_ + c];
-      result_.values[vertex * components_ + c] = sum;
+      out[c] = sum;
     }
+  }
+
+  [[nodiscard]] TransferredField gathered(const std::vector<double>& found, std::size_t width) const {
+    TransferredField result;
+    result.values.resize(rows_.size() * components_);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const double* const row = found.data() + width * k;
+      std::copy_n(row, components_, result.values.data() + rows_[k].row * components_);
+      if (row[components_] > 0) ++result.outside;
+      result.farthest = std::max(result.farthest, row[components_]);
+    }
+    return result;
   }
 
   [[nodiscard]] Vec3 place_of(const Piece& piece, const NearestOnMesh& found) const {
@@ -204,9 +276,10 @@ class Transfer {
   std::span<const double> values_;
   std::size_t components_;
   bool at_nodes_ = false;  // not at vertices alone
-  std::vector<char> done_;
   double largest_coordinate_ = 0;
-  TransferredField result_;
+  std::vector<Wanted> rows_;                // piece by piece
+  std::vector<std::size_t> pieces_;         // their first rows
+  std::vector<const FaceMesh*> old_faces_;  // of pieces; null: the whole mesh in space
 };
 
 }  // namespace
@@ -214,7 +287,7 @@ class Transfer {
 std::size_t node_count(const SurfaceMesh& mesh) noexcept { return mesh.vertices.size() + mesh.mid_vertices.size(); }
 
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
-                                std::size_t components) {
+                                std::size_t components, const Crew& crew, Monitor* monitor) {
   if (components == 0) throw InvalidArgument("a field to be transferred has one component at least");
   if (values.size() != from.vertices.size() * components && values.size() != node_count(from) * components)
     throw InvalidArgument(
@@ -223,7 +296,8 @@ TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, 
         (from.mid_vertices.empty() ? "" : " and " + std::to_string(from.mid_vertices.size()) + " nodes on edges") +
         ", with " + std::to_string(components) + " values each");
   if (from.triangle_count() == 0) throw InvalidArgument("a field cannot be transferred from a mesh without triangles");
-  return Transfer(from, to, values, components).run();
+  Monitor silent;
+  return Transfer(from, to, values, components).run(crew, monitor != nullptr ? *monitor : silent);
 }
 
 InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact) {

@@ -29,10 +29,11 @@ std::size_t node_count(const SurfaceMesh& mesh) noexcept;
 /// surfaces. Values at all nodes of `from` (node_count) give those at all nodes of `to`: where elements of `from` are of
 /// second order by their shape functions, exact for quadratic fields on plane elements with straight sides, and of
 /// third order on surfaces. Values at vertices alone give those at vertices alone, whatever the elements.
+/// The same for any crew; `monitor` may be null.
 /// Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`, or for each node,
 /// or when `from` has no triangle.
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
-                                std::size_t components);
+                                std::size_t components, const Crew& crew = {}, Monitor* monitor = nullptr);
 
 /// Distance between a field and its linear interpolation on a mesh, in the field's unit.
 struct InterpolationError {

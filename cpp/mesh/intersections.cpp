@@ -8,6 +8,7 @@
 
 #include "mesh/crossings/box_pairs.h"
 #include "mesh/crossings/graphs.h"
+#include "mesh/crossings/shared_search.h"
 #include "mesh/crossings/spatial_order.h"
 #include "predicates/orientation_3d.h"
 #include "support/stepped_tasks.h"
@@ -231,6 +232,27 @@ class FirstPairs {
   Intersections& found_;
 };
 
+void put(PacketWriter& packet, const Intersections& found) {
+  packet.put(found.count);
+  packet.put(static_cast<std::int64_t>(found.pairs.size()));
+  for (const TriangleIntersection& pair : found.pairs) {
+    for (const std::int32_t t : pair.triangles) packet.put(std::int64_t{t});
+    for (int axis = 0; axis < 3; ++axis) packet.put(pair.place[axis]);
+  }
+}
+
+Intersections get(PacketReader& packet) {
+  Intersections found;
+  found.count = packet.integer();
+  constexpr std::size_t each = 2 * sizeof(std::int64_t) + 3 * sizeof(double);
+  found.pairs.resize(packet.count(each));
+  for (TriangleIntersection& pair : found.pairs) {
+    for (std::int32_t& t : pair.triangles) t = static_cast<std::int32_t>(packet.integer());
+    for (int axis = 0; axis < 3; ++axis) pair.place[axis] = packet.real();
+  }
+  return found;
+}
+
 }  // namespace
 
 bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexcept {
@@ -243,13 +265,18 @@ bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexce
 
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor) {
-  SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
-  std::vector<std::int32_t> order = spatial_order(vertices, triangles, std::move(sound.numbers), monitor, options.threads);
-  const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, order, options.threads, monitor);
-  const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, options.threads);
-  std::vector<Intersections> of_part(near.parts());
+  return find_intersections(vertices, triangles, options.limit, Crew{nullptr, options.threads}, monitor);
+}
+
+Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                 std::size_t limit, const Crew& crew, Monitor& monitor) {
+  SoundTriangles sound = sound_triangles(vertices, triangles, crew.threads, monitor);
+  std::vector<std::int32_t> order = spatial_order(vertices, triangles, std::move(sound.numbers), monitor, crew.threads);
+  const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, order, crew.threads, monitor);
+  const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, crew.threads);
   const auto ask = [&](std::size_t part, Monitor&) {
-    FirstPairs first(options.limit, of_part[part]);
+    Intersections here;
+    FirstPairs first(limit, here);
     near.each(part, [&](std::size_t i, std::size_t j) {
       if (graph[i] >= 0 && graph[i] == graph[j]) return;
       if (parted_at_neighbour(vertices, triangles[i], triangles[j], sound.axis[i], sound.inside[i])) return;
@@ -257,15 +284,17 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
       if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))
         first.add({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}, place});
     });
+    return here;
   };
-  run_each(near.parts(), false, options.threads, ask, monitor);
+  const std::vector<Intersections> of_part =
+      shared_work<Intersections>(crew, "triangles that cross", near.parts(), false, ask, put, get, monitor);
   Intersections all;
   for (const Intersections& some : of_part) {
     all.count += some.count;
     all.pairs.insert(all.pairs.end(), some.pairs.begin(), some.pairs.end());
-    if (all.pairs.size() >= 2 * options.limit) FirstPairs::shorten(all.pairs, options.limit);
+    if (all.pairs.size() >= 2 * limit) FirstPairs::shorten(all.pairs, limit);
   }
-  FirstPairs::shorten(all.pairs, options.limit);
+  FirstPairs::shorten(all.pairs, limit);
   std::sort(all.pairs.begin(), all.pairs.end(), FirstPairs::before);
   return all;
 }

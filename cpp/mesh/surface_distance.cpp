@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "mesh/triangle_distance.h"
 #include "mesh/triangle_search.h"
@@ -12,28 +13,64 @@
 
 namespace carreau {
 
+namespace {
+
+using Edge = std::array<std::int32_t, 2>;
+
+/// Each once.
+std::vector<Edge> edges_of(std::span<const std::array<std::int32_t, 3>> triangles) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (const auto& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+  std::ranges::sort(edges);
+  edges.erase(std::ranges::unique(edges).begin(), edges.end());
+  return edges;
+}
+
+std::vector<std::int32_t> corners_of(std::span<const std::array<std::int32_t, 3>> triangles, std::size_t vertices) {
+  std::vector<char> used(vertices, 0);
+  for (const auto& t : triangles)
+    for (const std::int32_t v : t) used[static_cast<std::size_t>(v)] = 1;
+  std::vector<std::int32_t> corners;
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (used[v] != 0) corners.push_back(static_cast<std::int32_t>(v));
+  return corners;
+}
+
+}  // namespace
+
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
-                        Monitor& monitor) {
-  const TriangleSearch search(to_vertices, to_triangles, &monitor);
+                        Monitor& monitor, const Crew& crew) {
+  const TriangleSearch search(to_vertices, to_triangles, &monitor, crew.threads);
   if (search.empty()) return 0;
-  double most = 0;
-  std::int32_t guess = 0, count = 0;
-  const auto look = [&](const Vec3& p) {
-    const NearestOnMesh nearest = search.nearest(p, guess);
-    guess = nearest.triangle;
-    most = std::max(most, nearest.distance);
+  const std::vector<std::int32_t> corners = corners_of(triangles, vertices.size());
+  const std::vector<Edge> edges = edges_of(triangles);
+  const auto at = [&](std::int32_t v) -> const Vec3& { return vertices[static_cast<std::size_t>(v)]; };
+  const auto point = [&](std::size_t k) -> Vec3 {
+    if (k < corners.size()) return at(corners[k]);
+    if ((k -= corners.size()) < edges.size()) return 0.5 * (at(edges[k][0]) + at(edges[k][1]));
+    const auto& [a, b, c] = triangles[k - edges.size()];
+    return (at(a) + at(b) + at(c)) / 3;
   };
-  for (const auto& t : triangles) {
-    if (count++ % 256 == 0) monitor.checkpoint();
-    const std::array<Vec3, 3> p{vertices[static_cast<std::size_t>(t[0])], vertices[static_cast<std::size_t>(t[1])],
-                                vertices[static_cast<std::size_t>(t[2])]};
-    look((p[0] + p[1] + p[2]) / 3);
-    for (std::size_t i = 0; i < 3; ++i) {
-      look(p[i]);
-      look(0.5 * (p[i] + p[(i + 1) % 3]));
+  const std::size_t points = corners.size() + edges.size() + triangles.size();
+  constexpr std::size_t at_once = 4096, between = 256;
+  const auto look = [&](std::size_t first, std::size_t last, double* out, Monitor& of_task) {
+    for (std::size_t piece = first; piece < last; ++piece, ++out) {
+      std::int32_t guess = 0;
+      for (std::size_t k = piece * at_once; k < std::min((piece + 1) * at_once, points); ++k) {
+        if (k % between == 0) of_task.checkpoint();
+        const NearestOnMesh nearest = search.nearest(point(k), guess);
+        guess = nearest.triangle;
+        *out = std::max(*out, nearest.distance);
+      }
     }
-  }
+  };
+  double most = 0;
+  for (const double of_piece :
+       shared_rows(crew, "distances to triangles", {.count = (points + at_once - 1) / at_once}, look, monitor))
+    most = std::max(most, of_piece);
   return most;
 }
 
@@ -83,9 +120,9 @@ struct Box {
 class DistanceBounder {
  public:
   DistanceBounder(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                  int threads, Monitor& monitor)
-      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, threads), tolerance_(tolerance),
-        threads_(threads), monitor_(monitor) {}
+                  const Crew& crew, Monitor& monitor)
+      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, crew.threads), tolerance_(tolerance),
+        crew_(crew), monitor_(monitor) {}
 
   DistanceBounds run(std::vector<double>* of_triangles) {
     if (of_triangles != nullptr) of_triangles->assign(from_.triangles.size(), 0);
@@ -97,28 +134,50 @@ class DistanceBounder {
                             std::max(all.low.cwiseAbs().maxCoeff(), all.high.cwiseAbs().maxCoeff());
     look_around();
     enough_ = goal(lower_);
-    std::vector<double> upper(from_.triangles.size(), 0), lower(from_.triangles.size(), 0);
-    each_chunk(from_.triangles.size(), [&](std::size_t t, Monitor& of_task) {
+    const std::size_t n = from_.triangles.size();
+    const std::vector<double> bounds = pairs(n, [&](std::size_t t, const double*, Monitor& of_task) -> Pair {
       const auto [low, high] = bounds_of(t, of_task);
-      lower[t] = low, upper[t] = high + rounding;
+      return {low, high + rounding};
     });
-    const DistanceBounds found{std::max(0.0, std::ranges::max(lower) - rounding), std::ranges::max(upper)};
-    if (of_triangles != nullptr) *of_triangles = std::move(upper);
+    DistanceBounds found{0, bounds[1]};
+    for (std::size_t t = 0; t < n; ++t) {
+      found.lower = std::max(found.lower, bounds[2 * t] - rounding);
+      found.upper = std::max(found.upper, bounds[2 * t + 1]);
+      if (of_triangles != nullptr) (*of_triangles)[t] = bounds[2 * t + 1];
+    }
     return found;
   }
 
  private:
+  using Pair = std::array<double, 2>;
+
+  /// work(k, the pair of k - 1 or null, monitor) for each k below n, shared.
   template <typename Work>
-  void each_chunk(std::size_t n, Work&& work) {
-    run_each((n + chunk - 1) / chunk, false, threads_,
-             [&](std::size_t c, Monitor& of_task) {
-               constexpr std::size_t between = 64;
-               for (std::size_t k = c * chunk; k < std::min(n, (c + 1) * chunk); ++k) {
-                 if (k % between == 0) of_task.checkpoint();
-                 work(k, of_task);
-               }
-             },
-             monitor_);
+  std::vector<double> pairs(std::size_t n, const Work& work) const {
+    const auto fill = [&](std::size_t first, std::size_t last, double* out, Monitor& of_task) {
+      constexpr std::size_t between = 64;
+      for (std::size_t k = first; k < last; ++k, out += 2) {
+        if (k % between == 0) of_task.checkpoint();
+        const Pair found = work(k, k > first ? out - 2 : nullptr, of_task);
+        out[0] = found[0], out[1] = found[1];
+      }
+    };
+    return shared_rows(crew_, "bounds of distances", {.count = n, .width = 2, .at_once = chunk}, fill, monitor_);
+  }
+
+  /// What is nearest to places by number; `place` is empty where nobody asks.
+  template <typename Place>
+  [[nodiscard]] std::vector<Corner> corners(std::size_t n, const Place& place) const {
+    const std::vector<double> found = pairs(n, [&](std::size_t k, const double* before, Monitor&) -> Pair {
+      const std::optional<Vec3> p = place(k);
+      if (!p) return before != nullptr ? Pair{before[0], 0} : Pair{};
+      const Corner c = corner(*p, before != nullptr ? static_cast<std::int32_t>(before[0]) : 0);
+      return {static_cast<double>(c.nearest), c.distance};
+    });
+    std::vector<Corner> all(n);
+    for (std::size_t k = 0; k < n; ++k)
+      if (const std::optional<Vec3> p = place(k)) all[k] = {*p, static_cast<std::int32_t>(found[2 * k]), found[2 * k + 1]};
+    return all;
   }
 
   [[nodiscard]] double goal(double lower) const noexcept { return (1 + tolerance_.share) * lower + length_; }
@@ -130,17 +189,16 @@ class DistanceBounder {
 
   // Vertices and middles: most of the largest distance.
   void look_around() {
-    at_vertex_.resize(from_.vertices.size()), middle_.resize(from_.triangles.size());
     std::vector<char> used(from_.vertices.size(), 0);
     for (const auto& t : from_.triangles)
       for (const std::int32_t v : t) used[index(v)] = 1;
-    each_chunk(at_vertex_.size(), [&](std::size_t v, Monitor&) {
-      if (used[v] != 0) at_vertex_[v] = corner(from_.vertices[v], v % chunk > 0 ? at_vertex_[v - 1].nearest : 0);
+    at_vertex_ = corners(used.size(), [&](std::size_t v) -> std::optional<Vec3> {
+      if (used[v] == 0) return {};
+      return from_.vertices[v];
     });
-    each_chunk(middle_.size(), [&](std::size_t t, Monitor&) {
+    middle_ = corners(from_.triangles.size(), [&](std::size_t t) -> std::optional<Vec3> {
       const auto& [a, b, c] = from_.triangles[t];
-      const Vec3 p = (from_.vertices[index(a)] + from_.vertices[index(b)] + from_.vertices[index(c)]) / 3;
-      middle_[t] = corner(p, at_vertex_[index(a)].nearest);
+      return Vec3((from_.vertices[index(a)] + from_.vertices[index(b)] + from_.vertices[index(c)]) / 3);
     });
     for (const auto* corners : {&at_vertex_, &middle_})
       for (const Corner& c : *corners) lower_ = std::max(lower_, c.distance);
@@ -253,7 +311,7 @@ class DistanceBounder {
   TrianglesOfSpace from_, to_;
   TriangleSearch search_;
   DistanceTolerance tolerance_;
-  int threads_;
+  Crew crew_;
   Monitor& monitor_;
   std::vector<Corner> at_vertex_, middle_;
   double length_ = 0, lower_ = 0, enough_ = 0;
@@ -262,8 +320,8 @@ class DistanceBounder {
 }  // namespace
 
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                              int threads, Monitor& monitor, std::vector<double>* of_triangles) {
-  return DistanceBounder(from, to, tolerance, threads, monitor).run(of_triangles);
+                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles) {
+  return DistanceBounder(from, to, tolerance, crew, monitor).run(of_triangles);
 }
 
 }  // namespace carreau

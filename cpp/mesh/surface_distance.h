@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/monitor.h"
+#include "support/ranks/crew.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -19,10 +20,10 @@ struct TrianglesOfSpace {
 };
 
 /// The largest distance from the vertices, the middles of edges and those of triangles of one mesh to the triangles of
-/// another one. 0 where one of them has none.
+/// another one. 0 where one of them has none. The same for any crew.
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
-                        Monitor& monitor);
+                        Monitor& monitor, const Crew& crew = {});
 
 /// The largest distance from all points of one mesh to another one lies between both, rounding included.
 struct DistanceBounds {
@@ -38,8 +39,12 @@ struct DistanceTolerance {
 /// The distance to a single triangle is convex: over a convex polygon it is largest at a corner. Triangles are cut, beside
 /// the triangles that are nearest and then in halves, until one triangle of `to` shows of each piece that it is near
 /// enough. Where that takes too many pieces the upper bound is the one reached. `of_triangles`, unless it is null, gets
-/// an upper bound for each triangle. Both 0 where one of the meshes has none. The same for any number of threads. Throws Cancelled.
+/// an upper bound for each triangle. Both 0 where one of the meshes has none. The same for any crew. Throws Cancelled.
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                              int threads, Monitor& monitor, std::vector<double>* of_triangles = nullptr);
+                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles = nullptr);
+inline DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
+                                     int threads, Monitor& monitor, std::vector<double>* of_triangles = nullptr) {
+  return bound_distance(from, to, tolerance, Crew{nullptr, threads}, monitor, of_triangles);
+}
 
 }  // namespace carreau

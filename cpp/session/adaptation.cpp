@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/adaptation.h"
 
+#include <bit>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "mesh/elements/over_nodes.h"
@@ -33,6 +35,17 @@ EstimatorOptions with_bounds(Session& session, EstimatorOptions options) {
   return options;
 }
 
+/// What the hosts of the processes of a team want estimated.
+std::string checksum_of(std::span<const double> values, const EstimatorOptions& options) {
+  LongChecksum sum;
+  for (const double value : values) sum.add(std::bit_cast<std::uint64_t>(value));
+  for (const int choice : {int(options.source), int(options.shape), int(options.recovery), int(options.relative)})
+    sum.add(static_cast<std::uint64_t>(choice));
+  for (const double number : {options.tolerance, options.relative_floor, options.hmin, options.hmax, options.ratio})
+    sum.add(std::bit_cast<std::uint64_t>(number));
+  return sum.text();
+}
+
 class Loop {
  public:
   Loop(Session& session, const FieldFunction& field, const AdaptationOptions& options, Monitor& monitor)
@@ -52,8 +65,7 @@ class Loop {
     const NoBackgroundAfterwards afterwards(session_);
     look({});
     for (int i = 0; i < options_.iterations && !report_.converged; ++i) {
-      const VertexPrescriptions wanted = options_.differences ? estimate_on_mesh(session_, field_, options_.estimator)
-                                                              : estimate_on_mesh(session_, values_, options_.estimator);
+      const VertexPrescriptions wanted = estimated();
       const SizeRange range = range_of(wanted);
       {
         const OpenBounds bounds(session_.parameters(), range);
@@ -70,18 +82,27 @@ class Loop {
   }
 
  private:
+  VertexPrescriptions estimated() {
+    monitor_.checkpoint();
+    return options_.differences ? estimate_on_mesh(session_, field_, options_.estimator)
+                                : estimate_on_mesh(session_, values_, options_.estimator);
+  }
+
   /// Evaluates the field on the session's mesh and measures.
   void look(SizeRange range) {
     const SurfaceMesh& own = session_.mesh();
     const FlatMesh mesh = straight_mesh(own, node_count(own));
     values_.resize(mesh.vertices.size());
-    field_(mesh.vertices, values_);
-    monitor_.checkpoint();
     AdaptationStep step;
+    session_.together([&](const Crew& crew) {
+      const FieldFunction field = shared_function(field_, crew, monitor_);
+      field(mesh.vertices, values_);
+      monitor_.checkpoint();
+      step.error = own.mid_vertices.empty() ? interpolation_error({mesh.vertices, mesh.triangles, values_}, field)
+                                            : interpolation_error(own, values_, field);
+    });
     step.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     step.triangles = static_cast<std::int64_t>(own.triangle_count());
-    step.error = own.mid_vertices.empty() ? interpolation_error({mesh.vertices, mesh.triangles, values_}, field_)
-                                          : interpolation_error(own, values_, field_);
     if (!report_.steps.empty()) {
       step.smallest_size = range.low;
       step.largest_stretch = range.stretch;
@@ -105,6 +126,14 @@ class Loop {
 
 }  // namespace
 
+void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options) {
+  if (crew.team == nullptr) return;
+  const std::vector<std::string> all = crew.team->exchange("estimate", checksum_of(values, options));
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
+    if (all[rank] != all[0])
+      throw InvalidModel("the values to be estimated, or the options, are others on rank " + std::to_string(rank) + " than on rank 0");
+}
+
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values) {
   const SurfaceMesh& mesh = session.mesh();
   if (!mesh.mid_vertices.empty() && values.size() == node_count(mesh))
@@ -114,17 +143,32 @@ std::shared_ptr<BackgroundField> background_of(const Session& session, VertexVal
 
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options) {
   const FlatMesh mesh = straight_mesh(session.mesh(), values.size());
-  return estimate({mesh.vertices, mesh.triangles, values}, with_bounds(session, options));
+  options = with_bounds(session, options);
+  VertexPrescriptions wanted;
+  session.together([&](const Crew& crew) {
+    require_same_values(crew, values, options);
+    wanted = estimate({mesh.vertices, mesh.triangles, values}, options, crew, &session.monitor());
+  });
+  return wanted;
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options) {
   const FlatMesh mesh = straight_mesh(session.mesh(), node_count(session.mesh()));
-  return estimate_function(mesh.vertices, mesh.triangles, field, with_bounds(session, options));
+  options = with_bounds(session, options);
+  VertexPrescriptions wanted;
+  session.together([&](const Crew& crew) {
+    require_same_values(crew, {}, options);
+    wanted = estimate_function(mesh.vertices, mesh.triangles, shared_function(field, crew, session.monitor()), options, crew,
+                               &session.monitor());
+  });
+  return wanted;
 }
 
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
                        Monitor& monitor) {
-  return Loop(session, field, options, monitor).run();
+  AdaptationReport report;
+  session.together([&](const Crew&) { report = Loop(session, field, options, monitor).run(); });
+  return report;
 }
 
 }  // namespace carreau

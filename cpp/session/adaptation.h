@@ -11,6 +11,7 @@
 #include "adapt/transfer.h"
 #include "session/session.h"
 #include "size/background.h"
+#include "support/ranks/crew.h"
 
 namespace carreau {
 
@@ -18,7 +19,10 @@ namespace carreau {
 /// nodes (node_count), or at their corners alone.
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);
 
-/// Sizes or metrics from values at the vertices of the session's mesh; of elements of second order at all nodes, or at their
+/// With a team: throws InvalidModel, which names the first rank that has other values or options than rank 0.
+void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options);
+
+/// Sizes or metrics from values at the vertices of the session's mesh, by all processes of its team together; of elements of second order at all nodes, or at their
 /// corners alone: sizes of straight elements in either case. Bounds of 0 are replaced by hphymin and hphymax.
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options);
 /// The same from the field itself, at all nodes: see estimate_function().
@@ -48,7 +52,7 @@ struct AdaptationReport {
   bool converged = false;
 };
 
-/// Adapts the session's mesh to a field; makes one first when there is none, by the parameters alone. The session keeps
+/// Adapts the session's mesh to a field, by all processes of its team together; makes one first when there is none, by the parameters alone. The session keeps
 /// the last mesh that was made, also when this throws, and has no background mesh afterwards. Where hphymin or hphymax
 /// is not set, the runs take the bounds of what the estimator prescribes. Throws InvalidArgument (options; hphy_flag =
 /// 0: sizes would be ignored), what make_mesh() throws, and what `field` throws.

@@ -219,8 +219,14 @@ std::vector<double> scalars_of(const Solution& fields, const std::string& path) 
 
 VertexPrescriptions estimate_fields(Session& session, const FlatMesh& mesh, const Solution& fields,
                                     const std::string& path) {
-  return estimate_all(mesh.vertices, mesh.triangles, scalars_of(fields, path), fields.components(),
-                      estimator_of(session.parameters(), mesh.vertices));
+  const std::vector<double> values = scalars_of(fields, path);
+  const EstimatorOptions options = estimator_of(session.parameters(), mesh.vertices);
+  VertexPrescriptions wanted;
+  session.together([&](const Crew& crew) {
+    require_same_values(crew, values, options);
+    wanted = estimate_all(mesh.vertices, mesh.triangles, values, fields.components(), options, crew, &session.monitor());
+  });
+  return wanted;
 }
 
 std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, VertexValues values) {
@@ -260,11 +266,12 @@ Solution in_dimension(const Solution& fields, int dimension, const std::string& 
   return result;
 }
 
-/// Returns the number of vertices outside.
+/// Returns the number of vertices outside. Of a crew one process writes.
 /// `values`: those of `fields` at the nodes of `from`.
-std::int64_t write_transferred(const Session& session, const SurfaceMesh& from, const std::vector<double>& values,
-                               const Solution& fields, const std::string& sol_path, const std::string& out_path) {
-  TransferredField moved = transfer_field(from, session.mesh(), values, fields.components());
+std::int64_t write_transferred(Session& session, const SurfaceMesh& from, const std::vector<double>& values, const Solution& fields,
+                               const std::string& sol_path, const std::string& out_path, const Crew& crew) {
+  TransferredField moved = transfer_field(from, session.mesh(), values, fields.components(), crew, &session.monitor());
+  if (crew.team != nullptr && crew.team->rank() != 0) return moved.outside;
   Solution result{
       .dimension = fields.dimension, .tensor = false, .values = std::move(moved.values), .fields = fields.fields};
   write_solution(in_dimension(result, session.model().plane ? 2 : 3, sol_path), out_path);
@@ -308,8 +315,10 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
   return field_of(flat, one_plane, values_of(solution));
 }
 
-std::shared_ptr<BackgroundField> background_of_fields(Session& session, const std::string& mesh_path,
-                                                      const std::string& sol_path) {
+namespace {
+
+std::shared_ptr<BackgroundField> background_of_fields_here(Session& session, const std::string& mesh_path,
+                                                           const std::string& sol_path) {
   FlatMesh mesh = straight_over_nodes(read_carrier(mesh_path));
   const bool one_plane = session.model().plane;
   const Solution fields = read_fields(sol_path, mesh, mesh_path);
@@ -319,12 +328,25 @@ std::shared_ptr<BackgroundField> background_of_fields(Session& session, const st
   return field_of(mesh, one_plane, std::move(values));
 }
 
-std::int64_t transfer_files(const Session& session, const std::string& mesh_path, const std::string& sol_path,
+}  // namespace
+
+std::shared_ptr<BackgroundField> background_of_fields(Session& session, const std::string& mesh_path,
+                                                      const std::string& sol_path) {
+  std::shared_ptr<BackgroundField> background;
+  session.together([&](const Crew&) { background = background_of_fields_here(session, mesh_path, sol_path); });
+  return background;
+}
+
+std::int64_t transfer_files(Session& session, const std::string& mesh_path, const std::string& sol_path,
                             const std::string& out_path) {
-  const FlatMesh mesh = read_carrier(mesh_path);
-  const Solution fields = read_fields(sol_path, mesh, mesh_path);
-  return write_transferred(session, surface_of(mesh, session.model()),
-                           with_nodes_on_edges(mesh, fields.values, fields.components()), fields, sol_path, out_path);
+  std::int64_t outside = 0;
+  session.together([&](const Crew& crew) {
+    const FlatMesh mesh = read_carrier(mesh_path);
+    const Solution fields = read_fields(sol_path, mesh, mesh_path);
+    outside = write_transferred(session, surface_of(mesh, session.model()),
+                                with_nodes_on_edges(mesh, fields.values, fields.components()), fields, sol_path, out_path, crew);
+  });
+  return outside;
 }
 
 namespace {
@@ -368,7 +390,9 @@ VertexPrescriptions wanted_by(Session& session, const Start& start) {
 
 }  // namespace
 
-void adapt_by_files(Session& session, Monitor& monitor) {
+namespace {
+
+void adapt_by_files(Session& session, const Crew& crew, Monitor& monitor) {
   Parameters& parameters = session.parameters();
   const Start start = start_of(session);
   const std::string out_path = parameters.text("adapt_out");
@@ -389,10 +413,16 @@ void adapt_by_files(Session& session, Monitor& monitor) {
   }
   if (out_path.empty()) return;
   if (const std::int64_t outside =
-          write_transferred(session, start.from, start.values, start.fields, start.sol_path, out_path);
+          write_transferred(session, start.from, start.values, start.fields, start.sol_path, out_path, crew);
       outside > 0)
     monitor.message(Level::warning, std::to_string(outside) + " vertices lie outside of the mesh of the field " +
                                         "and have the nearest value");
+}
+
+}  // namespace
+
+void adapt_by_files(Session& session, Monitor& monitor) {
+  session.together([&](const Crew& crew) { adapt_by_files(session, crew, monitor); });
 }
 
 }  // namespace carreau

@@ -32,8 +32,9 @@ std::shared_ptr<BackgroundField> background_of_fields(Session& session, const st
 
 /// Writes the fields of `sol_path` at the vertices of `mesh_path` as they are at the vertices of the session's mesh, of
 /// any types, to `out_path`, whose dimension is 2 for a plane model: vectors get or lose the component z. Returns the
-/// number of vertices beside the old mesh; they have the nearest values. Throws FileError and InvalidArgument.
-std::int64_t transfer_files(const Session& session, const std::string& mesh_path, const std::string& sol_path,
+/// number of vertices beside the old mesh; they have the nearest values. The processes of a team share the work, and the first one writes. Throws
+/// FileError and InvalidArgument.
+std::int64_t transfer_files(Session& session, const std::string& mesh_path, const std::string& sol_path,
                             const std::string& out_path);
 
 /// `call adapt` of blsurf.env: one step of the loop. The fields adapt_sol at the vertices of adapt_mesh, or of the

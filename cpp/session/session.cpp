@@ -132,11 +132,22 @@ const QualitySummary& Session::quality() const {
   return *s.quality;
 }
 
+void Session::together(const std::function<void(const Crew&)>& body) const {
+  State& s = *state_;
+  const Crew crew{s.team.get(), threads_of(s.parameters)};
+  if (crew.team == nullptr || s.is_together) return body(crew);
+  s.is_together = true;
+  try {
+    crew.team->run([&] { body(crew); });
+  } catch (...) {
+    s.is_together = false;
+    throw;
+  }
+  s.is_together = false;
+}
+
 void Session::make_mesh(double from, double to) {
-  if (Team* const team = state_->team.get(); team != nullptr)
-    team->run([&] { make_mesh_alone(from, to); });
-  else
-    make_mesh_alone(from, to);
+  together([&](const Crew&) { make_mesh_alone(from, to); });
 }
 
 void Session::make_mesh_alone(double from, double to) {

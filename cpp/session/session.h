@@ -3,6 +3,7 @@
 // the steps.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +22,7 @@
 #include "session/parameters.h"
 #include "size/background.h"
 #include "support/monitor.h"
+#include "support/ranks/crew.h"
 #include "support/ranks/team.h"
 #include "surface/composite.h"
 
@@ -61,6 +63,9 @@ class Session {
   /// the same geometry, model and parameters, and call make_mesh() together: each throws what one throws. Differences
   /// that show in curves or in the mesh are errors.
   void set_team(std::shared_ptr<TeamLink> link);
+  /// Calls body(crew), which may make meshes, in all processes of the team together: what it throws in one of them reaches
+  /// all. Without a team in this one alone.
+  void together(const std::function<void(const Crew&)>& body) const;
   void clear_model() noexcept;  ///< the mesh made of it stays
   [[nodiscard]] const Model& model() const noexcept;
 

@@ -25,6 +25,7 @@ struct Session::State {
   std::shared_ptr<BackgroundField> background;
   std::shared_ptr<TeamLink> team_link;
   std::unique_ptr<Team> team;  // of team_link; null: this process is alone
+  bool is_together = false;    // in a run of the team
   BackgroundReport background_report;
   SurfaceMesh previous;
   bool has_previous = false;

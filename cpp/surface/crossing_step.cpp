@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "mesh/intersections.h"
+#include "mesh/crossings/shared_search.h"
 #include "surface/attempts.h"
 #include "surface/crossings/common_points.h"
 #include "surface/quads/quadrilaterals.h"
@@ -92,7 +92,7 @@ struct Crossings {
   explicit Crossings(const CompositeRun& run)
       : all(whole(run.result.mesh)),
         found(find_intersections(run.result.mesh.vertices, all.triangles,
-                                 {.limit = most_pairs, .threads = run.options.threads}, run.monitor)) {}
+                                 most_pairs, {run.options.team, run.options.threads}, run.monitor)) {}
 
   WholeMesh all;
   Intersections found;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""`mpirun carreau mesh` writes what `carreau mesh` writes, byte for byte; VTK reads every triangle of the .pvtu once; a rank
+"""`mpirun carreau mesh` and `adapt` write what one process writes, byte for byte; VTK reads every triangle of the .pvtu once; a rank
 that is killed leaves no file.
 
     command_test.py <mpirun> <ranks> <carreau> <teapot.bpt> <python with VTK, or NONE>
@@ -19,6 +19,7 @@ import mpirun
 MPIRUN, RANKS, CARREAU, TEAPOT, VTK = sys.argv[1], int(sys.argv[2]), *sys.argv[3:6]
 HERE = os.path.dirname(os.path.abspath(__file__))
 RUNS = [["--size", "0.2"], ["--angle", "8", "--gradation", "1.3"], ["--size", "0.25", "--independent"]]
+ADAPTATION = ["--formula", "tanh(8 * (y - x^2 / 2))", "--tolerance", "0.002", "--gradation", "2"]
 TRIANGLES_SIZE = "0.04"  # 80 000 triangles, which are remeshed in parts
 
 
@@ -78,6 +79,52 @@ def same_triangles(folder):
     assert os.path.islink(full) and sorted(os.listdir(folder)) == ["full.meshb", "many.meshb", "one.meshb", "torus.off"]
 
 
+def write_square(path):
+    corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    with open(path, "w", encoding="ascii") as file:
+        print(4, 2, 0, 0, file=file)
+        for i, (x, y) in enumerate(corners):
+            print(i + 1, x, y, file=file)
+        print("4 1", *(f"{i + 1} {i + 1} {(i + 1) % 4 + 1} {i + 1}" for i in range(4)), "0", sep="\n", file=file)
+
+
+def write_fields(mesh, sol):
+    with open(mesh, encoding="ascii") as file:
+        words = file.read().split()
+    start = words.index("Vertices")
+    points = [(float(words[start + 2 + 3 * k]), float(words[start + 3 + 3 * k])) for k in range(int(words[start + 1]))]
+    with open(sol, "w", encoding="ascii") as file:
+        print("MeshVersionFormatted 2\nDimension 2\nSolAtVertices", len(points), "2 1 2", sep="\n", file=file)
+        for x, y in points:
+            print(repr(math.tanh(8 * (y - x * x / 2))), repr(x * y), repr(y), file=file)
+        print("End", file=file)
+
+
+def same_adaptations(folder):
+    square = f"{folder}/square.poly"
+    write_square(square)
+    for i, options in enumerate([["--min", "0.01"], ["--min", "0.01", "--differences", "--shape", "anisotropic"]]):
+        one, many = f"{folder}/one{i}.meshb", f"{folder}/many{i}.meshb"
+        first = alone("adapt", square, *ADAPTATION, *options, "-o", one)
+        done = mpirun.run(MPIRUN, RANKS, CARREAU, "adapt", square, *ADAPTATION, *options, "-o", many)
+        assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
+        assert content(one) == content(many), options
+    # By files: what is estimated, and the fields on the next mesh.
+    alone("plane", square, "--size", "0.05", "-o", f"{folder}/last.mesh")
+    write_fields(f"{folder}/last.mesh", f"{folder}/last.sol")
+    by_files = ["adapt", square, "--mesh", f"{folder}/last.mesh", "--sol", f"{folder}/last.sol", "--min", "0.01"]
+    first = alone(*by_files, "-o", f"{folder}/next1.mesh")
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, *by_files, "-o", f"{folder}/next2.mesh")
+    assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
+    for suffix in (".mesh", ".sol"):
+        assert content(f"{folder}/next1{suffix}") == content(f"{folder}/next2{suffix}"), suffix
+    # A formula that has no value ends all ranks with one sentence.
+    before = sorted(os.listdir(folder))
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, "adapt", square, "--formula", "log(x)", "-o", f"{folder}/none.mesh")
+    assert done.returncode == 2 and done.stderr.count("carreau: ") == 1 and "log(x)" in done.stderr, (done.returncode, done.stderr)
+    assert sorted(os.listdir(folder)) == before
+
+
 def bad_input(folder):
     before = sorted(os.listdir(folder))
     done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", f"{folder}/none.bpt", "--size", "1", "-o", f"{folder}/x.pvtu")
@@ -101,16 +148,16 @@ def ranks_of(launcher):
     return sorted(found)
 
 
-def killed(folder, which):
-    started = subprocess.Popen(mpirun.command(MPIRUN, RANKS, [CARREAU, "mesh", TEAPOT, "--size", "0.012", "-o", f"{folder}/x.pvtu",
-                                                              "-o", f"{folder}/x.meshb"]),
+def killed(folder, which, arguments, after):
+    """`after`: seconds from when all ranks are there."""
+    started = subprocess.Popen(mpirun.command(MPIRUN, RANKS, [CARREAU, *arguments, "-o", f"{folder}/x.meshb"]),
                                env=mpirun.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         deadline = time.monotonic() + 60
         while len(ranks := ranks_of(started.pid)) < RANKS and time.monotonic() < deadline:
             time.sleep(0.02)
         assert len(ranks) == RANKS, ranks
-        time.sleep(0.5)
+        time.sleep(after)
         os.kill(ranks[which], signal.SIGKILL)
         _, errors = started.communicate(timeout=60)
     finally:
@@ -124,7 +171,14 @@ with tempfile.TemporaryDirectory() as temporary:
     bad_input(temporary)
 with tempfile.TemporaryDirectory() as temporary:
     same_triangles(temporary)
-for rank in {0, RANKS - 1}:
-    with tempfile.TemporaryDirectory() as temporary:
-        killed(temporary, rank)
+with tempfile.TemporaryDirectory() as temporary:
+    same_adaptations(temporary)
+with tempfile.TemporaryDirectory() as temporary, tempfile.TemporaryDirectory() as out:
+    torus_file, square_file = f"{temporary}/torus.off", f"{temporary}/square.poly"
+    write_torus(torus_file), write_square(square_file)
+    for rank in {0, RANKS - 1}:
+        killed(out, rank, ["mesh", TEAPOT, "--size", "0.012", "-o", f"{out}/x.pvtu"], 0.5)
+    # While parts are remeshed by edits, and while fields are estimated.
+    killed(out, RANKS - 1, ["mesh", torus_file, "--size", "0.03", "--element", "p2"], 2)
+    killed(out, RANKS - 1, ["adapt", square_file, *ADAPTATION, "--iterations", "50", "--min", "0.002"], 1.5)
 print("the command holds on", RANKS, "ranks")

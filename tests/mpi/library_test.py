@@ -24,9 +24,11 @@ def content(path):
 
 
 for case in ["same", "parts", "status", "stop", "no_memory", "large_same", "large_status_inside", "large_stop", "large_no_memory",
-             "bulging_large_same", "bulging_large_status_inside", "bulging_large_stop", "bulging_large_no_memory"]:
+             "bulging_large_same", "bulging_large_status_inside", "bulging_large_stop", "bulging_large_no_memory",
+             "adapt_same", "adapt_status", "adapt_stop", "adapt_no_memory"]:
     holds(case)
-for case in ["other_curves", "other_inside", "large_other_inside", "bulging_large_other_inside"] if RANKS > 1 else []:
+for case in ["other_curves", "other_inside", "large_other_inside", "bulging_large_other_inside", "adapt_other_field",
+             "adapt_other_values"] if RANKS > 1 else []:
     holds(case)
 
 with tempfile.TemporaryDirectory() as folder:
@@ -40,11 +42,13 @@ with tempfile.TemporaryDirectory() as folder:
 # Nothing is left of what a full disk did not take.
 with tempfile.TemporaryDirectory() as folder:
     holds("full_disk", folder)
+    holds("large_files", folder)
     assert not os.listdir(folder), os.listdir(folder)
 
 # A rank that dies ends all of them.
-with tempfile.TemporaryDirectory() as folder:
-    done = run(MPIRUN, RANKS, PROGRAM, "dies", cwd=folder)
-    assert done.returncode != 0 and not os.listdir(folder), (done.returncode, os.listdir(folder))
-    assert "signal 9" in done.stderr, done.stderr
+for case in ["dies", "adapt_dies", "large_dies", "bulging_large_dies"]:
+    with tempfile.TemporaryDirectory() as folder:
+        done = run(MPIRUN, RANKS, PROGRAM, case, cwd=folder)
+        assert done.returncode != 0 and not os.listdir(folder), (case, done.returncode, os.listdir(folder))
+        assert "signal 9" in done.stderr, (case, done.stderr)
 print("all cases hold on", RANKS, "ranks")

@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "carreau_mpi.h"
+#include "field.h"
+#include "large_files.h"
 #include "waves.h"
 
 namespace {
 
 using mpi_tests::Fault;
+using mpi_tests::Field;
 using mpi_tests::Waves;
 
 int rank = 0, size = 1, failures = 0;
@@ -130,6 +133,107 @@ void fails(Fault fault, carreau_status expected, const std::string& words, const
   // Ranks that went wrong once can mesh again.
   run.waves.fault = Fault::none;
   expect(carreau_mesh_generate_mpi(run.session, world()) == CARREAU_OK, "the next run is sound: " + run.sentence());
+}
+
+const std::vector<std::string> adapted{"hphydef=0.3", "gradation=2"};
+
+carreau_status adapt(Run& run, Field& field, std::int32_t shape, carreau_adaptation_report* report) {
+  field.session = run.session;
+  carreau_estimator estimator{};
+  estimator.struct_size = sizeof estimator;
+  estimator.shape = shape, estimator.tolerance = 0.004, estimator.hmin = 0.01, estimator.hmax = 1;
+  carreau_adaptation adaptation{};
+  adaptation.struct_size = sizeof adaptation;
+  adaptation.estimator = &estimator, adaptation.field = mpi_tests::field_at, adaptation.user = &field, adaptation.iterations = 2;
+  return carreau_adapt(run.session, &adaptation, report);
+}
+
+std::vector<double> numbers_of(const carreau_adaptation_report& r) {
+  return {r.error_max, r.error_rms, r.error_max_before, r.error_rms_before, r.size_min, r.stretch_max,
+          static_cast<double>(r.vertices), static_cast<double>(r.triangles), static_cast<double>(r.outside)};
+}
+
+// Sizes and metrics at the vertices of the mesh, and the field carried from the mesh before.
+std::vector<double> estimated_and_carried(Run& run) {
+  std::int64_t n = 0, m = 0, before = 0;
+  carreau_mesh_count(run.mesh(), &n, &m, nullptr, nullptr);
+  std::vector<double> xyz(3 * static_cast<std::size_t>(n)), values(static_cast<std::size_t>(n));
+  carreau_mesh_vertices(run.mesh(), n, xyz.data());
+  Field field;
+  mpi_tests::field_at(n, xyz.data(), values.data(), &field);
+  carreau_estimator estimator{};
+  estimator.struct_size = sizeof estimator;
+  estimator.shape = CARREAU_ANISOTROPIC, estimator.hmin = 0.01, estimator.hmax = 1;
+  std::vector<double> found(7 * static_cast<std::size_t>(n));
+  expect(carreau_estimate(run.session, &estimator, n, values.data(), found.data(), found.data() + n) == CARREAU_OK, run.sentence());
+  before = n;
+  expect(carreau_set_vertex_sizes(run.session, n, found.data()) == CARREAU_OK && carreau_mesh_generate(run.session) == CARREAU_OK,
+         run.sentence());
+  carreau_mesh_count(run.mesh(), &n, &m, nullptr, nullptr);
+  std::vector<double> carried(static_cast<std::size_t>(n));
+  std::int64_t outside = 0;
+  expect(carreau_transfer(run.session, 1, before, values.data(), n, carried.data(), &outside) == CARREAU_OK, run.sentence());
+  found.insert(found.end(), carried.begin(), carried.end());
+  found.push_back(static_cast<double>(outside));
+  return found;
+}
+
+// The meshes of an adaptation, and what it tells, are those of one process.
+void same_adaptation() {
+  for (const std::int32_t shape : {CARREAU_ISOTROPIC, CARREAU_ANISOTROPIC}) {
+    Run alone(adapted), together(adapted);
+    Field of_one, of_all;
+    carreau_adaptation_report one{}, all{};
+    one.struct_size = all.struct_size = sizeof one;
+    expect(adapt(alone, of_one, shape, &one) == CARREAU_OK, alone.sentence());
+    expect(carreau_mpi_attach(together.session, world()) == CARREAU_OK, together.sentence());
+    expect(adapt(together, of_all, shape, &all) == CARREAU_OK, together.sentence());
+    expect(one.triangles > 2000 && one.triangles_before != one.triangles, "the mesh is adapted");
+    expect(numbers_of(one) == numbers_of(all), "the same report");
+    expect(encoded(alone.mesh()) == encoded(together.mesh()), "the same adapted mesh");
+    // Each rank's own share of the points, and of 64 one more for each list of points.
+    std::int64_t points = 0, calls = 0;
+    MPI_Allreduce(&of_all.points, &points, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(&of_all.calls, &calls, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    constexpr int lists = 6;  // values and errors on three meshes
+    expect(points >= of_one.points && points <= of_one.points + size * (of_one.points / 64 + lists), "points are shared");
+    expect(estimated_and_carried(alone) == estimated_and_carried(together), "the same estimates and fields");
+  }
+}
+
+// What the field of the last rank does is an error of all; the mesh of before stays, and the next run is sound.
+void adaptation_fails(Fault fault, carreau_status expected, const std::string& words) {
+  Run run(adapted);
+  expect(carreau_mpi_attach(run.session, world()) == CARREAU_OK, run.sentence());
+  expect(carreau_mesh_generate(run.session) == CARREAU_OK, run.sentence());
+  const std::string before = encoded(run.mesh());
+  const bool last = rank == size - 1;
+  Field field;
+  field.from = 1;
+  if (last) field.fault = fault;
+  const carreau_status status = adapt(run, field, CARREAU_ISOTROPIC, nullptr);
+  mpi_tests::memory_is_short = false;
+  const bool short_of_memory = last && fault == Fault::no_memory && status == CARREAU_ERR_MEMORY;
+  expect(short_of_memory || status == expected, "the status is " + std::to_string(status) + ": " + run.sentence());
+  expect(run.sentence().find(words) != std::string::npos, "'" + words + "' is in '" + run.sentence() + "'");
+  expect(encoded(run.mesh()) == before, "the mesh of before stays");
+  field.fault = Fault::none;
+  expect(adapt(run, field, CARREAU_ISOTROPIC, nullptr) == CARREAU_OK, "the next adaptation is sound: " + run.sentence());
+}
+
+// Values that differ are told by name.
+void other_values() {
+  Run run(adapted);
+  expect(carreau_mpi_attach(run.session, world()) == CARREAU_OK, run.sentence());
+  expect(carreau_mesh_generate(run.session) == CARREAU_OK, run.sentence());
+  std::int64_t n = 0, m = 0;
+  carreau_mesh_count(run.mesh(), &n, &m, nullptr, nullptr);
+  std::vector<double> values(static_cast<std::size_t>(n), rank == size - 1 ? 1 : 0), sizes(values.size());
+  carreau_estimator estimator{};
+  estimator.struct_size = sizeof estimator;
+  estimator.hmin = 0.01, estimator.hmax = 1;
+  expect(carreau_estimate(run.session, &estimator, n, values.data(), sizes.data(), nullptr) == CARREAU_ERR_MODEL, run.sentence());
+  expect(run.sentence().find("others on rank " + std::to_string(size - 1)) != std::string::npos, run.sentence());
 }
 
 /// Values of all ranks, one behind the other.
@@ -272,7 +376,10 @@ void run_case(const std::string& name, const std::string& folder) {
     parts();
   else if (name == "files")
     files(folder);
-  else if (name == "full_disk")
+  else if (name == "large_files") {
+    expect(mpi_tests::all_slices_cover(), "slices cover files");
+    expect(mpi_tests::writes_beyond_32_bits(folder + "/large.bin", rank, size), "bytes behind 2^32 are where they belong");
+  } else if (name == "full_disk")
     full_disk(folder);
   else if (name == "other_curves")
     fails(Fault::other_curves, CARREAU_ERR_MODEL, "on rank " + std::to_string(size - 1));
@@ -294,6 +401,22 @@ void run_case(const std::string& name, const std::string& folder) {
     fails(Fault::stop, CARREAU_ERR_CANCELLED, "stopped", one_large_face, 1);
   else if (name == "large_no_memory")
     fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory", one_large_face, 1);
+  else if (name == "large_dies")
+    fails(Fault::dies, CARREAU_OK, "nobody comes here", one_large_face, 1);
+  else if (name == "adapt_same")
+    same_adaptation();
+  else if (name == "adapt_status")
+    adaptation_fails(Fault::status, CARREAU_ERR_CALLBACK, "44");
+  else if (name == "adapt_stop")
+    adaptation_fails(Fault::stop, CARREAU_ERR_CANCELLED, "stopped");
+  else if (name == "adapt_no_memory")
+    adaptation_fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
+  else if (name == "adapt_other_field")
+    adaptation_fails(Fault::other_inside, CARREAU_ERR_MODEL, "another one on rank " + std::to_string(size - 1));
+  else if (name == "adapt_other_values")
+    other_values();
+  else if (name == "adapt_dies")
+    adaptation_fails(Fault::dies, CARREAU_OK, "nobody comes here");
   else if (name == "dies")
     fails(Fault::dies, CARREAU_OK, "nobody comes here");
   else

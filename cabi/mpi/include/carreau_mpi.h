@@ -31,8 +31,8 @@ extern "C" {
  * Errors: those of carreau_mesh_generate and carreau_set_team; CALLBACK (MPI has failed). */
 CARREAU_API carreau_status carreau_mesh_generate_mpi(carreau_session* session, int32_t comm);
 
-/* carreau_set_team with the ranks of a communicator: every mesh of the session is made by all of them from now on, also
- * those of an adaptation. The communicator is duplicated; the duplicate stays until MPI_Finalize. Free the session, or
+/* carreau_set_team with the ranks of a communicator: every mesh of the session is made by all of them from now on, and what
+ * carreau_set_team lists (estimates, fields carried over, ...) is called by all of them. The communicator is duplicated; the duplicate stays until MPI_Finalize. Free the session, or
  * give it another team, before that.
  * Errors: ARGUMENT (no communicator, MPI is not initialised), CALLBACK (MPI has failed). */
 CARREAU_API carreau_status carreau_mpi_attach(carreau_session* session, int32_t comm);

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "calls.h"
+#include "slices.h"
 #include "vtu_pieces.h"
 
 using namespace carreau_mpi;
@@ -130,8 +131,8 @@ std::int32_t keep_slice(std::int64_t, std::int64_t n, const void* bytes, void* u
     auto& request = *static_cast<SliceRequest*>(user);
     Slice& slice = request.slice;
     slice.total = n;
-    slice.begin = n / request.size * request.rank + std::min<std::int64_t>(n % request.size, request.rank);
-    slice.end = n / request.size * (request.rank + 1) + std::min<std::int64_t>(n % request.size, request.rank + 1);
+    const SliceRange own = slice_of(n, request.rank, request.size);
+    slice.begin = own.begin, slice.end = own.end;
     slice.bytes.assign(static_cast<const char*>(bytes) + slice.begin, static_cast<std::size_t>(slice.end - slice.begin));
     return 0;
   } catch (...) {
@@ -140,17 +141,8 @@ std::int32_t keep_slice(std::int64_t, std::int64_t n, const void* bytes, void* u
 }
 
 void write_slice(MPI_File file, const std::string& path, const Slice& slice) {
-  constexpr std::size_t most = std::size_t{1} << 30;  // counts of MPI are of 32 bits
-  for (std::size_t done = 0; done < slice.bytes.size(); done += most) {
-    const int n = static_cast<int>(std::min(most, slice.bytes.size() - done));
-    MPI_Status status;
-    int written = 0;
-    const int code = MPI_File_write_at(file, slice.begin + static_cast<MPI_Offset>(done), slice.bytes.data() + done, n,
-                                       MPI_BYTE, &status);
-    if (code == MPI_SUCCESS) MPI_Get_count(&status, MPI_BYTE, &written);
-    if (code != MPI_SUCCESS || written != n)
-      refuse(path, errno != 0 ? std::strerror(errno) : "MPI could not write all bytes; the disk may be full");
-  }
+  if (!write_at(file, slice.begin, slice.bytes.data(), slice.bytes.size()))
+    refuse(path, errno != 0 ? std::strerror(errno) : "MPI could not write all bytes; the disk may be full");
 }
 
 void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {

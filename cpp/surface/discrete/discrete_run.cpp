@@ -79,7 +79,7 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
   RemeshingFrame frame = start_frame(surface, start.refined, start.result.mesh, start.wanted, options, cad, monitor);
   frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
-                               {.threads = options.threads, .max_triangles = options.max_triangles}, cad, monitor);
+                               {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
   const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
   if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);

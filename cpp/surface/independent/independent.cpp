@@ -132,8 +132,8 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
   if (!placed) return "it is not made in planes";
   const bool poor = summarise_shapes(*placed->free).mean < least_mean;
   FreedMesh made = reassembled(result.mesh, std::move(*placed), frame, monitor);
-  Intersections found = find_crossings(made.mesh, options.threads, monitor);
-  if (found.count > 0 && found.count > find_crossings(result.mesh, options.threads, monitor).count) return "triangles would cross";
+  Intersections found = find_crossings(made.mesh, options, monitor);
+  if (found.count > 0 && found.count > find_crossings(result.mesh, options, monitor).count) return "triangles would cross";
   if (poor) return "shapes would be poor";
   std::string why = why_worse(made.mesh, result.mesh);
   if (!why.empty()) return why;

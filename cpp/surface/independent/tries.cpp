@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/crossings/shared_search.h"
 #include "mesh/flat_mesh.h"
 #include "model/bucket_sort.h"
 #include "support/infinity.h"
@@ -84,9 +85,9 @@ double share_in_range(const FreeMesh& mesh) {
 
 }  // namespace
 
-Intersections find_crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
+Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& options, Monitor& monitor) {
   const FlatMesh flat = flatten(mesh, false);
-  return find_intersections(flat.vertices, flat.triangles, {.threads = threads}, monitor);
+  return find_intersections(flat.vertices, flat.triangles, IntersectionOptions{}.limit, {options.team, options.threads}, monitor);
 }
 
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before) {
@@ -128,7 +129,7 @@ Tries::Tries(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, c
       crossings_before_(result.report.crossings) {}
 
 std::int64_t Tries::crossings_before() {
-  if (crossings_before_ < 0) crossings_before_ = find_crossings(before_.mesh, options_.threads, monitor_).count;
+  if (crossings_before_ < 0) crossings_before_ = find_crossings(before_.mesh, options_, monitor_).count;
   return crossings_before_;
 }
 
@@ -180,7 +181,7 @@ void Tries::guard(const Intersections& found, const FreedMesh& made) {
 // With why it is not to replace the mesh of before.
 Tries::Outcome Tries::put_together(StartedMesh&& mesh) {
   Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
-  outcome.crossings = find_crossings(outcome.made.mesh, options_.threads, monitor_);
+  outcome.crossings = find_crossings(outcome.made.mesh, options_, monitor_);
   outcome.crosses = outcome.crossings.count > 0 && outcome.crossings.count > crossings_before();
   outcome.why = outcome.crosses ? "more triangles would cross" : why_worse(outcome.made.mesh, before_.mesh);
   return outcome;

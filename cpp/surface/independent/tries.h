@@ -48,7 +48,7 @@ StartedMesh start_free_mesh(Cad& cad, const SurfaceTolerances& tolerances, const
 FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const RemeshingFrame& frame, Monitor& monitor);
 
 /// Triangles of a mesh that cross.
-Intersections find_crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor);
+Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& options, Monitor& monitor);
 
 /// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before);

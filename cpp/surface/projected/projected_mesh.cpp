@@ -2,13 +2,18 @@
 #include "surface/projected/projected_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/error.h"
+#include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
+#include "surface/independent/division/place_packet.h"
 #include "surface/projected/borders.h"
 #include "surface/projected/chart_mesh.h"
 #include "surface/projected/find_charts.h"
@@ -25,9 +30,32 @@ struct ChartWork {
   std::vector<std::int32_t> triangles;  // of the atlas
   std::vector<const BorderChain*> chains;
   std::unique_ptr<ChartPlane> plane;
-  std::optional<ChartMesh> mesh;
-  std::string why;  // there is none
+  std::string why;  // its borders are none
 };
+
+/// What comes of a chart.
+struct MadeChart {
+  std::string why;                   // there is no mesh
+  std::vector<std::int32_t> border;  // vertices of the mesh to come
+  std::vector<SurfacePlace> inner;   // of those that follow
+  TriangleList triangles;            // of the chart's own numbers
+};
+
+void put(PacketWriter& packet, const MadeChart& chart) {
+  packet.put(std::string_view(chart.why));
+  packet.put(chart.border);
+  put_places(packet, chart.inner);
+  put_triangles(packet, chart.triangles);
+}
+
+MadeChart get(PacketReader& packet) {
+  MadeChart chart;
+  chart.why = packet.text();
+  chart.border = packet.integers();
+  chart.inner = places_of(packet);
+  chart.triangles = triangles_of(packet);
+  return chart;
+}
 
 std::vector<ChartWork> charts_of(const ProjectedCharts& found, const Borders& borders) {
   std::vector<ChartWork> charts(found.axis.size());
@@ -148,14 +176,41 @@ SurfacePlace lifted(const FlatAtlas& atlas, const ChartPlane& plane, const Foot&
   return norm(wanted - plane.project(second.xyz)) < norm(miss) ? second : first;
 }
 
-void append(const FlatAtlas& atlas, const ChartWork& chart, Cad& cad, PlacedMesh& placed) {
-  const ChartMesh& mesh = *chart.mesh;
-  std::vector<std::int32_t> number = mesh.border;
-  for (std::size_t k = 0; k < mesh.inner.size(); ++k) {
-    number.push_back(static_cast<std::int32_t>(atlas.mesh.vertices.size() + placed.added.size()));
-    placed.added.push_back(lifted(atlas, *chart.plane, mesh.feet[k], mesh.inner[k], cad));
+MadeChart made_of(const ChartInput& input, Cad& cad, Monitor& monitor) {
+  MadeChart made;
+  try {
+    std::optional<ChartMesh> mesh = mesh_chart(input, monitor);
+    if (!mesh) return {"it is folded", {}, {}, {}};
+    for (std::size_t k = 0; k < mesh->inner.size(); ++k) {
+      if (k % between_checkpoints == 0) monitor.checkpoint();
+      made.inner.push_back(lifted(input.atlas, input.plane, mesh->feet[k], mesh->inner[k], cad));
+    }
+    made.border = std::move(mesh->border), made.triangles = std::move(mesh->triangles);
+  } catch (const DomainError& error) {
+    made.why = error.what();
   }
-  for (const auto& t : mesh.triangles) placed.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  return made;
+}
+
+void append(const FlatAtlas& atlas, const MadeChart& chart, PlacedMesh& placed) {
+  std::vector<std::int32_t> number = chart.border;
+  for (const SurfacePlace& place : chart.inner) {
+    number.push_back(static_cast<std::int32_t>(atlas.mesh.vertices.size() + placed.added.size()));
+    placed.added.push_back(place);
+  }
+  for (const auto& t : chart.triangles) placed.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+}
+
+// Charts fit together only where all processes cut the same surface by the same sizes.
+void require_same_surface(Team& team, const SurfaceMesh& mesh, std::span<const double> size) {
+  LongChecksum sum;
+  sum.add(mesh.vertices);
+  for (const double h : size) sum.add(std::bit_cast<std::uint64_t>(h));
+  const std::vector<std::string> all = team.exchange("surface of charts", sum.text());
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
+    if (all[rank] != all[0])
+      throw InvalidModel("the surface, or its sizes, are others on rank " + std::to_string(rank) +
+                         " than on rank 0: its callbacks or parameters differ");
 }
 
 }  // namespace
@@ -168,12 +223,13 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     monitor.message(Level::detail, "the mesh is not made in planes: " + why);
     return {};
   };
+  if (options.crew.team != nullptr) require_same_surface(*options.crew.team, before, size);
   const Charts& atlas = *frame.charts;
   if (std::ranges::any_of(atlas.triangles(), [](const Charts::Triangle& t) { return t.turned; }))
     return refuse("a face is turned");
   const FlatAtlas flat(atlas, before, frame.jets);
   const BorderSource source{
-      flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.threads, cad};
+      flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.crew.threads, cad};
   ProjectedCharts found = find_charts(flat, monitor);
   if (!found.complete) return refuse("triangles lean too much");
   std::optional<Plan> plan;
@@ -183,25 +239,21 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     if (!plan) return refuse("borders of charts are not divided");
   }
   const auto work = [&](std::size_t c, Monitor& own) {
-    ChartWork& chart = plan->charts[c];
-    try {
-      chart.mesh = mesh_chart({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c),
-                               plan->xyz, options.max_triangles},
-                              own);
-      if (!chart.mesh) chart.why = "it is folded";
-    } catch (const DomainError& error) {
-      chart.why = error.what();
-    }
+    const ChartWork& chart = plan->charts[c];
+    return made_of({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c), plan->xyz,
+                    options.max_triangles},
+                   cad, own);
   };
-  run_each(plan->charts.size(), false, options.threads, work, monitor);
+  const std::vector<MadeChart> charts =
+      shared_work<MadeChart>(options.crew, "charts", plan->charts.size(), !cad.reentrant(), work, put, get, monitor);
   PlacedMesh placed;
   placed.added = std::move(plan->borders.added);
   for (std::size_t k = 0; k < placed.added.size(); ++k)
     placed.seams.push_back(static_cast<std::int32_t>(before.vertices.size() + k));
-  for (const ChartWork& chart : plan->charts) {
-    if (!chart.mesh) return refuse(chart.why);
+  for (const MadeChart& chart : charts) {
+    if (!chart.why.empty()) return refuse(chart.why);
     monitor.checkpoint();
-    append(flat, chart, cad, placed);
+    append(flat, chart, placed);
   }
   placed.lines = std::move(plan->borders.lines), placed.on_line = std::move(plan->borders.on_line);
   monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " +

@@ -48,4 +48,7 @@ inline constexpr std::size_t most_around = 64;
 /// Rings of triangles beyond the border of a chart that its raster knows: cuts are straightened.
 inline constexpr int rings_beyond = 2;
 
+/// Vertices that are lifted between two looks for a stop [time only].
+inline constexpr std::size_t between_checkpoints = 256;
+
 }  // namespace carreau::thresholds::projected

@@ -15,6 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/thread_team.h"
+#include "mesh/crossings/shared_search.h"
+
 namespace carreau {
 namespace {
 
@@ -217,6 +220,33 @@ TEST(Intersections, OfTwoSheetsLieAlongTheirCommonLineWhateverTheNumberOfThreads
   EXPECT_EQ(few.count, one.count);
   ASSERT_EQ(few.pairs.size(), 7u);
   for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(few.pairs[k].triangles, one.pairs[k].triangles);
+}
+
+TEST(Intersections, AreFoundByManyProcessesAsByOne) {
+  std::vector<Vec3> vertices;
+  std::vector<Indices> triangles;
+  constexpr int n = 60;
+  for (const double where : {0.0, 0.3, 0.51})
+    add_sheet(
+        n, [where](double x, double) { return x - where; }, vertices, triangles);
+  add_sheet(
+      n, [](double, double) { return 0.0; }, vertices, triangles);
+  for (const std::size_t limit : {std::size_t{7}, std::size_t{100'000}}) {
+    Monitor monitor;
+    const Intersections one = find_intersections(vertices, triangles, {.limit = limit, .threads = 1}, monitor);
+    EXPECT_GE(one.count, 2 * n);
+    const auto thrown = testing::in_processes(3, [&](Team& team) {
+      Monitor own;
+      const Intersections ours = find_intersections(vertices, triangles, limit, Crew{&team, 2}, own);
+      EXPECT_EQ(ours.count, one.count);
+      ASSERT_EQ(ours.pairs.size(), one.pairs.size());
+      for (std::size_t k = 0; k < one.pairs.size(); ++k) {
+        EXPECT_EQ(ours.pairs[k].triangles, one.pairs[k].triangles);
+        EXPECT_EQ(ours.pairs[k].place, one.pairs[k].place);
+      }
+    });
+    for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
+  }
 }
 
 TEST(Intersections, PassOverTrianglesThatAreNone) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "common/thread_team.h"
 #include "mesh/triangle_search.h"
 #include "support/error.h"
 
@@ -196,6 +197,27 @@ TEST(SurfaceDistance, TheSameForAnyNumberOfThreads) {
   EXPECT_EQ(a.upper, b.upper);
   EXPECT_EQ(one, four);
   EXPECT_NEAR(a.lower, 1 - 1 / std::sqrt(3.0), 0.01);  // of the corner directions to the nearest side
+}
+
+TEST(SurfaceDistance, TheSameForAnyNumberOfProcesses) {
+  const Soup sphere = octahedron(30, onto_sphere), box_around = box(1);
+  Monitor silent;
+  std::vector<double> one;
+  const DistanceBounds a = bound_distance(sphere.view(), box_around.view(), {}, 1, silent, &one);
+  const double largest = largest_distance(sphere.vertices, sphere.triangles, box_around.vertices, box_around.triangles, silent);
+  EXPECT_LE(largest, a.upper);
+  EXPECT_GT(largest, 0.9 * a.lower);
+  const auto thrown = testing::in_processes(3, [&](Team& team) {
+    Monitor own;
+    const Crew crew{&team, 2};
+    std::vector<double> ours;
+    const DistanceBounds b = bound_distance(sphere.view(), box_around.view(), {}, crew, own, &ours);
+    EXPECT_EQ(a.lower, b.lower);
+    EXPECT_EQ(a.upper, b.upper);
+    EXPECT_EQ(one, ours);
+    EXPECT_EQ(largest, largest_distance(sphere.vertices, sphere.triangles, box_around.vertices, box_around.triangles, own, crew));
+  });
+  for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
 }
 
 TEST(SurfaceDistance, OfNothingIsNothingAndAStopIsObeyed) {

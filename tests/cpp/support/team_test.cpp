@@ -9,6 +9,7 @@
 
 #include "common/thread_team.h"
 #include "support/error.h"
+#include "support/ranks/crew.h"
 #include "support/ranks/dealt_work.h"
 #include "support/ranks/packet.h"
 #include "support/ranks/triangle_packet.h"
@@ -171,6 +172,46 @@ TEST(DealtWork, LackOfMemoryInOneProcessReachesAll) {
     deal_out(team, "squares", 6, 1, work, monitor);
   });
   for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("there is not enough memory"), std::string::npos);
+}
+
+TEST(SharedRows, AreMadeOnceAndReachAll) {
+  constexpr std::size_t n = 1001, width = 3;
+  std::vector<std::atomic<int>> times(n);
+  const auto fill = [&](std::size_t first, std::size_t last, double* out, Monitor&) {
+    for (std::size_t i = first; i < last; ++i) {
+      ++times[i];
+      for (std::size_t k = 0; k < width; ++k) *out++ = static_cast<double>(10 * i + k);
+    }
+  };
+  const auto check = [&](const std::vector<double>& rows) {
+    ASSERT_EQ(rows.size(), n * width);
+    for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i], static_cast<double>(10 * (i / width) + i % width));
+  };
+  Monitor silent;
+  const Rows rows{.count = n, .width = width, .at_once = 10};
+  check(shared_rows({nullptr, 3}, "rows", rows, fill, silent));
+  const auto thrown = in_processes(4, [&](Team& team) {
+    Monitor own;
+    check(shared_rows({&team, 2}, "rows", rows, fill, own));
+    check(shared_rows({&team, 1}, "rows", {.count = n, .width = width, .at_once = 400, .bound = true}, fill, own));
+    EXPECT_TRUE(shared_rows({&team, 1}, "rows", {.count = 0, .width = width, .at_once = 10}, fill, own).empty());
+  });
+  for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
+  for (const auto& each : times) EXPECT_EQ(each, 3);
+}
+
+TEST(SharedWork, ResultsAreThoseOfTheirNumbers) {
+  const auto work = [](std::size_t i, Monitor&) { return std::string(i, 'x'); };
+  const auto put = [](PacketWriter& packet, const std::string& text) { packet.put(std::string_view(text)); };
+  const auto get = [](PacketReader& packet) { return packet.text(); };
+  const auto make = [&](const Crew& crew) {
+    Monitor silent;
+    return shared_work<std::string>(crew, "work", 20, false, work, put, get, silent);
+  };
+  const std::vector<std::string> one = make({});
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].size(), i);
+  const auto thrown = in_processes(3, [&](Team& team) { EXPECT_EQ(make({&team, 2}), one); });
+  for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
 }
 
 template <typename E>

@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "common/thread_team.h"
 #include "geometry/discrete/discrete_cad.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"
@@ -36,7 +42,7 @@ struct MadeInPlanes {
   bool in_planes = false;
 };
 
-MadeInPlanes made_of(const FlatMesh& triangles, double size, int threads = 1) {
+MadeInPlanes made_of(const FlatMesh& triangles, double size, int threads = 1, std::shared_ptr<TeamLink> team = nullptr) {
   const BuiltGeometry built = discrete_geometry(std::make_shared<const DiscreteSurface>(surface_of(triangles, {})));
   Listener listener;
   Session session(listener);
@@ -46,6 +52,7 @@ MadeInPlanes made_of(const FlatMesh& triangles, double size, int threads = 1) {
   session.parameters().set("verb", 100);
   session.parameters().set("hphy_flag", 1);
   session.parameters().set("hphydef", size);
+  session.set_team(std::move(team));
   session.make_mesh();
   EXPECT_EQ(find_defects(session.mesh(), {.closed = false}), std::vector<std::string>{});
   return {session.mesh(), session.delivered()[EvaluationKind::length], listener.in_planes};
@@ -88,6 +95,39 @@ TEST(ProjectedMeshes, TheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.vertices, other.vertices);
     EXPECT_EQ(flatten(one, false).triangles, flatten(other, false).triangles);
   }
+}
+
+/// What each process makes, or the sentence of what it throws.
+std::vector<std::pair<MadeInPlanes, std::string>> made_by_processes(int n, const std::function<double(int)>& size) {
+  carreau::testing::CommonOfThreads common(n);
+  std::vector<std::pair<MadeInPlanes, std::string>> made(static_cast<std::size_t>(n));
+  std::vector<std::thread> processes;
+  for (int rank = 0; rank < n; ++rank)
+    processes.emplace_back([&, rank] {
+      auto& [mesh, sentence] = made[static_cast<std::size_t>(rank)];
+      try {
+        mesh = made_of(sphere(8), size(rank), 2, std::make_shared<carreau::testing::ThreadLink>(common, rank));
+      } catch (const std::exception& error) {
+        sentence = error.what();
+      }
+    });
+  for (std::thread& process : processes) process.join();
+  return made;
+}
+
+TEST(ProjectedMeshes, TheSameForAnyNumberOfProcesses) {
+  const SurfaceMesh one = made_of(sphere(8), 0.08, 1).mesh;
+  for (const auto& [made, sentence] : made_by_processes(3, [](int) { return 0.08; })) {
+    EXPECT_EQ(sentence, "");
+    EXPECT_TRUE(made.in_planes);
+    EXPECT_EQ(one.vertices, made.mesh.vertices);
+    EXPECT_EQ(flatten(one, false).triangles, flatten(made.mesh, false).triangles);
+  }
+}
+
+TEST(ProjectedMeshes, NameTheProcessWithOtherSizes) {
+  for (const auto& [made, sentence] : made_by_processes(3, [](int rank) { return rank == 2 ? 0.081 : 0.08; }))
+    EXPECT_NE(sentence.find("others on rank 2"), std::string::npos) << sentence;
 }
 
 // Three triangles at an edge: edits make the mesh.

@@ -6,7 +6,10 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "../../geometry/discrete/surfaces.h"
@@ -153,6 +156,83 @@ TEST(DividedRemeshing, AStopOfOneProcessIsOneOfAll) {
   const auto thrown = mesh_in_processes(2, [](int) { return usual_size; }, monitor, meshes);
   for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("stop"), std::string::npos) << sentence;
   for (const SurfaceMesh& mesh : meshes) EXPECT_TRUE(mesh.vertices.empty());
+}
+
+/// The torus, whose host fails from a call on.
+class FailingCad final : public Cad {
+ public:
+  enum class How { sound, callback, memory };
+  void fail(How how, std::int64_t from) { how_ = how, left_ = from; }
+  [[nodiscard]] std::int64_t calls() const { return calls_; }
+
+  [[nodiscard]] bool reentrant() const noexcept override { return true; }
+  void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
+    ++calls_;
+    if (how_ != How::sound && left_.fetch_sub(1) <= 0) {
+      if (how_ == How::memory) throw std::bad_alloc();
+      throw CallbackError(Where{.face = face}, "the surface is lost");
+    }
+    torus().cad->surface(face, want, uv, out);
+  }
+  Interval curve_interval(int face, int ic) override { return torus().cad->curve_interval(face, ic); }
+  CurveJet curve(int face, int ic, unsigned want, double t) override { return torus().cad->curve(face, ic, want, t); }
+
+ private:
+  How how_ = How::sound;
+  std::atomic<std::int64_t> left_{0}, calls_{0};
+};
+
+struct Outcome {
+  std::string sentence;
+  bool kept = false;  // the mesh of before
+  std::int64_t calls = 0;
+};
+
+/// Two processes make a coarse mesh, and then one in parts, of which the host of the second one fails from a call on.
+std::vector<Outcome> remeshed(FailingCad::How how, std::int64_t from) {
+  CommonOfThreads common(2);
+  std::vector<Outcome> outcomes(2);
+  std::vector<std::thread> processes;
+  for (int rank = 0; rank < 2; ++rank)
+    processes.emplace_back([&, rank] {
+      Outcome& outcome = outcomes[static_cast<std::size_t>(rank)];
+      Monitor monitor;
+      const auto cad = std::make_shared<FailingCad>();
+      Session session(monitor);
+      prepare(session, 0.4, 1);
+      session.set_triangles(std::dynamic_pointer_cast<const discrete::DiscreteCad>(torus().cad));
+      session.set_cad(cad);
+      session.set_team(std::make_shared<ThreadLink>(common, rank));
+      session.make_mesh();
+      const SurfaceMesh before = session.mesh();
+      const std::int64_t calls = cad->calls();
+      session.parameters().set("hphydef", usual_size);
+      if (rank == 1) cad->fail(how, from);
+      try {
+        session.make_mesh();
+      } catch (const std::exception& error) {
+        outcome.sentence = error.what();
+      }
+      outcome.kept = session.mesh().vertices == before.vertices;
+      outcome.calls = cad->calls() - calls;
+    });
+  for (std::thread& process : processes) process.join();
+  return outcomes;
+}
+
+// In the middle of the calls of a sound run parts are remeshed: they make nearly all of them.
+TEST(DividedRemeshing, AHostThatFailsInOneProcessEndsTheRunOfAllAndTheMeshOfBeforeStays) {
+  const std::vector<Outcome> sound = remeshed(FailingCad::How::sound, 0);
+  for (const Outcome& outcome : sound) {
+    EXPECT_EQ(outcome.sentence, "");
+    EXPECT_FALSE(outcome.kept);
+  }
+  for (const auto& [how, words] : {std::pair{FailingCad::How::callback, "the surface is lost"}, std::pair{FailingCad::How::memory, "memory"}})
+    for (const Outcome& outcome : remeshed(how, sound[1].calls / 2)) {
+      EXPECT_TRUE(outcome.kept);
+      if (outcome.sentence != "std::bad_alloc") EXPECT_NE(outcome.sentence.find(words), std::string::npos) << outcome.sentence;
+      EXPECT_NE(outcome.sentence, "");
+    }
 }
 
 }  // namespace

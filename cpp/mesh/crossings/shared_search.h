@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles that cross each other, sought by many processes.
+#pragma once
+
+#include "mesh/intersections.h"
+#include "support/ranks/crew.h"
+
+namespace carreau {
+
+/// find_intersections() by all processes of a team together, who get what one finds, whoever they are. `limit`: of
+/// Intersections::pairs.
+Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                 std::size_t limit, const Crew& crew, Monitor& monitor);
+
+}  // namespace carreau

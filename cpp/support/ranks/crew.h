@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Work that processes and their threads share, with results of any type.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/monitor.h"
+#include "support/ranks/dealt_work.h"
+#include "support/ranks/packet.h"
+#include "support/ranks/team.h"
+#include "support/stepped_tasks.h"
+
+namespace carreau {
+
+/// Who shares work: the processes of a team, or this one alone, and the threads of each. Results do not depend on it.
+struct Crew {
+  Team* team = nullptr;  ///< null: this process alone
+  int threads = 1;       ///< of each process
+};
+
+/// What work(i, monitor) gives for each i below n: each is called once, in one of the processes. `bound`: from the
+/// thread that calls, since a host is asked that others must not ask. put(packet, result) and get(packet) carry results from one process
+/// to the others. With a team all processes call it, and errors come out as those of deal_out().
+template <typename Result, typename Work, typename Put, typename Get>
+std::vector<Result> shared_work(const Crew& crew, std::string_view step, std::size_t n, bool bound, const Work& work,
+                                const Put& put, const Get& get, Monitor& monitor) {
+  std::vector<Result> results(n);
+  if (crew.team == nullptr) {
+    run_each(
+        n, bound, crew.threads, [&](std::size_t i, Monitor& of_task) { results[i] = work(i, of_task); }, monitor);
+    return results;
+  }
+  const auto packed = [&](std::size_t i, Monitor& of_task) {
+    PacketWriter packet;
+    put(packet, work(i, of_task));
+    return packet.take();
+  };
+  std::vector<std::string> all = deal_out(*crew.team, step, n, bound ? 1 : crew.threads, packed, monitor);
+  for (std::size_t i = 0; i < n; ++i) {
+    PacketReader packet(all[i]);
+    results[i] = get(packet);
+    all[i] = {};
+  }
+  return results;
+}
+
+/// Rows of numbers.
+struct Rows {
+  std::size_t count = 0;    ///< of rows
+  std::size_t width = 1;    ///< numbers of a row
+  std::size_t at_once = 1;  ///< rows of a piece of work
+  bool bound = false;       ///< to the calling thread
+};
+
+/// fill(first, last, out, monitor) puts rows first to last - 1 to `out`, for pieces that do not depend on the crew. All processes
+/// get all rows.
+using FillRows = std::function<void(std::size_t first, std::size_t last, double* out, Monitor& monitor)>;
+std::vector<double> shared_rows(const Crew& crew, std::string_view step, const Rows& rows, const FillRows& fill, Monitor& monitor);
+
+}  // namespace carreau
