@@ -70,6 +70,8 @@ inline constexpr double swap_tolerance = 1e-9;
 inline constexpr std::size_t fixed_order_steps = 40;
 /// Triangles. Larger meshes do not fit in the cache and are sorted once. [time only]
 inline constexpr std::size_t renumbered_from = 200'000;
+/// Triangles. Whose places are called for beforehand. [time only]
+inline constexpr std::size_t renumbered_ahead = 16;
 /// Power of 2. Of the domain's box: below, coordinates inside would lose their last bits to underflow.
 /// [boundary_test, tiny and huge coordinates]
 inline constexpr int least_exponent = -900;
@@ -197,6 +199,17 @@ inline constexpr double shortest_lateral = 0.5;
 /// Passes. Swaps can run in circles in a metric that varies. [5: shapes on turning fields, p1 0.39 to 0.38; 20: as
 /// 10]
 inline constexpr int delaunay_passes = 10;
+/// Share of the least eigenvalue. Metrics of corners that differ by no more are much alike (settled.h). [by the proof
+/// there; time only, as the next five]
+inline constexpr double alike_share = 0.2;
+/// Cosine. Of the largest angle of a triangle whose edges need no test: more than the 0.125 that metrics may err by.
+inline constexpr double acute_cosine = 0.2;
+/// Squared units in the mean metric. Longer than crowded_length2 in the mean of any two alike: 0.52 / (1 - 0.2) = 0.65.
+inline constexpr double surely_not_crowded2 = 0.66;
+/// Q2 in the mean metric. More than doubtful_quality, beyond rounding.
+inline constexpr double surely_not_bad = 0.86;
+/// Triangles. Whose vertices are called for beforehand.
+inline constexpr std::size_t settled_ahead = 12;
 /// Squared units, and shortest edges of the triangle. Longer than any edge that points a unit apart leave.
 /// [MeshPlane.LongStripsAreDelaunayInTheMetric, LongStripsOfOneLayerDoNotLean]
 inline constexpr double long_edge2 = 9;
@@ -279,6 +292,9 @@ inline constexpr double flat_height = 1e-7;
 // Local search (optimise/local_search, search_zone, zone_moves)
 /// Q2. Better triangles are left alone. [LocalSearch; 0.92: twice the time, and no worst one is raised]
 inline constexpr double searched_quality = 0.88;
+/// Q2 in the mean metric of the vertices, where these are much the same. Better triangles are no worse than
+/// searched_quality in the metric of their middle. [0.88: no mesh of 62 changes; time only]
+inline constexpr double surely_not_searched = 0.93;
 /// Passes. [with none here and below, the mesh of frame.step by 8 degrees changes]
 inline constexpr int search_passes = 8;
 /// Shapes. Work is bounded by a multiple of the mesh, [time only, as the next four]

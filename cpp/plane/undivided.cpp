@@ -54,6 +54,7 @@ void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame
         std::any_of(places.begin(), places.end(), [&](Vec2 p) { return seed_region(placement, frame.inward(p)); }) ||
         seeded;
   if (seeded) fill();
+  placement.forget_touched();
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ bool Triangulation::too_near(const Vec2& p, int v, double d2, const InsertRules&
 
 // Whether the new point lies in the circle through a, d, b, which are all far from it, in the mean of their metrics and
 // its own: opposite angles sum to more than pi. sum is the area of a, d, p and d, b, p together.
-bool Triangulation::in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
-                                  double area) const noexcept {
-  const Metric2 m = metric + vertices[a.v].metric() + vertices[b.v].metric() + vertices[d.v].metric();
+inline bool Triangulation::in_far_circle(const Metric2& metric, const RimPoint& a, const RimPoint& b, const RimPoint& d,
+                                         double sum, double area) const noexcept {
+  const Vertex* const all = vertices.data();
+  const Metric2 m = metric + all[a.v].metric() + all[b.v].metric() + all[d.v].metric();
   const Vec2 pa{a.x, a.y}, pb{b.x, b.y}, pd{d.x, d.y};
   return dot(m, pa, pb) * (sum - area) + dot(m, pa - pd, pb - pd) * area < 0;
 }
@@ -108,12 +109,14 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
         charted_[d] = chart->at_offset({D.x, D.y});
         D.d2 = dot(charted_[d], charted_[d]);
       }
+      const bool is_far = std::max({A.d2, B.d2, D.d2}) > near2;
       double ad, db;
       int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
-      if (left >= 0 && right >= 0) {
-        bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
-                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > cavity_tolerance * D.d2 * e.area;
-        if (std::max({A.d2, B.d2, D.d2}) > near2) {
+      bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
+                            : A.d2 * db + B.d2 * ad - D.d2 * e.area > cavity_tolerance * D.d2 * e.area;
+      // The circle first: what is near and outside needs no signs.
+      if ((inside || is_far || e.crossed) && left >= 0 && right >= 0) {
+        if (is_far) {
           const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
           if (D.d2 <= near2)
             inside = true;  // a sliver between what is near and what is far
@@ -172,20 +175,26 @@ void Triangulation::fill(int p) {
     cavity_[cavity_size_++] = static_cast<std::int32_t>(triangles.size());
     triangles.emplace_back();
   }
+  // Plain addresses: bytes are written, which might be their vectors', for all that a compiler can tell.
   Triangle* const all = triangles.data();
+  Vertex* const all_vertices = vertices.data();
+  const RimEdge* const rim = rim_.data();
+  const RimPoint* const points = points_.data();
   const std::int32_t* const star = cavity_.data();
+  int s = star[0], before = star[k - 1];
   for (int i = 0; i < k; ++i) {
-    const RimEdge& e = rim_[i];
-    const int s = star[i], after = star[i + 1 < k ? i + 1 : 0], before = star[i > 0 ? i - 1 : k - 1];
+    const RimEdge& e = rim[i];
+    const int after = star[i + 1 < k ? i + 1 : 0];
+    const std::int32_t a = points[e.a].v;
     Triangle& T = all[s];
-    T.v[0] = p, T.v[1] = points_[e.a].v, T.v[2] = points_[e.b].v;
+    T.v[0] = p, T.v[1] = a, T.v[2] = points[e.b].v;
     T.n[0] = e.outside, T.n[1] = 4 * after + 2, T.n[2] = 4 * before + 1;
     T.imposed = e.imposed;
     T.degenerate = e.degenerate;
     T.done = Done::no;
-    T.mark = 0;
     if (e.outside != no_edge) all[e.outside >> 2].n[e.outside & 3] = 4 * s;
-    vertices[T.v[1]].triangle = s;
+    all_vertices[a].triangle = s;
+    before = s, s = after;
   }
   vertices[p].triangle = star[0];
 }

@@ -73,11 +73,15 @@ void Triangulation::renumber_if_large() {
   // The local search that follows adds few: without room for them the array would be copied to one of twice its size.
   sorted.reserve(triangles.size() + triangles.size() / 32);
   sorted.resize(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    Triangle& T = sorted[rank[t]];
-    T = triangles[t];
+  const std::size_t last = triangles.size() - 1;
+  for (std::size_t t = 0; t <= last; ++t) {
+    const std::size_t ahead = std::min(t + renumbered_ahead, last);
+    prefetch(&sorted[rank[ahead]]);
+    for (const HalfEdge n : triangles[ahead].n) prefetch(&rank[std::max(n, 0) >> 2]);
+    Triangle T = triangles[t];
     for (HalfEdge& n : T.n)
       if (n != no_edge) n = 4 * rank[n >> 2] + (n & 3);
+    sorted[rank[t]] = T;
   }
   triangles.swap(sorted);
   for (Vertex& v : vertices) v.triangle = rank[v.triangle];

@@ -168,8 +168,8 @@ class Triangulation {
   template <bool charted>
   bool dig_in(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart);
   [[nodiscard]] bool too_near(const Vec2& p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept;
-  [[nodiscard]] bool in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
-                                   double area) const noexcept;
+  [[nodiscard]] bool in_far_circle(const Metric2& metric, const RimPoint& a, const RimPoint& b, const RimPoint& d,
+                                   double sum, double area) const noexcept;
   [[nodiscard]] bool in_circle_of_chart(std::int32_t a, std::int32_t b, std::int32_t d) const noexcept;
   void reserve_cavity(std::size_t triangles);
 

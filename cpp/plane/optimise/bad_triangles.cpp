@@ -35,12 +35,12 @@ bool needs_help(const PlaneWork& work, Helped helped, int t) {
 }
 
 // Returns the triangles that were looked at, some of them several times.
-std::vector<std::int32_t> help(PlaneWork& work, Helped helped) {
+std::vector<std::int32_t> help(PlaneWork& work, Helped helped, const Settled& settled) {
   const auto total = static_cast<std::int32_t>(work.mesh.triangles.size());
   std::vector<std::int32_t> open, looked_at;
   for (std::int32_t t = 0; t < total; ++t) {
     if (t % steps_between_checks == 0) work.monitor.checkpoint();
-    if (needs_help(work, helped, t)) open.push_back(t);
+    if (!settled.is_good(t) && needs_help(work, helped, t)) open.push_back(t);
   }
   const std::int64_t budget = std::max(mending_shapes, mending_shapes_a_triangle * total);
   std::int64_t checked = 0;
@@ -67,8 +67,14 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped) {
 
 }  // namespace
 
-void remove_crowded_vertices(PlaneWork& work) { help(work, Helped::crowded); }
+void remove_crowded_vertices(PlaneWork& work) {
+  Settled settled;
+  find_settled(work, settled);
+  help(work, Helped::crowded, settled);
+}
 
-std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work) { return help(work, Helped::crowded_or_bad); }
+std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, const Settled& settled) {
+  return help(work, Helped::crowded_or_bad, settled);
+}
 
 }  // namespace carreau::plane

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
+#include "plane/optimise/settled.h"
 
 namespace carreau::plane {
 
@@ -13,7 +14,8 @@ namespace carreau::plane {
 void remove_crowded_vertices(PlaneWork& work);
 
 /// Bad triangles, left where layers met or where sizes jump, and crowded ones: moves, swaps, removals and insertions
-/// that each make what they touch better. Returns the triangles that were looked at: all others are good.
-std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work);
+/// that each make what they touch better. Returns the triangles that were looked at: all others are good. `settled`: what
+/// is known of the triangles beforehand.
+std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, const Settled& settled);
 
 }  // namespace carreau::plane

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/kernel/star.h"
 #include "plane/optimise/inner_edges.h"
 #include "plane/thresholds.h"
 
@@ -34,23 +35,45 @@ Degrees count_degrees(const PlaneWork& work) {
   return degrees;
 }
 
+namespace {
+
+// Whether the diagonal of c a d b, edge i of t, is to be swapped.
+bool wants_swap(const PlaneWork& work, const Degrees& degrees, int t, int i) {
+  const Triangle& A = work.mesh.triangles[t];
+  const HalfEdge o = A.n[i];
+  if (o == no_edge) return false;
+  const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = work.mesh.triangles[o >> 2].v[o & 3];
+  // The sum of squares of the excesses changes by 2 (ec + ed - ea - eb) + 4.
+  return degrees.excess(c) + degrees.excess(d) - degrees.excess(a) - degrees.excess(b) + 2 < 0 &&
+         (A.imposed >> i & 1) == 0 && work.shapes.quality(c, a, d) > degree_swap_quality &&
+         work.shapes.quality(c, d, b) > degree_swap_quality;
+}
+
+// Marks the triangles whose edges see the degree of v: those around it, and those beyond.
+void open_around(const Triangulation& mesh, int v, std::vector<std::uint8_t>& open) {
+  for_each_around(mesh, v, [&](int t) {
+    open[t] = 1;
+    const HalfEdge beyond = mesh.triangles[t].n[mesh.corner_of(t, v)];
+    if (beyond != no_edge) open[beyond >> 2] = 1;
+  });
+}
+
+}  // namespace
+
 void swap_to_degree_six(PlaneWork& work, Degrees& degrees) {
   Triangulation& mesh = work.mesh;
+  // After the first pass only where degrees have changed: what was refused elsewhere would be again.
+  std::vector<std::uint8_t> open(mesh.triangles.size(), 0);
   for (int pass = 0; pass < degree_passes; ++pass) {
     bool any = false;
     for_inner_edges(mesh, work.monitor, [&](int t, int i) {
-      const Triangle& A = mesh.triangles[t];
-      const HalfEdge o = A.n[i];
-      if (o == no_edge) return;
-      const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh.triangles[o >> 2].v[o & 3];
-      // The sum of squares of the excesses changes by 2 (ec + ed - ea - eb) + 4.
-      if (degrees.excess(c) + degrees.excess(d) - degrees.excess(a) - degrees.excess(b) + 2 >= 0 ||
-          (A.imposed >> i & 1) != 0)
-        return;
-      if (work.shapes.quality(c, a, d) <= degree_swap_quality || work.shapes.quality(c, d, b) <= degree_swap_quality)
-        return;
+      if ((pass > 0 && open[t] == 0) || !wants_swap(work, degrees, t, i)) return;
+      const HalfEdge o = mesh.triangles[t].n[i];
+      const Triangle A = mesh.triangles[t];
+      const std::int32_t ends[4] = {A.v[i], A.v[next3[i]], A.v[prev3[i]], mesh.triangles[o >> 2].v[o & 3]};
       mesh.swap_edge(t, i);
-      --degrees.found[a], --degrees.found[b], ++degrees.found[c], ++degrees.found[d];
+      ++degrees.found[ends[0]], --degrees.found[ends[1]], --degrees.found[ends[2]], ++degrees.found[ends[3]];
+      for (const std::int32_t v : ends) open_around(mesh, v, open);
       any = true;
     });
     if (!any) break;

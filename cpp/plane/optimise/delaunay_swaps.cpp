@@ -100,16 +100,19 @@ void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
 
 }  // namespace
 
-void swap_to_delaunay(PlaneWork& work) {
+Settled swap_to_delaunay(PlaneWork& work) {
   Triangulation& mesh = work.mesh;
+  Settled settled;
+  find_settled(work, settled);
   std::vector<std::int32_t> changed, next;
-  const auto swap = [&mesh](int t, int i, std::vector<std::int32_t>& both) {
-    both.push_back(t);
-    both.push_back(mesh.triangles[t].n[i] >> 2);
+  const auto swap = [&](int t, int i, std::vector<std::int32_t>& both) {
+    const int u = mesh.triangles[t].n[i] >> 2;
+    both.push_back(t), both.push_back(u);
+    settled.forget(t), settled.forget(u);
     mesh.swap_edge(t, i);
   };
   for_inner_edges(mesh, work.monitor, [&](int t, int i) {
-    if (wants_swap(work, t, i)) swap(t, i, changed);
+    if (!settled.are_acute(t, mesh.triangles[t].n[i]) && wants_swap(work, t, i)) swap(t, i, changed);
   });
   // A bounded number of delaunay_passes: in a metric that varies swaps can run in circles. Then both triangles of each
   // swap come back, and the list doubles with each pass.
@@ -127,10 +130,13 @@ void swap_to_delaunay(PlaneWork& work) {
   }
   // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many delaunay_passes.
   // Where no edge is long, swaps run in circles between triangles that are as good as each other.
-  if (!mesh.bends.empty()) return;
+  if (!mesh.bends.empty()) return settled;
   std::erase_if(changed, [&](std::int32_t t) { return !has_long_edge(mesh, mesh.triangles[t]); });
+  if (changed.empty()) return settled;
   shorten_long_edges(work, changed);
   make_delaunay_in_metric(mesh, changed, work.monitor);
+  settled.of.assign(mesh.triangles.size(), 0);
+  return settled;
 }
 
 }  // namespace carreau::plane

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "plane/kernel/plane_work.h"
+#include "plane/optimise/settled.h"
 
 namespace carreau::plane {
 
 /// Over the whole mesh, a bounded number of passes; then at long edges as many swaps as raise the smaller of two
-/// smallest angles. Where the field bends by lengths of edges.
-void swap_to_delaunay(PlaneWork& work);
+/// smallest angles. Where the field bends by lengths of edges. Returns what is settled of the triangles as they are now.
+Settled swap_to_delaunay(PlaneWork& work);
 
 }  // namespace carreau::plane

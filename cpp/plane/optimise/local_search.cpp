@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -142,18 +144,59 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   return false;
 }
 
-// Worst first, by shapes that are rounded.
-std::vector<std::pair<double, std::int32_t>> list_bad(const PlaneWork& work, const std::vector<char>& in_vain) {
-  std::vector<std::pair<double, std::int32_t>> bad;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(work.mesh.triangles.size()); ++t) {
-    const Triangle& T = work.mesh.triangles[t];
-    if (T.v[0] < 0 || T.done == Done::frozen || in_vain[t] != 0) continue;
-    const double q = work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]);
-    if (q < searched_quality) bad.emplace_back(std::round(q / tie), t);
-  }
-  std::sort(bad.begin(), bad.end());
-  return bad;
+// Neither searched nor near to it, by the metrics of the vertices, which are at hand: what is true of nearly all
+// triangles.
+bool is_far_better(const Triangulation& mesh, const Triangle& T) {
+  constexpr double quality2 = surely_not_searched * surely_not_searched / 12;
+  const Vertex &P = mesh.vertices[T.v[0]], &Q = mesh.vertices[T.v[1]], &R = mesh.vertices[T.v[2]];
+  const Metric2 mp = P.metric(), mq = Q.metric(), mr = R.metric(), m = mp + mq + mr;
+  const double p = determinant(mp), q = determinant(mq), r = determinant(mr);
+  const Vec2 u = Q.point() - P.point(), v = R.point() - P.point();
+  const double area = cross(u, v), sum = squared_length(m, u) + squared_length(m, v) + squared_length(m, v - u);
+  return std::max({p, q, r}) <= graded_change * std::min({p, q, r}) && area > 0 &&
+         area * area * determinant(m) > quality2 * sum * sum;
 }
+
+// Those triangles of the list that are to be searched around, worst first, by shapes that are rounded.
+class BadTriangles {
+ public:
+  explicit BadTriangles(const PlaneWork& work) : work_(work), in_vain_(work.mesh.triangles.size(), 0) {
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(work.mesh.triangles.size()); ++t) {
+      if (t % steps_between_checks == 0) work.monitor.checkpoint();
+      const Triangle& T = work.mesh.triangles[t];
+      if (T.v[0] >= 0 && !is_far_better(work.mesh, T)) changed_.push_back(t);
+    }
+  }
+
+  /// Of the triangles that have changed since the last call; the others are good, or were searched around in vain.
+  [[nodiscard]] std::vector<std::pair<double, std::int32_t>> list() {
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    std::vector<std::pair<double, std::int32_t>> bad;
+    for (const std::int32_t t : changed_) {
+      const Triangle& T = work_.mesh.triangles[t];
+      if (T.v[0] < 0 || T.done == Done::frozen || in_vain_[t] != 0) continue;
+      const double q = work_.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]);
+      if (q < searched_quality) bad.emplace_back(std::round(q / tie), t);
+    }
+    std::sort(bad.begin(), bad.end());
+    changed_.clear();
+    return bad;
+  }
+  void note_search(std::int32_t t) {
+    in_vain_.resize(work_.mesh.triangles.size(), 0);
+    in_vain_[t] = 1;
+  }
+  void note_changes(std::span<const std::int32_t> triangles) {
+    for (const std::int32_t t : triangles) in_vain_[t] = 0;
+    changed_.insert(changed_.end(), triangles.begin(), triangles.end());
+  }
+
+ private:
+  const PlaneWork& work_;
+  std::vector<char> in_vain_;
+  std::vector<std::int32_t> changed_;
+};
 
 }  // namespace
 
@@ -164,20 +207,19 @@ void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals)
   const std::int64_t budget = search_shapes + search_shapes_a_triangle * total;
   std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
   SearchZone zone(work, normals);
-  std::vector<char> in_vain(mesh.triangles.size(), 0);
+  BadTriangles bad(work);
   for (int pass = 0; pass < search_passes; ++pass) {
     bool any = false;
-    for (const auto& [rank, t] : list_bad(work, in_vain)) {
+    for (const auto& [rank, t] : bad.list()) {
       if (zone.shapes_asked > std::min(budget, allowed)) return;
       work.monitor.checkpoint();
       const Triangle& T = mesh.triangles[t];
       if (T.v[0] < 0 || work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]) > searched_quality) continue;
       const bool better = improve_around(zone, t, normals != nullptr);
-      in_vain.resize(mesh.triangles.size(), 0);
-      in_vain[t] = 1;
+      bad.note_search(t);
       if (!better) continue;
       allowed += search_shapes_a_success;
-      for (const std::int32_t s : zone.triangles) in_vain[s] = 0;
+      bad.note_changes(zone.triangles);
       any = true;
     }
     if (!any) break;

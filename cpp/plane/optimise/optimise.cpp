@@ -54,8 +54,8 @@ void optimise(PlaneWork& work, std::size_t whole) {
     work.mesh.drop_removed();
     smooth_evenly(work, arrays, {.passes = 2, .slowest = 0.5}, aim);
   }
-  swap_to_delaunay(work);
-  raise_flat_triangles(work, mend_bad_triangles(work));
+  const Settled settled = swap_to_delaunay(work);
+  raise_flat_triangles(work, mend_bad_triangles(work, settled));
 }
 
 void mend_squares(PlaneWork& work) {

@@ -73,12 +73,19 @@ inline bool is_sound(const PlaneWork& work, const SmoothingArrays& arrays, std::
 void prepare(const Triangulation& mesh, SmoothingArrays& arrays, bool by_size) {
   arrays.before.resize(mesh.vertices.size());
   arrays.steady.clear();
+  arrays.heights.clear();
   if (by_size) arrays.steady.reserve(mesh.triangles.size());
+  if (!by_size) arrays.heights.reserve(mesh.triangles.size());
   arrays.weights.assign(mesh.vertices.size(), 0);
-  for (const Triangle& T : mesh.triangles) {
+  const std::size_t n = mesh.triangles.size();
+  for (std::size_t t = 0; t < n; ++t) {
+    const Triangle& T = mesh.triangles[t];
+    for (const std::int32_t v : mesh.triangles[std::min(t + prefetch_distance, n - 1)].v) prefetch(&mesh.vertices[v]);
     double weight = 1;
-    if (by_size) {
-      const Metric2 m = sum_of_metrics(mesh.vertices[T.v[0]], mesh.vertices[T.v[1]], mesh.vertices[T.v[2]]);
+    const Metric2 m = sum_of_metrics(mesh.vertices[T.v[0]], mesh.vertices[T.v[1]], mesh.vertices[T.v[2]]);
+    if (!by_size) {
+      arrays.heights.push_back(equilateral_height(root_of_determinant(m)));
+    } else {
       // Of numbers that fit into single precision, whatever the metric.
       const double root = std::max({root_of_determinant(m), most_stretched * (m.a + m.c), least_root});
       const double height = equilateral_height(root);
@@ -108,6 +115,7 @@ void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
   const Triangle* const triangles = mesh.triangles.data();
   const Vertex* const vertices = mesh.vertices.data();
   const SmoothingArrays::Steady* const steady = arrays.steady.data();
+  const double* const heights = arrays.heights.data();
   Vec2* const proposals = arrays.proposals.data();
   for (std::size_t t = 0; t < n; ++t) {
     const Triangle& T = triangles[t];
@@ -133,7 +141,7 @@ void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
       k0 = 1 + slope, k1 = third / equilateral_height(1) * root, low = 1.5 * third, high = 6 * third;
     } else {
       m = sum_of_metrics(P, Q, R);
-      const double det = determinant(m), k = equilateral_height(root_of_determinant(m));
+      const double det = determinant(m), k = heights[t];
       spoiled = !has_area(P, Q, R, [det](double area) { return area * area * det > 9 * least_area * least_area; });
       k0 = k * (1 + slope), k1 = k * third, low = 1.5 * k1, high = 6 * k1;
     }

@@ -31,6 +31,7 @@ struct SmoothingArrays {
     float a, b, c, weight;
   };
   std::vector<Steady> steady;                 // where triangles count by size
+  std::vector<double> heights;                // elsewhere: of equilateral triangles, over their bases
   std::vector<Vec2> proposals;                // by vertex, weighed and summed up
   std::vector<double> weights;                // their sums: exact, or places would shift by a share of the box
   std::vector<Vec2> before;                   // places before the last pass

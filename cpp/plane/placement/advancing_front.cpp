@@ -79,7 +79,7 @@ void advance_front(Placement& placement) {
   judge_all(placement);
   Front front;
   Layer layer{strain_limit(placement.field)};
-  placement.touched.clear();
+  placement.forget_touched();
   front.find(placement);
   while (!front.edges.empty()) {
     placement.monitor.checkpoint();

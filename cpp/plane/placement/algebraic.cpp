@@ -41,7 +41,7 @@ void split_long_edges(Placement& placement) {
     }
     const std::size_t before = mesh.vertices.size();
     for (const Candidate& c : points) try_insert(placement, c, point_distance);
-    placement.touched.clear();
+    placement.forget_touched();
     if (mesh.vertices.size() == before) break;
   }
   insert_circumcentres(placement, large_radius, point_distance);

@@ -78,10 +78,12 @@ void insert_circumcentres(Placement& placement, double radius, double distance) 
   const Shapes& shapes = placement.shapes;
   const double graded = graded_radius(placement, radius);
   const double radius2 = radius * radius, graded2 = graded * graded;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    placement.tick();
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     // Those that are done, nearly all, have a smaller radius.
+    if (mesh.triangles[k].done != Done::no) continue;
+    const auto t = static_cast<int>(k);
     for (int attempt = 0; attempt < circumcentre_attempts && mesh.triangles[t].done == Done::no; ++attempt) {
+      placement.tick();
       const double r2 = shapes.squared_radius(t);
       if (!(r2 > (shapes.change(t) > graded_change ? graded2 : radius2))) break;
       if (!shorten(placement, t) && !insert_near(placement, circumcentre(placement, t), t, distance) &&
@@ -89,7 +91,7 @@ void insert_circumcentres(Placement& placement, double radius, double distance) 
         break;
     }
   }
-  placement.touched.clear();
+  placement.forget_touched();
 }
 
 }  // namespace carreau::plane

@@ -186,7 +186,7 @@ void surround_degenerate_sides(Placement& placement, const PlaneDomain& domain) 
     placement.monitor.checkpoint();
     surround(placement, side);
   }
-  placement.touched.clear();
+  placement.forget_touched();
 }
 
 }  // namespace carreau::plane

@@ -24,15 +24,10 @@ void Front::find(const Placement& placement) {
 }
 
 void Front::find_again(Placement& placement) {
-  Triangulation& mesh = placement.mesh;
+  const Triangulation& mesh = placement.mesh;
   clear(mesh);
-  for (const std::int32_t t : placement.touched) {
-    if (mesh.triangles[t].mark != 0) continue;
-    mesh.triangles[t].mark = 1;
-    visit(mesh, t);
-  }
-  for (const std::int32_t t : placement.touched) mesh.triangles[t].mark = 0;
-  placement.touched.clear();
+  for (const std::int32_t t : placement.touched) visit(mesh, t);
+  placement.forget_touched();
   connect(mesh);
 }
 

@@ -49,18 +49,22 @@ void judge_star(Placement& placement, int v, Metric2 metric) {
   constexpr double r2 = small_radius * small_radius;
   Triangulation& mesh = placement.mesh;
   const double four_det = 4 * determinant(metric);
-  const auto rim = mesh.rim();
+  const RimEdge* const rim = mesh.rim().data();
   const auto star = mesh.star();
+  const RimPoint* const points = &mesh.rim_point(0);
   const Vertex* const V = mesh.vertices.data();
+  Triangle* const all = mesh.triangles.data();
+  const bool bends = !mesh.bends.empty();
   const auto small = [](double a2, double b2, Vec2 a, Vec2 b, Metric2 m, double four_det_area2) {
     return a2 * b2 * squared_length(m, b - a) < r2 * four_det_area2;
   };
   for (std::size_t i = 0; i < star.size(); ++i) {
     const RimEdge& e = rim[i];
-    const RimPoint &A = mesh.rim_point(e.a), &B = mesh.rim_point(e.b);
-    placement.touched.push_back(star[i]);
+    const RimPoint &A = points[e.a], &B = points[e.b];
+    Triangle& T = all[star[i]];
+    placement.touch(star[i]);
     if (std::max(A.d2, B.d2) > 4 * r2) continue;
-    if (mesh.is_bent(v, A.v, B.v)) {
+    if (bends && mesh.is_bent(v, A.v, B.v)) {
       judge(placement, star[i]);
       continue;
     }
@@ -68,7 +72,7 @@ void judge_star(Placement& placement, int v, Metric2 metric) {
     if (!small(A.d2, B.d2, a, b, metric, four_det * e.area * e.area)) continue;
     const Metric2 m = (1.0 / 3) * (metric + V[A.v].metric() + V[B.v].metric());
     if (small(squared_length(m, a), squared_length(m, b), a, b, m, 4 * determinant(m) * e.area * e.area))
-      mesh.triangles[star[i]].done = Done::yes;
+      T.done = Done::yes;
   }
 }
 

@@ -28,6 +28,16 @@ struct Placement {
     if (++ticks % insertions_between_checks == 0) monitor.checkpoint();
   }
 
+  void touch(std::int32_t t) {
+    if (mesh.triangles[t].mark != 0) return;
+    mesh.triangles[t].mark = 1;
+    touched.push_back(t);
+  }
+  void forget_touched() {
+    for (const std::int32_t t : touched) mesh.triangles[t].mark = 0;
+    touched.clear();
+  }
+
   Triangulation& mesh;
   const Field& field;
   const Shapes& shapes;
@@ -36,7 +46,7 @@ struct Placement {
   std::vector<DegenerateSide> degenerate;
   std::vector<std::int32_t> degenerate_ends;  ///< keep no distance to new points (the edge does, as a whole)
   std::span<const std::uint8_t> resting;      ///< PlaneMesherOptions::resting
-  std::vector<std::int32_t> touched;          ///< triangles made since a pass has cleared this
+  std::vector<std::int32_t> touched;          ///< triangles made since a pass has cleared this, each once: marked
   long ticks = 0;
 };
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles of which one look tells that passes over edges and triangles would leave them as they are: nearly all of a
+// large mesh. Private to plane/optimise.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "plane/kernel/plane_work.h"
+#include "plane/optimise/inner_edges.h"
+#include "plane/thresholds.h"
+
+namespace carreau::plane {
+
+/// By triangle. An edge between two that are acute is Delaunay in the mean metric of the four vertices.
+struct Settled {
+  static constexpr std::uint8_t acute = 1, good = 2;
+  std::vector<std::uint8_t> of;
+
+  /// The triangle, and the one that its half-edge `beyond` is of.
+  [[nodiscard]] bool are_acute(int t, HalfEdge beyond) const noexcept {
+    return beyond != no_edge && (of[t] & of[beyond >> 2] & acute) != 0;
+  }
+  [[nodiscard]] bool is_good(int t) const noexcept { return (of[t] & good) != 0; }
+  void forget(int t) noexcept { of[t] = 0; }
+};
+
+/// Where the metrics M of the corners differ by at most alike_share of the least eigenvalue of their mean N, in
+/// spectral norm, the metric of the fourth vertex beyond an edge of two such triangles differs from N by at most 2.5
+/// times as much, and the mean of the four by an eighth of N: angles of cosine acute_cosine remain acute. Lengths in the
+/// mean of two corners are at least 1 - alike_share of those in N, squared.
+inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex& R) noexcept {
+  const float ra = std::max({P.a, Q.a, R.a}) - std::min({P.a, Q.a, R.a}),
+              rb = std::max({P.b, Q.b, R.b}) - std::min({P.b, Q.b, R.b}),
+              rc = std::max({P.c, Q.c, R.c}) - std::min({P.c, Q.c, R.c});
+  const Metric2 m = P.metric() + Q.metric() + R.metric();
+  const double det = determinant(m);
+  // Eigenvalues of a tensor are at least its determinant over its trace.
+  if (!(3 * static_cast<double>(std::max(ra, rc) + rb) * (m.a + m.c) <= alike_share * det)) return 0;
+  const Vec2 u = Q.point() - P.point(), v = R.point() - P.point();
+  const double uu = squared_length(m, u), vv = squared_length(m, v), uv = dot(m, u, v), ww = uu + vv - 2 * uv;
+  const double longest2 = std::max({uu, vv, ww}), shortest2 = std::min({uu, vv, ww}), sum = uu + vv + ww;
+  const bool acute = cross(u, v) > 0 && std::min({uv, uu - uv, vv - uv}) >= acute_cosine * longest2;
+  const bool good = shortest2 > 3 * surely_not_crowded2 &&
+                    12 * (uu * vv - uv * uv) > surely_not_bad * surely_not_bad * sum * sum;
+  return static_cast<std::uint8_t>(acute ? Settled::acute | (good ? Settled::good : 0) : 0);
+}
+
+/// Where the field bends none is known to be settled.
+inline void find_settled(const PlaneWork& work, Settled& settled) {
+  const Triangulation& mesh = work.mesh;
+  const std::size_t n = mesh.triangles.size();
+  settled.of.assign(n, 0);
+  if (!mesh.bends.empty()) return;
+  for (std::size_t t = 0; t < n; ++t) {
+    if (t % steps_between_checks == 0) work.monitor.checkpoint();
+    const Triangle& T = mesh.triangles[t];
+    for (const std::int32_t v : mesh.triangles[std::min(t + settled_ahead, n - 1)].v) prefetch(&mesh.vertices[v]);
+    settled.of[t] = settled_state(mesh.vertices[T.v[0]], mesh.vertices[T.v[1]], mesh.vertices[T.v[2]]);
+  }
+}
+
+}  // namespace carreau::plane
