@@ -138,7 +138,9 @@ TEST(Jacobian, TheBoundOfACurvedTriangleIsBelowItsLeastCoefficient) {
       std::vector<Vec3> x = nodes_of(CellKind::triangle6, random, by);
       const double bound = least_of_triangle6(std::span<const Vec3>(x));
       EXPECT_LE(bound, jacobian(CellKind::triangle6, x).least() + 1e-12);
-      if (by <= 1e-3) EXPECT_GT(bound, 0.9);
+      if (by <= 1e-3) {
+        EXPECT_GT(bound, 0.9);
+      }
       for (Vec3& p : x) p.z() = 0;
       const std::vector<Vec2> flat = in_plane(x);
       EXPECT_LE(least_of_triangle6(std::span<const Vec2>(flat)), jacobian(CellKind::triangle6, x).least_along({0, 0, 1}) + 1e-12);
