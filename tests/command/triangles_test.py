@@ -165,6 +165,13 @@ class Triangles(unittest.TestCase):
         self.assertLess(abs(found["quality"]["area"] - 24), 1e-9)
         lines = self.info(made, "--given-edges")
         self.assertEqual((lines["regions"], lines["lines"], lines["euler_number"]), (10, 20, 2))
+        # Quadrilaterals beside the flat line between the halves: the places of its vertices are those of either side.
+        for size in ("0.2", "5%"):
+            for element in ("q1.1", "q2.1"):
+                self.run_command("mesh", lower, upper, "-o", made, "--size", size, "--element", element, "-q")
+                cells = json.loads(self.run_command("check", made, "--json", "--closed").stdout)["elements"]
+                self.assertEqual((cells["invalid"], cells["triangle_share"]), (0, 0), (size, element))
+                self.assertLess(abs(cells["area"] - 24), 1e-9)
         # A cylinder of triangles, five units off, and a patch: three geometries, a face number each after the last one.
         x, t = cylinder()
         far = self.path("far.stl", stl([(p[0] + 5, p[1], p[2]) for p in x], t))

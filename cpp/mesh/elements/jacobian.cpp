@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/infinity.h"
+
 namespace carreau {
 
 namespace {
@@ -63,7 +65,33 @@ Jacobian of_quad8(std::span<const Vec3> x) noexcept {
   return j;
 }
 
+double squared_area(const Vec3& s, const Vec3& t) noexcept {
+  const Vec3 n = cross(s, t);
+  return dot(n, n);
+}
+double squared_area(const Vec2& s, const Vec2& t) noexcept {
+  const double n = cross(s, t);
+  return n > 0 ? n * n : 0;
+}
+
+// With S and T the sides of the straight triangle, and no derivative further than e from S, f from T, no coefficient is further
+// than b = e |T| + f |S| + e f from S x T, and none further than 2 b from their mean.
+template <typename V>
+double bound_of_least(std::span<const V> x) noexcept {
+  const V ab = 2 * x[3] - x[0] - x[1], bc = 2 * x[4] - x[1] - x[2], ca = 2 * x[5] - x[2] - x[0];
+  const V s = x[1] - x[0], t = x[2] - x[0], ds = bc - ca, dt = bc - ab;
+  const double ss = dot(s, s), tt = dot(t, t), area = squared_area(s, t);
+  constexpr double thin = 1e-12;  // rounding of the area is far smaller
+  if (!(area > thin * ss * tt)) return -infinity;
+  const double e = 4 * std::max(dot(ab, ab), dot(ds, ds)), f = 4 * std::max(dot(ca, ca), dot(dt, dt));
+  const double share = std::sqrt(e * tt / area) + std::sqrt(f * ss / area) + std::sqrt(e * f / area);
+  return share < 1 ? 1 - 2 * share / (1 - share) : -infinity;
+}
+
 }  // namespace
+
+double least_of_triangle6(std::span<const Vec3> nodes) noexcept { return bound_of_least(nodes); }
+double least_of_triangle6(std::span<const Vec2> nodes) noexcept { return bound_of_least(nodes); }
 
 Vec3 Jacobian::mean() const noexcept {
   Vec3 sum{0, 0, 0};

@@ -31,6 +31,11 @@ struct Jacobian {
 /// `nodes`: node_count(kind) positions in the order of cells.h.
 Jacobian jacobian(CellKind kind, std::span<const Vec3> nodes) noexcept;
 
+/// A number that Jacobian::least() of a curved triangle is not below, from its straight one and the bends of its sides, at a
+/// tenth of the cost; -infinity: they do not tell. Of plane triangles the straight one is counterclockwise.
+double least_of_triangle6(std::span<const Vec3> nodes) noexcept;
+double least_of_triangle6(std::span<const Vec2> nodes) noexcept;
+
 /// The point of an element at (s, t) of its reference: the triangle s, t >= 0, s + t <= 1, or the unit square.
 Vec3 point_of_cell(CellKind kind, std::span<const Vec3> nodes, double s, double t) noexcept;
 /// The point of side `side` (from corner `side` to the next) at s in [0, 1].

@@ -42,6 +42,19 @@ std::vector<Segment> segments_of(const ElementWork& work, std::size_t face) {
   return all;
 }
 
+// By local vertex: whether it is one of them.
+std::vector<char> on_segments(const std::vector<Segment>& segments, const std::vector<std::int32_t>& vertices) {
+  std::vector<std::int32_t> ends;
+  for (const Segment& s : segments) ends.insert(ends.end(), s.key.begin(), s.key.end());
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<char> found(vertices.size());
+  std::transform(vertices.begin(), vertices.end(), found.begin(), [&](std::int32_t v) {
+    return static_cast<char>(!ends.empty() && v <= ends.back() && std::binary_search(ends.begin(), ends.end(), v));
+  });
+  return found;
+}
+
 // The use of a curve in the face whose image of the segment is the side from p to q of (u, v), p over the segment's
 // first vertex.
 std::int32_t nearest_use(const ElementWork& work, std::size_t face, const Segment& s, const Vec2& p, const Vec2& q) {
@@ -80,51 +93,38 @@ double middle_share(const DiscreteCurve& curve, std::size_t k) {
   return metric_middle(density(left), density((left + right) / 2), density(right));
 }
 
-std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k, double shift) {
-  if (!is_known(work, curve)) return std::nullopt;
-  const DiscreteCurve& d = work.curves[curve];
-  DiscreteCurve piece;
-  piece.curve = d.curve;
-  piece.owner = d.owner;  // a node between vertices that are prescribed is none of them
-  piece.refined = d.refined;
-  piece.sizes = {{0, 1}, {1, 1}, {1, 1}};
-  piece.r = {d.r[k], d.r[k + 1]};
-  piece.xyz = {d.xyz[k], d.xyz[k + 1]};
-  for (std::size_t u = 0; u < d.t_of_use.size(); ++u) {
-    piece.t_of_use.push_back({d.t_of_use[u][k], d.t_of_use[u][k + 1]});
-    piece.uv_of_use.push_back({d.uv_of_use[u][k], d.uv_of_use[u][k + 1]});
+std::optional<CurveMiddle> EdgeMiddles::at(std::size_t curve, std::size_t k, double shift) {
+  if (!is_known(work_, curve)) return std::nullopt;
+  const DiscreteCurve& d = work_.curves[curve];
+  piece_.curve = d.curve;
+  piece_.owner = d.owner;  // a node between vertices that are prescribed is none of them
+  piece_.refined = d.refined;
+  piece_.r.assign({d.r[k], d.r[k + 1]});
+  piece_.xyz.assign({d.xyz[k], d.xyz[k + 1]});
+  const std::size_t uses = d.t_of_use.size();
+  piece_.t_of_use.resize(uses), piece_.uv_of_use.resize(uses);
+  for (std::size_t u = 0; u < uses; ++u) {
+    piece_.t_of_use[u].assign({d.t_of_use[u][k], d.t_of_use[u][k + 1]});
+    piece_.uv_of_use[u].assign({d.uv_of_use[u][k], d.uv_of_use[u][k + 1]});
   }
-  piece.size = piece.physical = {1, 1};
-  if (!split_segment(piece, 0, work.model, middle_share(d, k) + shift)) return std::nullopt;
-  CurveMiddle middle{piece.xyz[1], {}};
-  for (const std::vector<Vec2>& uv : piece.uv_of_use) middle.uv_of_use.push_back(uv[1]);
+  piece_.size.assign({1, 1}), piece_.physical.assign({1, 1});
+  if (!split_segment(piece_, 0, work_.model, middle_share(d, k) + shift)) return std::nullopt;
+  CurveMiddle middle{piece_.xyz[1], {}};
+  middle.uv_of_use.reserve(uses);
+  for (const std::vector<Vec2>& uv : piece_.uv_of_use) middle.uv_of_use.push_back(uv[1]);
   return middle;
 }
-
-namespace {
-
-// By vertex of the face: whether an edge of a curve ends there.
-std::vector<char> ends_of(const std::vector<Segment>& segments, const std::vector<std::int32_t>& vertices) {
-  std::vector<std::int32_t> ends;
-  for (const Segment& segment : segments) ends.insert(ends.end(), segment.key.begin(), segment.key.end());
-  std::sort(ends.begin(), ends.end());
-  std::vector<char> is_end;
-  is_end.reserve(vertices.size());
-  for (const std::int32_t v : vertices) is_end.push_back(std::binary_search(ends.begin(), ends.end(), v) ? 1 : 0);
-  return is_end;
-}
-
-}  // namespace
 
 std::vector<CurveSide> curve_sides(const ElementWork& work, std::size_t face) {
   const std::vector<Segment> segments = segments_of(work, face);
   const FaceMesh& mesh = work.result.mesh.faces[face];
-  const std::vector<char> is_end = ends_of(segments, mesh.vertex);
+  const std::vector<char> on_curve = on_segments(segments, mesh.vertex);
   std::vector<CurveSide> sides;
   for (const std::array<std::int32_t, 3>& t : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = t[i], b = t[(i + 1) % 3], va = mesh.vertex[a], vb = mesh.vertex[b];
-      if (is_end[a] == 0 || is_end[b] == 0) continue;
+      const std::int32_t a = t[i], b = t[(i + 1) % 3];
+      if (on_curve[a] == 0 || on_curve[b] == 0) continue;
+      const std::int32_t va = mesh.vertex[a], vb = mesh.vertex[b];
       const auto found = std::lower_bound(segments.begin(), segments.end(), Segment{ordered(va, vb), 0, 0});
       if (found == segments.end() || found->key != ordered(va, vb)) continue;
       const bool forward = work.result.mesh.curves[found->curve].vertices[found->segment] == va;

@@ -23,10 +23,20 @@ double metric_middle(double left, double middle, double right) noexcept;
 /// Share of the length of segment k at which half of its metric length lies, by the sizes along the curve.
 double middle_share(const DiscreteCurve& curve, std::size_t k);
 
-/// The point at half the metric length of edge k of result.mesh.curves[curve], `shift` of the edge further, in every
-/// use. Empty when the curve is
-/// one point of space, or its vertices are no longer those of work.curves[curve] (a narrow face has vanished there).
-std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k, double shift = 0);
+/// Points between the vertices of curves; one object makes many, and takes memory once.
+class EdgeMiddles {
+ public:
+  explicit EdgeMiddles(const ElementWork& work) : work_(work) { piece_.sizes = {{0, 1}, {1, 1}, {1, 1}}; }
+
+  /// The point at half the metric length of edge k of result.mesh.curves[curve], `shift` of the edge further, in every
+  /// use. Empty when the curve is one point of space, or its vertices are no longer those of work.curves[curve] (a
+  /// narrow face has vanished there).
+  [[nodiscard]] std::optional<CurveMiddle> at(std::size_t curve, std::size_t k, double shift = 0);
+
+ private:
+  const ElementWork& work_;
+  DiscreteCurve piece_;
+};
 
 /// A side of a face's triangles that lies on a curve.
 struct CurveSide {

@@ -34,6 +34,7 @@ inline std::size_t coefficient_at(CellKind kind, int corner) {
 ///   std::array<Way, 8> ways(std::int32_t node, double step)      around it, `step` its longest edge long
 ///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; none: they cannot
 ///   Trial trial_of(std::int32_t node), void put(const Trial&)
+/// It may say what score() is not below, where that is cheaper: double bound(const Cell&).
 template <typename Derived, typename Way>
 class Mender {
  public:
@@ -45,12 +46,15 @@ class Mender {
   [[nodiscard]] const std::vector<std::int32_t>& bad() const noexcept { return bad_; }
   [[nodiscard]] std::size_t moves() const noexcept { return moves_; }
 
+  [[nodiscard]] double bound(const Cell&) const noexcept { return -infinity; }
+
   /// Lists elements below `least`. How many are not valid.
   std::size_t find_below(double least) {
     std::size_t invalid = 0;
     bad_.clear();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (c % cells_between_checks == 0) monitor_.checkpoint();
+      if (self().bound(cells_[c]) >= least) continue;
       const double found = self().score(cells_[c]);
       if (found < least) bad_.push_back(static_cast<std::int32_t>(c));
       if (found < thresholds::elements::least_jacobian) ++invalid;

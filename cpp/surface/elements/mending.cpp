@@ -39,10 +39,12 @@ class FaceMender : public Mender<FaceMender, Vec2> {
         f_(f),
         face_(work.result.mesh.faces[f]) {}
 
-  void run(QuadraticReport& report) {
+  bool run(QuadraticReport& report) {
     report.crossed += find_below(good_jacobian);
+    const bool all_good = bad().empty();
     mend();
     report.moved_nodes += moves();
+    return all_good;
   }
 
   void tell_invalid(QuadraticReport& report) {
@@ -55,6 +57,14 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     const auto [plane, space] = jacobians(cell);
     if (is_turned(cell)) return space.least();
     return std::min(space.least(), plane.least_along({0, 0, 1}));
+  }
+  [[nodiscard]] double bound(const Cell& cell) const {
+    if (cell.kind != CellKind::triangle6) return -infinity;
+    std::array<Vec2, 6> plane;
+    std::array<Vec3, 6> space;
+    for (std::size_t i = 0; i < 6; ++i) plane[i] = uv(cell.nodes[i]), space[i] = xyz(cell.nodes[i]);
+    const double in_plane = least_of_triangle6(std::span<const Vec2>(plane));
+    return std::min(in_plane, least_of_triangle6(std::span<const Vec3>(space)));
   }
   [[nodiscard]] double score_at(const Cell& cell, int corner) const {
     const auto [plane, space] = jacobians(cell);
@@ -227,9 +237,9 @@ class FaceMender : public Mender<FaceMender, Vec2> {
 
 }  // namespace
 
-void mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
+bool mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
                const std::vector<char>& fixed_vertex, QuadraticReport& report) {
-  FaceMender(work, face, fixed_mid, fixed_vertex).run(report);
+  return FaceMender(work, face, fixed_mid, fixed_vertex).run(report);
 }
 
 void find_invalid(const ElementWork& work, std::size_t face, QuadraticReport& report) {

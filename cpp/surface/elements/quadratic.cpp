@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
+#include <utility>
 
 #include "cad/batches.h"
 #include "surface/elements/curve_middles.h"
@@ -16,26 +18,43 @@ namespace {
 using Key = std::array<std::int32_t, 2>;
 Key ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A side of a triangle, by its local vertices.
+/// A side of a triangle, by its other local vertex, which is the greater one.
 struct Side {
-  Key key;
-  std::int32_t triangle, rank;
+  std::int32_t other, triangle, rank;
   friend auto operator<=>(const Side&, const Side&) = default;
 };
 
-// Without the diagonals of quadrilaterals: side 2 of the first half, side 0 of the second.
-std::vector<Side> sides_of(const FaceMesh& face) {
-  std::vector<Side> sides;
-  sides.reserve(3 * face.triangles.size());
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(face.triangles.size()); ++t)
-    for (std::int32_t i = 0; i < 3; ++i) {
-      if (t < 2 * face.quads && i == (t % 2 == 0 ? 2 : 0)) continue;
-      const std::array<std::int32_t, 3>& v = face.triangles[t];
-      sides.push_back({ordered(v[i], v[(i + 1) % 3]), t, i});
-    }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
+/// The sides of a face's triangles by their lesser local vertices, those of each by the greater ones; without the diagonals of
+/// quadrilaterals: side 2 of the first half, side 0 of the second.
+class SideLists {
+ public:
+  explicit SideLists(const FaceMesh& face) : first_(face.uv.size() + 1, 0) {
+    for_sides(face, [&](std::int32_t low, const Side&) { ++first_[low + 1]; });
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    sides_.resize(static_cast<std::size_t>(first_.back()));
+    std::vector<std::int32_t> next = first_;
+    for_sides(face, [&](std::int32_t low, const Side& side) { sides_[next[low]++] = side; });
+    for (std::size_t v = 1; v < first_.size(); ++v) std::sort(sides_.begin() + first_[v - 1], sides_.begin() + first_[v]);
+  }
+  [[nodiscard]] std::span<const Side> of(std::int32_t low) const {
+    return std::span(sides_).subspan(first_[low], first_[low + 1] - first_[low]);
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return sides_.size(); }
+
+ private:
+  template <typename Use>
+  static void for_sides(const FaceMesh& face, const Use& use) {
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(face.triangles.size()); ++t)
+      for (std::int32_t i = 0; i < 3; ++i) {
+        if (t < 2 * face.quads && i == (t % 2 == 0 ? 2 : 0)) continue;
+        const auto& v = face.triangles[t];
+        const Key key = ordered(v[i], v[(i + 1) % 3]);
+        use(key[0], Side{key[1], t, i});
+      }
+  }
+  std::vector<std::int32_t> first_;
+  std::vector<Side> sides_;
+};
 
 /// Nodes of edges that lie on curves, by the vertices of the edge.
 class CurveNodes {
@@ -45,13 +64,14 @@ class CurveNodes {
       const CuspEnd end{static_cast<std::int32_t>(c), static_cast<std::int32_t>(k), first};
       return std::binary_search(cusps.begin(), cusps.end(), end);
     };
+    EdgeMiddles middles(work);
     middles_.resize(mesh_.curves.size());
     for (std::size_t c = 0; c < mesh_.curves.size(); ++c) {
       CurveMesh& curve = mesh_.curves[c];
       curve.mid.clear();
       for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k) {
         const int shifts = (is_cusp(c, k, true) ? 1 : 0) - (is_cusp(c, k, false) ? 1 : 0);
-        middles_[c].push_back(middle_of_edge(work, c, k, shifts * thresholds::elements::shift_at_cusp));
+        middles_[c].push_back(middles.at(c, k, shifts * thresholds::elements::shift_at_cusp));
         std::int32_t& node = node_of(ordered(curve.vertices[k], curve.vertices[k + 1]));
         if (node < 0 && middles_[c].back()) node = add(middles_[c].back()->xyz);
       }
@@ -97,6 +117,7 @@ class FaceNodes {
     face_.mid_uv.clear(), face_.mid_vertex.clear();
     find_poles();
     number_sides();
+    place_in_plane();
     place_on_curves();
     join_at_poles();
     place_inside();
@@ -118,13 +139,25 @@ class FaceNodes {
   static constexpr char follows = 2;  // in fixed_: the node is that of another edge
 
   void number_sides() {
-    for (const Side& side : sides_of(face_)) {
-      if (edges_.empty() || edges_.back() != side.key) edges_.push_back(side.key);
-      face_.mid[side.triangle][side.rank] = static_cast<std::int32_t>(edges_.size()) - 1;
-    }
-    face_.mid_uv.resize(edges_.size());
+    const SideLists lists(face_);
+    edges_.reserve(lists.size() / 2 + face_.uv.size());
+    for (std::int32_t low = 0; low < static_cast<std::int32_t>(face_.uv.size()); ++low)
+      for (const Side& side : lists.of(low)) {
+        const Key key{low, side.other};
+        if (edges_.empty() || edges_.back() != key) edges_.push_back(key);
+        face_.mid[side.triangle][side.rank] = static_cast<std::int32_t>(edges_.size()) - 1;
+      }
     face_.mid_vertex.assign(edges_.size(), -1);
     fixed_.assign(edges_.size(), 0);
+  }
+
+  void place_in_plane() {
+    face_.mid_uv.resize(edges_.size());
+    const std::optional<ControlSpace>& space = work_.result.spaces[f_];
+    if (space) {
+      metrics_.reserve(face_.uv.size());
+      for (const Vec2& p : face_.uv) metrics_.push_back(space->at(p));
+    }
     for (std::size_t e = 0; e < edges_.size(); ++e) face_.mid_uv[e] = middle_uv(edges_[e]);
   }
 
@@ -158,8 +191,10 @@ class FaceNodes {
     const Vec2 p = arrival(edge[0], edge[1]), q = arrival(edge[1], edge[0]), d = q - p;
     const std::optional<ControlSpace>& space = work_.result.spaces[f_];
     if (!space) return 0.5 * (p + q);
-    const auto density = [&](const Vec2& at) { return length(space->at(at), d); };
-    return lerp(p, q, metric_middle(density(p), density(0.5 * (p + q)), density(q)));
+    const auto at_end = [&](std::int32_t v, const Vec2& at) {
+      return length(at == face_.uv[v] ? metrics_[v] : space->at(at), d);
+    };
+    return lerp(p, q, metric_middle(at_end(edge[0], p), length(space->at(0.5 * (p + q)), d), at_end(edge[1], q)));
   }
 
   [[nodiscard]] Key in_space(std::size_t edge) const {
@@ -226,6 +261,7 @@ class FaceNodes {
   };
   std::map<std::int32_t, Box> poles_;  // by vertex in space
   std::vector<Key> edges_;             // by index in mid_uv
+  std::vector<Metric2> metrics_;       // by local vertex; empty: there is no control space
   std::vector<char> fixed_;
   std::vector<CurveSide> sides_;
   std::vector<std::pair<std::size_t, std::size_t>> joined_;
@@ -260,14 +296,14 @@ QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEn
   std::vector<std::int32_t> uses(mesh.vertices.size(), 0);
   for (const FaceMesh& face : mesh.faces)
     for (const std::int32_t v : face.vertex) ++uses[v];
+  std::vector<std::size_t> doubtful;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].triangles.empty()) continue;
     FaceNodes nodes(work, f, of_curves);
     nodes.run();
-    mend_face(work, f, nodes.fixed_mids(), nodes.fixed_vertices(uses), report);
+    if (!mend_face(work, f, nodes.fixed_mids(), nodes.fixed_vertices(uses), report)) doubtful.push_back(f);
   }
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    if (!mesh.faces[f].triangles.empty()) find_invalid(work, f, report);
+  for (const std::size_t f : doubtful) find_invalid(work, f, report);
   of_curves.tell_curves();
   sort_uniquely(report.coarse), sort_uniquely(report.cusps);
   return report;

@@ -51,8 +51,9 @@ QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEn
 /// Makes two triangles of each of these quadrilaterals of a face again, without nodes on edges.
 void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads);
 
-/// The second half of it, for one face: `fixed_mid` and `fixed_vertex` tell by local index what stays in its place.
-void mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
+/// The second half of it, for one face: `fixed_mid` and `fixed_vertex` tell by local index what stays in its place. True:
+/// there was nothing to mend, and mending other faces moves no node of this one.
+bool mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
                const std::vector<char>& fixed_vertex, QuadraticReport& report);
 
 /// Tells of the elements of a face that are invalid when all faces are made.

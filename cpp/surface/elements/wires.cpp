@@ -45,11 +45,12 @@ void halve_wires(const ElementWork& work) {
 }
 
 void give_nodes_to_wires(const ElementWork& work) {
+  EdgeMiddles middles(work);
   for_wires(work, [&](std::size_t c, CurveMesh& wire) {
     SurfaceMesh& mesh = work.result.mesh;
     wire.mid.clear();
     for (std::size_t k = 0; k + 1 < wire.vertices.size(); ++k) {
-      const std::optional<CurveMiddle> middle = middle_of_edge(work, c, k);
+      const std::optional<CurveMiddle> middle = middles.at(c, k);
       const Vec3 straight = 0.5 * (mesh.vertices[wire.vertices[k]] + mesh.vertices[wire.vertices[k + 1]]);
       wire.mid.push_back(static_cast<std::int32_t>(mesh.mid_vertices.size()));
       mesh.mid_vertices.push_back(middle ? middle->xyz : straight);

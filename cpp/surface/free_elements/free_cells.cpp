@@ -148,16 +148,20 @@ bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a
   return lines.is_edge(mesh_edge(cells.vertex[a], cells.vertex[b]));
 }
 
-std::optional<SurfacePlace> place_between(const FreeSurface& surface, const SpaceQuads& quads, std::int32_t a,
-                                          std::int32_t b, const Vec3& target) {
-  for (const bool slides : {false, true})
-    for (const std::int32_t v : {a, b}) {
-      const SurfacePlace& from = quads.place(v);
-      if (!from.regular) continue;
-      const auto found = slides ? surface.beside(from, target) : surface.towards(from, target);
-      if (found) return found;
-    }
-  return {};
+std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQuads& quads,
+                                       std::span<const std::int32_t> starts, const Vec3& target) {
+  for (const std::int32_t v : starts)
+    if (const SurfacePlace& from = quads.place(v); from.regular)
+      if (const auto found = surface.towards(from, target)) return found;
+  // The place of a start on a line may be that of its other side: the line itself is all that can be reached from there.
+  std::optional<SurfacePlace> best;
+  for (const std::int32_t v : starts) {
+    const SurfacePlace& from = quads.place(v);
+    if (!from.regular) continue;
+    const auto found = surface.beside(from, target);
+    if (found && (!best || norm(found->xyz - target) < norm(best->xyz - target))) best = found;
+  }
+  return best;
 }
 
 void put_vertices(const FreeCells& cells, ElementVertices& vertices, std::vector<std::int32_t>& vertex) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "surface/free_elements/element_vertices.h"
@@ -28,9 +29,10 @@ FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices
 /// An edge that is imposed, between local vertices.
 [[nodiscard]] bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b);
 
-/// The surface between two local vertices, near a place of space; on a barrier, where one is in the way.
-std::optional<SurfacePlace> place_between(const FreeSurface& surface, const SpaceQuads& quads, std::int32_t a,
-                                          std::int32_t b, const Vec3& target);
+/// The surface between local vertices, near a place of space; where barriers are in the way of all of them, on the
+/// nearest one.
+std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQuads& quads,
+                                       std::span<const std::int32_t> starts, const Vec3& target);
 
 /// Cuts edges in two, quadrilaterals in four, triangles in three, lines too; sizes are half of what they were.
 void halve(FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor);

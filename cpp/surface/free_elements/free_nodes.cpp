@@ -66,7 +66,7 @@ class NodeMaker {
     const Vec3 p = cells_.quads.place(a).xyz, q = cells_.quads.place(b).xyz, way = q - p;
     const double at_a = size_along(a, way), at_b = size_along(b, way);
     const Vec3 target = lerp(p, q, metric_middle(1 / at_a, 2 / (at_a + at_b), 1 / at_b));
-    if (const auto found = place_between(surface_, cells_.quads, a, b, target)) return {*found, -1};
+    if (const auto found = place_from(surface_, cells_.quads, std::array{a, b}, target)) return {*found, -1};
     Node node{cells_.quads.place(a), -1};
     node.place.xyz = target;
     return node;

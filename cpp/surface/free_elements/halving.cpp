@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of a free mesh are cut: quadrilaterals in four, triangles in three.
+#include <array>
 #include <map>
 #include <utility>
 
@@ -37,12 +38,11 @@ class Halving {
   }
 
   std::int32_t centre_of(const MixedCell& cell) {
-    const int n = corners_of(cell);
+    const auto n = static_cast<std::size_t>(corners_of(cell));
     Vec3 sum{0, 0, 0};
-    for (int k = 0; k < n; ++k) sum += cells_.quads.place(cell[k]).xyz;
-    const Vec3 target = (1.0 / n) * sum;
-    for (int k = 0; k < n; k += 2)
-      if (const auto found = place_between(surface_, cells_.quads, cell[k], cell[(k + 1) % n], target)) return add(*found);
+    for (std::size_t k = 0; k < n; ++k) sum += cells_.quads.place(cell[k]).xyz;
+    const Vec3 target = (1.0 / static_cast<double>(n)) * sum;
+    if (const auto found = place_from(surface_, cells_.quads, {cell.data(), n}, target)) return add(*found);
     SurfacePlace place = cells_.quads.place(cell[0]);
     place.xyz = target;
     return add(place);
@@ -62,7 +62,7 @@ class Halving {
   }
   std::int32_t add_inside(std::int32_t a, std::int32_t b) {
     const Vec3 target = 0.5 * (cells_.quads.place(a).xyz + cells_.quads.place(b).xyz);
-    if (const auto found = place_between(surface_, cells_.quads, a, b, target)) return add(*found);
+    if (const auto found = place_from(surface_, cells_.quads, std::array{a, b}, target)) return add(*found);
     SurfacePlace place = cells_.quads.place(a);
     place.xyz = target;
     return add(place);

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/elements/cell_quality.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -120,6 +123,41 @@ TEST(CellQuality, ARhombusAndARectangleHaveTheirClosedForms) {
   const CellQuality rectangle = cell_quality(CellKind::quad4, std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}});
   EXPECT_NEAR(rectangle.shape, (2 + 2 * std::sqrt(2.0)) / 5, 1e-14);  // rho = 1, h = 5
   EXPECT_NEAR(rectangle.scaled_jacobian, 1, 1e-15);
+}
+
+std::vector<Vec2> in_plane(const std::vector<Vec3>& x) {
+  std::vector<Vec2> flat;
+  for (const Vec3& p : x) flat.push_back({p.x(), p.y()});
+  return flat;
+}
+
+TEST(Jacobian, TheBoundOfACurvedTriangleIsBelowItsLeastCoefficient) {
+  std::mt19937_64 random(20);
+  for (const double by : {0.0, 1e-3, 0.02, 0.1, 0.5})
+    for (int k = 0; k < 2000; ++k) {
+      std::vector<Vec3> x = nodes_of(CellKind::triangle6, random, by);
+      const double bound = least_of_triangle6(std::span<const Vec3>(x));
+      EXPECT_LE(bound, jacobian(CellKind::triangle6, x).least() + 1e-12);
+      if (by <= 1e-3) {
+        EXPECT_GT(bound, 0.9);
+      }
+      for (Vec3& p : x) p.z() = 0;
+      const std::vector<Vec2> flat = in_plane(x);
+      EXPECT_LE(least_of_triangle6(std::span<const Vec2>(flat)), jacobian(CellKind::triangle6, x).least_along({0, 0, 1}) + 1e-12);
+    }
+}
+
+// Straight sides, halved: all coefficients are one. Bent by a fiftieth on a sphere's side: far from invalid.
+TEST(Jacobian, TheBoundOfACurvedTriangleTellsOfStraightOnes) {
+  std::vector<Vec3> x{{0, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1.5, 0, 0}, {2, 1, 0}, {0.5, 1, 0}};
+  EXPECT_NEAR(least_of_triangle6(std::span<const Vec3>(x)), 1, 1e-15);
+  EXPECT_NEAR(least_of_triangle6(std::span<const Vec2>(in_plane(x))), 1, 1e-15);
+  for (std::size_t k = 3; k < 6; ++k) x[k].z() = 0.02;
+  EXPECT_GT(least_of_triangle6(std::span<const Vec3>(x)), 0.8);
+  std::swap(x[1], x[2]), std::swap(x[3], x[5]);
+  EXPECT_EQ(least_of_triangle6(std::span<const Vec2>(in_plane(x))), -infinity) << "turned over";
+  x[2] = {7, 0, 0}, x[4] = {5, 0, 0};
+  EXPECT_LT(least_of_triangle6(std::span<const Vec3>(x)), 0.5);
 }
 
 TEST(CellQuality, AConcaveQuadrilateralIsWorthNothing) {
