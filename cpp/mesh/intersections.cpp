@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/crossings/box_pairs.h"
+#include "mesh/crossings/changed_triangles.h"
 #include "predicates/orientation_3d.h"
 #include "support/stepped_tasks.h"
 
@@ -178,8 +179,9 @@ Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t
           vertices[static_cast<std::size_t>(t[2])]};
 }
 
+/// `wanted`: by triangle; empty: all.
 SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                               int threads, Monitor& monitor) {
+                               const std::vector<char>& wanted, int threads, Monitor& monitor) {
   const auto usable = [&](std::int32_t v) {
     return v >= 0 && static_cast<std::size_t>(v) < vertices.size() && is_finite(vertices[static_cast<std::size_t>(v)]);
   };
@@ -191,7 +193,7 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
   const auto look = [&](std::size_t part, Monitor&) {
     for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i) {
       const auto& t = triangles[i];
-      if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
+      if ((!wanted.empty() && wanted[i] == 0) || !usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
       sound.axis[i] = static_cast<std::int8_t>(axis_of(corners_of(vertices, t)));
       if (sound.axis[i] == no_axis) continue;
       sound.inside[i] = static_cast<std::int8_t>(turn(sound.axis[i], vertices[t[0]], vertices[t[1]], vertices[t[2]]));
@@ -233,24 +235,15 @@ class FirstPairs {
   Intersections& found_;
 };
 
-}  // namespace
-
-bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexcept {
-  Vec3 point;
-  const int axis = axis_of(s);
-  if (axis == no_axis || axis_of(t) == no_axis || !intersect(s, t, axis, point)) return false;
-  if (place != nullptr) *place = point;
-  return true;
-}
-
-Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                                 const IntersectionOptions& options, Monitor& monitor) {
-  SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
+/// Pairs of sound triangles, one of which at least is `asked`; empty: all.
+Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices> triangles, SoundTriangles sound,
+                         const std::vector<char>& asked, const IntersectionOptions& options, Monitor& monitor) {
   const BoxPairs near(vertices, triangles, std::move(sound.numbers), monitor, options.threads);
   std::vector<Intersections> of_part(near.parts());
   const auto ask = [&](std::size_t part, Monitor&) {
     FirstPairs first(options.limit, of_part[part]);
     near.each(part, [&](std::size_t i, std::size_t j) {
+      if (!asked.empty() && asked[i] == 0 && asked[j] == 0) return;
       if (parted_at_neighbour(vertices, triangles[i], triangles[j], sound.axis[i], sound.inside[i])) return;
       Vec3 place;
       if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))
@@ -267,6 +260,29 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
   FirstPairs::shorten(all.pairs, options.limit);
   std::sort(all.pairs.begin(), all.pairs.end(), FirstPairs::before);
   return all;
+}
+
+}  // namespace
+
+bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexcept {
+  Vec3 point;
+  const int axis = axis_of(s);
+  if (axis == no_axis || axis_of(t) == no_axis || !intersect(s, t, axis, point)) return false;
+  if (place != nullptr) *place = point;
+  return true;
+}
+
+Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                 const IntersectionOptions& options, Monitor& monitor) {
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, options.threads, monitor), {}, options, monitor);
+}
+
+Intersections find_intersections_again(const SearchedMesh& before, std::span<const Vec3> vertices,
+                                       std::span<const std::array<std::int32_t, 3>> triangles, const IntersectionOptions& options,
+                                       Monitor& monitor) {
+  const std::vector<char> changed = changed_triangles(before, vertices, triangles, monitor);
+  const std::vector<char> near = near_triangles(vertices, triangles, changed, options.threads, monitor);
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, near, options.threads, monitor), changed, options, monitor);
 }
 
 }  // namespace carreau
