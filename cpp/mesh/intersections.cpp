@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/crossings/box_pairs.h"
+#include "mesh/crossings/changed_triangles.h"
 #include "mesh/crossings/graphs.h"
 #include "mesh/crossings/shared_search.h"
 #include "mesh/crossings/spatial_order.h"
@@ -177,8 +178,9 @@ Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t
           vertices[static_cast<std::size_t>(t[2])]};
 }
 
+/// `wanted`: by triangle; empty: all.
 SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                               int threads, Monitor& monitor) {
+                               const std::vector<char>& wanted, int threads, Monitor& monitor) {
   const auto usable = [&](std::int32_t v) {
     return v >= 0 && static_cast<std::size_t>(v) < vertices.size() && is_finite(vertices[static_cast<std::size_t>(v)]);
   };
@@ -190,7 +192,7 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
   const auto look = [&](std::size_t part, Monitor&) {
     for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i) {
       const auto& t = triangles[i];
-      if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
+      if ((!wanted.empty() && wanted[i] == 0) || !usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
       sound.axis[i] = static_cast<std::int8_t>(axis_of(corners_of(vertices, t)));
       if (sound.axis[i] == no_axis) continue;
       sound.inside[i] = static_cast<std::int8_t>(turn(sound.axis[i], vertices[t[0]], vertices[t[1]], vertices[t[2]]));
@@ -253,25 +255,11 @@ Intersections get(PacketReader& packet) {
   return found;
 }
 
-}  // namespace
-
-bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexcept {
-  Vec3 point;
-  const int axis = axis_of(s);
-  if (axis == no_axis || axis_of(t) == no_axis || !intersect(s, t, axis, point)) return false;
-  if (place != nullptr) *place = point;
-  return true;
-}
-
-Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                                 const IntersectionOptions& options, Monitor& monitor) {
-  return find_intersections(vertices, triangles, options.limit, Crew{nullptr, options.threads}, monitor);
-}
-
-Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                                 std::size_t limit, const Crew& crew, Monitor& monitor) {
-  SoundTriangles sound = sound_triangles(vertices, triangles, crew.threads, monitor);
-  std::vector<std::int32_t> order = spatial_order(vertices, triangles, std::move(sound.numbers), monitor, crew.threads);
+/// Pairs of sound triangles, one of which at least is `asked`; empty: all.
+Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices> triangles, SoundTriangles sound,
+                         const std::vector<char>& asked, std::size_t limit, const Crew& crew, Monitor& monitor) {
+  std::vector<std::int32_t> order =
+      spatial_order(vertices, triangles, std::move(sound.numbers), monitor, crew.threads);
   const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, order, crew.threads, monitor);
   const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, crew.threads);
   const auto ask = [&](std::size_t part, Monitor&) {
@@ -279,6 +267,7 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
     FirstPairs first(limit, here);
     near.each(part, [&](std::size_t i, std::size_t j) {
       if (graph[i] >= 0 && graph[i] == graph[j]) return;
+      if (!asked.empty() && asked[i] == 0 && asked[j] == 0) return;
       if (parted_at_neighbour(vertices, triangles[i], triangles[j], sound.axis[i], sound.inside[i])) return;
       Vec3 place;
       if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))
@@ -297,6 +286,36 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
   FirstPairs::shorten(all.pairs, limit);
   std::sort(all.pairs.begin(), all.pairs.end(), FirstPairs::before);
   return all;
+}
+
+}  // namespace
+
+bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexcept {
+  Vec3 point;
+  const int axis = axis_of(s);
+  if (axis == no_axis || axis_of(t) == no_axis || !intersect(s, t, axis, point)) return false;
+  if (place != nullptr) *place = point;
+  return true;
+}
+
+Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                 const IntersectionOptions& options, Monitor& monitor) {
+  return find_intersections(vertices, triangles, options.limit, Crew{nullptr, options.threads}, monitor);
+}
+
+Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                 std::size_t limit, const Crew& crew, Monitor& monitor) {
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, crew.threads, monitor), {}, limit, crew,
+                    monitor);
+}
+
+Intersections find_intersections_again(const SearchedMesh& before, std::span<const Vec3> vertices,
+                                       std::span<const std::array<std::int32_t, 3>> triangles, std::size_t limit,
+                                       const Crew& crew, Monitor& monitor) {
+  const std::vector<char> changed = changed_triangles(before, vertices, triangles, monitor);
+  const std::vector<char> near = near_triangles(vertices, triangles, changed, crew.threads, monitor);
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, near, crew.threads, monitor), changed, limit,
+                    crew, monitor);
 }
 
 }  // namespace carreau

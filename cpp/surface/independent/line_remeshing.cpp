@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "curve/unit_discretisation.h"
 #include "support/infinity.h"
@@ -32,16 +35,37 @@ class LineRemesher {
     const int wanted = std::max(unit_edge_count(length()), closed_ ? 3 : 1);
     std::set<std::int32_t> refused;
     while (static_cast<int>(left_.size()) - 1 > wanted && collapse_shortest(refused)) monitor_.checkpoint();
-    for (int sweep = 0; sweep < line_sweeps; ++sweep)
-      for (std::size_t k = 1; k + 1 < left_.size(); ++k) {
-        monitor_.checkpoint();
-        move(k);
-      }
+    even_out();
     return changed_;
   }
 
  private:
   using Node = LineNode;
+
+  void even_out() {
+    failed_.assign(left_.size(), {});
+    for (std::size_t k = 0; k < left_.size(); ++k) rank_.emplace_back(left_[k].vertex, k);
+    std::ranges::sort(rank_);
+    for (int sweep = 0; sweep < line_sweeps; ++sweep) {
+      bool any = false;
+      for (std::size_t k = 1; k + 1 < left_.size(); ++k) {
+        if (failed_[k] && mesh_.budget.left <= *failed_[k]) continue;
+        monitor_.checkpoint();
+        failed_[k] = mesh_.budget.left;
+        if (!move(k)) continue;
+        any = true;
+        has_moved(left_[k].vertex);
+      }
+      if (!any) break;
+    }
+  }
+  // What has failed is tried again only where something around has changed, or there is more to spend.
+  void has_moved(std::int32_t v) {
+    for (const FreeMesh::Place p : mesh_.mesh().fan(v))
+      for (const std::int32_t w : mesh_.mesh().at(p))
+        for (auto at = std::ranges::lower_bound(rank_, std::pair{w, std::size_t{0}}); at != rank_.end() && at->first == w; ++at)
+          failed_[at->second].reset();
+  }
 
   [[nodiscard]] double length() const {
     double sum = 0;
@@ -94,18 +118,25 @@ class LineRemesher {
     return false;
   }
 
-  // None where it may not be.
+  // None where it may not be. Shapes refuse most, so agreement is judged last.
   [[nodiscard]] std::optional<double> cost_of(std::int32_t gone, std::int32_t kept) const {
     TriangleShapes before, after;
+    judge_collapse(gone, kept, &FreeMesh::judge_shape, before, after);
+    if (after.worst < least_of(before)) return {};
+    const std::optional<double> cost = cost_of_collapse(mesh_, gone, kept, before, after);
+    if (!cost) return {};
+    judge_collapse(gone, kept, &FreeMesh::judge_agreement, before, after);
+    return FreeMesh::agrees(before, after) ? cost : std::nullopt;
+  }
+  using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
+  void judge_collapse(std::int32_t gone, std::int32_t kept, Judge judge, TriangleShapes& before, TriangleShapes& after) const {
     for (const FreeMesh::Place p : mesh_.mesh().fan(gone)) {
       const auto& t = mesh_.mesh().at(p);
       if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
-      mesh_.judge(t[0], t[1], t[2], before);
+      (mesh_.*judge)(t[0], t[1], t[2], before);
       const int i = mesh_.mesh().rank_in(p, gone);
-      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+      (mesh_.*judge)(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
-    if (!FreeMesh::agrees(before, after) || after.worst < least_of(before)) return {};
-    return cost_of_collapse(mesh_, gone, kept, before, after);
   }
 
   [[nodiscard]] double least_of(const TriangleShapes& before) const {
@@ -115,37 +146,42 @@ class LineRemesher {
   // Where shapes of before are kept.
   [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }
 
-  // Where both edges have one length in the metric.
-  void move(std::size_t k) {
+  // To where both edges have one length in the metric.
+  bool move(std::size_t k) {
     const Node &previous = left_[k - 1], &next = left_[k + 1];
     Node& here = left_[k];
     const double p = mesh_.length(previous.vertex, here.vertex), q = mesh_.length(here.vertex, next.vertex);
     const double mean = (p + q) / 2;
-    if (std::abs(p - q) < least_move * mean) return;
+    if (std::abs(p - q) < least_move * mean) return false;
     const double to = p > mean ? previous.arc + mean / p * (here.arc - previous.arc)
                                : next.arc - mean / q * (next.arc - here.arc);
     const KeptPlaces from(mesh_.places(here.vertex).begin(), mesh_.places(here.vertex).end());
     const WantedSize size = mesh_.wanted(here.vertex);
     const double arc = here.arc;
-    const TriangleShapes before = mesh_.judge_around(here.vertex);
+    const TriangleShapes before = mesh_.judge_shapes_around(here.vertex), agreed = mesh_.judge_agreement_around(here.vertex);
     const int out = out_of_range(mesh_, here.vertex);
     for (const double share : {1.0, 0.5}) {
       here.arc = arc + share * (to - arc);
       const KeptPlaces places = places_.at(here.arc);
       if (places.empty()) break;
       mesh_.put_kept(here.vertex, places, mesh_.wanted_at(places));
-      const TriangleShapes after = mesh_.judge_around(here.vertex);
+      const TriangleShapes after = mesh_.judge_shapes_around(here.vertex);
       const double cost = before.sum - after.sum;
-      const int gain = out - out_of_range(mesh_, here.vertex);
-      const bool worth = !weighs_moves() || (cost <= mesh_.budget.price * gain && mesh_.budget.affords(cost));
-      if (worth && FreeMesh::agrees(before, after) && after.worst >= least_of(before)) {
+      if (is_worth(cost, out - out_of_range(mesh_, here.vertex)) && after.worst >= least_of(before) &&
+          FreeMesh::agrees(agreed, mesh_.judge_agreement_around(here.vertex))) {
         mesh_.budget.pay(cost);
         changed_.push_back(here.vertex);
-        return;
+        return true;
       }
       mesh_.put_kept(here.vertex, from, size);
     }
     here.arc = arc;
+    return false;
+  }
+
+  // What shapes lose by it for so many edges that come into range.
+  [[nodiscard]] bool is_worth(double cost, int gain) const {
+    return !weighs_moves() || (cost <= mesh_.budget.price * gain && mesh_.budget.affords(cost));
   }
 
   FreeMesh& mesh_;
@@ -155,6 +191,8 @@ class LineRemesher {
   const LineTolerance& tolerance_;
   Monitor& monitor_;
   std::vector<std::int32_t> changed_;
+  std::vector<std::optional<double>> failed_;               // by rank in left_: what was left to spend when a move failed
+  std::vector<std::pair<std::int32_t, std::size_t>> rank_;  // of vertices in left_, ascending
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/crossings/changed_triangles.h"
 #include "mesh/crossings/shared_search.h"
 #include "mesh/flat_mesh.h"
 #include "model/bucket_sort.h"
@@ -88,6 +89,19 @@ double share_in_range(const FreeMesh& mesh) {
 Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& options, Monitor& monitor) {
   const FlatMesh flat = flatten(mesh, false);
   return find_intersections(flat.vertices, flat.triangles, IntersectionOptions{}.limit, {options.team, options.threads}, monitor);
+}
+
+Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& before, const CompositeOptions& options,
+                            Monitor& monitor) {
+  const auto known = static_cast<std::int64_t>(before.crossings.size());
+  if (before.report.crossings != known) return find_crossings(mesh, options, monitor);
+  std::vector<std::array<std::int32_t, 3>> triangles;  // as their numbers in the pairs are
+  triangles.reserve(before.mesh.triangle_count());
+  for (const FaceMesh& face : before.mesh.faces)
+    for (const auto& [a, b, c] : face.triangles) triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
+  const FlatMesh flat = flatten(mesh, false);
+  return find_intersections_again({before.mesh.vertices, triangles, before.crossings}, flat.vertices, flat.triangles,
+                                  IntersectionOptions{}.limit, {options.team, options.threads}, monitor);
 }
 
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before) {
@@ -181,7 +195,7 @@ void Tries::guard(const Intersections& found, const FreedMesh& made) {
 // With why it is not to replace the mesh of before.
 Tries::Outcome Tries::put_together(StartedMesh&& mesh) {
   Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
-  outcome.crossings = find_crossings(outcome.made.mesh, options_, monitor_);
+  outcome.crossings = find_crossings(outcome.made.mesh, before_, options_, monitor_);
   outcome.crosses = outcome.crossings.count > 0 && outcome.crossings.count > crossings_before();
   outcome.why = outcome.crosses ? "more triangles would cross" : why_worse(outcome.made.mesh, before_.mesh);
   return outcome;

@@ -50,6 +50,10 @@ FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const Reme
 /// Triangles of a mesh that cross.
 Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& options, Monitor& monitor);
 
+/// The same of one that is made of `before`, whose crossings may be known: those of triangles that stay are not sought again.
+Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& before, const CompositeOptions& options,
+                             Monitor& monitor);
+
 /// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before);
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/thread_team.h"
+#include "mesh/crossings/changed_triangles.h"
 #include "mesh/crossings/shared_search.h"
 
 namespace carreau {
@@ -249,6 +250,44 @@ TEST(Intersections, AreFoundByManyProcessesAsByOne) {
   }
 }
 
+/// After some vertices have moved, triangles have gone, come and been doubled, and all have other numbers.
+TEST(Intersections, OfAChangedMeshAreFoundFromThoseOfBefore) {
+  std::mt19937 random(5);
+  const auto upto = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  std::int64_t all = 0, kept = 0;
+  for (int run = 0; run < 40; ++run) {
+    std::vector<Vec3> vertices;
+    std::vector<Indices> triangles;
+    add_sheet(
+        12, [](double, double) { return 0.0; }, vertices, triangles);
+    if (run % 2 == 0)
+      add_sheet(
+          12, [](double x, double) { return x - 0.51; }, vertices, triangles);
+    Monitor monitor;
+    const Intersections before = find_intersections(vertices, triangles, {}, monitor);
+    std::vector<Vec3> now = vertices;
+    std::vector<Indices> left = triangles;
+    for (int k = 0; k < run; ++k) now[upto(now.size())] += Vec3{0, 0, 0.3 * static_cast<double>(upto(3)) - 0.3};
+    for (int k = 0; k < 3; ++k) left.erase(left.begin() + static_cast<std::ptrdiff_t>(upto(left.size())));
+    left.push_back({0, static_cast<std::int32_t>(upto(now.size() - 1)) + 1, static_cast<std::int32_t>(now.size()) - 1});
+    if (run % 3 == 0) left.push_back(left[upto(left.size())]);
+    std::shuffle(left.begin(), left.end(), random);
+    for (Indices& t : left) std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(upto(3)), t.end());
+    const Intersections whole = find_intersections(now, left, {}, monitor);
+    const Intersections found = find_intersections_again({vertices, triangles, before.pairs}, now, left, IntersectionOptions{}.limit,
+                                                         Crew{nullptr, 1 + run % 3}, monitor);
+    ASSERT_EQ(found.count, whole.count) << run;
+    ASSERT_EQ(found.pairs.size(), whole.pairs.size());
+    for (std::size_t k = 0; k < whole.pairs.size(); ++k) {
+      EXPECT_EQ(found.pairs[k].triangles, whole.pairs[k].triangles);
+      EXPECT_EQ(found.pairs[k].place, whole.pairs[k].place);
+    }
+    all += whole.count, kept += before.count;
+  }
+  EXPECT_GT(kept, 0);
+  EXPECT_GT(all, kept);
+}
+
 TEST(Intersections, PassOverTrianglesThatAreNone) {
   const double nan = std::nan("");
   const std::vector<Vec3> vertices{{0, 0, 0},   {1, 0, 0},   {0, 1, 0},  {.2, .2, -1},
@@ -256,6 +295,9 @@ TEST(Intersections, PassOverTrianglesThatAreNone) {
   const std::vector<Indices> triangles{{0, 1, 2}, {3, 4, 5}, {0, 0, 1}, {0, 1, 6}, {0, 1, 99}, {-1, 1, 2}, {4, 3, 4}};
   EXPECT_EQ(found_in(vertices, triangles), (Pairs{{0, 1}}));
   EXPECT_TRUE(found_in({}, {}).empty());
+  Monitor monitor;
+  EXPECT_EQ(find_intersections_again({{}, {}, {}}, vertices, triangles, {}, monitor).count, 1);
+  EXPECT_EQ(find_intersections_again({vertices, triangles, {}}, vertices, triangles, {}, monitor).count, 0);
 }
 
 /// Twice as many triangles take about twice the time; a comparison of all pairs would take four times as long.

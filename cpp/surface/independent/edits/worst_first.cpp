@@ -20,13 +20,15 @@ using namespace thresholds::independent;
 
 using Corners = EditableMesh::Triangle;
 
+// What has failed is tried again only where something around has changed; where there is little to spend, always.
 class WorstFirst {
  public:
-  WorstFirst(FreeMesh& mesh, double floor, Monitor& monitor) : mesh_(mesh), floor_(floor), monitor_(monitor) {}
+  WorstFirst(FreeMesh& mesh, double floor, Monitor& monitor)
+      : mesh_(mesh), floor_(floor), monitor_(monitor), forgets_(mesh.budget.is_limited()), changed_(mesh.vertices(), 1), tried_(mesh.vertices(), 0) {}
 
   std::int64_t run() {
     for (int pass = 0; pass < most_worst_passes; ++pass) {
-      const std::int64_t before = edits_;
+      const std::int64_t before = edits_, began = now_;
       for (const auto& [shape, t] : below_floor()) {
         monitor_.checkpoint();
         if (!mesh_.is_alive(t[0]) || !is_triangle(t) || shape_of(t) >= floor_) continue;
@@ -34,6 +36,7 @@ class WorstFirst {
         for (int i = 0; i < 3; ++i)
           if (mesh_.is_free(t[i])) move(t[i]);
       }
+      last_began_ = began;
       if (edits_ == before) break;
     }
     return edits_;
@@ -46,11 +49,13 @@ class WorstFirst {
     return shapes.worst;
   }
 
+  // Those where something has changed since the last pass began.
   [[nodiscard]] std::vector<std::pair<double, Corners>> below_floor() const {
     std::vector<std::pair<double, Corners>> found;
-    for (const Corners& t : mesh_.triangles())
-      if (t[0] >= 0)
-        if (const double shape = shape_of(t); shape < floor_) found.emplace_back(shape, t);
+    for (const Corners& t : mesh_.triangles()) {
+      if (t[0] < 0 || (!forgets_ && std::ranges::none_of(t, [&](std::int32_t v) { return changed_[v] > last_began_; }))) continue;
+      if (const double shape = shape_of(t); shape < floor_) found.emplace_back(shape, t);
+    }
     std::ranges::sort(found);
     return found;
   }
@@ -59,23 +64,39 @@ class WorstFirst {
     return std::ranges::any_of(mesh_.mesh().fan(t[0]), [&](FreeMesh::Place p) { return mesh_.mesh().at(p) == t; });
   }
 
+  void has_changed(std::int32_t v) {
+    changed_[v] = ++now_;
+    for (const FreeMesh::Place p : mesh_.mesh().fan(v))
+      for (const std::int32_t w : mesh_.mesh().at(p)) changed_[w] = now_;
+  }
+
   void swap(std::int32_t v, std::int32_t w) {
     const auto q = mesh_.mesh().quad_between({0, v}, w);
-    if (q && swap_edge(mesh_, *q)) ++edits_;
+    if (!q || !swap_edge(mesh_, *q)) return;
+    ++edits_;
+    for (const std::int32_t k : {q->a, q->b, q->c, q->d}) has_changed(k);
   }
 
   // Uphill in the tangent plane, by steps that become shorter.
   void move(std::int32_t v) {
+    if (!forgets_ && tried_[v] >= changed_[v]) return;
+    bool moved = false;
     for (double step = first_worst_step; step > last_worst_step;)
-      if (!step_uphill(v, step)) step /= 2;
+      if (step_uphill(v, step))
+        moved = true;
+      else
+        step /= 2;
+    if (moved) has_changed(v);
+    tried_[v] = moved ? 0 : now_;
   }
 
   bool step_uphill(std::int32_t v, double step) {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
     const WantedSize size = mesh_.wanted(v);
-    const TriangleShapes before = mesh_.judge_around(v);
+    const TriangleShapes before = mesh_.judge_shapes_around(v);
     if (before.worst >= floor_) return false;
+    const TriangleShapes agreed = mesh_.judge_agreement_around(v);
     const int out = out_of_range(mesh_, v);
     const Vec3 least = std::abs(from.normal[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 across = cross(from.normal, least);
@@ -88,9 +109,9 @@ class WorstFirst {
           mesh_.near(v, from.normal, from.xyz + (step * size.h) * (std::cos(angle) * p + std::sin(angle) * q));
       if (!to) continue;
       mesh_.put(v, *to, mesh_.wanted_at(*to));
-      const TriangleShapes after = mesh_.judge_around(v);
-      if (after.worst > worst && FreeMesh::agrees(before, after) && out_of_range(mesh_, v) <= out &&
-          mesh_.budget.affords(before.sum - after.sum))
+      const TriangleShapes after = mesh_.judge_shapes_around(v);
+      if (after.worst > worst && out_of_range(mesh_, v) <= out && mesh_.budget.affords(before.sum - after.sum) &&
+          FreeMesh::agrees(agreed, mesh_.judge_agreement_around(v)))
         worst = after.worst, cost = before.sum - after.sum, best = *to;
       mesh_.put(v, from, size);
     }
@@ -104,7 +125,10 @@ class WorstFirst {
   FreeMesh& mesh_;
   double floor_;
   Monitor& monitor_;
+  bool forgets_;
   std::int64_t edits_ = 0;
+  std::int64_t now_ = 1, last_began_ = 0;
+  std::vector<std::int64_t> changed_, tried_;  // by vertex: when something around it has, and when no move of it was any good
 };
 
 }  // namespace
