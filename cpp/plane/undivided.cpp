@@ -71,11 +71,12 @@ UndividedMesh mesh(const PlaneDomain& domain, const ControlSpace& metric, Field:
   place_points(work, domain, boundary.frame, options);
   boundary.mesh.renumber_if_large();
   if (improve == Improve::yes) {
-    if (options.squares)
+    if (options.squares) {
       mend_squares(work);
-    else
-      optimise(work);
-    if (options.shape_trials && !options.squares) search_around_bad_triangles(work, options.normals);
+    } else {
+      const Settled settled = optimise(work);
+      if (options.shape_trials) search_around_bad_triangles(work, settled, options.normals);
+    }
   }
   return {to_mesh(domain, boundary.mesh, boundary.frame), work.fixed};
 }

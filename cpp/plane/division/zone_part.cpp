@@ -40,10 +40,11 @@ class PartOfZone {
  private:
   // Fixed ones, others of the zone, added ones.
   void number(const Refilled& refilled, std::span<const std::uint8_t> free) {
-    of_.reserve(3 * refilled.triangles.size());
-    for (const auto& t : refilled.triangles) of_.insert(of_.end(), t.begin(), t.end());
-    std::sort(of_.begin(), of_.end());
-    of_.erase(std::unique(of_.begin(), of_.end()), of_.end());
+    std::vector<std::uint8_t> used(zone_.vertices.size() + refilled.added.size(), 0);
+    for (const auto& t : refilled.triangles)
+      for (const std::int32_t v : t) used[v] = 1;
+    for (std::size_t v = 0; v < used.size(); ++v)
+      if (used[v] != 0) of_.push_back(static_cast<std::int32_t>(v));
     const auto stays = [&](std::int32_t v) { return static_cast<std::size_t>(v) < free.size() && free[v] == 0; };
     fixed = static_cast<int>(std::stable_partition(of_.begin(), of_.end(), stays) - of_.begin());
     of_zone = static_cast<std::size_t>(
@@ -115,8 +116,8 @@ ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles
   work.fixed = part.fixed;
   if (field.bends()) part.mesh.bends.resize(part.mesh.vertices.size());
   for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v) work.shapes.set_metric(static_cast<int>(v));
-  optimise(work, static_cast<std::size_t>(context.known.triangles));
-  if (context.options.shape_trials) search_around_bad_triangles(work, context.options.normals);
+  const Settled settled = optimise(work, static_cast<std::size_t>(context.known.triangles));
+  if (context.options.shape_trials) search_around_bad_triangles(work, settled, context.options.normals);
 
   ZonePart result;
   const std::size_t n = part.of_zone;

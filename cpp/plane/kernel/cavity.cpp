@@ -34,10 +34,9 @@ bool Triangulation::too_near(const Vec2& p, int v, double d2, const InsertRules&
 
 // Whether the new point lies in the circle through a, d, b, which are all far from it, in the mean of their metrics and
 // its own: opposite angles sum to more than pi. sum is the area of a, d, p and d, b, p together.
-inline bool Triangulation::in_far_circle(const Metric2& metric, const RimPoint& a, const RimPoint& b, const RimPoint& d,
-                                         double sum, double area) const noexcept {
-  const Vertex* const all = vertices.data();
-  const Metric2 m = metric + all[a.v].metric() + all[b.v].metric() + all[d.v].metric();
+bool Triangulation::in_far_circle(const Metric2& metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
+                                  double area) const noexcept {
+  const Metric2 m = metric + vertices[a.v].metric() + vertices[b.v].metric() + vertices[d.v].metric();
   const Vec2 pa{a.x, a.y}, pb{b.x, b.y}, pd{d.x, d.y};
   return dot(m, pa, pb) * (sum - area) + dot(m, pa - pd, pb - pd) * area < 0;
 }
@@ -109,14 +108,12 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
         charted_[d] = chart->at_offset({D.x, D.y});
         D.d2 = dot(charted_[d], charted_[d]);
       }
-      const bool is_far = std::max({A.d2, B.d2, D.d2}) > near2;
       double ad, db;
       int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
-      bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
-                            : A.d2 * db + B.d2 * ad - D.d2 * e.area > cavity_tolerance * D.d2 * e.area;
-      // The circle first: what is near and outside needs no signs.
-      if ((inside || is_far || e.crossed) && left >= 0 && right >= 0) {
-        if (is_far) {
+      if (left >= 0 && right >= 0) {
+        bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
+                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > cavity_tolerance * D.d2 * e.area;
+        if (std::max({A.d2, B.d2, D.d2}) > near2) {
           const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
           if (D.d2 <= near2)
             inside = true;  // a sliver between what is near and what is far

@@ -35,7 +35,7 @@ bool needs_help(const PlaneWork& work, Helped helped, int t) {
 }
 
 // Returns the triangles that were looked at, some of them several times.
-std::vector<std::int32_t> help(PlaneWork& work, Helped helped, const Settled& settled) {
+std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled) {
   const auto total = static_cast<std::int32_t>(work.mesh.triangles.size());
   std::vector<std::int32_t> open, looked_at;
   for (std::int32_t t = 0; t < total; ++t) {
@@ -48,7 +48,7 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, const Settled& se
   if (!open.empty()) mending.failed_moves.clear(), mending.failed_points.clear();
   for (int pass = 0; pass < mending_passes && !open.empty() && mending.shapes_asked <= budget; ++pass) {
     looked_at.insert(looked_at.end(), open.begin(), open.end());
-    mending.changed.clear();
+    mending.changed.clear(), mending.nudged.clear();
     for (const std::int32_t t : open) {
       if (mending.shapes_asked > budget) break;
       if (mending.shapes_asked > checked) {
@@ -59,6 +59,8 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, const Settled& se
     }
     std::sort(mending.changed.begin(), mending.changed.end());
     mending.changed.erase(std::unique(mending.changed.begin(), mending.changed.end()), mending.changed.end());
+    settled.forget(mending.changed, work.mesh.triangles.size());
+    settled.forget(mending.nudged, work.mesh.triangles.size());
     open.swap(mending.changed);
   }
   looked_at.insert(looked_at.end(), open.begin(), open.end());
@@ -73,7 +75,7 @@ void remove_crowded_vertices(PlaneWork& work) {
   help(work, Helped::crowded, settled);
 }
 
-std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, const Settled& settled) {
+std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, Settled& settled) {
   return help(work, Helped::crowded_or_bad, settled);
 }
 

@@ -15,7 +15,7 @@ void remove_crowded_vertices(PlaneWork& work);
 
 /// Bad triangles, left where layers met or where sizes jump, and crowded ones: moves, swaps, removals and insertions
 /// that each make what they touch better. Returns the triangles that were looked at: all others are good. `settled`: what
-/// is known of the triangles beforehand.
-std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, const Settled& settled);
+/// is known of the triangles, before and after.
+std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, Settled& settled);
 
 }  // namespace carreau::plane

@@ -57,11 +57,12 @@ bool raise_by_removal(PlaneWork& work, Star& star, int t) {
 }  // namespace
 
 // What is raised may let its neighbours be, too.
-void raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful) {
+bool raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful) {
   Triangulation& mesh = work.mesh;
   std::sort(doubtful.begin(), doubtful.end());
   doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
   std::erase_if(doubtful, [&](std::int32_t t) { return !is_flat(mesh, t); });
+  if (doubtful.empty()) return false;
   Star star;
   bool any = true;
   while (any) {
@@ -70,6 +71,7 @@ void raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful) {
     for (const std::int32_t t : doubtful)
       if (is_flat(mesh, t)) any = raise_by_swap(mesh, t) || raise_by_removal(work, star, t) || any;
   }
+  return true;
 }
 
 }  // namespace carreau::plane

@@ -11,7 +11,7 @@
 
 namespace carreau::plane {
 
-/// Swaps or removes what is flat in the plane among the triangles listed.
-void raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful);
+/// Swaps or removes what is flat in the plane among the triangles listed. Whether there was any.
+bool raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful);
 
 }  // namespace carreau::plane

@@ -144,28 +144,12 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   return false;
 }
 
-// Neither searched nor near to it, by the metrics of the vertices, which are at hand: what is true of nearly all
-// triangles.
-bool is_far_better(const Triangulation& mesh, const Triangle& T) {
-  constexpr double quality2 = surely_not_searched * surely_not_searched / 12;
-  const Vertex &P = mesh.vertices[T.v[0]], &Q = mesh.vertices[T.v[1]], &R = mesh.vertices[T.v[2]];
-  const Metric2 mp = P.metric(), mq = Q.metric(), mr = R.metric(), m = mp + mq + mr;
-  const double p = determinant(mp), q = determinant(mq), r = determinant(mr);
-  const Vec2 u = Q.point() - P.point(), v = R.point() - P.point();
-  const double area = cross(u, v), sum = squared_length(m, u) + squared_length(m, v) + squared_length(m, v - u);
-  return std::max({p, q, r}) <= graded_change * std::min({p, q, r}) && area > 0 &&
-         area * area * determinant(m) > quality2 * sum * sum;
-}
-
-// Those triangles of the list that are to be searched around, worst first, by shapes that are rounded.
+// Those that are to be searched around, worst first, by shapes that are rounded.
 class BadTriangles {
  public:
-  explicit BadTriangles(const PlaneWork& work) : work_(work), in_vain_(work.mesh.triangles.size(), 0) {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(work.mesh.triangles.size()); ++t) {
-      if (t % steps_between_checks == 0) work.monitor.checkpoint();
-      const Triangle& T = work.mesh.triangles[t];
-      if (T.v[0] >= 0 && !is_far_better(work.mesh, T)) changed_.push_back(t);
-    }
+  BadTriangles(const PlaneWork& work, const Settled& settled) : work_(work), in_vain_(work.mesh.triangles.size(), 0) {
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(work.mesh.triangles.size()); ++t)
+      if (!settled.is_fine(t)) changed_.push_back(t);
   }
 
   /// Of the triangles that have changed since the last call; the others are good, or were searched around in vain.
@@ -200,14 +184,14 @@ class BadTriangles {
 
 }  // namespace
 
-void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals) {
+void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const SampledNormals* normals) {
   const Triangulation& mesh = work.mesh;
   if (!mesh.bends.empty()) return;
   const auto total = static_cast<std::int64_t>(mesh.triangles.size());
   const std::int64_t budget = search_shapes + search_shapes_a_triangle * total;
   std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
   SearchZone zone(work, normals);
-  BadTriangles bad(work);
+  BadTriangles bad(work, settled);
   for (int pass = 0; pass < search_passes; ++pass) {
     bool any = false;
     for (const auto& [rank, t] : bad.list()) {

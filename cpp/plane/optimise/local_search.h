@@ -5,11 +5,13 @@
 
 #include "control_space/sampled_normals.h"
 #include "plane/kernel/plane_work.h"
+#include "plane/optimise/settled.h"
 
 namespace carreau::plane {
 
 /// Not where fields bend. On surfaces that are no planes, whose `normals` are given, no change adds an edge between two
-/// fixed vertices, nor edges along which the surface turns more than along those that were there: flat spots.
-void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals);
+/// fixed vertices, nor edges along which the surface turns more than along those that were there: flat spots. `settled`:
+/// what optimise() has left.
+void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const SampledNormals* normals);
 
 }  // namespace carreau::plane

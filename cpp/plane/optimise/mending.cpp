@@ -71,7 +71,10 @@ bool move(Mending& m, int v) {
   if (m.failed_moves.find(star) != nullptr) return false;
   if (!move_to_best(m, v)) {
     // Small steps that gain little are kept even so.
-    if (key() == star) m.failed_moves.put(star, true);
+    if (key() == star)
+      m.failed_moves.put(star, true);
+    else
+      m.nudged.insert(m.nudged.end(), m.star.triangles.begin(), m.star.triangles.end());
     return false;
   }
   m.changed.insert(m.changed.end(), m.star.triangles.begin(), m.star.triangles.end());

@@ -24,7 +24,7 @@ constexpr double spread[] = {1, 2.5, 1.4, 0.7}, once[] = {1};
 
 }  // namespace
 
-void optimise(PlaneWork& work, std::size_t whole) {
+Settled optimise(PlaneWork& work, std::size_t whole) {
   swap_to_delaunay(work);
   Degrees degrees = count_degrees(work);
   swap_to_degree_six(work, degrees);
@@ -54,8 +54,9 @@ void optimise(PlaneWork& work, std::size_t whole) {
     work.mesh.drop_removed();
     smooth_evenly(work, arrays, {.passes = 2, .slowest = 0.5}, aim);
   }
-  const Settled settled = swap_to_delaunay(work);
-  raise_flat_triangles(work, mend_bad_triangles(work, settled));
+  Settled settled = swap_to_delaunay(work);
+  if (raise_flat_triangles(work, mend_bad_triangles(work, settled))) settled.of.assign(work.mesh.triangles.size(), 0);
+  return settled;
 }
 
 void mend_squares(PlaneWork& work) {

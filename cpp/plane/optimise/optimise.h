@@ -5,12 +5,13 @@
 #include <cstddef>
 
 #include "plane/kernel/plane_work.h"
+#include "plane/optimise/settled.h"
 
 namespace carreau::plane {
 
 /// Leaves removed triangles without vertices (-1) and removed vertices without a triangle. `whole`: triangles of the mesh
-/// of which this is a part, if it is more.
-void optimise(PlaneWork& work, std::size_t whole = 0);
+/// of which this is a part, if it is more. Returns what is known of the triangles that are left.
+Settled optimise(PlaneWork& work, std::size_t whole = 0);
 
 /// After place_squares(): what the other passes look for is equilateral, and halves of squares are not. Flat triangles
 /// are raised.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
@@ -14,9 +15,10 @@
 
 namespace carreau::plane {
 
-/// By triangle. An edge between two that are acute is Delaunay in the mean metric of the four vertices.
+/// By triangle. An edge between two that are acute is Delaunay in the mean metric of the four vertices; what is good needs
+/// no mending, what is fine no local search.
 struct Settled {
-  static constexpr std::uint8_t acute = 1, good = 2;
+  static constexpr std::uint8_t acute = 1, good = 2, fine = 4;
   std::vector<std::uint8_t> of;
 
   /// The triangle, and the one that its half-edge `beyond` is of.
@@ -24,7 +26,13 @@ struct Settled {
     return beyond != no_edge && (of[t] & of[beyond >> 2] & acute) != 0;
   }
   [[nodiscard]] bool is_good(int t) const noexcept { return (of[t] & good) != 0; }
+  [[nodiscard]] bool is_fine(int t) const noexcept { return (of[t] & fine) != 0; }
   void forget(int t) noexcept { of[t] = 0; }
+  /// These, of `total` that there are now.
+  void forget(std::span<const std::int32_t> triangles, std::size_t total) {
+    of.resize(total, 0);
+    for (const std::int32_t t : triangles) of[t] = 0;
+  }
 };
 
 /// Where the metrics M of the corners differ by at most alike_share of the least eigenvalue of their mean N, in
@@ -43,9 +51,11 @@ inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex
   const double uu = squared_length(m, u), vv = squared_length(m, v), uv = dot(m, u, v), ww = uu + vv - 2 * uv;
   const double longest2 = std::max({uu, vv, ww}), shortest2 = std::min({uu, vv, ww}), sum = uu + vv + ww;
   const bool acute = cross(u, v) > 0 && std::min({uv, uu - uv, vv - uv}) >= acute_cosine * longest2;
-  const bool good = shortest2 > 3 * surely_not_crowded2 &&
-                    12 * (uu * vv - uv * uv) > surely_not_bad * surely_not_bad * sum * sum;
-  return static_cast<std::uint8_t>(acute ? Settled::acute | (good ? Settled::good : 0) : 0);
+  const double area2 = 12 * (uu * vv - uv * uv), sum2 = sum * sum;
+  const bool good = shortest2 > 3 * surely_not_crowded2 && area2 > surely_not_bad * surely_not_bad * sum2;
+  const bool fine = area2 > surely_not_searched * surely_not_searched * sum2;
+  if (!acute) return 0;
+  return static_cast<std::uint8_t>(Settled::acute | (good ? Settled::good : 0) | (fine ? Settled::fine : 0));
 }
 
 /// Where the field bends none is known to be settled.

@@ -240,6 +240,7 @@ std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh
       in_space[i] = dot(edge, edge), in_domain[i] = dot(uv, uv);
     }
     const double far = one_point * one_point * *std::max_element(in_space.begin(), in_space.end());
+    if (std::min({in_space[0], in_space[1], in_space[2]}) > far) return 3;
     const double apart = one_point * one_point * *std::max_element(in_domain.begin(), in_domain.end());
     for (std::size_t i = 0; i < 3; ++i) {
       const bool inside = t[i] >= imposed || t[(i + 1) % 3] >= imposed;
