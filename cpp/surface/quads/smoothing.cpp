@@ -82,7 +82,7 @@ class Smoothing {
         longest = std::max(longest, m.step.cwiseAbs().maxCoeff());
       }
       moved_ += longest;
-      take_back();
+      take_back(longest);
     }
   }
 
@@ -126,7 +126,7 @@ class Smoothing {
   // Vertices of cells that have turned over go back, and then those of others that have because of that: only cells whose
   // vertices went back in the round before or in this one need a look. They have no momentum then. Nor need cells that stay
   // convex however their corners have moved since the last look.
-  void take_back() {
+  void take_back(double longest) {
     went_back_.assign(quads_.vertices(), 0);
     int round = 1;
     for (bool any = true; any; ++round) {
@@ -139,7 +139,7 @@ class Smoothing {
                                       [&](std::int32_t v) { return went_back_[v] + 1 >= round; }))
           continue;
         if (quads_.is_convex(cell)) {
-          convex_until_[c] = moved_ + quads_.leeway(cell);
+          convex_until_[c] = moved_ - longest + quads_.leeway(cell);  // a corner may go back yet
           continue;
         }
         for (int k = 0; k < n; ++k)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing finds lattices again, and turns nothing over.
+#include "surface/quads/smoothing.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "surface/quads/quad_shape.h"
-#include "surface/quads/smoothing.h"
 
 namespace carreau {
 namespace {
@@ -54,6 +55,43 @@ TEST(QuadSmoothing, LeavesAllCellsConvexAndTheBorderWhereItIs) {
     if (patch.fixed[v] != 0) {
       EXPECT_EQ(patch.uv[v], before.uv[v]);
     }
+}
+
+// Where cells would be far larger than the border lets them, vertices go back in nearly each pass, and cells beside
+// them that have not turned over themselves may because of that.
+TEST(QuadSmoothing, TurnsNothingOverWhereCellsPress) {
+  const ControlSpace space = ControlSpace::constant({1, 0, 1});
+  Monitor monitor;
+  for (const double unit : {0.3, 2., 4.})
+    for (const double share : {1., 1.9})
+      for (const int passes : {1, 2, 3, 5, 8, 17}) {
+        QuadPatch patch = lattice(16, 1, 0.24);
+        smooth_quads(patch, FaceCharts(space), {.passes = passes, .share = share, .pull = 0.8, .unit = unit}, monitor);
+        for (const MixedCell& cell : patch.cells) ASSERT_TRUE(is_convex(patch, cell)) << unit << ' ' << passes;
+      }
+}
+
+TEST(QuadShape, CellsKeepTheirShapeWithinTheirLeeway) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  int convex = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    QuadPatch patch;
+    for (int k = 0; k < 4; ++k) patch.uv.push_back({anywhere(random), anywhere(random)});
+    for (const MixedCell& cell : {MixedCell{0, 1, 2, 3}, MixedCell{0, 1, 2, -1}}) {
+      if (!is_convex(patch, cell)) continue;
+      ++convex;
+      const double way = leeway(patch, cell);
+      EXPECT_GT(way, 0);
+      for (int corner = 0; corner < 256; corner += 5) {
+        QuadPatch moved = patch;
+        for (int k = 0; k < 4; ++k)
+          moved.uv[k] += Vec2{(corner >> (2 * k) & 1) != 0 ? way : -way, (corner >> (2 * k + 1) & 1) != 0 ? way : -way};
+        ASSERT_TRUE(is_convex(moved, cell));
+      }
+    }
+  }
+  EXPECT_GT(convex, 5000);
 }
 
 TEST(QuadSmoothing, RaisesTheWorstCells) {
