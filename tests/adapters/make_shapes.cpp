@@ -7,12 +7,14 @@
 //   inch.step              a cube of one inch
 //   open.igs               five faces of a box, each on its own
 //   plate.step, .brep, .igs   a plate with a hole, all of NURBS
+//   quarter_plate.step     a unit square without the quarter of a disc (HDR fig. 3.6): a face
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
 //   NAME.brep              faces that bend inside: bent_shapes()
 //   torn_roof.brep         one that is not cut there, since its sides do not meet
 //   bent.step              the prism of bent_shapes(), whose side is named "side" and red
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -35,6 +37,9 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <cstdio>
 #include <exception>
+#include <gp.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 #include <stdexcept>
@@ -147,6 +152,14 @@ void write_plate(const std::string& path) {
   require(writer.Write((path + ".igs").c_str()), path);
 }
 
+void write_quarter_plate(const std::string& path) {
+  const gp_Circ circle(gp_Ax2(gp_Pnt(1, 1, 0), gp::DZ()), 0.5);
+  const gp_Pnt corners[] = {gp_Pnt(0.5, 1, 0), gp_Pnt(0, 1, 0), gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0), gp_Pnt(1, 0.5, 0)};
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(circle, corners[0], corners[4]).Edge());
+  for (int k = 4; k > 0; --k) wire.Add(BRepBuilderAPI_MakeEdge(corners[k], corners[k - 1]).Edge());
+  write_step(BRepBuilderAPI_MakeFace(gp_Pln(), wire.Wire()).Face(), path);
+}
+
 void write_free_edges(const std::string& path) {
   const TopoDS_Face plain = BRepBuilderAPI_MakeFace(gp_Pln(), 0, 4, 0, 4).Face();
   BRep_Builder builder;
@@ -179,6 +192,7 @@ int main(int argc, char** argv) {
     write_named_faces(folder + "named_faces.step");
     write_bracket(folder + "bracket.step");
     write_plate(folder + "plate");
+    write_quarter_plate(folder + "quarter_plate.step");
     Interface_Static::SetCVal("write.step.unit", "INCH");
     write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");
     write_open_iges(folder + "open.igs");

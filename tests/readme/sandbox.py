@@ -73,7 +73,8 @@ class Sandbox:
             text = file.read()
         with open(os.path.join(self.clone, "part.step"), "w") as file:
             file.write(text.replace("'ball'", "'bore left'"))
-        shutil.copy(os.path.join(shapes, "bracket.step"), self.clone)
+        for name in ("bracket.step", "quarter_plate.step"):
+            shutil.copy(os.path.join(shapes, name), self.clone)
         # Of a face that has failed: that of a run that went well lacks it.
         with open(os.path.join(self.clone, "failed/face_7.mesh"), "w") as file:
             file.write("MeshVersionFormatted 2\nDimension 2\nVertices 3\n0 0 0\n1 0 0\n0 1 0\nEdges 3\n1 2 1\n2 3 2\n3 1 3\nEnd\n")
