@@ -230,8 +230,8 @@ TEST(DividedRemeshing, AHostThatFailsInOneProcessEndsTheRunOfAllAndTheMeshOfBefo
   for (const auto& [how, words] : {std::pair{FailingCad::How::callback, "the surface is lost"}, std::pair{FailingCad::How::memory, "memory"}})
     for (const Outcome& outcome : remeshed(how, sound[1].calls / 2)) {
       EXPECT_TRUE(outcome.kept);
-      if (outcome.sentence != "std::bad_alloc") EXPECT_NE(outcome.sentence.find(words), std::string::npos) << outcome.sentence;
-      EXPECT_NE(outcome.sentence, "");
+      const bool told = outcome.sentence.find(words) != std::string::npos || outcome.sentence == "std::bad_alloc";
+      EXPECT_TRUE(told) << outcome.sentence;
     }
 }
 
