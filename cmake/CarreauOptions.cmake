@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What of OpenCASCADE is linked to libcarreau_cad.
-set(CARREAU_OPENCASCADE_LIBRARIES TKXDESTEP TKXDEIGES TKXCAF TKLCAF TKCDF TKSTEP TKSTEPBase TKIGES TKXSBase TKShHealing TKTopAlgo
-  TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+# What of OpenCASCADE is linked to libcarreau_cad, and what its readers of STEP and IGES files need beside.
+set(CARREAU_OPENCASCADE_LIBRARIES TKShHealing TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+set(CARREAU_STEP_LIBRARIES TKSTEP TKSTEPAttr TKSTEPBase TKXSBase)
+set(CARREAU_IGES_LIBRARIES TKIGES TKXSBase)
 
 # What is built. AUTO, the default: where what it needs is found; ON: it must be found. What is left out is told at the end of
 # the configuration (carreau_print_summary), with the Debian packages that would bring it.

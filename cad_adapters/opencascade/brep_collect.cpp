@@ -154,7 +154,7 @@ void BrepHost::State::collect_face(int number) {
   refuse_unusable(forward);
 }
 
-// Wide parts first, so that the name of the narrowest part stays.
+// Wide parts first, so that the name of the narrowest part stays: a shell before its only face.
 void BrepHost::State::collect_names(const ShapeFile& file) {
   std::vector<std::pair<const ShapeFile::Label*, std::vector<int>>> parts;  // with their faces
   for (const ShapeFile::Label& label : file.labels) {
@@ -163,8 +163,10 @@ void BrepHost::State::collect_names(const ShapeFile& file) {
       if (const int number = faces.FindIndex(e.Current()); number > 0) held.push_back(number);
     parts.emplace_back(&label, std::move(held));
   }
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const auto& p, const auto& q) { return p.second.size() > q.second.size(); });
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& p, const auto& q) {
+    return std::pair(q.second.size(), p.first->part.ShapeType()) <
+           std::pair(p.second.size(), q.first->part.ShapeType());
+  });
   const auto byte = [](double share) { return static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0))); };
   for (const auto& [label, held] : parts)
     for (const int number : held) {

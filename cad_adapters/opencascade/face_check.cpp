@@ -10,7 +10,6 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
-#include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Pnt2d.hxx>
 #include <stdexcept>
@@ -31,8 +30,6 @@ bool usable_poles(const Geom_BSplineSurface& surface) {
 }
 
 }  // namespace
-
-bool usable(double x) noexcept { return std::abs(x) <= largest_coordinate; }
 
 void refuse_unusable(const TopoDS_Face& face) {
   const auto require = [](bool good, const char* what) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <TopoDS_Face.hxx>
+#include <cmath>
 
 namespace carreau_occ {
 
@@ -11,7 +12,7 @@ namespace carreau_occ {
 constexpr double largest_coordinate = 1e15;
 
 /// Not for a number that is not finite either.
-bool usable(double x) noexcept;
+inline bool usable(double x) noexcept { return std::abs(x) <= largest_coordinate; }
 
 /// Throws std::runtime_error when a vertex, a pole, or a place of the boundary of the face is not finite or too far
 /// away, and Standard_Failure when OpenCASCADE does.

@@ -10,15 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "entity_kinds.h"
+
 namespace carreau_occ {
 
 /// Looks at the entities of a file, once it is read, for what makes their translation fail, crash or never end.
 class EntityCheck {
  public:
-  /// The session of a reader that has read a file and translated nothing yet. Faces of STEP shells with numbers that
-  /// are missing, not finite or without sense (knots that descend, weights that are not positive) are taken out, so
-  /// that OpenCASCADE never sees them.
-  explicit EntityCheck(const Handle(XSControl_WorkSession) & session);
+  /// The session of a reader that has read a file and translated nothing yet; the kinds live longer. Faces of STEP
+  /// shells with numbers that are missing, not finite or without sense (knots that descend, weights that are not
+  /// positive) are taken out, so that OpenCASCADE never sees them.
+  EntityCheck(const Handle(XSControl_WorkSession) & session, const EntityKinds& kinds);
 
   /// After the translation: a sentence for each face of the file that no shape came from, for each placement that
   /// scales, and for each entity with an error that no such face explains. "#123 ADVANCED_FACE: ...".
@@ -28,15 +30,14 @@ class EntityCheck {
   [[nodiscard]] std::vector<std::pair<TopoDS_Shape, std::string>> doubtful() const;
 
  private:
-  using Handle_Entity = Handle(Standard_Transient);
-  [[nodiscard]] std::string label(const Handle_Entity& entity) const;
+  [[nodiscard]] std::string label(const Entity& entity) const;
   void find_errors();
   void blame(int number, const std::string& why, std::map<int, std::string>& faces,
              std::map<int, std::string>& rest) const;
-  void take_out_of_shells() const;
 
   Handle(XSControl_WorkSession) session_;
   Handle(Interface_InterfaceModel) model_;
+  const EntityKinds& kinds_;
   std::map<int, std::string> faces_;  // numbers of faces with an error below, and the sentence
   std::map<int, std::string> rest_;   // entities with an error and no face above
 };

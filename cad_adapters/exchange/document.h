@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a STEP or IGES file makes of its shapes: parts, assemblies of parts that are placed, and their names and
+// colours.
+#pragma once
+
+#include <Quantity_ColorRGBA.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Shape.hxx>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shape_file.h"
+
+namespace carreau_occ {
+
+/// A tree of items as OpenCASCADE's own documents (XDE) have it, so that files mean here what they mean there; those
+/// bring a viewer and a window system. An item is a shape, a part of one, an assembly, or one of those placed
+/// somewhere. Edges and vertices are none, since nothing of theirs has a name or a colour in a mesh.
+class Document {
+ public:
+  static constexpr int none = -1;
+
+  /// The item of a shape, which is made if there is none. One that is placed refers to the item of the shape at its
+  /// origin.
+  int add(const TopoDS_Shape& shape);
+  /// The same for a compound, with a component for each shape in it, and so on below.
+  int add_expanded(const TopoDS_Shape& shape);
+  int add_assembly();
+  /// `part` at a place in an assembly.
+  int add_component(int assembly, int part, const TopLoc_Location& place);
+  /// A solid, a shell or a face of an item, whatever its place in it: the same one each time. none: it holds no such
+  /// shape.
+  int add_inside(int item, const TopoDS_Shape& shape);
+
+  /// What stands for a shape: its item, the first component at its place, or, if asked for, what add_inside() makes of
+  /// it.
+  int find(const TopoDS_Shape& shape, bool inside);
+  /// A component at the shape's place, or else its part; what is inside of parts is not looked at.
+  [[nodiscard]] int find_component_or_part(const TopoDS_Shape& shape) const;
+
+  [[nodiscard]] TopoDS_Shape shape(int item) const;
+  [[nodiscard]] bool is_assembly(int item) const { return at(item).assembly; }
+
+  void set_name(int item, const std::string& name) { at(item).name = name; }
+  /// What add_inside() made has this shape.
+  void set_shape(int item, const TopoDS_Shape& shape);
+  enum class Colour { surface, general };
+  void set_colour(int item, Colour kind, const Quantity_ColorRGBA& colour);
+  /// A colour that the file has: later ones that differ from it by no more than a rounding error are this one.
+  Quantity_Color known_colour(const Quantity_ColorRGBA& colour);
+  /// Parts without a colour get that of the assembly that holds them.
+  void hand_down_colours();
+
+  /// All shapes that nothing else refers to, and what is known of them.
+  void write(ShapeFile& file);
+
+ private:
+  struct Item {
+    TopoDS_Shape shape;          // null where it is that of a part
+    int part = none;             // what a placed item refers to
+    TopLoc_Location place;       // where that is
+    int above = none;            // none: it is in no other item
+    bool assembly = false;       // of the items below
+    bool assembled = false;      // the shape is that of all below
+    std::vector<int> below;      // in the order in which they were made
+    std::vector<int> placed_as;  // items that refer to this one
+    std::string name;
+    std::optional<Quantity_Color> surface, general;
+  };
+  struct Inside {
+    TopTools_IndexedMapOfShape shapes;
+    TopTools_DataMapOfShapeInteger items;
+  };
+
+  [[nodiscard]] Item& at(int item) { return items_[static_cast<std::size_t>(item)]; }
+  [[nodiscard]] const Item& at(int item) const { return items_[static_cast<std::size_t>(item)]; }
+  int make(const TopoDS_Shape& shape, int above);
+  int add_below(const TopoDS_Shape& shape, bool expand);
+  void place(int item, int part, const TopLoc_Location& place);
+  void add_components_of(int assembly, const TopoDS_Shape& shape);
+  void hold_insides(int item);
+  void remember(const TopoDS_Shape& shape, int item);
+  Inside& inside_of(int item);
+  void hand_down_from(int item);
+  void assemble(int item);
+  void write_labels(int item, const TopLoc_Location& place, ShapeFile& file) const;
+
+  std::vector<Item> items_;
+  TopTools_DataMapOfShapeInteger tops_;     // items that are in no other, by the shape that they have
+  TopTools_DataMapOfShapeInteger known_;    // of what was added
+  TopTools_DataMapOfShapeInteger holders_;  // the last item that holds a shape
+  std::map<int, Inside> insides_;
+  std::vector<Quantity_ColorRGBA> colours_;
+};
+
+}  // namespace carreau_occ

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step_entities.h"
+
+#include <StepGeom_BSplineCurveWithKnots.hxx>
+#include <StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve.hxx>
+#include <StepGeom_BSplineSurfaceWithKnots.hxx>
+#include <StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface.hxx>
+#include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
+#include <StepGeom_Direction.hxx>
+#include <StepGeom_Pcurve.hxx>
+#include <StepGeom_Surface.hxx>
+#include <StepShape_ConnectedFaceSet.hxx>
+#include <StepShape_Face.hxx>
+#include <StepShape_HArray1OfFace.hxx>
+#include <StepShape_TopologicalRepresentationItem.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColStd_HArray2OfReal.hxx>
+#include <algorithm>
+
+#include "face_check.h"
+
+namespace carreau_occ {
+namespace {
+
+template <typename Curve>
+void take_curve(const Entity& entity, Spline& spline) {
+  if (const auto curve = Handle(Curve)::DownCast(entity); !curve.IsNull()) {
+    spline.add_knots(curve->Knots());
+    if constexpr (requires { curve->WeightsData(); })
+      if (const auto weights = curve->WeightsData(); !weights.IsNull())
+        spline.weights.assign(weights->begin(), weights->end());
+  }
+}
+
+template <typename Surface>
+void take_surface(const Entity& entity, Spline& spline) {
+  if (const auto surface = Handle(Surface)::DownCast(entity); !surface.IsNull()) {
+    spline.add_knots(surface->UKnots());
+    spline.add_knots(surface->VKnots());
+    if constexpr (requires { surface->WeightsData(); })
+      if (const auto weights = surface->WeightsData(); !weights.IsNull())
+        for (int i = weights->LowerRow(); i <= weights->UpperRow(); ++i)
+          for (int j = weights->LowerCol(); j <= weights->UpperCol(); ++j)
+            spline.weights.push_back(weights->Value(i, j));
+  }
+}
+
+}  // namespace
+
+bool StepEntities::is_face(const Entity& entity) const { return is<StepShape_Face>(entity); }
+
+bool StepEntities::is_geometry(const Entity& entity) const {
+  return is<StepGeom_GeometricRepresentationItem>(entity) || is<StepShape_TopologicalRepresentationItem>(entity);
+}
+
+Spline StepEntities::spline(const Entity& entity) const {
+  Spline spline;
+  take_surface<StepGeom_BSplineSurfaceWithKnots>(entity, spline);
+  take_surface<StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface>(entity, spline);
+  take_curve<StepGeom_BSplineCurveWithKnots>(entity, spline);
+  take_curve<StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve>(entity, spline);
+  return spline;
+}
+
+bool StepEntities::mend_numbers(const Entity& entity) const {
+  const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity);
+  const auto vector = Handle(StepGeom_Direction)::DownCast(entity);
+  const int n = !point.IsNull() ? point->NbCoordinates() : !vector.IsNull() ? vector->NbDirectionRatios() : 0;
+  if (n < 1) return false;
+  const Handle(TColStd_HArray1OfReal) numbers = new TColStd_HArray1OfReal(1, n, 0.);
+  bool good = true;
+  for (int i = 1; i <= n; ++i) {
+    const double x = point.IsNull() ? vector->DirectionRatiosValue(i) : point->CoordinatesValue(i);
+    if (usable(x))
+      numbers->SetValue(i, x);
+    else
+      good = false;
+  }
+  if (good) return false;
+  if (point.IsNull())
+    vector->SetDirectionRatios(numbers);
+  else
+    point->SetCoordinates(numbers);
+  return true;
+}
+
+std::string StepEntities::lost_scale(const Entity& entity) const {
+  const auto place = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
+  if (place.IsNull() || !place->HasScale() || place->Scale() == 1) return "";
+  return "its scale of " + printed(place->Scale()) + " is not applied: what it places has the size of its part";
+}
+
+/// A surface knows the images of edges on it, which belong to the edges: those have neighbours that are sound; a faulty
+/// image is a fault of its surface.
+std::vector<Entity> StepEntities::wholes_of(const Entity& entity, const Interface_Graph& graph) const {
+  if (const auto image = Handle(StepGeom_Pcurve)::DownCast(entity); !image.IsNull()) return {image->BasisSurface()};
+  std::vector<Entity> wholes;
+  for (const Entity& whole : EntityKinds::wholes_of(entity, graph)) {
+    const auto image = Handle(StepGeom_Pcurve)::DownCast(whole);
+    if (image.IsNull() || image->BasisSurface() != entity) wholes.push_back(whole);
+  }
+  return wholes;
+}
+
+void StepEntities::take_out(const Handle(Interface_InterfaceModel) & model, const std::set<Entity>& faces) const {
+  for (int i = 1; i <= model->NbEntities() && !faces.empty(); ++i) {
+    const auto shell = Handle(StepShape_ConnectedFaceSet)::DownCast(model->Value(i));
+    if (shell.IsNull() || shell->CfsFaces().IsNull()) continue;
+    std::vector<Handle(StepShape_Face)> good;
+    for (const Handle(StepShape_Face) & face : *shell->CfsFaces())
+      if (faces.count(face) == 0) good.push_back(face);
+    // Arrays of OpenCASCADE are never empty: of a shell without a good face the translation makes what it can.
+    if (good.empty() || static_cast<int>(good.size()) == shell->NbCfsFaces()) continue;
+    const Handle(StepShape_HArray1OfFace) left = new StepShape_HArray1OfFace(1, static_cast<int>(good.size()));
+    std::copy(good.begin(), good.end(), left->begin());
+    shell->SetCfsFaces(left);
+  }
+}
+
+}  // namespace carreau_occ
