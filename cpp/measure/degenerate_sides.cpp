@@ -8,7 +8,11 @@
 
 namespace carreau {
 
-DegenerateSides::DegenerateSides(const FaceMesh& face) : face_(&face) {
+DegenerateSides::DegenerateSides(const FaceMesh& face, std::int32_t index)
+    : face_(&face), box_{Vec2(infinity, infinity), Vec2(-infinity, -infinity)} {
+  for (std::size_t v = 0; v < face.uv_face.size(); ++v)
+    for (int i = 0; i < 2 && face.uv_face[v] == index; ++i)
+      box_[0][i] = std::min(box_[0][i], face.uv[v][i]), box_[1][i] = std::max(box_[1][i], face.uv[v][i]);
   for (const auto& t : face.flattened)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t p = t[i], q = t[(i + 1) % 3];
@@ -20,8 +24,9 @@ DegenerateSides::DegenerateSides(const FaceMesh& face) : face_(&face) {
   sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
 }
 
-std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Vec2& a, const Vec3& su, const Vec3& sv,
+std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Tangents& at_pole, const Vec2& a, const Tangents& at_a,
                                              const Vec3& chord) const {
+  const auto& [su, sv] = at_a;
   constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
   // The step of (u, v) whose image is the chord, but for its part across the tangent plane. Not the way that is
   // shortest in a metric: around a pole whose metric differs by direction that is a spiral.
@@ -40,6 +45,8 @@ std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Vec2& a, cons
     nearest = d;
     best = place;
   }
+  if (!best && box_[0].x() <= box_[1].x() && norm(at_pole.su) + norm(at_pole.sv) > 0)
+    return arrival_at_pole(face_->uv[p], at_pole, a, at_a, chord, box_);
   return best;
 }
 

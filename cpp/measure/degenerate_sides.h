@@ -9,6 +9,7 @@
 
 #include "mesh/surface_mesh.h"
 #include "support/vec.h"
+#include "surface/independent/bounds/pole.h"
 
 namespace carreau {
 
@@ -16,16 +17,18 @@ namespace carreau {
 class DegenerateSides {
  public:
   DegenerateSides() = default;
-  explicit DegenerateSides(const FaceMesh& face);
+  /// `index`: of the face in SurfaceMesh::faces.
+  DegenerateSides(const FaceMesh& face, std::int32_t index);
 
   /// Where on the side that ends at local vertex `p` the straight way from `a` arrives; su, sv: derivatives at a;
   /// `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of the side stands for the
-  /// pole in (u, v). Empty where no side ends at p.
-  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, const Vec2& a, const Vec3& su, const Vec3& sv, const Vec3& chord) const;
+  /// pole in (u, v). Where no side ends at p, as in meshes free of patches, `at_pole` says along which axis it runs; empty where that is zero.
+  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, const Tangents& at_pole, const Vec2& a, const Tangents& at_a, const Vec3& chord) const;
 
  private:
   const FaceMesh* face_ = nullptr;
   std::vector<std::array<std::int32_t, 2>> sides_;  // local vertices, both ways, ascending
+  std::array<Vec2, 2> box_;                         // of all (u, v) of the face itself, in meshes free of patches; else empty
 };
 
 }  // namespace carreau

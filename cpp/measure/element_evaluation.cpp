@@ -10,9 +10,9 @@
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
-#include "measure/thresholds.h"
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
+#include "surface/independent/bounds/thresholds.h"
 
 namespace carreau {
 
@@ -171,7 +171,7 @@ class ElementEvaluation {
   [[nodiscard]] std::optional<SurfacePlace> surface_below(std::vector<SurfacePlace> corner, const Vec3& point) const {
     std::ranges::stable_sort(corner, {}, [&](const SurfacePlace& c) { return norm(c.xyz - point); });
     for (const SurfacePlace& from : corner)
-      if (const auto found = atlas_.charts->towards(cad_, from, point, true, thresholds::measure::near_foot)) return found;
+      if (const auto found = atlas_.charts->towards(cad_, from, point, true, thresholds::bounds::near_foot)) return found;
     return {};
   }
 

@@ -125,7 +125,7 @@ class Measurement {
   }
 
   void measure_face() {
-    degenerate_ = DegenerateSides(*face_);
+    degenerate_ = DegenerateSides(*face_, face_index_);
     measure_vertices();
     measure_edges();
     measure_triangles();
@@ -207,7 +207,8 @@ class Measurement {
   [[nodiscard]] Vec2 arrival(std::int32_t pole, std::int32_t a) const {
     const AtVertex& from = at_vertex_[a];
     const Vec3 chord = position(pole) - position(a);
-    return degenerate_.arrival(pole, face_->uv[a], from.su, from.sv, chord).value_or(face_->uv[pole]);
+    const AtVertex& there = at_vertex_[pole];
+    return degenerate_.arrival(pole, {there.su, there.sv}, face_->uv[a], {from.su, from.sv}, chord).value_or(face_->uv[pole]);
   }
 
   // The corners of a triangle in (u, v). That at a pole lies between the arrivals of the ways from the other two: the

@@ -4,39 +4,45 @@
 #include <algorithm>
 #include <functional>
 
-#include "measure/thresholds.h"
-
 namespace carreau {
 
-SpreadTriangle::SpreadTriangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t f, std::size_t t)
-    : atlas_(atlas), cad_(cad) {
+namespace {
+
+// Of a vertex of the atlas, by face and (u, v).
+std::vector<SurfacePlace> places_of(const Charts& charts, Cad& cad, const SurfacePlace& vertex) {
+  std::int32_t v = -1;
+  for (int i = 0; i < 3; ++i)
+    if (charts.uv(vertex.foot.triangle, i) == vertex.foot.uv) v = charts.triangles()[vertex.foot.triangle].vertex[i];
+  std::vector<SurfacePlace> places;
+  for (std::size_t t = 0; v >= 0 && t < charts.triangles().size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (charts.triangles()[t].vertex[i] != v) continue;
+      const auto here = static_cast<std::int32_t>(t);
+      const Vec2 uv = charts.uv(here, i);
+      const auto same = [&](const SurfacePlace& p) { return p.foot.uv == uv && charts.face(p.foot) == charts.triangles()[t].face; };
+      if (std::ranges::none_of(places, same)) places.push_back(charts.evaluate(cad, {here, uv}));
+    }
+  return places;
+}
+
+}  // namespace
+
+SpreadTriangle spread_triangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t f, std::size_t t) {
   const FaceMesh& face = mesh.faces[f];
+  std::array<Vec3, 3> corners;
+  std::array<SurfacePlace, 3> places;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t local = face.triangles[t][i];
-    corner_[i] = mesh.vertices[face.vertex[local]];
-    place_[i] = atlas.charts->evaluate(cad, {atlas.feet[f][local], face.uv[local]});
+    corners[i] = mesh.vertices[face.vertex[local]];
+    places[i] = atlas.charts->evaluate(cad, {atlas.feet[f][local], face.uv[local]});
   }
-  const auto& all = atlas.charts->triangles();
-  const std::int32_t any = place_[0].foot.triangle;
-  turned_ = all[any].turned != atlas.is_turned(static_cast<std::int32_t>(f), any);
+  const std::int32_t any = places[0].foot.triangle;
+  const bool turned = atlas.charts->triangles()[any].turned != atlas.is_turned(static_cast<std::int32_t>(f), any);
+  SpreadTriangle made(*atlas.charts, cad, corners, places, turned);
+  for (const SurfacePlace& p : places)
+    if (!p.regular) made.set_pole(places_of(*atlas.charts, cad, p));
+  return made;
 }
-
-Vec3 SpreadTriangle::flat(const std::array<double, 3>& weight) const {
-  return weight[0] * corner_[0] + weight[1] * corner_[1] + weight[2] * corner_[2];
-}
-
-std::optional<SurfacePlace> SpreadTriangle::over(const std::array<double, 3>& weight) const {
-  const Vec3 target = flat(weight);
-  std::array<int, 3> order{0, 1, 2};
-  std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
-  for (const int i : order)
-    if (place_[i].regular)
-      if (const auto found = atlas_.charts->towards(cad_, place_[i], target, true, thresholds::measure::near_foot)) return found;
-  return {};
-}
-
-// Normals of places are those of the atlas.
-Vec3 SpreadTriangle::normal(const SurfacePlace& place) const { return turned_ ? Vec3(-place.normal) : place.normal; }
 
 bool SpreadAtlas::is_turned(std::int32_t face, std::int32_t triangle) const {
   const auto& all = charts->triangles();
@@ -53,7 +59,7 @@ std::vector<SpreadSample> spread_samples(const SurfaceMesh& mesh, const SpreadAt
     for (std::size_t t = 0; t < mesh.faces[f].triangles.size(); ++t) {
       if (!mesh.faces[f].is_spread(t)) continue;
       monitor.checkpoint();
-      const SpreadTriangle triangle(mesh, atlas, cad, f, t);
+      const SpreadTriangle triangle = spread_triangle(mesh, atlas, cad, f, t);
       const auto add = [&](int side, std::size_t rank, const std::array<double, 3>& weight) {
         SpreadSample& sample = samples.emplace_back();
         sample.triangle = first + t, sample.side = side, sample.rank = static_cast<int>(rank);

@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "surface/independent/charts.h"
+#include "surface/independent/bounds/spread_triangle.h"
 
 namespace carreau {
 
@@ -21,28 +21,8 @@ struct SpreadAtlas {
   [[nodiscard]] bool is_turned(std::int32_t face, std::int32_t triangle) const;
 };
 
-/// One of its triangles whose corners are of several charts. Keeps references to its arguments.
-class SpreadTriangle {
- public:
-  /// Three evaluations.
-  SpreadTriangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t face, std::size_t triangle);
-
-  /// The place itself, with these weights of the corners.
-  [[nodiscard]] Vec3 flat(const std::array<double, 3>& weight) const;
-  /// The surface near that place: from the corner of the largest weight that leads there, or to a barrier beside.
-  [[nodiscard]] std::optional<SurfacePlace> over(const std::array<double, 3>& weight) const;
-  /// At a corner.
-  [[nodiscard]] const SurfacePlace& corner(std::size_t i) const { return place_[i]; }
-  /// The unit normal there, on the side of the triangle's face.
-  [[nodiscard]] Vec3 normal(const SurfacePlace& place) const;
-
- private:
-  const SpreadAtlas& atlas_;
-  Cad& cad_;
-  std::array<Vec3, 3> corner_;
-  std::array<SurfacePlace, 3> place_;
-  bool turned_ = false;  // against its face
-};
+/// Of a triangle of the mesh whose corners are of several charts. Three evaluations.
+SpreadTriangle spread_triangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t face, std::size_t triangle);
 
 /// The surface over a place of a spread triangle.
 struct SpreadSample {

@@ -97,6 +97,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.frontal = parameters.integer("frontal") != 0;
   options.independent = parameters.text("patches") == "independent";
   options.measure_bounds = parameters.integer("measure_bounds") > (options.independent ? 0 : 1);
+  options.certified = static_cast<Certified>(parameters.integer("certify"));
   options.sharp_angle = parameters.real("sharp_angle");
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);

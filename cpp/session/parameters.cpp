@@ -33,7 +33,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
 // stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
 // metric_combination).
 constexpr std::array kTable = {
@@ -67,6 +67,9 @@ constexpr std::array kTable = {
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
+    integer_row("certify", 0, 2, 1,
+                "meshes free of patches: triangles whose upper bounds of A0 or A1 are beyond the tolerances are edited; 0 none is bounded, "
+                "1 those that normals at their corners make suspect, 2 all"),
     integer_row("cracks", 0, 1, 0, "1: internal curves are cracks: their vertices are doubled, one for each side"),
     integer_row("crossing_rounds", 0, 20, 0,
                 "rounds in which triangles that cross, but need not, become smaller (0: none is looked for)"),

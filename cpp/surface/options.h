@@ -18,6 +18,9 @@ enum class NarrowFaces : int {
   collapse    ///< the face vanishes: its two sides become one curve for all neighbours
 };
 
+/// Which triangles are bounded for that: none, those that the normals at their corners make suspect, or all.
+enum class Certified : char { none = 0, suspects = 1, all = 2 };
+
 struct CompositeOptions {
   SizeParameters size;
   Element element = Element::p1;
@@ -49,6 +52,8 @@ struct CompositeOptions {
   bool failing_faces_alone = false;
   /// Measures bound A0 and A1 from above.
   bool measure_bounds = true;
+  /// Triangles of meshes free of patches whose bounds are beyond the tolerances are edited (surface/independent/certify).
+  Certified certified = Certified::suspects;
   /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
   int crossing_rounds = 0;
   bool frontal = true;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "measure/mesh_edges.h"
-#include "measure/bounds/triangle_bound.h"
+#include "surface/independent/bounds/triangle_bound.h"
 #include "mesh/surface_mesh.h"
 #include "support/incidence.h"
 

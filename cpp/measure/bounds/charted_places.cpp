@@ -26,7 +26,7 @@ ChartedPlaces::ChartedPlaces(const SurfaceMesh& mesh, std::int32_t face, std::si
       edges_(edges),
       cad_(cad),
       monitor_(monitor),
-      degenerate_(face_),
+      degenerate_(face_, face),
       vertex_(face_.uv.size()),
       edge_(shared) {
   link();
@@ -74,7 +74,7 @@ Vec2 ChartedPlaces::Map::at(const PlaceInTriangle& place) const {
 Vec2 ChartedPlaces::arrival(std::int32_t pole, std::int32_t from) const {
   const AtVertex& at = vertex_[from];
   const Vec3 chord = mesh_.vertices[face_.vertex[pole]] - mesh_.vertices[face_.vertex[from]];
-  return degenerate_.arrival(pole, face_.uv[from], at.su, at.sv, chord).value_or(face_.uv[pole]);
+  return degenerate_.arrival(pole, {vertex_[pole].su, vertex_[pole].sv}, face_.uv[from], {at.su, at.sv}, chord).value_or(face_.uv[pole]);
 }
 
 ChartedPlaces::Map ChartedPlaces::map_of(std::int32_t triangle) const {

@@ -10,7 +10,7 @@
 #include "cad/cad.h"
 #include "measure/degenerate_sides.h"
 #include "measure/mesh_edges.h"
-#include "measure/bounds/triangle_bound.h"
+#include "surface/independent/bounds/triangle_bound.h"
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
 

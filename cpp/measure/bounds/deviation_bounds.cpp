@@ -8,14 +8,17 @@
 
 #include "measure/bounds/bounded_triangles.h"
 #include "measure/bounds/charted_places.h"
-#include "measure/bounds/spread_places.h"
+#include "surface/independent/bounds/spread_places.h"
+#include "measure/spread_samples.h"
 #include "measure/thresholds.h"
+#include "surface/independent/bounds/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-using namespace thresholds::measure;
+using thresholds::bounds::near_angle, thresholds::bounds::near_deviation;
+using thresholds::measure::triangles_at_once;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double degree = std::numbers::pi / 180;
@@ -90,7 +93,7 @@ class Bounds {
     monitor_.checkpoint();
     const BoundedTriangle triangle = wanted(first + t);
     if (triangle.is_flat()) return;
-    SpreadPlaces places(mesh_, options_.atlas, cad_, f, t, triangle);
+    SpreadPlaces places(spread_triangle(mesh_, options_.atlas, cad_, static_cast<std::size_t>(f), t), triangle);
     const auto see = [&](std::span<const PlaceInTriangle> at) {
       std::vector<BoundPlace> seen;
       seen.reserve(at.size());

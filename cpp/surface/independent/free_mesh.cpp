@@ -242,6 +242,11 @@ std::int32_t FreeMesh::split(const Quad& q, const SurfacePlace& at) {
   return mesh_->split(q, at.foot.uv, at.xyz).local;
 }
 
+void FreeMesh::undo(std::size_t edits) {
+  mesh_->undo(edits);
+  while (place_.size() > xyz_.size()) forget_vertex();
+}
+
 void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted) {
   put(v, at.front(), wanted);
   kept_places_[several_[v]].assign(at.begin(), at.end());

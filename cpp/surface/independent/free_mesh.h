@@ -126,6 +126,8 @@ class FreeMesh final : public PlacedVertices {
   /// 1: as was tolerated.
   void tighten(double factor);
 
+  [[nodiscard]] const SurfaceTolerances& tolerances() const noexcept { return asked_; }
+
   /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
   std::int32_t try_vertex(const SurfacePlace& at);
   void forget_vertex();
@@ -140,6 +142,10 @@ class FreeMesh final : public PlacedVertices {
   void put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
   /// The same of a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
+
+  /// Edits so far, but for put(); and back to so many: the vertices that they made are gone.
+  [[nodiscard]] std::size_t edits() const noexcept { return mesh_->edits(); }
+  void undo(std::size_t edits);
 
   /// What has become of all parts of a division. Triangles get other numbers, old vertices keep theirs.
   void take(const Division& division, std::vector<EditedPart>&& edited);

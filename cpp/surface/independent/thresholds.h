@@ -112,6 +112,8 @@ inline constexpr double least_anisotropy = 1.05;
 /// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
 /// against the surface; patches bound it, too (surface/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
 inline constexpr double leaning_angle = 35;
+/// Times that triangles beyond tolerances are worked at, each time with what has crossed guarded.
+inline constexpr int most_certifications = 3;
 /// Sizes around such a place that are guarded.
 inline constexpr double guarded_sizes = 2;
 /// Degrees. A larger sharp_angle does not let triangles stand upright.

@@ -14,6 +14,7 @@
 #include "support/infinity.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
+#include "surface/independent/certify/certification.h"
 #include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
@@ -193,12 +194,34 @@ void Tries::guard(const Intersections& found, const FreedMesh& made) {
 }
 
 // With why it is not to replace the mesh of before.
-Tries::Outcome Tries::put_together(StartedMesh&& mesh) {
+Tries::Outcome Tries::put_together(StartedMesh& mesh) {
   Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
   outcome.crossings = find_crossings(outcome.made.mesh, before_, options_, monitor_);
   outcome.crosses = outcome.crossings.count > 0 && outcome.crossings.count > crossings_before();
   outcome.why = outcome.crosses ? "more triangles would cross" : why_worse(outcome.made.mesh, before_.mesh);
   return outcome;
+}
+
+// All or nothing; where triangles would cross for it nothing is edited around.
+void Tries::certify_surface(StartedMesh& mesh, Outcome& outcome) {
+  if (frame_.everywhere || frame_.elements || options_.certified == Certified::none) return;
+  Certifier certifier(*mesh.free, options_.certified == Certified::all, monitor_);
+  for (int round = 0; round < most_certifications; ++round) {
+    const Certification done = certifier.run();
+    monitor_.message(Level::detail, "bounds of A0 and A1: " + std::to_string(done.beyond_before) + " triangles beyond, " +
+                                        std::to_string(done.beyond) + " after " + std::to_string(done.swaps) + " swaps, " +
+                                        std::to_string(done.moves) + " moves and " + std::to_string(done.splits) + " splits");
+    if (!done.has_edits()) return;
+    Outcome better = put_together(mesh);
+    const bool crosses = better.crossings.count > outcome.crossings.count;
+    if (better.why.empty() && !crosses) {
+      outcome = std::move(better);
+      return;
+    }
+    if (!crosses) return;
+    certifier.undo();
+    guard(better.crossings, better.made);
+  }
 }
 
 Tries::Outcome Tries::run() {
@@ -219,11 +242,14 @@ Tries::Outcome Tries::run() {
     }
     // Good shapes of a size that nobody wants are of no use.
     if (spare && tried.in_range < spare->in_range - most_range_for_shapes) std::swap(tried, *spare);
-    outcome = put_together(std::move(tried.mesh));
-    if (outcome.why.empty()) return outcome;
+    outcome = put_together(tried.mesh);
+    if (outcome.why.empty()) {
+      certify_surface(tried.mesh, outcome);
+      return outcome;
+    }
     if (outcome.crosses) guard(outcome.crossings, outcome.made);
   }
-  return spare && (frame_.everywhere || frame_.elements) ? put_together(std::move(spare->mesh)) : std::move(outcome);
+  return spare && (frame_.everywhere || frame_.elements) ? put_together(spare->mesh) : std::move(outcome);
 }
 
 }  // namespace carreau

@@ -77,7 +77,8 @@ class Tries {
     double in_range = 0;                        ///< share of sides of triangles
   };
   Try make(const Weighing& weighing, bool coarsely);
-  Outcome put_together(StartedMesh&& mesh);
+  Outcome put_together(StartedMesh& mesh);  // it stays where no elements are made of it
+  void certify_surface(StartedMesh& mesh, Outcome& outcome);
   void remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely);
   void guard(const Intersections& found, const FreedMesh& made);
   [[nodiscard]] std::int64_t crossings_before();

@@ -1,37 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "measure/bounds/spread_places.h"
+#include "surface/independent/bounds/spread_places.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "measure/thresholds.h"
+#include "surface/independent/bounds/thresholds.h"
 #include "support/infinity.h"
 
 namespace carreau {
 
-using namespace thresholds::measure;
+using namespace thresholds::bounds;
 
-SpreadPlaces::SpreadPlaces(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t face,
-                           std::size_t triangle, const BoundedTriangle& flat)
-    : flat_(flat), triangle_(mesh, atlas, cad, face, triangle) {
+SpreadPlaces::SpreadPlaces(const SpreadTriangle& triangle, const BoundedTriangle& flat) : flat_(flat), triangle_(triangle) {
   for (std::size_t i = 0; i < looks_.size(); ++i) looks_[i] = look(TriangleBound::lattice()[i]);
   curvature_ = curvature_of(looks_);
   known_ = true;
   for (Look& each : looks_)
-    if (!(norm(each.normal) > 0)) lean_on_others(each);
+    if (!(norm(each.normal) > 0) && each.length > 0) lean_on_others(each);
 }
 
 // Corners are on the surface.
 SpreadPlaces::Look SpreadPlaces::look(const PlaceInTriangle& place) const {
   const std::array<double, 3> weight{1 - place.x() - place.y(), place.x(), place.y()};
   Look look{triangle_.flat(weight), {0, 0, 0}, {0, 0, 0}, true, 0};
+  if (const int pole = triangle_.pole(); pole >= 0) look.length = weight[pole] == 1 ? 0 : 1 - weight[pole];
   for (std::size_t i = 0; i < 3; ++i)
     if (weight[i] == 1) {
       const SurfacePlace& corner = triangle_.corner(i);
       look.offset = corner.xyz - look.flat;
       if (corner.regular)
         look.normal = triangle_.normal(corner);
-      else if (known_)
+      else if (known_ && look.length > 0)
         lean_on_others(look);
       return look;
     }
@@ -78,6 +77,7 @@ double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_
 BoundPlace SpreadPlaces::over(const Look& look) const {
   double nearest = norm(look.offset);
   for (const Vec3& p : flat_.p) nearest = std::min(nearest, norm(p - look.flat));
+  if (look.length == 0) return {look.flat, {0, 0, 0}, 0};
   if (!(norm(look.normal) > 0)) {
     has_normals_ = false;
     return {look.flat + nearest * flat_.normal, {0, 0, 0}, 0};
@@ -85,7 +85,7 @@ BoundPlace SpreadPlaces::over(const Look& look) const {
   const double height = dot(look.offset, look.normal), beside = norm(look.offset - height * look.normal);
   const double distance = std::min(nearest, std::abs(height) + curvature_ * beside * beside / 2);
   const double signed_distance = std::copysign(distance, height * dot(look.normal, flat_.normal));
-  return {look.flat + signed_distance * flat_.normal, look.normal, curvature_ * look.away};
+  return {look.flat + signed_distance * flat_.normal, look.length * look.normal, curvature_ * look.away};
 }
 
 std::array<BoundPlace, TriangleBound::lattice_size> SpreadPlaces::lattice() const {

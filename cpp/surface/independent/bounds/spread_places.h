@@ -4,16 +4,15 @@
 
 #include <array>
 
-#include "measure/bounds/triangle_bound.h"
-#include "measure/spread_samples.h"
+#include "surface/independent/bounds/triangle_bound.h"
+#include "surface/independent/bounds/spread_triangle.h"
 
 namespace carreau {
 
 /// Such a triangle. Each place has the point that lies over it along its normal, as far as the surface is from it at most. Keeps references.
 class SpreadPlaces {
  public:
-  SpreadPlaces(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t face, std::size_t triangle,
-               const BoundedTriangle& flat);
+  SpreadPlaces(const SpreadTriangle& triangle, const BoundedTriangle& flat);
 
   [[nodiscard]] std::array<BoundPlace, TriangleBound::lattice_size> lattice() const;
   [[nodiscard]] BoundPlace at(const PlaceInTriangle& place) const { return over(look(place)); }
@@ -25,6 +24,7 @@ class SpreadPlaces {
     Vec3 flat, offset, normal;  // the surface from there; its normal, zero: none
     bool found = false;         // near that place
     double away = 0;            // where the normal is from
+    double length = 1;          // given to the normal: as long as the way to a pole
   };
   [[nodiscard]] Look look(const PlaceInTriangle& place) const;
   [[nodiscard]] BoundPlace over(const Look& look) const;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "measure/bounds/triangle_bound.h"
+#include "surface/independent/bounds/triangle_bound.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "measure/thresholds.h"
+#include "surface/independent/bounds/thresholds.h"
 #include "mesh/triangle_distance.h"
 
 namespace carreau {
 
 namespace {
 
-using namespace thresholds::measure;
+using namespace thresholds::bounds;
 
 constexpr int cells = 4;  // of a side
 
@@ -122,16 +122,34 @@ void TriangleBound::cut(const std::array<Seen, 3>& corner, const std::array<Seen
   judge({{middle[1], middle[2], middle[0]}, bends, cuts});
 }
 
+// Into two, from the pole on: ways to it are many, however near to it.
+void TriangleBound::cut_at_pole(const Part& part, const std::array<Seen, 3>& middle, Bends bends) {
+  const std::size_t pole = part.corner[0].singular ? 0 : part.corner[1].singular ? 1 : 2, next = (pole + 1) % 3, last = (pole + 2) % 3;
+  for (const std::size_t side : {pole, last}) {  // to the pole: as long as before
+    bends[side] = bends[side].times(4);
+    bends[side].raise(part.bends[side].times(least_of_parent));
+  }
+  bends[pole].raise(bends[last]);
+  bends[last] = bends[pole];
+  Part first{part.corner, bends, part.cuts + 1}, second = first;
+  first.corner[last] = second.corner[next] = middle[next];
+  judge(std::move(first));
+  judge(std::move(second));
+}
+
 void TriangleBound::judge(Part&& part) {
   const double deviation = deviation_of(part), angle = angle_of(part);
-  const auto is_near = [](double bound, double seen, double floor, double tolerance) {
-    return bound <= (1 + (bound > tolerance ? bound_gap_beyond : bound_gap)) * seen + floor;
+  const auto is_near = [&](double bound, double seen, double floor, double tolerance) {
+    if (bound <= tolerance || (triangle_.decides && seen > tolerance)) return bound <= (1 + bound_gap) * seen + floor;
+    // Where what is seen is not beyond, that is to be decided.
+    return seen > tolerance ? bound <= (1 + bound_gap_beyond) * seen + floor : bound <= (1 + bound_gap_undecided) * seen;
   };
   // What is not known of a normal is no better known of parts.
   const bool leans = std::ranges::any_of(part.corner, [](const Seen& c) { return c.place.lean > 0; });
   const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
                     (leans || is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance));
-  if (near || part.cuts >= most_cuts || parts_ >= most_parts) {
+  const bool known = triangle_.decides && (seen_deviation_ > triangle_.deviation_tolerance || seen_angle_ > triangle_.angle_tolerance);
+  if (near || part.cuts >= most_cuts || parts_ >= (known ? most_parts_beyond : most_parts)) {
     deviation_ = std::max(deviation_, deviation);
     angle_ = std::max(angle_, angle);
     return;
@@ -241,7 +259,10 @@ void TriangleBound::take(std::span<const BoundPlace> places) {
       bends[i] = bend_of(part.corner[i].place, middles[k][i].place, part.corner[(i + 1) % 3].place);
       bends[i].raise(part.bends[i].times(least_of_parent / 4));
     }
-    cut(part.corner, middles[k], bends, part.cuts + 1);
+    if (part.cuts % 2 == 0 && std::ranges::count(part.corner, true, &Seen::singular) == 1)
+      cut_at_pole(part, middles[k], bends);
+    else
+      cut(part.corner, middles[k], bends, part.cuts + 1);
   }
   want_middles();
 }

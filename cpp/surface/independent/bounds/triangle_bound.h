@@ -33,6 +33,7 @@ struct BoundedTriangle {
   double slope = infinity, reach = 0;
   double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to what is seen; model length, radians
   double deviation_tolerance = infinity, angle_tolerance = infinity;  ///< bounds beyond are nearer to it
+  bool decides = false;  ///< whether bounds are beyond is all that is asked
 };
 
 /// Weights of the second and the third corner.
@@ -85,6 +86,7 @@ class TriangleBound {
   [[nodiscard]] Seen see(const BoundPlace& place, const PlaceInTriangle& at);
   [[nodiscard]] Bend bend_of(const BoundPlace& p, const BoundPlace& middle, const BoundPlace& q) const noexcept;
   void cut(const std::array<Seen, 3>& corner, const std::array<Seen, 3>& middle, const Bends& bends, int cuts);
+  void cut_at_pole(const Part& part, const std::array<Seen, 3>& middle, Bends bends);
   void judge(Part&& part);
   [[nodiscard]] double deviation_of(const Part& part) const noexcept;
   [[nodiscard]] double overshoot_of(const Part& part) const noexcept;

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/independent/certify/certification.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "surface/independent/certify/free_bounds.h"
+#include "surface/independent/certify/thresholds.h"
+#include "surface/independent/edits/edge_edits.h"
+
+namespace carreau {
+
+using namespace thresholds::certify;
+
+class Certifier::Work {
+ public:
+  Work(FreeMesh& mesh, bool all, Monitor& monitor)
+      : mesh_(mesh),
+        all_(all),
+        monitor_(monitor),
+        bounds_(mesh, mesh.cad()),
+        upright_(1 / (1 - std::cos(mesh.tolerances().angle_deg * std::numbers::pi / 180))) {}
+
+  Certification run() {
+    report_ = {};
+    std::vector<Beyond> beyond = find();
+    report_.beyond_before = static_cast<std::int64_t>(beyond.size());
+    for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
+      const std::int64_t before = edits();
+      for (const std::vector<std::int32_t>& group : groups(beyond)) {
+        const std::int64_t before_group = edits();
+        std::vector<Corners> corners;
+        for (const std::int32_t t : group) corners.push_back(mesh_.triangles()[t]);
+        if (failed_.contains(corners)) continue;
+        // What is far beyond is not mended edit by edit.
+        const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > most_moved; });
+        if (!work_at(group, boldly)) (void)work_at(group, !boldly);
+        if (edits() == before_group) failed_.insert(std::move(corners));
+      }
+      beyond = find();
+      if (edits() == before) break;
+    }
+    report_.beyond = static_cast<std::int64_t>(beyond.size());
+    return report_;
+  }
+
+  void undo() {
+    undo({0, 0, {}});
+    share_.clear(), failed_.clear();
+  }
+
+ private:
+  using Corners = EditableMesh::Triangle;
+  using Place = FreeMesh::Place;
+  using Quad = FreeMesh::Quad;
+  struct Beyond {
+    double share;
+    Corners corners;
+    std::int32_t index;
+  };
+  /// What an edit leaves.
+  struct Outcome {
+    double share = infinity;
+    TriangleShapes shapes;
+  };
+  /// A vertex where it was.
+  struct Moved {
+    std::int32_t vertex;
+    SurfacePlace from;
+    WantedSize size;
+  };
+  struct State {
+    std::size_t edits, moves;
+    Certification report;
+  };
+
+  [[nodiscard]] State state() const { return {mesh_.edits(), moved_.size(), report_}; }
+  void undo(const State& to) {
+    while (moved_.size() > to.moves) {
+      const Moved& last = moved_.back();
+      mesh_.put(last.vertex, last.from, last.size);
+      for (const Place p : mesh_.mesh().fan(last.vertex)) forget(p);
+      moved_.pop_back();
+    }
+    // Of triangles that come back nothing is known.
+    for (const std::int32_t t : touched_) share_[t] = unknown;
+    mesh_.undo(to.edits);
+    share_.resize(mesh_.triangles().size(), unknown);
+    std::erase_if(touched_, [&](std::int32_t t) { return t >= static_cast<std::int32_t>(mesh_.triangles().size()); });
+    std::erase_if(changed_, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
+    report_ = to.report;
+  }
+
+  // Triangles that share a vertex, worst group first.
+  [[nodiscard]] std::vector<std::vector<std::int32_t>> groups(const std::vector<Beyond>& beyond) const {
+    std::map<std::int32_t, std::vector<std::int32_t>> at;  // by vertex: triangles
+    for (const Beyond& b : beyond)
+      for (const std::int32_t v : b.corners) at[v].push_back(b.index);
+    std::set<std::int32_t> done;
+    std::vector<std::vector<std::int32_t>> found;
+    for (const Beyond& b : beyond) {
+      if (!done.insert(b.index).second) continue;
+      std::vector<std::int32_t>& group = found.emplace_back(1, b.index);
+      for (std::size_t k = 0; k < group.size(); ++k)
+        for (const std::int32_t v : mesh_.triangles()[group[k]])
+          for (const std::int32_t t : at[v])
+            if (done.insert(t).second) group.push_back(t);
+    }
+    return found;
+  }
+
+  /// How far some triangles are beyond: the largest share, and the sum of what exceeds 1.
+  struct Excess {
+    double most = 0, sum = 0;
+  };
+  // Of what the group has become.
+  Excess excess() {
+    std::ranges::sort(touched_);
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    Excess all;
+    for (const std::int32_t t : touched_) all.most = std::max(all.most, share_of(t)), all.sum += std::max(0.0, share_of(t) - 1);
+    return all;
+  }
+
+  // Whether none of it is beyond any more. `boldly`: splits may come before those that make them good. Of what the rounds leave the best counts.
+  bool work_at(const std::vector<std::int32_t>& group, bool boldly) {
+    touched_ = group, changed_.clear(), boldly_ = boldly;
+    std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
+    if (touched_.empty()) return true;
+    const double most = std::max(1.0, excess().most * most_growth);
+    State best = state();
+    double least = excess().sum;
+    for (int round = 0; round < most_rounds && least > 0; ++round) {
+      const std::int64_t before = edits();
+      const std::vector<std::int32_t> here = touched_;
+      for (const std::int32_t t : here) {
+        monitor_.checkpoint();
+        if (share_of(t) > 1) mend(t);
+      }
+      for (int pass = 0; pass < tidy_passes; ++pass) tidy();
+      if (edits() == before) break;
+      if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best = state();
+    }
+    if (mesh_.edits() > best.edits || moved_.size() > best.moves) undo(best);
+    return least == 0;
+  }
+
+  [[nodiscard]] std::int64_t edits() const { return report_.swaps + report_.moves + report_.splits; }
+
+  double share_of(std::int32_t triangle) {
+    share_.resize(mesh_.triangles().size(), unknown);
+    double& known = share_[triangle];
+    if (known == unknown) known = bounds_.share(mesh_.triangles()[triangle]);
+    return known;
+  }
+  void forget(Place p) {
+    share_.resize(mesh_.triangles().size(), unknown);
+    share_[p.triangle] = unknown;
+    touched_.push_back(p.triangle);
+  }
+  [[nodiscard]] bool is_guarded(std::initializer_list<std::int32_t> vertices) const {
+    return std::ranges::any_of(vertices, [&](std::int32_t v) { return mesh_.charts().is_guarded(mesh_.place(v).foot); });
+  }
+
+  // The surface is not known to be within tolerances by far.
+  [[nodiscard]] bool is_suspect(const Corners& t) const {
+    if (all_) return true;
+    TriangleShapes shapes;
+    mesh_.judge_agreement(t[0], t[1], t[2], shapes);
+    return shapes.share > suspect_share * suspect_share;
+  }
+
+  // Worst first.
+  std::vector<Beyond> find() {
+    std::vector<Beyond> found;
+    for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
+      if (t % 64 == 0) monitor_.checkpoint();
+      const Corners corners = mesh_.triangles()[t];
+      if (corners[0] < 0 || !is_suspect(corners)) continue;
+      if (const double share = share_of(static_cast<std::int32_t>(t)); share > 1) found.push_back({share, corners, static_cast<std::int32_t>(t)});
+    }
+    std::ranges::sort(found, [](const Beyond& p, const Beyond& q) { return p.share != q.share ? p.share > q.share : p.corners < q.corners; });
+    return found;
+  }
+
+  // Shapes and the agreement of corners cost nothing: most edits fail by them.
+  [[nodiscard]] bool is_fair(const TriangleShapes& before, const TriangleShapes& after, double least) const {
+    return after.worst >= std::min(before.worst, least) && after.share < infinity && after.share <= std::max(before.share, upright_);
+  }
+
+  void mend(std::int32_t triangle) {
+    const Corners corners = mesh_.triangles()[triangle];
+    std::array<std::optional<Quad>, 3> quads;
+    for (int i = 0; i < 3; ++i) quads[i] = mesh_.mesh().quad_between({0, corners[i]}, corners[(i + 1) % 3]);
+    std::array<Outcome, 3> swapped;
+    for (int i = 0; i < 3; ++i)
+      if (quads[i]) swapped[i] = when_swapped(*quads[i]);
+    const auto best = std::ranges::min_element(swapped, {}, &Outcome::share) - swapped.begin();
+    if (swapped[best].share <= 1 && swap(*quads[best])) return;
+    for (const std::int32_t v : corners)
+      if (share_of(triangle) < most_moved && mesh_.is_free(v) && move(v)) return;
+    if (split(quads)) return;
+    if (swapped[best].share < infinity && swapped[best].share < before(*quads[best]) - least_gain) swap(*quads[best]);
+  }
+
+  double before(const Quad& q) { return std::max(share_of(q.t), share_of(q.u)); }
+
+  [[nodiscard]] TriangleShapes judge_pair(const Quad& q) const {
+    TriangleShapes shapes;
+    mesh_.judge(q.a, q.b, q.c, shapes), mesh_.judge(q.b, q.a, q.d, shapes);
+    return shapes;
+  }
+
+  Outcome when_swapped(const Quad& q) {
+    if (is_guarded({q.a, q.b, q.c, q.d})) return {};
+    const double length = mesh_.length(q.c, q.d);
+    if (length > longest_swapped && length > mesh_.length(q.a, q.b)) return {};
+    Outcome outcome;
+    mesh_.judge(q.a, q.d, q.c, outcome.shapes), mesh_.judge(q.d, q.b, q.c, outcome.shapes);
+    if (!is_fair(judge_pair(q), outcome.shapes, least_shape) || !mesh_.mesh().can_swap(q)) return {};
+    outcome.share = std::max(bounds_.share({q.a, q.d, q.c}), bounds_.share({q.d, q.b, q.c}));
+    return outcome;
+  }
+
+  bool swap(const Quad& q) {
+    if (!mesh_.swap(q)) return false;
+    for (const Place p : q.places()) forget(p);
+    changed_.insert(changed_.end(), {q.a, q.b, q.c, q.d});
+    ++report_.swaps;
+    return true;
+  }
+
+  // To where nothing around is beyond.
+  bool move(std::int32_t v) {
+    const SurfacePlace from = mesh_.place(v);
+    if (!from.regular) return false;
+    const double h = mesh_.size(v);
+    const Vec3 least = std::abs(from.normal[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 across = cross(from.normal, least), p = (1 / norm(across)) * across, q = cross(from.normal, p);
+    const double fair = std::min(mesh_.judge_shapes_around(v).worst, least_shape_of_move);
+    for (const double step : steps)
+      for (int k = 0; k < directions; ++k) {
+        const double angle = 2 * std::numbers::pi * k / directions;
+        if (put(v, from.xyz + (step * h) * (std::cos(angle) * p + std::sin(angle) * q), 1, fair)) return true;
+      }
+    return false;
+  }
+
+  /// Where no share around exceeds `most`, nor is a shape below `least`.
+  bool put(std::int32_t v, const Vec3& target, double most, double least) {
+    const SurfacePlace from = mesh_.place(v);
+    const WantedSize size = mesh_.wanted(v);
+    const TriangleShapes before = mesh_.judge_around(v);
+    const int out = out_of_range(mesh_, v);
+    const auto to = is_guarded({v}) ? std::nullopt : mesh_.near(v, from.normal, target);
+    if (!to) return false;
+    mesh_.put(v, *to, mesh_.wanted_at(*to));
+    const TriangleShapes after = mesh_.judge_around(v);
+    bool good = after.worst >= least && is_fair(before, after, 0) && out_of_range(mesh_, v) <= out;
+    std::vector<double> shares;
+    for (const Place p : mesh_.mesh().fan(v)) {
+      if (!good) break;
+      shares.push_back(bounds_.share(mesh_.mesh().at(p)));
+      good = shares.back() <= most;
+    }
+    if (!good) {
+      mesh_.put(v, from, size);
+      return false;
+    }
+    moved_.push_back({v, from, size});
+    const auto& fan = mesh_.mesh().fan(v);
+    for (std::size_t k = 0; k < fan.size(); ++k) forget(fan[k]), share_[fan[k].triangle] = shares[k];
+    ++report_.moves;
+    return true;
+  }
+
+  [[nodiscard]] std::optional<SurfacePlace> middle(const Quad& q) {
+    const Vec3 at = 0.5 * (mesh_.position(q.a) + mesh_.position(q.b)), normal = mesh_.mesh().mean_normal(q.places());
+    auto found = mesh_.near(q.a, normal, at);
+    return found ? found : mesh_.near(q.b, normal, at);
+  }
+
+  static std::array<Corners, 4> parts(const Quad& q, std::int32_t m) {
+    return {Corners{q.a, m, q.c}, {m, q.b, q.c}, {m, q.a, q.d}, {q.b, m, q.d}};
+  }
+
+  Outcome when_split(const Quad& q, const SurfacePlace& at) {
+    Outcome outcome;
+    const std::int32_t m = mesh_.try_vertex(at);
+    for (const Corners& t : parts(q, m)) mesh_.judge(t[0], t[1], t[2], outcome.shapes);
+    if (is_fair(judge_pair(q), outcome.shapes, boldly_ ? least_shape_boldly : least_shape)) {
+      outcome.share = 1;
+      if (!boldly_) for (const Corners& t : parts(q, m)) outcome.share = std::max(outcome.share, bounds_.share(t));
+    }
+    mesh_.forget_vertex();
+    return outcome;
+  }
+
+  // The edge whose parts come nearest; where none does the longest one, as long as nothing is worse.
+  bool split(const std::array<std::optional<Quad>, 3>& quads) {
+    int best = -1;
+    std::pair<double, double> least{infinity, 0};
+    std::array<std::optional<SurfacePlace>, 3> at;
+    for (int i = 0; i < 3; ++i) {
+      if (!quads[i]) continue;
+      const Quad& q = *quads[i];
+      const double length = mesh_.length(q.a, q.b);
+      if (length < shortest_split || is_guarded({q.a, q.b, q.c, q.d})) continue;
+      at[i] = middle(q);
+      if (!at[i]) continue;
+      const double share = when_split(q, *at[i]).share;
+      if (share > before(q) && !boldly_) continue;
+      if (share < infinity && std::pair(boldly_ ? 1.0 : std::max(share, 1.0), -length) < least)
+        least = {boldly_ ? 1.0 : std::max(share, 1.0), -length}, best = i;
+    }
+    if (best < 0) return false;
+    const Quad& q = *quads[best];
+    const std::int32_t m = mesh_.split(q, *at[best]);
+    for (const Place p : mesh_.mesh().fan(m)) forget(p);
+    changed_.insert(changed_.end(), {q.a, q.b, q.c, q.d, m});
+    ++report_.splits;
+    return true;
+  }
+
+  // Shapes around edits, where nothing comes to be beyond.
+  void tidy() {
+    std::ranges::sort(changed_);
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    const std::vector<std::int32_t> around = changed_;
+    for (const std::int32_t v : around) {
+      monitor_.checkpoint();
+      if (!mesh_.is_alive(v)) continue;
+      for (const std::int32_t w : mesh_.mesh().ring(v)) tidy_edge(v, w);
+    }
+    for (const std::int32_t v : around) {
+      monitor_.checkpoint();
+      if (mesh_.is_alive(v) && mesh_.is_free(v)) tidy_vertex(v);
+    }
+  }
+
+  void tidy_edge(std::int32_t v, std::int32_t w) {
+    const auto q = mesh_.mesh().quad_between({0, v}, w);
+    if (!q) return;
+    const TriangleShapes shapes = judge_pair(*q);
+    if (shapes.worst >= good_shape) return;
+    const double length = mesh_.length(q->c, q->d);
+    TriangleShapes after;
+    mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
+    if (after.worst < shapes.worst + least_shape_gain || (length > longest_swapped && length > mesh_.length(q->a, q->b))) return;
+    if (when_swapped(*q).share <= std::max(1.0, before(*q))) swap(*q);
+  }
+
+  void tidy_vertex(std::int32_t v) {
+    const TriangleShapes shapes = mesh_.judge_shapes_around(v);
+    if (shapes.worst >= good_shape) return;
+    Vec3 sum{0, 0, 0};
+    const std::vector<std::int32_t> ring = mesh_.mesh().ring(v);
+    for (const std::int32_t w : ring) sum += mesh_.position(w);
+    const Vec3 target = sum / static_cast<double>(ring.size());
+    double most = 1;
+    for (const Place p : mesh_.mesh().fan(v)) most = std::max(most, share_of(p.triangle));
+    for (const double part : {1.0, 0.5})
+      if (put(v, lerp(mesh_.position(v), target, part), most, shapes.worst + least_shape_gain)) return;
+  }
+
+  static constexpr double unknown = -1;
+
+  FreeMesh& mesh_;
+  const bool all_;
+  Monitor& monitor_;
+  FreeBounds bounds_;
+  const double upright_;       // FreeMesh's share of what stands upright
+  std::vector<double> share_;  // by triangle
+  std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
+  std::vector<Moved> moved_;
+  bool boldly_ = false;
+  std::set<std::vector<Corners>> failed_;  // groups that nothing helps
+  Certification report_;
+};
+
+Certifier::Certifier(FreeMesh& mesh, bool all, Monitor& monitor) : work_(std::make_unique<Work>(mesh, all, monitor)) {}
+
+Certifier::~Certifier() = default;
+
+Certification Certifier::run() { return work_->run(); }
+
+void Certifier::undo() { work_->undo(); }
+
+}  // namespace carreau

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Upper bounds of A0 and A1 of single triangles of a free mesh, and of those that edits would make.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "surface/independent/bounds/triangle_bound.h"
+#include "surface/independent/cell_placer.h"
+#include "surface/independent/free_mesh.h"
+
+namespace carreau {
+
+/// As measures bound them (measure/bounds): of a triangle of (u, v) over its image, of one whose corners are of several charts over itself. Keeps a
+/// reference to `mesh`.
+class FreeBounds {
+ public:
+  explicit FreeBounds(const FreeMesh& mesh, Cad& cad) : mesh_(mesh), cad_(cad), placer_(mesh, mesh.charts(), cad) {}
+
+  /// The larger bound over its tolerance; a triangle without area, or turned over, has the share of half a turn. About twelve evaluations, and more where
+  /// it is near 1.
+  [[nodiscard]] double share(const EditableMesh::Triangle& t);
+
+ private:
+  struct Corners {
+    std::array<SurfacePlace, 3> place;
+    std::array<std::int32_t, 3> vertex;
+  };
+  [[nodiscard]] BoundedTriangle flat(const Corners& corners) const;
+  [[nodiscard]] double deviation_tolerance(const Corners& corners) const;
+  [[nodiscard]] TriangleBound bound_in_chart(const Corners& corners, std::int32_t face, const BoundedTriangle& flat);
+  [[nodiscard]] TriangleBound bound_over_several(const Corners& corners, const BoundedTriangle& flat);
+
+  const FreeMesh& mesh_;
+  Cad& cad_;
+  CellPlacer placer_;
+};
+
+}  // namespace carreau

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+namespace carreau::thresholds::certify {
+
+/// Share of a tolerance. Triangles whose normals at corners say less are not suspect: of a smooth surface they are off by a fifth or so.
+inline constexpr double suspect_share = 0.5;
+/// Rounds of edits: each halves edges once.
+inline constexpr int most_rounds = 6;
+/// Times that all groups are worked at: what is left of one may be two.
+inline constexpr int most_rounds_of_groups = 3;
+/// Ratio. The largest share of a group may grow so much where others come to be within tolerances.
+inline constexpr double most_growth = 1.05;
+/// Share of a tolerance. Moves do not help triangles that are farther beyond it.
+inline constexpr double most_moved = 1.3;
+/// Share of a tolerance. Gains below do not count.
+inline constexpr double least_gain = 1e-3;
+/// Shape (Q2) that an edit may leave where shapes were better: what is thinner than the size has such triangles anyway.
+inline constexpr double least_shape = 0.2;
+/// The same of splits that others are to follow.
+inline constexpr double least_shape_boldly = 0.05;
+/// Shape that a move may leave.
+inline constexpr double least_shape_of_move = 0.5;
+/// Lengths. Shorter edges are not split: what bends by more than is tolerated over a fifth of the size is a feature of another size.
+inline constexpr double shortest_split = 0.3;
+/// Lengths. A swap makes no longer edge where none was.
+inline constexpr double longest_swapped = 1.8;
+/// Shares of the size: steps of moves; directions of them.
+inline constexpr double steps[] = {0.15, 0.3};
+inline constexpr int directions = 6;
+/// Shape. Triangles below that were made are swapped and moved; gains below `least_shape_gain` do not count; passes.
+inline constexpr double good_shape = 0.7, least_shape_gain = 0.01;
+inline constexpr int tidy_passes = 2;
+
+}  // namespace carreau::thresholds::certify
