@@ -20,6 +20,20 @@ namespace {
 
 double double_area(const Vec3& a, const Vec3& b, const Vec3& c) noexcept { return norm(cross(b - a, c - a)); }
 
+// HDR eq. 1.5; inradius = 2 area / perimeter
+double q1_of(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noexcept {
+  const double ab = norm(b - a), bc = norm(c - b), ca = norm(a - c);
+  const double longest = std::max({ab, bc, ca});
+  return longest > 0 ? 2 * std::numbers::sqrt3 * (twice_area / (ab + bc + ca)) / longest : 0;
+}
+
+// HDR eq. 1.6
+double q2_of(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noexcept {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
+  return squares > 0 ? 2 * std::numbers::sqrt3 * twice_area / squares : 0;
+}
+
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
 // Of this many triangles: sums do not depend on the number of threads.
@@ -37,9 +51,10 @@ struct Part {
 
   void measure(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t, double& q1, double& q2) {
     const Vec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
-    q1 = quality_q1(a, b, c);
-    q2 = quality_q2(a, b, c);
-    area += 0.5 * double_area(a, b, c);
+    const double twice_area = double_area(a, b, c);
+    q1 = q1_of(a, b, c, twice_area);
+    q2 = q2_of(a, b, c, twice_area);
+    area += 0.5 * twice_area;
     see({b - a, c - a, 0});
     see({c - b, a - b, 0});
     see({a - c, b - c, 0});
@@ -186,18 +201,11 @@ Distribution distribution_of(std::span<double> values) {
 }
 
 double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
-  const double ab = norm(b - a), bc = norm(c - b), ca = norm(a - c);
-  const double longest = std::max({ab, bc, ca});
-  if (!(longest > 0)) return 0;
-  // inradius = 2 area / perimeter; HDR eq. 1.5
-  return 2 * std::numbers::sqrt3 * (double_area(a, b, c) / (ab + bc + ca)) / longest;
+  return q1_of(a, b, c, double_area(a, b, c));
 }
 
 double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
-  const Vec3 ab = b - a, bc = c - b, ca = a - c;
-  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
-  // HDR eq. 1.6
-  return squares > 0 ? 2 * std::numbers::sqrt3 * double_area(a, b, c) / squares : 0;
+  return q2_of(a, b, c, double_area(a, b, c));
 }
 
 QualitySummary summarise_shapes(const TriangleLists& mesh, int threads) {

@@ -119,10 +119,7 @@ void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
   Vec2* const proposals = arrays.proposals.data();
   for (std::size_t t = 0; t < n; ++t) {
     const Triangle& T = triangles[t];
-    for (const std::int32_t v : triangles[std::min(t + prefetch_distance, n - 1)].v) {
-      prefetch(vertices + v);
-      prefetch(proposals + v);
-    }
+    for (const std::int32_t v : triangles[std::min(t + prefetch_distance, n - 1)].v) prefetch(vertices + v);
     if constexpr (bends)
       if (work.shapes.is_bent(T)) {
         if (!is_sound<true>(work, arrays, t)) spoiled_triangles.push_back(static_cast<std::int32_t>(t));
