@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/infinity.h"
-
 namespace carreau {
 
 namespace {
@@ -96,23 +94,6 @@ double least_shape(const std::array<Vec3, 4>& p) noexcept {
   const Measures m = measure(p);
   const double jacobian = m.jacobian();
   return jacobian > 0 ? std::min(jacobian, m.quality()) : jacobian;
-}
-
-// Where corners move by d, an area of two sides changes by 2 d (sum of their coordinates) + 8 d^2 at most.
-double leeway(const QuadPatch& patch, const MixedCell& cell) noexcept {
-  const int n = corners_of(cell);
-  constexpr double rounding = 1e-14;  // of some passes
-  double area = infinity, sides = 0, reach = 0;
-  Vec2 from = patch.uv[cell[0]] - patch.uv[cell[n - 1]];
-  for (int k = 0; k < n; ++k) {
-    const Vec2 to = patch.uv[cell[k + 1 < n ? k + 1 : 0]] - patch.uv[cell[k]];
-    area = std::min(area, cross(from, to));
-    sides = std::max(sides, std::abs(from.x()) + std::abs(from.y()) + std::abs(to.x()) + std::abs(to.y()));
-    reach = std::max(reach, patch.uv[cell[k]].cwiseAbs().maxCoeff());
-    from = to;
-  }
-  // As area <= sides^2 / 4, that is at most .89 of it.
-  return sides > 0 ? std::max(0., area / (3 * sides) - rounding * (sides + reach)) : 0;
 }
 
 bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,

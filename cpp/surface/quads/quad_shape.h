@@ -28,8 +28,6 @@ inline bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
   const Vec2 &a = patch.uv[cell[0]], &b = patch.uv[cell[1]], &c = patch.uv[cell[2]];
   return corners_of(cell) == 3 ? orientation(a, b, c) > 0 : is_convex_quad(a, b, c, patch.uv[cell[3]]);
 }
-/// How far each corner of such a cell may move, by the larger coordinate, so that it stays what it is whatever the others do.
-double leeway(const QuadPatch& patch, const MixedCell& cell) noexcept;
 /// Whether two sides of it, between fixed vertices, are edges of curves that go on smoothly into each other: `flat` as in
 /// QuadPatch.
 bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,
@@ -69,8 +67,6 @@ class PlaneQuads {
   [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return patch_.flat; }
 
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept { return carreau::is_convex(patch_, cell); }
-  /// How far corners of a convex cell may move, by the larger coordinate, without making it another one.
-  [[nodiscard]] double leeway(const MixedCell& cell) const noexcept { return carreau::leeway(patch_, cell); }
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept {
     return carreau::has_flat_corner(patch_.fixed, patch_.flat, cell);
   }

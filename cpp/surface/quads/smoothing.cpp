@@ -64,7 +64,6 @@ class Smoothing {
     for (std::size_t v = 0; v < count.size(); ++v)
       if (!quads.is_fixed(v) && count[v] > 0 && (how.moving.empty() || how.moving[v] != 0))
         movers_.push_back({static_cast<std::int32_t>(v), how.share / count[v], Quads::no_way()});
-    convex_until_.assign(cells_.size(), -1);
   }
 
   void run() {
@@ -72,17 +71,14 @@ class Smoothing {
       monitor_.checkpoint();
       propose();
       before_ = quads_.places();
-      double longest = 0;
       const double kept = pass + plain_passes < how_.passes ? how_.momentum : 0;
       for (std::size_t i = 0; i < movers_.size(); ++i) {
         if (i % cells_between_checks == 0) monitor_.checkpoint();
         Mover& m = movers_[i];
         m.step = kept * m.step + m.share * sum_[m.vertex];
         quads_.move(m.vertex, m.step);
-        longest = std::max(longest, m.step.cwiseAbs().maxCoeff());
       }
-      moved_ += longest;
-      take_back(longest);
+      take_back();
     }
   }
 
@@ -124,24 +120,18 @@ class Smoothing {
   }
 
   // Vertices of cells that have turned over go back, and then those of others that have because of that: only cells whose
-  // vertices went back in the round before or in this one need a look. They have no momentum then. Nor need cells that stay
-  // convex however their corners have moved since the last look.
-  void take_back(double longest) {
+  // vertices went back in the round before or in this one need a look. They have no momentum then.
+  void take_back() {
     went_back_.assign(quads_.vertices(), 0);
     int round = 1;
     for (bool any = true; any; ++round) {
       any = false;
-      for (std::size_t c = 0; c < cells_.size(); ++c) {
-        if (convex_until_[c] >= moved_) continue;
-        const MixedCell& cell = cells_[c];
+      for (const MixedCell& cell : cells_) {
         const int n = corners_of(cell);
         if (round > 1 && std::none_of(cell.begin(), cell.begin() + n,
                                       [&](std::int32_t v) { return went_back_[v] + 1 >= round; }))
           continue;
-        if (quads_.is_convex(cell)) {
-          convex_until_[c] = moved_ - longest + quads_.leeway(cell);  // a corner may go back yet
-          continue;
-        }
+        if (quads_.is_convex(cell)) continue;
         for (int k = 0; k < n; ++k)
           if (!quads_.is_at(cell[k], before_[cell[k]]))
             quads_.put(cell[k], before_[cell[k]]), went_back_[cell[k]] = round, any = true;
@@ -160,8 +150,6 @@ class Smoothing {
   std::vector<Mover> movers_;
   std::vector<typename Quads::Way> sum_;
   std::vector<typename Quads::Place> before_;
-  double moved_ = 0;                  // the longest ways of all passes, together, by the larger coordinate
-  std::vector<double> convex_until_;  // by cell: it is convex as long as moved_ is not more
   std::vector<int> went_back_;  // by vertex: the round of take_back() in which it did
 };
 

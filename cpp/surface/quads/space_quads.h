@@ -49,7 +49,6 @@ class SpaceQuads {
 
   /// About its own normal, which is on the side of those of the surface.
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
-  static double leeway(const MixedCell& /*cell*/) noexcept { return 0; }  // normals turn
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
   [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
   /// The same, and below 0 the least sine of an angle, for cells that are turned over somewhere.

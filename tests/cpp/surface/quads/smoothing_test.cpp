@@ -71,29 +71,6 @@ TEST(QuadSmoothing, TurnsNothingOverWhereCellsPress) {
       }
 }
 
-TEST(QuadShape, CellsKeepTheirShapeWithinTheirLeeway) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> anywhere(-1, 1);
-  int convex = 0;
-  for (int trial = 0; trial < 20000; ++trial) {
-    QuadPatch patch;
-    for (int k = 0; k < 4; ++k) patch.uv.push_back({anywhere(random), anywhere(random)});
-    for (const MixedCell& cell : {MixedCell{0, 1, 2, 3}, MixedCell{0, 1, 2, -1}}) {
-      if (!is_convex(patch, cell)) continue;
-      ++convex;
-      const double way = leeway(patch, cell);
-      EXPECT_GT(way, 0);
-      for (int corner = 0; corner < 256; corner += 5) {
-        QuadPatch moved = patch;
-        for (int k = 0; k < 4; ++k)
-          moved.uv[k] += Vec2{(corner >> (2 * k) & 1) != 0 ? way : -way, (corner >> (2 * k + 1) & 1) != 0 ? way : -way};
-        ASSERT_TRUE(is_convex(moved, cell));
-      }
-    }
-  }
-  EXPECT_GT(convex, 5000);
-}
-
 TEST(QuadSmoothing, RaisesTheWorstCells) {
   const ControlSpace space = ControlSpace::constant({1, 0, 1});
   const FaceCharts charts(space);
