@@ -56,10 +56,13 @@ bool StepEntities::is_geometry(const Entity& entity) const {
 
 Spline StepEntities::spline(const Entity& entity) const {
   Spline spline;
-  take_surface<StepGeom_BSplineSurfaceWithKnots>(entity, spline);
-  take_surface<StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface>(entity, spline);
-  take_curve<StepGeom_BSplineCurveWithKnots>(entity, spline);
-  take_curve<StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve>(entity, spline);
+  if (is<StepGeom_BSplineSurface>(entity)) {
+    take_surface<StepGeom_BSplineSurfaceWithKnots>(entity, spline);
+    take_surface<StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface>(entity, spline);
+  } else if (is<StepGeom_BSplineCurve>(entity)) {
+    take_curve<StepGeom_BSplineCurveWithKnots>(entity, spline);
+    take_curve<StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve>(entity, spline);
+  }
   return spline;
 }
 

@@ -9,7 +9,6 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -66,16 +65,36 @@ void make_returns_internal(std::vector<EdgeImage>& images) {
   images.resize(kept);
 }
 
-std::vector<EdgeImage> images_of(const TopoDS_Wire& wire, const TopoDS_Face& face) {
-  std::vector<EdgeImage> images;
-  for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) {
-    EdgeImage image;
-    image.edge = TopoDS::Edge(e.Current());
-    if (image.edge.Orientation() == TopAbs_EXTERNAL) continue;
-    image.curve = BRep_Tool::CurveOnSurface(image.edge, face, image.first, image.last);
-    if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
-    images.push_back(image);
+/// Images of all edges of each wire, null where there is none. On planes OpenCASCADE makes them when it is asked, which
+/// takes long: so once.
+std::vector<std::vector<EdgeImage>> wires_of(const TopoDS_Face& face) {
+  std::vector<std::vector<EdgeImage>> wires;
+  for (TopExp_Explorer w(face, TopAbs_WIRE); w.More(); w.Next()) {
+    std::vector<EdgeImage>& images = wires.emplace_back();
+    for (TopExp_Explorer e(w.Current(), TopAbs_EDGE); e.More(); e.Next()) {
+      EdgeImage& image = images.emplace_back();
+      image.edge = TopoDS::Edge(e.Current());
+      image.curve = BRep_Tool::CurveOnSurface(image.edge, face, image.first, image.last);
+    }
   }
+  return wires;
+}
+
+std::vector<std::vector<EdgeImage>> complete_wires_of(const TopoDS_Face& face) {
+  std::vector<std::vector<EdgeImage>> wires = wires_of(face);
+  for (const std::vector<EdgeImage>& wire : wires)
+    for (const EdgeImage& image : wire)
+      if (image.curve.IsNull()) {
+        add_missing_curves(face);
+        return wires_of(face);
+      }
+  return wires;
+}
+
+std::vector<EdgeImage> images_of(std::vector<EdgeImage> images, const TopoDS_Face& face) {
+  std::erase_if(images, [](const EdgeImage& image) { return image.edge.Orientation() == TopAbs_EXTERNAL; });
+  for (const EdgeImage& image : images)
+    if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
   close_over_periods(images, face);
   make_returns_internal(images);
   return images;
@@ -133,10 +152,10 @@ void BrepHost::State::collect_face(int number) {
       (face.Orientation() == TopAbs_REVERSED) != (face.Location().Transformation().IsNegative() == Standard_True);
   // Wires are turned for the face taken forward.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
-  add_missing_curves(forward);
+  const std::vector<std::vector<EdgeImage>> loops = complete_wires_of(forward);
   std::vector<Handle(Geom2d_Curve)> images;
-  for (TopExp_Explorer w(forward, TopAbs_WIRE); w.More(); w.Next())
-    for (const EdgeImage& image : images_of(TopoDS::Wire(w.Current()), forward)) {
+  for (const std::vector<EdgeImage>& loop : loops)
+    for (const EdgeImage& image : images_of(loop, forward)) {
       HostCurve curve;
       curve.first = image.first, curve.last = image.last;
       curve.edge = edges.FindIndex(image.edge);
@@ -151,7 +170,7 @@ void BrepHost::State::collect_face(int number) {
     }
   evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
   host.known = true;
-  refuse_unusable(forward);
+  refuse_unusable(forward, loops);
 }
 
 // Wide parts first, so that the name of the narrowest part stays: a shell before its only face.

@@ -31,7 +31,7 @@ bool usable_poles(const Geom_BSplineSurface& surface) {
 
 }  // namespace
 
-void refuse_unusable(const TopoDS_Face& face) {
+void refuse_unusable(const TopoDS_Face& face, const std::vector<std::vector<EdgeImage>>& wires) {
   const auto require = [](bool good, const char* what) {
     if (!good) throw std::runtime_error(std::string(what) + " is not finite, or beyond 1e15");
   };
@@ -43,14 +43,12 @@ void refuse_unusable(const TopoDS_Face& face) {
   const auto spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
   require(spline.IsNull() || usable_poles(*spline), "a pole of the surface");
   const BRepAdaptor_Surface surface(face, Standard_False);
-  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
-    double a = 0, b = 0;
-    const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Current()), face, a, b);
-    for (int i = 0; i <= samples && !image.IsNull(); ++i) {
-      const gp_Pnt2d uv = image->Value(a + (b - a) * i / samples);
-      require(usable(uv.X()) && usable(uv.Y()) && is_near(surface.Value(uv.X(), uv.Y())), "the boundary");
-    }
-  }
+  for (const std::vector<EdgeImage>& wire : wires)
+    for (const EdgeImage& image : wire)
+      for (int i = 0; i <= samples && !image.curve.IsNull(); ++i) {
+        const gp_Pnt2d uv = image.curve->Value(image.first + (image.last - image.first) * i / samples);
+        require(usable(uv.X()) && usable(uv.Y()) && is_near(surface.Value(uv.X(), uv.Y())), "the boundary");
+      }
 }
 
 }  // namespace carreau_occ

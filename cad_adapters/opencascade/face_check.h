@@ -4,6 +4,9 @@
 
 #include <TopoDS_Face.hxx>
 #include <cmath>
+#include <vector>
+
+#include "wire_periods.h"
 
 namespace carreau_occ {
 
@@ -15,7 +18,7 @@ constexpr double largest_coordinate = 1e15;
 inline bool usable(double x) noexcept { return std::abs(x) <= largest_coordinate; }
 
 /// Throws std::runtime_error when a vertex, a pole, or a place of the boundary of the face is not finite or too far
-/// away, and Standard_Failure when OpenCASCADE does.
-void refuse_unusable(const TopoDS_Face& face);
+/// away, and Standard_Failure when OpenCASCADE does. `wires`: all of the face.
+void refuse_unusable(const TopoDS_Face& face, const std::vector<std::vector<EdgeImage>>& wires);
 
 }  // namespace carreau_occ
