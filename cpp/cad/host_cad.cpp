@@ -2,6 +2,7 @@
 #include "cad/host_cad.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -174,10 +175,16 @@ class CHost : public Cad {
     const std::size_t n = uv.size();
     const std::int32_t order = order_of(want);
     const std::size_t arrays = order == 0 ? 1 : order == 1 ? 3 : 6;
-    std::vector<double> points(2 * n), values(3 * n * arrays, nan);
+    constexpr std::size_t few = 4;  // without memory of their own
+    std::array<double, 20 * few> room;
+    std::vector<double> large;
+    if (n > few) large.resize((2 + 3 * arrays) * n);
+    double* const points = n > few ? large.data() : room.data();
+    double* const values = points + 2 * n;
+    std::fill_n(values, 3 * n * arrays, nan);
     for (std::size_t i = 0; i < n; ++i) points[2 * i] = uv[i].x(), points[2 * i + 1] = uv[i].y();
-    const auto array = [&](std::size_t k) { return k < arrays ? values.data() + 3 * n * k : nullptr; };
-    const std::int32_t status = table_.surface_batch(face, static_cast<std::int64_t>(n), points.data(), order, array(0),
+    const auto array = [&](std::size_t k) { return k < arrays ? values + 3 * n * k : nullptr; };
+    const std::int32_t status = table_.surface_batch(face, static_cast<std::int64_t>(n), points, order, array(0),
                                                      array(1), array(2), array(3), array(4), array(5), table_.user);
     if (status != 0)
       fail(status, {.face = face, .uv = uv.front()}, "surface_batch",
