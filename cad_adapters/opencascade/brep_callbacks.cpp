@@ -4,6 +4,8 @@
 #include <gp_Pnt2d.hxx>
 #include <gp_Vec.hxx>
 #include <gp_Vec2d.hxx>
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "brep_state.h"
@@ -15,6 +17,25 @@ namespace {
 
 void store(const gp_Pnt& p, double* to) { to[0] = p.X(), to[1] = p.Y(), to[2] = p.Z(); }
 void store(const gp_Vec& v, double* to) { to[0] = v.X(), to[1] = v.Y(), to[2] = v.Z(); }
+
+/// Calls use(i) for n points, some at a time; of these, those of one polynomial one after the other.
+template <typename Use>
+void for_each_by_patch(const Evaluators::Surface& surface, int64_t n, const double* uv, bool swapped, const Use& use) {
+  if (!surface.has_patches()) {
+    for (int64_t i = 0; i < n; ++i) use(i);
+    return;
+  }
+  std::array<std::pair<std::size_t, int64_t>, 256> places;  // nothing that a jump out of a fault would lose
+  for (int64_t first = 0; first < n; first += static_cast<int64_t>(places.size())) {
+    const auto some = static_cast<std::size_t>(std::min(n - first, static_cast<int64_t>(places.size())));
+    for (std::size_t k = 0; k < some; ++k) {
+      const int64_t i = first + static_cast<int64_t>(k);
+      places[k] = {surface.patch_of(uv[2 * i + (swapped ? 1 : 0)], uv[2 * i + (swapped ? 0 : 1)]), i};
+    }
+    std::sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(some));
+    for (std::size_t k = 0; k < some; ++k) use(places[k].second);
+  }
+}
 
 int32_t answer(double size, double* value) {
   if (!(size > 0)) return CARREAU_NO_ANSWER;
@@ -99,7 +120,7 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
     if (swapped) std::swap(Su, Sv), std::swap(Suu, Svv);
     gp_Pnt p;
     gp_Vec d1u, d1v, d2u, d2v, d2uv;
-    for (int64_t i = 0; i < n; ++i) {
+    for_each_by_patch(surface, n, uv, swapped, [&](int64_t i) {
       const double u = uv[2 * i + (swapped ? 1 : 0)], v = uv[2 * i + (swapped ? 0 : 1)];
       if (order >= 2) {
         surface.d2(u, v, p, d1u, d1v, d2u, d2v, d2uv);
@@ -111,8 +132,9 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
       }
       store(p, S + 3 * i);
       if (order >= 1) store(d1u, Su + 3 * i), store(d1v, Sv + 3 * i);
-    }
+    });
   };
+  if (state.evaluators.is_closed_form(static_cast<std::size_t>(face - 1))) return evaluate(), 0;
   return state.answer_guarded(face, failed, evaluate);
 }
 
@@ -172,6 +194,8 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
     if (order >= 1) Ct[x] = d1.X(), Ct[y] = d1.Y();
     if (order >= 2) Ctt[x] = d2.X(), Ctt[y] = d2.Y();
   };
+  if (state.evaluators.is_closed_form(static_cast<std::size_t>(face - 1), static_cast<std::size_t>(ic - 1)))
+    return evaluate(), 0;
   return state.answer_guarded(face, failed, evaluate);
 }
 

@@ -49,12 +49,22 @@ double Breaks::settle(double t) const noexcept {
   return next != breaks_.end() && *next - t <= rounding ? *next : t;
 }
 
+std::size_t Breaks::span_of(double t) const noexcept {
+  if (breaks_.empty()) return 0;
+  return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), settle(t)) - breaks_.begin());
+}
+
 void Evaluators::set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves,
                      PartBox box) {
-  Face entry{face, std::move(curves), {}, {}, {}, box};
+  Face entry{face, std::move(curves), {}, {}, {}, box, {}, {}};
   const BRepAdaptor_Surface surface(face, Standard_False);
   entry.u = breaks_in_u(surface), entry.v = breaks_in_v(surface);
-  for (const Handle(Geom2d_Curve) & curve : entry.curves) entry.t.push_back(breaks_of(Geom2dAdaptor_Curve(curve)));
+  entry.closed = ElementarySurface(surface);
+  for (const Handle(Geom2d_Curve) & curve : entry.curves) {
+    const Geom2dAdaptor_Curve adaptor(curve);
+    entry.t.push_back(breaks_of(adaptor));
+    entry.closed_curves.emplace_back(adaptor);
+  }
   faces_[number] = std::move(entry);
 }
 
@@ -72,7 +82,8 @@ const Evaluators::Adaptors& Evaluators::mine(std::size_t face) {
 }
 
 Evaluators::Surface Evaluators::surface(std::size_t face) {
-  return {mine(face).surface, faces_[face].u, faces_[face].v, faces_[face].box};
+  const Face& f = faces_[face];
+  return {f.closed ? nullptr : &mine(face).surface, f.closed, f.u, f.v, f.box};
 }
 
 // Next to a line the adaptor may take the polynomials of either side: derivatives come from a little inside, and are
@@ -83,15 +94,17 @@ void Evaluators::Surface::d2_beside(double u, double v, gp_Pnt& p, gp_Vec& su, g
   u = std::clamp(u, box_->low_u, box_->high_u), v = std::clamp(v, box_->low_v, box_->high_v);
   const double a = std::clamp(u, box_->low_u + box_->step_u, box_->high_u - box_->step_u);
   const double b = std::clamp(v, box_->low_v + box_->step_v, box_->high_v - box_->step_v);
-  adaptor_.D2(u_.settle(a), v_.settle(b), p, su, sv, suu, svv, suv);
+  smooth_d2(a, b, p, su, sv, suu, svv, suv);
   if (a == u && b == v) return;
-  adaptor_.D0(u_.settle(u), v_.settle(v), p);
+  d0(u, v, p);
   su += suu * (u - a) + suv * (v - b);
   sv += suv * (u - a) + svv * (v - b);
 }
 
 Evaluators::Curve Evaluators::curve(std::size_t face, std::size_t curve) {
-  return {mine(face).curves[curve], faces_[face].t[curve]};
+  const Face& f = faces_[face];
+  const ElementaryCurve& closed = f.closed_curves[curve];
+  return {closed ? nullptr : &mine(face).curves[curve], closed, f.t[curve]};
 }
 
 }  // namespace carreau_occ

@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "elementary_geometry.h"
 #include "thread_values.h"
 
 namespace carreau_occ {
@@ -25,6 +26,9 @@ class Breaks {
   /// Of an adaptor's direction. `breaks` ascend, with both ends.
   Breaks(std::vector<double> breaks, bool periodic, double period);
   [[nodiscard]] double settle(double t) const noexcept;
+  [[nodiscard]] bool several() const noexcept { return !breaks_.empty(); }
+  /// Which polynomial it is.
+  [[nodiscard]] std::size_t span_of(double t) const noexcept;
 
  private:
   std::vector<double> breaks_;  // empty: one polynomial, or none
@@ -60,42 +64,74 @@ class Evaluators {
    public:
     void d0(double u, double v, gp_Pnt& p) const {
       if (box_ != nullptr) u = std::clamp(u, box_->low_u, box_->high_u), v = std::clamp(v, box_->low_v, box_->high_v);
-      adaptor_.D0(u_.settle(u), v_.settle(v), p);
+      if (closed_)
+        closed_.d0(u, v, p);
+      else
+        adaptor_->D0(u_.settle(u), v_.settle(v), p);
     }
     void d1(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv) const {
       gp_Vec suu, svv, suv;
       if (box_ != nullptr) return d2(u, v, p, su, sv, suu, svv, suv);
-      adaptor_.D1(u_.settle(u), v_.settle(v), p, su, sv);
+      if (closed_)
+        closed_.d1(u, v, p, su, sv);
+      else
+        adaptor_->D1(u_.settle(u), v_.settle(v), p, su, sv);
     }
     void d2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const {
       if (box_ != nullptr) return d2_beside(u, v, p, su, sv, suu, svv, suv);
-      adaptor_.D2(u_.settle(u), v_.settle(v), p, su, sv, suu, svv, suv);
+      smooth_d2(u, v, p, su, sv, suu, svv, suv);
+    }
+
+    /// Whether it is made of several polynomials, each of which an adaptor prepares again when it comes back to it.
+    [[nodiscard]] bool has_patches() const noexcept { return !closed_ && (u_.several() || v_.several()); }
+    /// Of points of one polynomial the same, of others another.
+    [[nodiscard]] std::size_t patch_of(double u, double v) const noexcept {
+      return (u_.span_of(u) << 32) + v_.span_of(v);
     }
 
    private:
     friend class Evaluators;
-    Surface(const BRepAdaptor_Surface& adaptor, const Breaks& u, const Breaks& v, const PartBox& box)
-        : adaptor_(adaptor), u_(u), v_(v), box_(box.bounds() ? &box : nullptr) {}
+    Surface(const BRepAdaptor_Surface* adaptor, const ElementarySurface& closed, const Breaks& u, const Breaks& v,
+            const PartBox& box)
+        : adaptor_(adaptor), closed_(closed), u_(u), v_(v), box_(box.bounds() ? &box : nullptr) {}
+    void smooth_d2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const {
+      if (closed_)
+        closed_.d2(u, v, p, su, sv, suu, svv, suv);
+      else
+        adaptor_->D2(u_.settle(u), v_.settle(v), p, su, sv, suu, svv, suv);
+    }
     void d2_beside(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const;
-    const BRepAdaptor_Surface& adaptor_;
+    const BRepAdaptor_Surface* adaptor_;  // nullptr: closed_ has it
+    const ElementarySurface& closed_;
     const Breaks &u_, &v_;
     const PartBox* box_;  // nullptr: there is none
   };
   [[nodiscard]] Surface surface(std::size_t face);
+  /// Whether it is evaluated by closed forms, which cannot fail.
+  [[nodiscard]] bool is_closed_form(std::size_t face) const noexcept { return bool(faces_[face].closed); }
 
   class Curve {
    public:
-    void d0(double t, gp_Pnt2d& p) const { adaptor_.D0(breaks_.settle(t), p); }
-    void d1(double t, gp_Pnt2d& p, gp_Vec2d& ct) const { adaptor_.D1(breaks_.settle(t), p, ct); }
-    void d2(double t, gp_Pnt2d& p, gp_Vec2d& ct, gp_Vec2d& ctt) const { adaptor_.D2(breaks_.settle(t), p, ct, ctt); }
+    void d0(double t, gp_Pnt2d& p) const { closed_ ? closed_.d0(t, p) : adaptor_->D0(breaks_.settle(t), p); }
+    void d1(double t, gp_Pnt2d& p, gp_Vec2d& ct) const {
+      closed_ ? closed_.d1(t, p, ct) : adaptor_->D1(breaks_.settle(t), p, ct);
+    }
+    void d2(double t, gp_Pnt2d& p, gp_Vec2d& ct, gp_Vec2d& ctt) const {
+      closed_ ? closed_.d2(t, p, ct, ctt) : adaptor_->D2(breaks_.settle(t), p, ct, ctt);
+    }
 
    private:
     friend class Evaluators;
-    Curve(const Geom2dAdaptor_Curve& adaptor, const Breaks& breaks) : adaptor_(adaptor), breaks_(breaks) {}
-    const Geom2dAdaptor_Curve& adaptor_;
+    Curve(const Geom2dAdaptor_Curve* adaptor, const ElementaryCurve& closed, const Breaks& breaks)
+        : adaptor_(adaptor), closed_(closed), breaks_(breaks) {}
+    const Geom2dAdaptor_Curve* adaptor_;  // nullptr: closed_ has it
+    const ElementaryCurve& closed_;
     const Breaks& breaks_;
   };
   [[nodiscard]] Curve curve(std::size_t face, std::size_t curve);
+  [[nodiscard]] bool is_closed_form(std::size_t face, std::size_t curve) const noexcept {
+    return bool(faces_[face].closed_curves[curve]);
+  }
 
  private:
   struct Face {
@@ -104,6 +140,8 @@ class Evaluators {
     Breaks u, v;
     std::vector<Breaks> t;
     PartBox box;
+    ElementarySurface closed;
+    std::vector<ElementaryCurve> closed_curves;
   };
   struct Adaptors {
     BRepAdaptor_Surface surface;

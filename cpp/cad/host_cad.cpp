@@ -175,15 +175,17 @@ class CHost : public Cad {
     const std::size_t n = uv.size();
     const std::int32_t order = order_of(want);
     const std::size_t arrays = order == 0 ? 1 : order == 1 ? 3 : 6;
-    std::array<double, 2 + 3 * 6> of_one;  // searches ask for one point at a time
-    std::vector<double> of_many(n > 1 ? (2 + 3 * arrays) * n : 0);
-    double* const points = n > 1 ? of_many.data() : of_one.data();
+    constexpr std::size_t few = 4;  // without memory of their own
+    std::array<double, 20 * few> room;
+    std::vector<double> large;
+    if (n > few) large.resize((2 + 3 * arrays) * n);
+    double* const points = n > few ? large.data() : room.data();
     double* const values = points + 2 * n;
-    for (std::size_t i = 0; i < n; ++i) points[2 * i] = uv[i].x(), points[2 * i + 1] = uv[i].y();
     std::fill_n(values, 3 * n * arrays, nan);
+    for (std::size_t i = 0; i < n; ++i) points[2 * i] = uv[i].x(), points[2 * i + 1] = uv[i].y();
     const auto array = [&](std::size_t k) { return k < arrays ? values + 3 * n * k : nullptr; };
-    const std::int32_t status = table_.surface_batch(face, static_cast<std::int64_t>(n), points, order, array(0), array(1),
-                                                     array(2), array(3), array(4), array(5), table_.user);
+    const std::int32_t status = table_.surface_batch(face, static_cast<std::int64_t>(n), points, order, array(0),
+                                                     array(1), array(2), array(3), array(4), array(5), table_.user);
     if (status != 0)
       fail(status, {.face = face, .uv = uv.front()}, "surface_batch",
            " for " + std::to_string(n) + " points, of which this is the first");

@@ -78,7 +78,7 @@ void SampledNormals::add(Vec2 uv, Vec3 normal) {
 
 void SampledNormals::index(const ControlSpace& space) {
   space_ = &space;
-  if (samples_.empty()) return;
+  if (samples_.empty() || !differ_) return;
   const auto n = static_cast<double>(samples_.size());
   spacing_ = std::sqrt(std::numbers::sqrt3 / 4 * space.measure() / n);
   side_ = std::max(1, static_cast<int>(std::sqrt(n / samples_per_bucket)));
@@ -119,6 +119,7 @@ void SampledNormals::gather(Vec2 uv, Metric2 m, double reach, Fit& fit) const no
 
 Vec3 SampledNormals::at(const Vec2& uv) const noexcept {
   if (samples_.empty()) return {};
+  if (!differ_) return samples_.front().normal;
   const Metric2 metric = space_->at(uv);
   double reach = first_reach * spacing_;
   for (int k = 0;; ++k, reach *= reach_growth) {

@@ -64,11 +64,11 @@ Excess excess_of(V v, V chord, const Tolerance& tolerance) noexcept {
   const auto judge = [&](double deviation, double least) {
     const double allowed = std::max(tolerance.relative * c, least);
     const double ratio = allowed > 0 ? deviation / allowed : (deviation > 0 ? most_parts : 0.);
+    if (ratio > worst.ratio) worst.ratio = ratio;
+    if (!(ratio > 1)) return;
     // deviation / chord is proportional to the width of the edge, the deviation alone to its square
     const double parts = std::ceil(with_margin(least < tolerance.relative * c ? ratio : std::sqrt(ratio)));
-    if (ratio > worst.ratio) worst.ratio = ratio;
-    if (ratio > 1)
-      worst.parts = std::max(worst.parts, std::max(2, static_cast<int>(std::min(parts, double{most_parts}))));
+    worst.parts = std::max(worst.parts, std::max(2, static_cast<int>(std::min(parts, double{most_parts}))));
   };
   judge(across, tolerance.across);
   judge(along, tolerance.along);

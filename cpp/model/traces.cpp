@@ -103,8 +103,12 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
         if (distance < best) best = distance, nearest = i;
       }
     };
-    look(std::max(nearest, beside + 1) - beside, std::min(nearest + beside, to.size()));
-    runs.each_near(p, to.size(), best, look);
+    // Traces of one curve have their points in nearly the same places: the segment of the one before, or the next one.
+    const std::size_t at = nearest;
+    look(at, std::min(at + 2, to.size()));
+    if (at > 1) look(at - 1, at);
+    look(std::max(at, beside + 1) - beside, std::min(at + beside, to.size()));
+    if (best > worst * worst) runs.each_near(p, to.size(), best, look);
     worst = std::max(worst, std::sqrt(best));
     if (worst > enough) return worst;
   }

@@ -3,7 +3,12 @@
 #include <evaluators.h>
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Circle.hxx>
+#include <Geom2d_Ellipse.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -70,6 +75,80 @@ TEST(Evaluators, DoNotRememberWhatWasAskedBefore) {
       at(surface, (spline->UKnot(k) + spline->UKnot(k + 1)) / 2, v);
       EXPECT_TRUE(at(surface, u, v) == from_below) << k << ' ' << u;
     }
+}
+
+// Closed forms against adaptors, of faces where they are and moved.
+TEST(Evaluators, ClosedFormsAreWhatAdaptorsGive) {
+  const gp_Ax3 axes(gp_Pnt(1, -2, 3), gp_Dir(1, 2, 2), gp_Dir(2, 1, -2));
+  gp_Trsf moved;
+  moved.SetRotation(gp_Ax1(gp_Pnt(4, 1, 0), gp_Dir(0, 3, 4)), 0.7);
+  for (const gp_Trsf& placing : {gp_Trsf(), moved}) {
+    const std::vector<TopoDS_Shape> made{BRepBuilderAPI_MakeFace(gp_Pln(axes), -1, 1, -1, 1).Shape(),
+                                         BRepBuilderAPI_MakeFace(gp_Cylinder(axes, 2.5), 0, 3, -1, 1).Shape(),
+                                         BRepBuilderAPI_MakeFace(gp_Cone(axes, 0.3, 2.5), 0, 3, -1, 1).Shape(),
+                                         BRepBuilderAPI_MakeFace(gp_Sphere(axes, 2.5), 0, 3, -1, 1).Shape(),
+                                         BRepBuilderAPI_MakeFace(gp_Torus(axes, 5, 2.5), 0, 3, -1, 1).Shape()};
+    for (const TopoDS_Shape& shape : made) {
+      const TopoDS_Face face = TopoDS::Face(shape.Moved(TopLoc_Location(placing)).Oriented(TopAbs_FORWARD));
+      Evaluators evaluators;
+      evaluators.resize(1);
+      evaluators.set(0, face, {});
+      ASSERT_TRUE(evaluators.is_closed_form(0));
+      const BRepAdaptor_Surface adaptor(face, Standard_False);
+      for (double u = 0; u < 3; u += 0.37)
+        for (double v = -1; v < 1; v += 0.31) {
+          const Jet found = at(evaluators.surface(0), u, v);
+          Jet wanted;
+          adaptor.D2(u, v, wanted.p, wanted.u, wanted.v, wanted.uu, wanted.vv, wanted.uv);
+          EXPECT_LT(found.p.Distance(wanted.p), 1e-14 * 10);
+          for (const gp_Vec& difference : {found.u - wanted.u, found.v - wanted.v, found.uu - wanted.uu,
+                                           found.vv - wanted.vv, found.uv - wanted.uv})
+            EXPECT_LT(difference.Magnitude(), 1e-14 * 10);
+        }
+    }
+  }
+}
+
+TEST(Evaluators, ClosedFormsOfCurvesAreWhatAdaptorsGive) {
+  const gp_Ax22d axes(gp_Pnt2d(1, -2), gp_Dir2d(3, 4), Standard_False);
+  const std::vector<Handle(Geom2d_Curve)> curves{
+      new Geom2d_Line(gp_Pnt2d(1, 2), gp_Dir2d(3, -4)), new Geom2d_Circle(axes, 2.5), new Geom2d_Ellipse(axes, 2.5, 1),
+      new Geom2d_TrimmedCurve(new Geom2d_Circle(axes, 2.5), 2, 1, Standard_False)};
+  Evaluators evaluators;
+  evaluators.resize(1);
+  evaluators.set(0, TopoDS::Face(BRepBuilderAPI_MakeFace(gp_Pln(), -9, 9, -9, 9).Shape().Oriented(TopAbs_FORWARD)),
+                 curves);
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    ASSERT_TRUE(evaluators.is_closed_form(0, c));
+    const Geom2dAdaptor_Curve adaptor(curves[c]);
+    for (double t = -1; t < 2; t += 0.17) {
+      gp_Pnt2d p, q;
+      gp_Vec2d p1, q1, p2, q2;
+      evaluators.curve(0, c).d2(t, p, p1, p2);
+      adaptor.D2(t, q, q1, q2);
+      EXPECT_LT(p.Distance(q), 1e-14 * 5);
+      EXPECT_LT((p1 - q1).Magnitude(), 1e-14 * 5);
+      EXPECT_LT((p2 - q2).Magnitude(), 1e-14 * 5);
+    }
+  }
+}
+
+// A point and its neighbours have one number as long as no knot is between them.
+TEST(Evaluators, PointsOfOnePolynomialHaveOneNumber) {
+  const TopoDS_Face face = face_of("nurbs_torus");
+  const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
+  ASSERT_GT(spline->NbUKnots(), 2);
+  Evaluators evaluators;
+  evaluators.resize(1);
+  evaluators.set(0, face, {});
+  const Evaluators::Surface surface = evaluators.surface(0);
+  ASSERT_TRUE(surface.has_patches());
+  const double v = (spline->VKnot(1) + spline->VKnot(2)) / 2;
+  for (int k = 1; k < spline->NbUKnots(); ++k) {
+    const double low = spline->UKnot(k), high = spline->UKnot(k + 1), middle = (low + high) / 2;
+    EXPECT_EQ(surface.patch_of(low + 0.1 * (high - low), v), surface.patch_of(middle, v));
+    EXPECT_NE(surface.patch_of(low - 0.1 * (high - low), v), surface.patch_of(middle, v));
+  }
 }
 
 TEST(Evaluators, GiveThreadsAdaptorsOfTheirOwn) {

@@ -3,16 +3,9 @@
 
 #include <algorithm>
 
-#include "mesh/quality.h"
 #include "support/all_that_hold.h"
 
 namespace carreau {
-
-double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept {
-  const Vec3 a = xyz[triangle[0]], b = xyz[triangle[1]], c = xyz[triangle[2]];
-  if (a == b || b == c || c == a) return 1;
-  return quality_q2(a, b, c);
-}
 
 Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& t, const std::vector<Vec3>& xyz) noexcept {
   const Vec3 n = cross(xyz[t[1]] - xyz[t[0]], xyz[t[2]] - xyz[t[0]]);

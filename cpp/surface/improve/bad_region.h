@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "mesh/plane_mesh.h"
@@ -13,7 +14,15 @@ namespace carreau {
 
 /// Q2 in space; 1 for triangles with two corners at one place: an apex of space is a side of the parameter plane, and
 /// what it makes flat will be removed.
-double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
+inline double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept {
+  const Vec3 &a = xyz[triangle[0]], &b = xyz[triangle[1]], &c = xyz[triangle[2]];
+  // As quality_q2() has it, inline: searches ask for a hundred shapes a vertex.
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
+  const double quality = squares > 0 ? 2 * std::numbers::sqrt3 * norm(cross(ab, c - a)) / squares : 0;
+  if (quality > 0) return quality;
+  return a == b || b == c || c == a ? 1 : quality;
+}
 
 /// Of unit length; zero for triangles without area.
 Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
