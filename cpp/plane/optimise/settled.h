@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
-#include "plane/optimise/inner_edges.h"
+#include "plane/kernel/inner_edges.h"
 #include "plane/thresholds.h"
 
 namespace carreau::plane {
