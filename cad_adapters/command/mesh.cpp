@@ -165,14 +165,14 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const bool alone = suffix_of(path) == ".exr" || is_solution(path) || is_report(path);
     if (ranks != nullptr && !alone)
       ranks->write(run.session, path);
+    else if (is_solution(path))
+      adaptation.write_fields(run.session, path, progress);  // ranks share the work, and the first one writes
     else if (ranks != nullptr && !ranks->speaks())
       continue;
     else if (suffix_of(path) == ".exr")
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else if (is_report(path))
       write_text(path, page_of(run));
-    else if (is_solution(path))
-      adaptation.write_fields(run.session, path, progress);
     else
       require(run.mesh, carreau_mesh_write(run.mesh, path.c_str()));
   }

@@ -24,7 +24,7 @@ std::vector<Edge> edges_of(std::span<const std::array<std::int32_t, 3>> triangle
   for (const auto& t : triangles)
     for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
   std::ranges::sort(edges);
-  edges.erase(std::ranges::unique(edges).begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
