@@ -150,6 +150,7 @@ class Certifier::Work {
       for (int pass = 0; pass < tidy_passes; ++pass) tidy();
       if (edits() == before) break;
       if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best = state();
+      if (round + 1 >= rounds_without_success && least == first) break;
     }
     // Edges out of range for little are not worth it.
     if (least > least_success * first) best = start, least = first;

@@ -10,6 +10,8 @@ inline constexpr double suspect_share = 0.5;
 inline constexpr double within = 0.98;
 /// Rounds of edits: each halves edges once.
 inline constexpr int most_rounds = 6;
+/// Rounds after which a group that is no nearer is given up. What splits help is nearer after two.
+inline constexpr int rounds_without_success = 3;
 /// Times that all groups are worked at: what is left of one may be two.
 inline constexpr int most_rounds_of_groups = 3;
 /// Ratio. The largest share of a group may grow so much where others come to be within tolerances.
