@@ -89,6 +89,13 @@ Json other_faces(const SurfaceMesh& mesh) {
   return list;
 }
 
+Json beyond(const SurfaceMesh& mesh, const MeshEvaluation& delivered) {
+  Json list = Json::array();
+  for (const BeyondInFace& face : beyond_in_faces(mesh, delivered))
+    list.push_back({{"reference", face.ref}, {"triangles", face.triangles}, {"worst", number(face.worst)}});
+  return list;
+}
+
 }  // namespace
 
 std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const MeshEvaluation& delivered) {
@@ -103,6 +110,7 @@ std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& repor
                      {"short_edges", delivered.short_edges},
                      {"long_edges", delivered.long_edges},
                      {"folded_triangles", delivered.folded_triangles},
+                     {"beyond_tolerances", beyond(mesh, delivered)},
                      {"not_met", describe(delivered).not_met},
                      {"calls", {{"run", calls(report.calls)}, {"measure", calls(delivered.calls)}}},
                      {"seconds", {{"run", report.seconds_total}, {"measure", delivered.seconds}}}};

@@ -161,6 +161,13 @@ struct InputDistances {
   double back_distance = std::numeric_limits<double>::quiet_NaN(), back_bound = back_distance;
 };
 
+/// Triangles of a face whose bound of A0 or A1 is beyond its tolerance.
+struct BeyondInFace {
+  int ref = 0;  ///< that results speak of
+  std::int64_t triangles = 0;
+  double worst = 0;  ///< the largest bound over its tolerance
+};
+
 /// All measures; prescriptions that are not met are counted.
 struct MeshEvaluation {
   MeshEdges edges;
@@ -185,6 +192,11 @@ void summarise(MeshEvaluation& delivered);
 /// surf1 on edges, 14 inside triangles; and 9 an edge of a curve. Throws what callbacks throw, and Cancelled.
 MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
                              const EvaluationOptions& options, Monitor& monitor);
+
+/// Where EvaluationKind::bound_share has a limit: worst face first.
+std::vector<BeyondInFace> beyond_in_faces(const SurfaceMesh& mesh, const MeshEvaluation& delivered);
+/// The same for a person; empty: none is.
+std::string describe(const std::vector<BeyondInFace>& beyond);
 
 /// For a person.
 struct DeliveredText {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 
 #include "measure/mesh_evaluation.h"
@@ -175,6 +177,34 @@ double MeshEvaluation::share_in_range() const noexcept {
   // Diagonals of quadrilaterals have none.
   const auto measured = std::count_if(length.values.begin(), length.values.end(), [](double l) { return l == l; });
   return measured == 0 ? 0 : 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(measured);
+}
+
+std::vector<BeyondInFace> beyond_in_faces(const SurfaceMesh& mesh, const MeshEvaluation& delivered) {
+  const Delivery& share = delivered[EvaluationKind::bound_share];
+  std::map<int, BeyondInFace> of_face;  // by reference
+  if (share.values.size() != mesh.triangle_count()) return {};
+  std::size_t t = 0;
+  for (const FaceMesh& face : mesh.faces)
+    for (std::size_t k = 0; k < face.triangles.size(); ++k, ++t) {
+      if (!share.exceeds(share.values[t])) continue;
+      BeyondInFace& here = of_face[face.shown_ref()];
+      here.ref = face.shown_ref(), ++here.triangles, here.worst = std::max(here.worst, share.values[t]);
+    }
+  std::vector<BeyondInFace> all;
+  for (const auto& [ref, here] : of_face) all.push_back(here);
+  std::ranges::stable_sort(all, std::greater<>(), &BeyondInFace::worst);
+  return all;
+}
+
+// The worst ones.
+std::string describe(const std::vector<BeyondInFace>& beyond) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, beyond.size()); ++k)
+    text += (k == 0 ? "triangles beyond their tolerances: " : "; ") + std::to_string(beyond[k].triangles) + " of face " +
+            std::to_string(beyond[k].ref) + ", up to " + short_number(beyond[k].worst) + " times them";
+  if (beyond.size() > most) text += "; and some of " + std::to_string(beyond.size() - most) + " other faces";
+  return text;
 }
 
 DeliveredText describe(const MeshEvaluation& d) {

@@ -68,10 +68,11 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
                                       short_text(r.seconds_lift) + ")");
 }
 
-void describe_evaluation(const MeshEvaluation& delivered, Monitor& monitor) {
+void describe_evaluation(const SurfaceMesh& mesh, const MeshEvaluation& delivered, Monitor& monitor) {
   const DeliveredText text = describe(delivered);
   for (const std::string& line : text.summary) monitor.message(Level::summary, line);
   for (const std::string& sentence : text.not_met) monitor.message(Level::warning, sentence);
+  if (const std::string by_face = describe(beyond_in_faces(mesh, delivered)); !by_face.empty()) monitor.message(Level::warning, by_face);
 }
 
 }  // namespace carreau

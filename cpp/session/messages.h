@@ -17,7 +17,7 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
 /// The few lines that a person wants after a run.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
 
-/// Histograms as a summary, and a warning for each prescription that is not met.
-void describe_evaluation(const MeshEvaluation& delivered, Monitor& monitor);
+/// Histograms as a summary, a warning for each prescription that is not met, and one for the faces with triangles beyond their tolerances.
+void describe_evaluation(const SurfaceMesh& mesh, const MeshEvaluation& delivered, Monitor& monitor);
 
 }  // namespace carreau

@@ -286,7 +286,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   s.shapes.reset(), s.quality.reset();
   if (s.monitor.hears(Level::summary)) describe_result(s.result, shapes(), s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
-  if (s.delivered) describe_evaluation(*s.delivered, s.monitor);
+  if (s.delivered) describe_evaluation(s.result.mesh, *s.delivered, s.monitor);
 }
 
 const MeshEvaluation& Session::delivered() {
@@ -294,7 +294,7 @@ const MeshEvaluation& Session::delivered() {
   (void)mesh();
   if (!s.delivered) {
     s.delivered = evaluate_meshed(s.meshed, s.result, s.parts.get(), s.monitor);
-    describe_evaluation(*s.delivered, s.monitor);
+    describe_evaluation(s.result.mesh, *s.delivered, s.monitor);
     s.monitor.progress(Phase::idle, 0, 1);
   }
   return *s.delivered;

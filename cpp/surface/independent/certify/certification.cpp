@@ -136,8 +136,10 @@ class Certifier::Work {
     std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
     if (touched_.empty()) return true;
     const double most = std::max(1.0, excess().most * most_growth);
-    State best = state();
-    double least = excess().sum;
+    const State start = state();
+    State best = start;
+    const double first = excess().sum;
+    double least = first;
     for (int round = 0; round < most_rounds && least > 0; ++round) {
       const std::int64_t before = edits();
       const std::vector<std::int32_t> here = touched_;
@@ -148,7 +150,10 @@ class Certifier::Work {
       for (int pass = 0; pass < tidy_passes; ++pass) tidy();
       if (edits() == before) break;
       if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best = state();
+      if (round + 1 >= rounds_without_success && least == first) break;
     }
+    // Edges out of range for little are not worth it.
+    if (least > least_success * first) best = start, least = first;
     if (mesh_.edits() > best.edits || moved_.size() > best.moves) undo(best);
     return least == 0;
   }

@@ -9,12 +9,14 @@
 #include "surface/independent/bounds/pole.h"
 #include "surface/independent/bounds/spread_places.h"
 #include "surface/independent/bounds/thresholds.h"
+#include "surface/independent/certify/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
 using namespace thresholds::bounds;
+using thresholds::certify::within;
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -80,10 +82,10 @@ class ChartMap {
 
 double FreeBounds::deviation_tolerance(const Corners& corners) const {
   const SurfaceTolerances& asked = mesh_.tolerances();
-  if (asked.deviation > 0) return asked.deviation;
+  if (asked.deviation > 0) return within * asked.deviation;
   double sum = 0;
   for (const std::int32_t v : corners.vertex) sum += mesh_.size(v);
-  return asked.share_of_size * sum / 3;
+  return within * asked.share_of_size * sum / 3;
 }
 
 // Around it the mesh is no steeper than twice as its own corners see it.
@@ -103,7 +105,7 @@ BoundedTriangle FreeBounds::flat(const Corners& corners) const {
   const SurfaceTolerances& asked = mesh_.tolerances();
   made.deviation_tolerance = deviation_tolerance(corners);
   made.deviation_floor = near_deviation * made.deviation_tolerance;
-  made.angle_tolerance = asked.angle_deg * degree;
+  made.angle_tolerance = within * asked.angle_deg * degree;
   made.decides = true;
   made.angle_floor = near_angle * made.angle_tolerance;
   return made;

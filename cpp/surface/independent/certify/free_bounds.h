@@ -17,7 +17,7 @@ class FreeBounds {
  public:
   explicit FreeBounds(const FreeMesh& mesh, Cad& cad) : mesh_(mesh), cad_(cad), placer_(mesh, mesh.charts(), cad) {}
 
-  /// The larger bound over its tolerance; a triangle without area, or turned over, has the share of half a turn. About twelve evaluations, and more where
+  /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`); a triangle without area, or turned over, has the share of half a turn. About twelve evaluations, and more where
   /// it is near 1.
   [[nodiscard]] double share(const EditableMesh::Triangle& t);
 
