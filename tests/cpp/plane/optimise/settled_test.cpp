@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 
@@ -51,7 +52,8 @@ TEST(Settled, EdgesOfAcuteTrianglesAreDelaunayInTheMeanMetric) {
   int acute = 0, not_delaunay = 0;
   double least = 1;
   for (int k = 0; k < 400'000; ++k) {
-    const auto [c, a, d, b] = all.next();
+    const Quadrilaterals::Four four = all.next();
+    const Vertex &c = four.c, &a = four.a, &d = four.d, &b = four.b;
     const Metric2 m = c.metric() + a.metric() + d.metric() + b.metric();
     const auto cosine = [&](const Vertex& at) {
       const Vec2 u = a.point() - at.point(), v = b.point() - at.point();
@@ -73,7 +75,8 @@ TEST(Settled, GoodTrianglesAreNeitherCrowdedNorBad) {
   int good = 0, fine = 0;
   double shortest2 = 10, worst = 1, worst_fine = 1;
   for (int k = 0; k < 400'000; ++k) {
-    const auto [c, a, d, b] = all.next();
+    const Quadrilaterals::Four four = all.next();
+    const Vertex &c = four.c, &a = four.a, &b = four.b;
     const std::uint8_t state = settled_state(c, a, b);
     const Metric2 m = c.metric() + a.metric() + b.metric();
     const Vec2 u = a.point() - c.point(), v = b.point() - c.point();
