@@ -67,27 +67,6 @@ void divide_curves(CompositeRun& run, const std::vector<CurveEdge>& coarse) {
   divide_segments(run, segments);
 }
 
-// Edges of curves that bend much, of faces with invalid elements: those beside others are the next ones to be invalid.
-void add_bent_edges(const CompositeRun& run, QuadraticReport& report) {
-  const SurfaceMesh& mesh = run.result.mesh;
-  const auto is_doubtful = [&](const CurveMeshUse& use) {
-    return std::ranges::any_of(report.invalid, [&](const InvalidElements& invalid) {
-      return invalid.face == static_cast<std::size_t>(use.face);
-    });
-  };
-  for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
-    const CurveMesh& curve = mesh.curves[c];
-    if (curve.mid.empty() || std::ranges::none_of(curve.uses, is_doubtful)) continue;
-    for (std::size_t k = 0; k < curve.mid.size(); ++k) {
-      const Vec3 &a = mesh.vertices[curve.vertices[k]], &b = mesh.vertices[curve.vertices[k + 1]];
-      if (norm(mesh.mid_vertices[curve.mid[k]] - 0.5 * (a + b)) > most_bent * norm(b - a))
-        report.coarse.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(k)});
-    }
-  }
-  std::ranges::sort(report.coarse);
-  report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
-}
-
 void tell(CompositeRun& run, const QuadraticReport& report) {
   for (const InvalidElements& invalid : report.invalid) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
@@ -118,7 +97,6 @@ void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
   const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
   for (int round = 0; round < rounds && count(now) > 0; ++round) {
-    if (round >= rounds_of_single_edges) add_bent_edges(run, now);
     if (!attempts.again([&] { divide_curves(run, now.coarse), divide_faces(run, now); })) break;
     now = make_once(run);
     if (attempts.keep_if(count(now) < count(best))) best = now;

@@ -23,11 +23,6 @@ inline constexpr int most_rounds = 8;
 inline constexpr int most_divisions = 6;
 /// The same with quadrilaterals.
 inline constexpr int most_divisions_of_quads = 6;
-/// Of these times, those that halve the edges of curves of invalid elements alone. Later on all that bend much in their
-/// faces are halved: each mesh has other elements beside them. [frame.step at 3 and 5 %, q2.1]
-inline constexpr int rounds_of_single_edges = 1;
-/// Edges. Sagitta of one that bends much: an arc of 27 degrees. [0.1: two elements of frame.step at 2 % stay invalid]
-inline constexpr double most_bent = 0.06;
 /// Between the ways that two edges of curves take from a corner of an invalid element: that is a cusp. As parabolas
 /// they turn by their bends, a tenth and more of a radian.
 inline constexpr double sine_of_cusp = 0.1;
