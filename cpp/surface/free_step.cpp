@@ -96,6 +96,7 @@ class FreeStep {
       };
     const bool by_direction = run_.rules.uses_metrics();
     bool is_free = true;
+    if (from == From::remeshing && options.element == Element::p1) raise_sizes();
     if (from == From::remeshing)
       is_free = free_from_patches(run_.curve_model, run_.curves, options, by_direction, elements, run_.result, monitor);
     else
@@ -201,6 +202,14 @@ class FreeStep {
     std::ranges::sort(segments);
     segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
     return segments;
+  }
+
+  // Patches have smaller sizes beside borders that are shorter than the size, for the sake of their shapes. Nobody asked for these.
+  void raise_sizes() {
+    const std::optional<double> size = run_.rules.constant();
+    if (!size || run_.graded.field || std::ranges::any_of(run_.curves, &DiscreteCurve::prescribed)) return;
+    for (double& h : run_.result.vertex_size) h = std::max(h, *size);
+    lower_sizes();
   }
 
   // Curves and their vertices know nothing of what is to be finer.

@@ -9,6 +9,9 @@ time over that of `carreau mesh --independent`, area what its mesh has of that o
 or why there is none after so many seconds:
   ideal    triangles over those that are equilateral, of the size, and have the area of the mesh
   range    share of edges with lengths in [1/sqrt 2, sqrt 2] in the prescribed metric, per cent
+  away     the same of edges no end of which is on a sharp line or joined to one by an edge; their share of all edges, per cent
+  idealA   triangles over ideal ones of the same area, away from sharp lines: no corner is on one or joined to one
+  idealF   triangles over ideal ones where those that are not away count as they are: what sharp lines force
   Q2       mean, first percentile, worst (HDR eq. 1.6)
   A0, A1   largest distance over the size, largest angle in degrees, both measured on the surface
   bound    largest upper bound of A0 and A1 over their tolerances, of meshes with --independent
@@ -25,8 +28,8 @@ import subprocess
 import sys
 import tempfile
 
-ROW = "{:30.30}{:>5} {:5}{:>8}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>6}{:>9}{:>7}"
-HEAD = ("file", "size", "mesh", "tri", "ideal", "range", "mean", "p1", "worst", "A0/h", "A1", "bound", "x", "tri/s", "evals")
+ROW = "{:30.30}{:>5} {:5}{:>8}{:>7}{:>7}{:>7}{:>6}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>6}{:>9}{:>7}"
+HEAD = ("file", "size", "mesh", "tri", "ideal", "range", "away", "of", "idealA", "idealF", "mean", "p1", "worst", "A0/h", "A1", "bound", "x", "tri/s", "evals")
 
 
 def run(program, path, share, options, out):
@@ -47,7 +50,47 @@ def in_range(lengths):
     return 100 * inside / lengths["count"]
 
 
-def figures(program, path, share, options, repeat, folder):
+def read_mesh(path):
+    """Vertices, triangles, and edges with the reference of their curve."""
+    with open(path, encoding="ascii") as file:
+        words = file.read().split()
+    lists, k = {"Vertices": [], "Triangles": [], "Edges": []}, 0
+    width = {"Vertices": 4, "Triangles": 4, "Edges": 3}
+    while k < len(words):
+        name = words[k]
+        k += 1
+        if name in width:
+            w, count = width[name], int(words[k])
+            kind = float if name == "Vertices" else int
+            lists[name] = [tuple(map(kind, words[k + 1 + w * i:k + 1 + w * (i + 1)])) for i in range(count)]
+            k += 1 + w * count
+    vertices = [v[:3] for v in lists["Vertices"]]
+    triangles = [tuple(v - 1 for v in t[:3]) for t in lists["Triangles"]]
+    return vertices, triangles, [(a - 1, b - 1, ref) for a, b, ref in lists["Edges"]]
+
+
+def away_from_lines(path, size, sharp):
+    """Of one size everywhere. `sharp`: references of curves; None: all that are left."""
+    vertices, triangles, on_curves = read_mesh(path)
+    lines = {v for a, b, ref in on_curves if sharp is None or ref in sharp for v in (a, b)}
+    near = lines | {v for t in triangles if any(w in lines for w in t) for v in t}
+    edges = {(min(a, b), max(a, b)) for t in triangles for a, b in zip(t, t[1:] + t[:1])}
+    apart = [math.dist(vertices[a], vertices[b]) / size for a, b in edges if a not in near and b not in near]
+    inside = sum(0.70711 <= x <= 1.41421 for x in apart)
+    area, count = 0.0, 0
+    for a, b, c in triangles:
+        if a in near or b in near or c in near:
+            continue
+        p, q = ([x - y for x, y in zip(vertices[k], vertices[a])] for k in (b, c))
+        n = (p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0])
+        area, count = area + math.hypot(*n) / 2, count + 1
+    ideal = area / (math.sqrt(3) / 4 * size * size)
+    return {"away": 100 * inside / len(apart) if apart else None, "away_of": 100 * len(apart) / len(edges),
+            "ideal_away": count / ideal if count else None, "ideal_forced": len(triangles) / (len(triangles) - count + ideal),
+            "lines": {ref for _, _, ref in on_curves}}
+
+
+def figures(program, path, share, options, repeat, folder, sharp=None):
     out = os.path.join(folder, "x.mesh")
     seconds = math.inf
     for _ in range(repeat):
@@ -58,7 +101,8 @@ def figures(program, path, share, options, repeat, folder):
     measured = run(program, path, share, [*options, "--set", "measure=1"], out)
     size = float(share.rstrip("%")) / 100 * plain["diagonal"] if share.endswith("%") else float(share)
     mesh, kinds = plain["mesh"], measured["delivered"]["measures"]
-    return {"triangles": mesh["triangles"], "ideal": mesh["triangles"] * math.sqrt(3) / 4 * size * size / mesh["area"],
+    away = away_from_lines(out, size, sharp)
+    return away | {"triangles": mesh["triangles"], "ideal": mesh["triangles"] * math.sqrt(3) / 4 * size * size / mesh["area"],
             "range": in_range(kinds["metric_length"]), "mean": mesh["q2_mean"], "p1": mesh["q2_p1"], "worst": mesh["q2_min"],
             "a0": kinds["A0"]["max"] / size, "a1": kinds["A1"]["max"], "bound": kinds["bound_share"]["max"], "seconds": seconds,
             "evaluations": sum(plain["calls"][k] for k in ("surf0", "surf1", "surf2")) / mesh["vertices"],
@@ -68,7 +112,8 @@ def figures(program, path, share, options, repeat, folder):
 def print_row(name, share, mesh, f, before):
     added = f["seconds"] - before["seconds"]
     speed = f"{f['triangles'] / added:.0f}" if f is not before and added > 0 else ""
-    print(ROW.format(name, share, mesh, f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", f"{f['mean']:.4f}",
+    shown = ["" if f[k] is None else f"{f[k]:.{n}f}" for k, n in (("away", 2), ("away_of", 0), ("ideal_away", 3), ("ideal_forced", 3))]
+    print(ROW.format(name, share, mesh, f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", *shown, f"{f['mean']:.4f}",
                      f"{f['p1']:.3f}", f"{f['worst']:.3f}", f"{f['a0']:.3f}", f"{f['a1']:.1f}",
                      "" if f["bound"] is None else f"{f['bound']:.2f}",
                      f"{f['seconds'] / before['seconds']:.2f}", speed, f"{f['evaluations']:.1f}"), flush=True)
@@ -100,14 +145,15 @@ def main():
         for path in options.files:
             for share in options.share or ["5%", "2%", "1%"]:
                 name = os.path.basename(path)
-                before = figures(options.program, path, share, [], options.repeat, folder)
                 after = figures(options.program, path, share, ["--independent"], options.repeat, folder)
+                before = figures(options.program, path, share, [], options.repeat, folder, after and after["lines"])
                 if before is None or after is None:
                     print(name, share, "not meshed")
                     worse = worse or before is not None
                     continue
                 print_row(name, share, "cut", before, before)
                 print_row(name, share, "free", after, before)
+                before.pop("lines"), after.pop("lines")
                 results[f"{name} {share}"] = {"cut": before, "free": after}
                 if options.gmsh:
                     gmsh = attempt(path, share, options.gmsh)

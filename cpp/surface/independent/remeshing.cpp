@@ -53,6 +53,17 @@ class Remesher {
     return report_;
   }
 
+  RemeshingReport polish(double below) {
+    state_.assign(mesh_.vertices(), swap_due | move_due);
+    know_new();
+    for (std::size_t t = 0; t < mesh_.triangles().size(); ++t)
+      if (mesh_.triangles()[t][0] >= 0 && shape_of({0, static_cast<std::int32_t>(t)}) < below)
+        for (const std::int32_t v : mesh_.triangles()[t]) mark(v, active);
+    report_.rounds = most_rounds_of_degrees;
+    last_passes(most_polish_passes);
+    return report_;
+  }
+
   RemeshingReport run(std::span<const std::int32_t> around) {
     around.empty() ? activate_all() : activate_around(around);
     for (report_.rounds = 0; report_.rounds < most_rounds; ++report_.rounds) {
@@ -68,17 +79,20 @@ class Remesher {
       move_all();
       if (report_.collapses + report_.splits == before) break;
     }
-    const int passes = thorough_ ? most_last_passes_thorough : most_last_passes;
-    for (int pass = 0; pass < passes; ++pass) {
+    last_passes(thorough_ ? most_last_passes_thorough : most_last_passes);
+    return report_;
+  }
+
+ private:
+  void last_passes(int most) {
+    for (int pass = 0; pass < most; ++pass) {
       const std::int64_t before = report_.swaps + report_.moves;
       swap_all();
       move_all();
       if (report_.swaps + report_.moves == before) break;
     }
-    return report_;
   }
 
- private:
   using Place = FreeMesh::Place;
   using Quad = FreeMesh::Quad;
 
@@ -341,6 +355,14 @@ bool is_bad(const FreeMesh& mesh, const EditableMesh::Triangle& t) {
 }
 
 RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true, true).halve(); }
+
+RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor) {
+  const ShapeBudget budget = mesh.budget;
+  mesh.budget.left = 0;  // what is gained may be spent again
+  const RemeshingReport report = Remesher(mesh, monitor, false, false).polish(below);
+  mesh.budget = budget;
+  return report;
+}
 
 RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough,
                        std::span<const std::int32_t> around) {

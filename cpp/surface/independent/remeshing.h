@@ -28,6 +28,9 @@ struct RemeshingReport {
 /// new vertices have six edges. Lengths and shapes are then as the coarse ones were, and remesh() may follow.
 RemeshingReport halve(FreeMesh& mesh, Monitor& monitor);
 
+/// Swaps edges and moves vertices around triangles of a shape below `below` where shapes are better for it, in the sum. The budget stays.
+RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor);
+
 /// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
 /// `everywhere`: all triangles are worked at, not only those below `good_enough` and what is around: of a mesh that is no
 /// mesher's. `thorough`: shapes are worked at longer. `around`: work starts around these vertices only; empty: as said before.

@@ -2,6 +2,8 @@
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 
+#include <array>
+
 namespace carreau::thresholds::independent {
 
 // Walks in the atlas (charts)
@@ -59,6 +61,8 @@ inline constexpr double shape_of_squares = 0.87;
 /// Shape that a swap for the sake of degrees may leave, and rounds that have such swaps.
 inline constexpr double least_shape_of_degrees = 0.55;
 inline constexpr int most_rounds_of_degrees = 4;
+/// Passes of swaps and moves for the sake of the mean shape.
+inline constexpr int most_polish_passes = 4;
 /// Share of the size. Shorter moves are not worth an evaluation.
 inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
 /// Shape. Gains below do not count.
@@ -91,8 +95,16 @@ inline constexpr double high_price = 1;
 inline constexpr double low_price = 0.2, price_growth = 3;
 /// Shape. Means differ by less in rounding.
 inline constexpr double rounding_of_mean = 1e-9;
+/// Shape. Where the mean has fallen by less than that, it is raised again (regained_below).
+inline constexpr double most_regained = 0.004;
+/// Shape. Where the mean has fallen by more after the first round a try is given up: by .019 to .084 on frame.step at 5 and 2 % and the M6 screw at 5 %; later
+/// rounds change it by less than .001.
+inline constexpr double most_lost_at_first = 2 * most_regained;
+/// Shapes. Triangles below are worked at for it, those below the first one at first.
+inline constexpr std::array<double, 2> regained_below{0.9, 0.98};
 /// Share of the sides of triangles. Where more would come into range if shapes were not kept, they are not: patches that are small and well shaped would stay.
-inline constexpr double most_range_for_shapes = 0.2;
+/// Of the M6 screw and frame.step at a size of 5 % it is .21 and .20.
+inline constexpr double most_range_for_shapes = 0.3;
 /// Degrees. By a larger sharp_angle features are to vanish, and shapes have no price.
 inline constexpr double most_angle_of_price = 5;
 

@@ -72,6 +72,19 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
   return report += halve(free, monitor);
 }
 
+bool falls(double to, double from) { return to < from - rounding_of_mean; }
+
+// Where the mean has fallen by little more work at shapes makes up for it.
+ShapeSummary regained(FreeMesh& mesh, double mean, Monitor& monitor) {
+  ShapeSummary now = summarise_shapes(mesh);
+  for (const double below : regained_below) {
+    if (!falls(now.mean, mean) || now.mean < mean - most_regained) break;
+    polish(mesh, below, monitor);
+    now = summarise_shapes(mesh);
+  }
+  return now;
+}
+
 double share_in_range(const FreeMesh& mesh) {
   std::int64_t inside = 0, count = 0;
   for (const auto& t : mesh.triangles()) {
@@ -148,11 +161,13 @@ std::int64_t Tries::crossings_before() {
   return crossings_before_;
 }
 
-void Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely) {
+// From a round on. False: it has ended after the first one, since the mean has fallen below `least`.
+bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least) {
   FreeMesh& free = *start.free;
   const LineTolerance of_lines{tolerances_.deviation, tolerances_.share_of_size};
   RemeshingReport report;
-  for (int round = 0; round < most_line_rounds; ++round) {
+  bool done = true;
+  for (int round = first; round < most_line_rounds && done; ++round) {
     const std::vector<std::int32_t> changed = remesh_lines(free, start.worked, of_lines, monitor_);
     if (round > 0 && changed.empty() && weighing.kept != keep_all) break;
     if (round == 0 && coarsely && frame_.everywhere) report += remesh_coarsely(free, before_.mesh, frame_, monitor_);
@@ -160,11 +175,13 @@ void Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, b
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
     report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, frame_.everywhere && coarsely, around);
     if (weighing.kept == keep_all) free.budget.price *= price_growth;
+    done = round > first || !(least > 0) || summarise_shapes(free).mean >= least;
   }
   monitor_.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                       std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
                                       " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
                                       std::to_string(report.rounds) + " rounds");
+  return done;
 }
 
 Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
@@ -175,10 +192,14 @@ Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
   if (weighing.weighs_moves) free.budget.floor = std::min(before.worst, least_line_shape);
   if (weighing.kept != keep_none) free.budget.floor = before.worst;
   if (weighing.kept == keep_all) free.budget.left = 0;
-  remesh_between_lines(start, weighing, coarsely);
+  // By more than that the mean is not raised again.
+  const bool may_end = !frame_.everywhere && !frame_.elements && weighing.price < infinity && weighing.kept != keep_all;
+  if (!remesh_between_lines(start, weighing, coarsely, 0, may_end ? before.mean - most_lost_at_first : 0)) {
+    const double in_range = share_in_range(free);
+    return {std::move(start), keep_all, in_range, &weighing};
+  }
   raise_worst(free, before.worst + above_worst, monitor_);
-  const ShapeSummary after = summarise_shapes(free);
-  const auto falls = [](double to, double from) { return to < from - rounding_of_mean; };
+  const ShapeSummary after = regained(free, may_end ? before.mean : 0, monitor_);
   // The worst triangle of no mesher says nothing, nor that which other elements are made of.
   const bool worst_falls = !frame_.everywhere && !frame_.elements && falls(after.worst, before.worst);
   const KeptShapes worse_in = falls(after.mean, before.mean) ? keep_all : worst_falls ? keep_worst : keep_none;
@@ -241,7 +262,10 @@ Tries::Outcome Tries::run() {
       continue;
     }
     // Good shapes of a size that nobody wants are of no use.
-    if (spare && tried.in_range < spare->in_range - most_range_for_shapes) std::swap(tried, *spare);
+    if (spare && tried.in_range < spare->in_range - most_range_for_shapes) {
+      std::swap(tried, *spare);
+      if (tried.ended != nullptr) remesh_between_lines(tried.mesh, *tried.ended, false, 1, 0);
+    }
     outcome = put_together(tried.mesh);
     if (outcome.why.empty()) {
       certify_surface(tried.mesh, outcome);

@@ -75,11 +75,12 @@ class Tries {
     StartedMesh mesh;
     KeptShapes is_worse_in = KeptShapes::none;  ///< than before
     double in_range = 0;                        ///< share of sides of triangles
+    const Weighing* ended = nullptr;            ///< after the first round, since shapes had become worse; null: it is done
   };
   Try make(const Weighing& weighing, bool coarsely);
   Outcome put_together(StartedMesh& mesh);  // it stays where no elements are made of it
   void certify_surface(StartedMesh& mesh, Outcome& outcome);
-  void remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely);
+  bool remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least);
   void guard(const Intersections& found, const FreedMesh& made);
   [[nodiscard]] std::int64_t crossings_before();
 
