@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
-#include "plane/optimise/settled.h"
+#include "plane/kernel/settled.h"
 
 namespace carreau::plane {
 

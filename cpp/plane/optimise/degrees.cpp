@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "plane/kernel/star.h"
-#include "plane/kernel/inner_edges.h"
+#include "plane/optimise/inner_edges.h"
 #include "plane/thresholds.h"
 
 namespace carreau::plane {

@@ -6,7 +6,7 @@
 
 #include "metric/field_length.h"
 #include "plane/kernel/metric_delaunay.h"
-#include "plane/kernel/inner_edges.h"
+#include "plane/optimise/inner_edges.h"
 #include "plane/thresholds.h"
 
 namespace carreau::plane {

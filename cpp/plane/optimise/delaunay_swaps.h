@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plane/kernel/plane_work.h"
-#include "plane/optimise/settled.h"
+#include "plane/kernel/settled.h"
 
 namespace carreau::plane {
 

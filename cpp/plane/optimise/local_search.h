@@ -5,7 +5,7 @@
 
 #include "control_space/sampled_normals.h"
 #include "plane/kernel/plane_work.h"
-#include "plane/optimise/settled.h"
+#include "plane/kernel/settled.h"
 
 namespace carreau::plane {
 

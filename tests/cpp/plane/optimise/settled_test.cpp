@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one look at a triangle promises of its edges (plane/optimise/settled.h).
+// What one look at a triangle promises of its edges (plane/kernel/settled.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "plane/optimise/settled.h"
+#include "plane/kernel/settled.h"
 
 namespace carreau::plane {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A walk over the edges of a large mesh that finds memory in order. Private to plane/.
+// A walk over the edges of a large mesh that finds memory in order. Private to plane/optimise.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles of which one look tells that passes over edges and triangles would leave them as they are: nearly all of a
-// large mesh. Private to plane/optimise.
+// large mesh. Private to plane.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
-#include "plane/kernel/inner_edges.h"
 #include "plane/thresholds.h"
 
 namespace carreau::plane {
