@@ -15,7 +15,7 @@ namespace carreau {
 namespace {
 
 // Triangles that are looked at together; smaller sets are not worth it. [time only]
-constexpr std::size_t at_once = 16384, least_graph = 24;
+constexpr std::size_t triangles_at_once = 16384, least_graph = 24;
 // Share of a normal that lies along the axis of a graph: up to 60 degrees. The largest of three is .577 and more. [time
 // only]
 constexpr double least_along = 0.5;
@@ -208,12 +208,12 @@ class Graphs {
 std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                       std::span<std::int32_t> order, int threads, Monitor& monitor) {
   std::vector<std::int32_t> graph(triangles.size(), alone);
-  const std::size_t parts = (order.size() + at_once - 1) / at_once;
+  const std::size_t parts = (order.size() + triangles_at_once - 1) / triangles_at_once;
   std::vector<std::int32_t> count(parts, 0);
   run_each(
       parts, false, threads,
       [&](std::size_t part, Monitor& own) {
-        const auto some = order.subspan(part * at_once, std::min(at_once, order.size() - part * at_once));
+        const auto some = order.subspan(part * triangles_at_once, std::min(triangles_at_once, order.size() - part * triangles_at_once));
         std::vector<Triangle> corners;
         corners.reserve(some.size());
         for (const std::int32_t t : some) corners.push_back(triangles[static_cast<std::size_t>(t)]);
@@ -228,7 +228,7 @@ std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices, std::span<
       monitor);
   std::int32_t before = 0;
   for (std::size_t part = 0; part < parts; ++part) {
-    for (std::size_t k = part * at_once; k < std::min((part + 1) * at_once, order.size()); ++k)
+    for (std::size_t k = part * triangles_at_once; k < std::min((part + 1) * triangles_at_once, order.size()); ++k)
       if (std::int32_t& g = graph[static_cast<std::size_t>(order[k])]; g >= 0) g += before;
     before += count[part];
   }

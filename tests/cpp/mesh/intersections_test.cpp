@@ -296,8 +296,8 @@ TEST(Intersections, PassOverTrianglesThatAreNone) {
   EXPECT_EQ(found_in(vertices, triangles), (Pairs{{0, 1}}));
   EXPECT_TRUE(found_in({}, {}).empty());
   Monitor monitor;
-  EXPECT_EQ(find_intersections_again({{}, {}, {}}, vertices, triangles, {}, monitor).count, 1);
-  EXPECT_EQ(find_intersections_again({vertices, triangles, {}}, vertices, triangles, {}, monitor).count, 0);
+  EXPECT_EQ(find_intersections_again({{}, {}, {}}, vertices, triangles, 10, Crew{}, monitor).count, 1);
+  EXPECT_EQ(find_intersections_again({vertices, triangles, {}}, vertices, triangles, 10, Crew{}, monitor).count, 0);
 }
 
 /// Twice as many triangles take about twice the time; a comparison of all pairs would take four times as long.

@@ -30,6 +30,8 @@ inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
 inline constexpr int most_cuts = 10, most_parts = 150;
 /// Parts of a triangle of which it is known that it is beyond a tolerance, where that is all that is asked.
 inline constexpr int most_parts_beyond = 16;
+/// Ratio of these to the parts that are cut where an edit is only tried. [time only]
+inline constexpr int roughly_parts = 4;
 /// Share of the largest |Su x Sv| of a triangle: where it is less the surface is singular.
 inline constexpr double singular_normal = 1e-9;
 /// Share of the longest side: what lies so little beyond a side is rounding.

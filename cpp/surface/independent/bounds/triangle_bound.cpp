@@ -149,7 +149,8 @@ void TriangleBound::judge(Part&& part) {
   const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
                     (leans || is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance));
   const bool known = triangle_.decides && (seen_deviation_ > triangle_.deviation_tolerance || seen_angle_ > triangle_.angle_tolerance);
-  if (near || part.cuts >= most_cuts || parts_ >= (known ? most_parts_beyond : most_parts)) {
+  const int most = known ? most_parts_beyond : most_parts;
+  if (near || part.cuts >= most_cuts || parts_ >= (triangle_.roughly ? most / roughly_parts : most)) {
     deviation_ = std::max(deviation_, deviation);
     angle_ = std::max(angle_, angle);
     return;

@@ -34,6 +34,7 @@ struct BoundedTriangle {
   double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to what is seen; model length, radians
   double deviation_tolerance = infinity, angle_tolerance = infinity;  ///< bounds beyond are nearer to it
   bool decides = false;  ///< whether bounds are beyond is all that is asked
+  bool roughly = false;  ///< of what may come to be: bounds may be looser, for few places
 };
 
 /// Weights of the second and the third corner.

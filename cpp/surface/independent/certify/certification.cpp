@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <numbers>
@@ -33,6 +34,7 @@ class Certifier::Work {
     report_ = {};
     std::vector<Beyond> beyond = find();
     report_.beyond_before = static_cast<std::int64_t>(beyond.size());
+    const std::int64_t end = bounds_.evaluations() + most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size());
     for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
       const std::int64_t before = edits();
       for (const std::vector<std::int32_t>& group : groups(beyond)) {
@@ -40,6 +42,7 @@ class Certifier::Work {
         std::vector<Corners> corners;
         for (const std::int32_t t : group) corners.push_back(mesh_.triangles()[t]);
         if (failed_.contains(corners)) continue;
+        end_ = std::min(end, bounds_.evaluations() + most_evaluations_of_group * static_cast<std::int64_t>(group.size()));
         // What is far beyond is not mended edit by edit.
         const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > most_moved; });
         if (!work_at(group, boldly)) (void)work_at(group, !boldly);
@@ -99,7 +102,7 @@ class Certifier::Work {
     report_ = to.report;
   }
 
-  // Triangles that share a vertex, worst group first.
+  // Triangles that share a vertex. The worst group is last: it may be one that nothing helps.
   [[nodiscard]] std::vector<std::vector<std::int32_t>> groups(const std::vector<Beyond>& beyond) const {
     std::map<std::int32_t, std::vector<std::int32_t>> at;  // by vertex: triangles
     for (const Beyond& b : beyond)
@@ -114,6 +117,7 @@ class Certifier::Work {
           for (const std::int32_t t : at[v])
             if (done.insert(t).second) group.push_back(t);
     }
+    std::ranges::reverse(found);
     return found;
   }
 
@@ -145,7 +149,7 @@ class Certifier::Work {
       const std::vector<std::int32_t> here = touched_;
       for (const std::int32_t t : here) {
         monitor_.checkpoint();
-        if (share_of(t) > 1) mend(t);
+        if (bounds_.evaluations() < end_ && share_of(t) > 1) mend(t);
       }
       for (int pass = 0; pass < tidy_passes; ++pass) tidy();
       if (edits() == before) break;
@@ -231,7 +235,7 @@ class Certifier::Work {
     Outcome outcome;
     mesh_.judge(q.a, q.d, q.c, outcome.shapes), mesh_.judge(q.d, q.b, q.c, outcome.shapes);
     if (!is_fair(judge_pair(q), outcome.shapes, least_shape) || !mesh_.mesh().can_swap(q)) return {};
-    outcome.share = std::max(bounds_.share({q.a, q.d, q.c}), bounds_.share({q.d, q.b, q.c}));
+    outcome.share = std::max(bounds_.share_roughly({q.a, q.d, q.c}), bounds_.share_roughly({q.d, q.b, q.c}));
     return outcome;
   }
 
@@ -270,10 +274,14 @@ class Certifier::Work {
     mesh_.put(v, *to, mesh_.wanted_at(*to));
     const TriangleShapes after = mesh_.judge_around(v);
     bool good = after.worst >= least && is_fair(before, after, 0) && out_of_range(mesh_, v) <= out;
+    // What was beyond is asked first: most moves fail there.
+    std::vector<Place> fan(mesh_.mesh().fan(v).begin(), mesh_.mesh().fan(v).end());
+    share_.resize(mesh_.triangles().size(), unknown);
+    std::ranges::stable_sort(fan, std::greater<>{}, [&](Place p) { return share_[p.triangle]; });
     std::vector<double> shares;
-    for (const Place p : mesh_.mesh().fan(v)) {
+    for (const Place p : fan) {
       if (!good) break;
-      shares.push_back(bounds_.share(mesh_.mesh().at(p)));
+      shares.push_back(bounds_.share_roughly(mesh_.mesh().at(p)));
       good = shares.back() <= most;
     }
     if (!good) {
@@ -281,7 +289,6 @@ class Certifier::Work {
       return false;
     }
     moved_.push_back({v, from, size});
-    const auto& fan = mesh_.mesh().fan(v);
     for (std::size_t k = 0; k < fan.size(); ++k) forget(fan[k]), share_[fan[k].triangle] = shares[k];
     ++report_.moves;
     return true;
@@ -301,9 +308,10 @@ class Certifier::Work {
     Outcome outcome;
     const std::int32_t m = mesh_.try_vertex(at);
     for (const Corners& t : parts(q, m)) mesh_.judge(t[0], t[1], t[2], outcome.shapes);
-    if (is_fair(judge_pair(q), outcome.shapes, boldly_ ? least_shape_boldly : least_shape)) {
+    if (is_fair(judge_pair(q), outcome.shapes, least_shape)) {
       outcome.share = 1;
-      if (!boldly_) for (const Corners& t : parts(q, m)) outcome.share = std::max(outcome.share, bounds_.share(t));
+      if (!boldly_)
+        for (const Corners& t : parts(q, m)) outcome.share = std::max(outcome.share, bounds_.share_roughly(t));
     }
     mesh_.forget_vertex();
     return outcome;
@@ -387,6 +395,7 @@ class Certifier::Work {
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
   std::vector<Moved> moved_;
   bool boldly_ = false;
+  std::int64_t end_ = 0;  // evaluations after which the group at work is given up
   std::set<std::vector<Corners>> failed_;  // groups that nothing helps
   Certification report_;
 };

@@ -119,6 +119,7 @@ TriangleBound FreeBounds::bound_in_chart(const Corners& corners, std::int32_t fa
   const auto see = [&](std::span<const PlaceInTriangle> places) {
     uv.clear();
     for (const PlaceInTriangle& p : places) uv.push_back(map.at(p));
+    evaluations_ += static_cast<std::int64_t>(uv.size());
     jets.resize(uv.size());
     cad_.surface(mesh_.charts().reference(face), want_position | want_first, uv, jets);
     seen.clear();
@@ -144,17 +145,19 @@ TriangleBound FreeBounds::bound_over_several(const Corners& corners, const Bound
       triangle.set_pole({ends.begin(), ends.end()});
     }
   const SpreadPlaces places(triangle, flat);
+  evaluations_ += TriangleBound::lattice_size;
   TriangleBound bound(flat, places.lattice());
   std::vector<BoundPlace> seen;
   while (!bound.wanted().empty()) {
     seen.clear();
     for (const PlaceInTriangle& p : bound.wanted()) seen.push_back(places.at(p));
+    evaluations_ += static_cast<std::int64_t>(seen.size());
     bound.take(seen);
   }
   return bound;
 }
 
-double FreeBounds::share(const EditableMesh::Triangle& t) {
+double FreeBounds::share(const EditableMesh::Triangle& t, bool roughly) {
   const PlacedCell cell = placer_({t[0], t[1], t[2], -1});
   Corners corners;
   for (int i = 0; i < 3; ++i) {
@@ -167,7 +170,8 @@ double FreeBounds::share(const EditableMesh::Triangle& t) {
     std::swap(corners.vertex[1], corners.vertex[2]);
     std::swap(corners.place[1], corners.place[2]);
   }
-  const BoundedTriangle flat = this->flat(corners);
+  BoundedTriangle flat = this->flat(corners);
+  flat.roughly = roughly;
   const double turned = 180 / mesh_.tolerances().angle_deg;
   if (flat.is_flat()) return turned;
   const TriangleBound bound = cell.spread ? bound_over_several(corners, flat) : bound_in_chart(corners, cell.face, flat);

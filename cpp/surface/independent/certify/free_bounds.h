@@ -19,13 +19,18 @@ class FreeBounds {
 
   /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`); a triangle without area, or turned over, has the share of half a turn. About twelve evaluations, and more where
   /// it is near 1.
-  [[nodiscard]] double share(const EditableMesh::Triangle& t);
+  [[nodiscard]] double share(const EditableMesh::Triangle& t) { return share(t, false); }
+  /// The same of a triangle that an edit would make, for fewer evaluations: it may be larger.
+  [[nodiscard]] double share_roughly(const EditableMesh::Triangle& t) { return share(t, true); }
+  /// Places of the surface that were asked for.
+  [[nodiscard]] std::int64_t evaluations() const noexcept { return evaluations_; }
 
  private:
   struct Corners {
     std::array<SurfacePlace, 3> place;
     std::array<std::int32_t, 3> vertex;
   };
+  [[nodiscard]] double share(const EditableMesh::Triangle& t, bool roughly);
   [[nodiscard]] BoundedTriangle flat(const Corners& corners) const;
   [[nodiscard]] double deviation_tolerance(const Corners& corners) const;
   [[nodiscard]] TriangleBound bound_in_chart(const Corners& corners, std::int32_t face, const BoundedTriangle& flat);
@@ -34,6 +39,7 @@ class FreeBounds {
   const FreeMesh& mesh_;
   Cad& cad_;
   CellPlacer placer_;
+  std::int64_t evaluations_ = 0;
 };
 
 }  // namespace carreau

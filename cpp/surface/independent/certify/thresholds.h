@@ -2,6 +2,8 @@
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 
+#include <cstdint>
+
 namespace carreau::thresholds::certify {
 
 /// Share of a tolerance. Triangles whose normals at corners say less are not suspect: of a smooth surface they are off by a fifth or so.
@@ -22,10 +24,8 @@ inline constexpr double least_success = 0.5;
 inline constexpr double most_moved = 1.3;
 /// Share of a tolerance. Gains below do not count.
 inline constexpr double least_gain = 1e-3;
-/// Shape (Q2) that an edit may leave where shapes were better: what is thinner than the size has such triangles anyway.
-inline constexpr double least_shape = 0.2;
-/// The same of splits that others are to follow.
-inline constexpr double least_shape_boldly = 0.05;
+/// Shape (Q2) that an edit may leave where shapes were better, splits that others are to follow, too.
+inline constexpr double least_shape = 0.3;
 /// Shape that a move may leave.
 inline constexpr double least_shape_of_move = 0.5;
 /// Lengths. Shorter edges are not split: what bends by more than is tolerated over a fifth of the size is a feature of another size.
@@ -38,5 +38,9 @@ inline constexpr int directions = 6;
 /// Shape. Triangles below that were made are swapped and moved; gains below `least_shape_gain` do not count; passes.
 inline constexpr double good_shape = 0.7, least_shape_gain = 0.01;
 inline constexpr int tidy_passes = 2;
+
+/// Evaluations of the surface, a triangle of the mesh and a triangle of a group that is beyond: what is not mended by them is told. The mesh took some twenty a
+/// vertex. [time only]
+inline constexpr std::int64_t most_evaluations = 32, most_evaluations_of_group = 6000;
 
 }  // namespace carreau::thresholds::certify
