@@ -16,6 +16,7 @@
 #include "surface/independent/certify/free_bounds.h"
 #include "surface/independent/certify/thresholds.h"
 #include "surface/independent/edits/edge_edits.h"
+#include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
 
@@ -34,7 +35,8 @@ class Certifier::Work {
     report_ = {};
     std::vector<Beyond> beyond = find();
     report_.beyond_before = static_cast<std::int64_t>(beyond.size());
-    const std::int64_t end = bounds_.evaluations() + most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size());
+    const double mean = beyond.empty() ? 0 : summarise_shapes(mesh_).mean;
+    const std::int64_t end = bounds_.evaluations() + std::max(always_evaluations, most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size()));
     for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
       const std::int64_t before = edits();
       for (const std::vector<std::int32_t>& group : groups(beyond)) {
@@ -52,6 +54,11 @@ class Certifier::Work {
       if (edits() == before) break;
     }
     report_.beyond = static_cast<std::int64_t>(beyond.size());
+    if (mean >= least_mean && report_.has_edits() && summarise_shapes(mesh_).mean < least_mean) {
+      const std::int64_t before = report_.beyond_before;
+      undo();
+      report_.beyond = report_.beyond_before = before;
+    }
     return report_;
   }
 

@@ -32,6 +32,8 @@ inline constexpr double least_shape_of_move = 0.5;
 inline constexpr double shortest_split = 0.3;
 /// Lengths. A swap makes no longer edge where none was.
 inline constexpr double longest_swapped = 1.8;
+/// Mean shape. A mesh that is as good is not edited to less: of a coarse one a few edits are a large part.
+inline constexpr double least_mean = 0.95;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
 inline constexpr int directions = 6;
@@ -40,7 +42,7 @@ inline constexpr double good_shape = 0.7, least_shape_gain = 0.01;
 inline constexpr int tidy_passes = 2;
 
 /// Evaluations of the surface, a triangle of the mesh and a triangle of a group that is beyond: what is not mended by them is told. The mesh took some twenty a
-/// vertex. [time only]
-inline constexpr std::int64_t most_evaluations = 32, most_evaluations_of_group = 6000;
+/// vertex. So many are made in any case: a tenth of a second.
+inline constexpr std::int64_t most_evaluations = 32, most_evaluations_of_group = 6000, always_evaluations = 200'000;
 
 }  // namespace carreau::thresholds::certify
