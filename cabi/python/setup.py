@@ -38,9 +38,10 @@ class WithLibrary(build_py):
         subprocess.run(["cmake", "--install", built(work), "--prefix", tree, "--component", "wheel"], check=True)
         inside = os.path.join(self.build_lib, "carreau", "lib")
         os.makedirs(inside, exist_ok=True)
-        # By their names without versions of the project, which is what the loader looks for.
-        for path in glob.glob(os.path.join(tree, "carreau", "lib", "libcarreau*.so.[0-9]")):
-            shutil.copyfile(path, os.path.join(inside, os.path.basename(path)))
+        # By their names without versions of the project, which is what the loader looks for; readers of CAD files by their only name.
+        for name in ("libcarreau*.so.[0-9]", "libcarreau_cad_*.so"):
+            for path in glob.glob(os.path.join(tree, "carreau", "lib", name)):
+                shutil.copyfile(path, os.path.join(inside, os.path.basename(path)))
         if not glob.glob(os.path.join(inside, "libcarreau.so.*")):
             raise SystemExit("the build has no shared library libcarreau")
 
