@@ -37,6 +37,7 @@ class Certifier::Work {
     report_.beyond_before = static_cast<std::int64_t>(beyond.size());
     const double mean = beyond.empty() ? 0 : summarise_shapes(mesh_).mean;
     const std::int64_t end = bounds_.evaluations() + std::max(always_evaluations, most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size()));
+    std::vector<std::int32_t> worked;
     for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
       const std::int64_t before = edits();
       for (const std::vector<std::int32_t>& group : groups(beyond)) {
@@ -49,9 +50,14 @@ class Certifier::Work {
         const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > most_moved; });
         if (!work_at(group, boldly)) (void)work_at(group, !boldly);
         if (edits() == before_group) failed_.insert(std::move(corners));
+        worked.insert(worked.end(), changed_.begin(), changed_.end());
       }
       beyond = find();
       if (edits() == before) break;
+    }
+    if (report_.has_edits()) {
+      tidy_all(std::move(worked));
+      beyond = find();
     }
     report_.beyond = static_cast<std::int64_t>(beyond.size());
     if (mean >= least_mean && report_.has_edits() && summarise_shapes(mesh_).mean < least_mean) {
@@ -366,11 +372,20 @@ class Certifier::Work {
     }
   }
 
+  // What groups have left is nobody's any more: shapes there are made as good as they can be.
+  void tidy_all(std::vector<std::int32_t> worked) {
+    std::erase_if(worked, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
+    changed_ = std::move(worked);
+    good_ = good_shape_at_last;
+    for (int pass = 0; pass < tidy_passes_at_last; ++pass) tidy();
+    good_ = good_shape;
+  }
+
   void tidy_edge(std::int32_t v, std::int32_t w) {
     const auto q = mesh_.mesh().quad_between({0, v}, w);
     if (!q) return;
     const TriangleShapes shapes = judge_pair(*q);
-    if (shapes.worst >= good_shape) return;
+    if (shapes.worst >= good_) return;
     const double length = mesh_.length(q->c, q->d);
     TriangleShapes after;
     mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
@@ -380,7 +395,7 @@ class Certifier::Work {
 
   void tidy_vertex(std::int32_t v) {
     const TriangleShapes shapes = mesh_.judge_shapes_around(v);
-    if (shapes.worst >= good_shape) return;
+    if (shapes.worst >= good_) return;
     Vec3 sum{0, 0, 0};
     const std::vector<std::int32_t> ring = mesh_.mesh().ring(v);
     for (const std::int32_t w : ring) sum += mesh_.position(w);
@@ -402,6 +417,7 @@ class Certifier::Work {
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
   std::vector<Moved> moved_;
   bool boldly_ = false;
+  double good_ = good_shape;  // shapes that are as good stay
   std::int64_t end_ = 0;  // evaluations after which the group at work is given up
   std::set<std::vector<Corners>> failed_;  // groups that nothing helps
   Certification report_;

@@ -37,9 +37,9 @@ inline constexpr double least_mean = 0.95;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
 inline constexpr int directions = 6;
-/// Shape. Triangles below that were made are swapped and moved; gains below `least_shape_gain` do not count; passes.
-inline constexpr double good_shape = 0.7, least_shape_gain = 0.01;
-inline constexpr int tidy_passes = 2;
+/// Shape. Triangles below that were made are swapped and moved, at last those below the second one; gains below `least_shape_gain` do not count; passes.
+inline constexpr double good_shape = 0.7, good_shape_at_last = 0.95, least_shape_gain = 0.01;
+inline constexpr int tidy_passes = 2, tidy_passes_at_last = 5;
 
 /// Evaluations of the surface, a triangle of the mesh and a triangle of a group that is beyond: what is not mended by them is told. The mesh took some twenty a
 /// vertex. So many are made in any case: a tenth of a second.
