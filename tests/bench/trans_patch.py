@@ -123,8 +123,9 @@ def print_gmsh(name, share, f, free):
     if isinstance(f, str):
         print(f"{name:30.30}{share:>5} gmsh   {f}", flush=True)
         return
-    print(ROW.format(name, share, "gmsh", f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", f"{f['mean']:.4f}",
-                     f"{f['p1']:.3f}", f"{f['worst']:.3f}", "", "", "", f"{f['seconds'] / free['seconds']:.1f}", "", ""),
+    print(ROW.format(name, share, "gmsh", f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", "", "", "", "",
+                     f"{f['mean']:.4f}", f"{f['p1']:.3f}", f"{f['worst']:.3f}", "", "", "", f"{f['seconds'] / free['seconds']:.1f}",
+                     "", ""),
           f" area {f['area']:.1f} %", flush=True)
 
 
