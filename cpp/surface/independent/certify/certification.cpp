@@ -60,7 +60,7 @@ class Certifier::Work {
       beyond = find();
     }
     report_.beyond = static_cast<std::int64_t>(beyond.size());
-    if (mean >= least_mean && report_.has_edits() && summarise_shapes(mesh_).mean < least_mean) {
+    if (report_.has_edits() && costs_too_much(mean)) {
       const std::int64_t before = report_.beyond_before;
       undo();
       report_.beyond = report_.beyond_before = before;
@@ -113,6 +113,11 @@ class Certifier::Work {
     std::erase_if(touched_, [&](std::int32_t t) { return t >= static_cast<std::int32_t>(mesh_.triangles().size()); });
     std::erase_if(changed_, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
     report_ = to.report;
+  }
+
+  [[nodiscard]] bool costs_too_much(double mean_before) const {
+    const double mean = summarise_shapes(mesh_).mean;
+    return mean < std::min(least_mean, mean_before) && (mean_before >= least_mean || mean < mean_before - most_mean_lost);
   }
 
   // Triangles that share a vertex. The worst group is last: it may be one that nothing helps.

@@ -34,6 +34,8 @@ inline constexpr double shortest_split = 0.3;
 inline constexpr double longest_swapped = 1.8;
 /// Mean shape. A mesh that is as good is not edited to less: of a coarse one a few edits are a large part.
 inline constexpr double least_mean = 0.95;
+/// The same of a mesh that is worse: what bends within a size everywhere is not mended by edits.
+inline constexpr double most_mean_lost = 0.04;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
 inline constexpr int directions = 6;
