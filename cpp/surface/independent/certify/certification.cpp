@@ -29,6 +29,7 @@ class Certifier::Work {
         all_(all),
         monitor_(monitor),
         bounds_(mesh, mesh.cad()),
+        edits_before_(mesh.edits()),
         upright_(1 / (1 - std::cos(mesh.tolerances().angle_deg * std::numbers::pi / 180))) {}
 
   Certification run() {
@@ -69,7 +70,7 @@ class Certifier::Work {
   }
 
   void undo() {
-    undo({0, 0, {}});
+    undo({edits_before_, 0, {}});
     share_.clear(), failed_.clear();
   }
 
@@ -417,6 +418,7 @@ class Certifier::Work {
   const bool all_;
   Monitor& monitor_;
   FreeBounds bounds_;
+  const std::size_t edits_before_;  // the mesh was made by them
   const double upright_;       // FreeMesh's share of what stands upright
   std::vector<double> share_;  // by triangle
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
