@@ -10,6 +10,9 @@
 #include "independent/patchworks.h"
 #include "mesh/surface_mesh.h"
 #include "session_of_size.h"
+#include "surface/independent/certify/certification.h"
+#include "surface/independent/remeshing.h"
+#include "surface/independent/sharp_edges.h"
 
 namespace carreau {
 namespace {
@@ -124,6 +127,31 @@ TEST(Certification, WhatIsWithinStays) {
     EXPECT_EQ(before->exported().vertices, made->exported().vertices);
     EXPECT_EQ(before->exported().triangles, made->exported().triangles);
   }
+}
+
+// Edits that made the mesh stay, and vertices are where they were.
+TEST(Certification, UndoesItsOwnEditsAlone) {
+  Monitor quiet;
+  AnalyticCad cad = torus_of_patches(0.2);
+  auto session = session_of_size(cad, 0.25, quiet);
+  session->make_mesh();
+  const SurfaceMesh& mesh = session->mesh();
+  const std::vector<double>& sizes = session->vertex_sizes();
+  const Charts charts(mesh, {}, sizes, {}, quiet);
+  const SurfaceTolerances tolerances{.angle_deg = 30, .deviation = 0, .share_of_size = 0.3};
+  FreeMesh free(mesh, evaluate_vertices(mesh, cad, quiet), sizes, {}, {}, tolerances, charts, cad);
+  (void)remesh(free, quiet, true, false);
+  ASSERT_GT(free.edits(), 0u);
+  const auto triangles = free.triangles();
+  std::vector<Vec3> places;
+  for (std::size_t v = 0; v < free.vertices(); ++v) places.push_back(free.position(static_cast<std::int32_t>(v)));
+  Certifier certifier(free, true, quiet);
+  ASSERT_TRUE(certifier.run().has_edits());
+  EXPECT_NE(free.triangles(), triangles);
+  certifier.undo();
+  EXPECT_EQ(free.triangles(), triangles);
+  ASSERT_EQ(free.vertices(), places.size());
+  for (std::size_t v = 0; v < places.size(); ++v) EXPECT_EQ(free.position(static_cast<std::int32_t>(v)), places[v]);
 }
 
 TEST(Certification, MeshDoesNotDependOnThreads) {
