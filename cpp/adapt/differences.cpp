@@ -75,11 +75,10 @@ void require_same_function(std::span<const Vec3> points, const FieldFunction& ex
   exact(some, values);
   LongChecksum sum;
   sum.add(some), sum.add(values);
-  const std::vector<std::string> all = team.exchange("field", sum.text());
-  for (std::size_t rank = 1; rank < all.size(); ++rank)
-    if (all[rank] != all[0])
-      throw InvalidModel("the field is another one on rank " + std::to_string(rank) +
-                         " than on rank 0: its callback differs, or its parameters do");
+  team.require_same<InvalidModel>("field", sum.text(), [](int rank) {
+    return "the field is another one on rank " + std::to_string(rank) +
+           " than on rank 0: its callback differs, or its parameters do";
+  });
 }
 
 double length_along(const VertexPrescriptions& p, std::size_t vertex, const Vec3& edge) {

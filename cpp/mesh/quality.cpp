@@ -27,13 +27,6 @@ double q1_of(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noe
   return longest > 0 ? 2 * std::numbers::sqrt3 * (twice_area / (ab + bc + ca)) / longest : 0;
 }
 
-// HDR eq. 1.6
-double q2_of(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noexcept {
-  const Vec3 ab = b - a, bc = c - b, ca = a - c;
-  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
-  return squares > 0 ? 2 * std::numbers::sqrt3 * twice_area / squares : 0;
-}
-
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
 // Of this many triangles: sums do not depend on the number of threads.
@@ -53,7 +46,7 @@ struct Part {
     const Vec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
     const double twice_area = double_area(a, b, c);
     q1 = q1_of(a, b, c, twice_area);
-    q2 = q2_of(a, b, c, twice_area);
+    q2 = quality_q2(a, b, c, twice_area);
     area += 0.5 * twice_area;
     see({b - a, c - a, 0});
     see({c - b, a - b, 0});
@@ -202,10 +195,6 @@ Distribution distribution_of(std::span<double> values) {
 
 double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   return q1_of(a, b, c, double_area(a, b, c));
-}
-
-double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
-  return q2_of(a, b, c, double_area(a, b, c));
 }
 
 QualitySummary summarise_shapes(const TriangleLists& mesh, int threads) {

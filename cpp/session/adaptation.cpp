@@ -128,10 +128,9 @@ class Loop {
 
 void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options) {
   if (crew.team == nullptr) return;
-  const std::vector<std::string> all = crew.team->exchange("estimate", checksum_of(values, options));
-  for (std::size_t rank = 1; rank < all.size(); ++rank)
-    if (all[rank] != all[0])
-      throw InvalidModel("the values of the field, or the options, are others on rank " + std::to_string(rank) + " than on rank 0");
+  crew.team->require_same<InvalidModel>("estimate", checksum_of(values, options), [](int rank) {
+    return "the values of the field, or the options, are others on rank " + std::to_string(rank) + " than on rank 0";
+  });
 }
 
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values) {

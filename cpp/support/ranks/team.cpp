@@ -165,13 +165,15 @@ void Team::refuse_leavers(const std::vector<std::string>& all) {
   }
 }
 
-void Team::require_same(std::string_view step, std::string_view mine, const std::function<std::string(int)>& sentence) {
+// What follows is an error in all processes.
+int Team::first_other(std::string_view step, std::string_view mine) {
   const std::vector<std::string> all = exchange(step, mine);
   for (std::size_t r = 1; r < all.size(); ++r)
     if (all[r] != all[0]) {
       over_ = true;
-      throw Error(sentence(static_cast<int>(r)));
+      return static_cast<int>(r);
     }
+  return 0;
 }
 
 // Others wait for this process at their next exchange.

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "support/error.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -64,13 +65,17 @@ class Team {
   std::vector<std::string> exchange(std::string_view step, std::string_view mine);
   /// The same of much: use(rank, what it gives) for one process after another, so that none ever holds what all give.
   void exchange_in_turn(std::string_view step, std::string mine, const std::function<void(int, const std::string&)>& use);
-  /// Throws Error with `sentence(rank)` of the first process whose value is another one than that of rank 0.
-  void require_same(std::string_view step, std::string_view mine, const std::function<std::string(int)>& sentence);
+  /// Throws Failure with `sentence(rank)` of the first process whose value is another one than that of rank 0.
+  template <typename Failure = Error>
+  void require_same(std::string_view step, std::string_view mine, const std::function<std::string(int)>& sentence) {
+    if (const int rank = first_other(step, mine); rank > 0) throw Failure(sentence(rank));
+  }
 
   /// Calls body(), a whole run, in all processes: what it throws in one of them reaches all. All must call it.
   void run(const std::function<void()>& body);
 
  private:
+  int first_other(std::string_view step, std::string_view mine);  // 0: there is none
   void refuse_leavers(const std::vector<std::string>& all);
   void leave(const SharedError& error) noexcept;
   [[nodiscard]] std::string teller(int rank) const;

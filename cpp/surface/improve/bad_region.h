@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "mesh/plane_mesh.h"
+#include "mesh/quality.h"
 #include "support/monitor.h"
 
 namespace carreau {
@@ -16,10 +16,7 @@ namespace carreau {
 /// what it makes flat will be removed.
 inline double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept {
   const Vec3 &a = xyz[triangle[0]], &b = xyz[triangle[1]], &c = xyz[triangle[2]];
-  // As quality_q2() has it, inline: searches ask for a hundred shapes a vertex.
-  const Vec3 ab = b - a, bc = c - b, ca = a - c;
-  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
-  const double quality = squares > 0 ? 2 * std::numbers::sqrt3 * norm(cross(ab, c - a)) / squares : 0;
+  const double quality = quality_q2(a, b, c);
   if (quality > 0) return quality;
   return a == b || b == c || c == a ? 1 : quality;
 }

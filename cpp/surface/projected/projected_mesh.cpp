@@ -206,11 +206,10 @@ void require_same_surface(Team& team, const SurfaceMesh& mesh, std::span<const d
   LongChecksum sum;
   sum.add(mesh.vertices);
   for (const double h : size) sum.add(std::bit_cast<std::uint64_t>(h));
-  const std::vector<std::string> all = team.exchange("surface of charts", sum.text());
-  for (std::size_t rank = 1; rank < all.size(); ++rank)
-    if (all[rank] != all[0])
-      throw InvalidModel("the surface, or its sizes, are others on rank " + std::to_string(rank) +
-                         " than on rank 0: its callbacks or parameters differ");
+  team.require_same<InvalidModel>("surface of charts", sum.text(), [](int rank) {
+    return "the surface, or its sizes, are others on rank " + std::to_string(rank) +
+           " than on rank 0: its callbacks or parameters differ";
+  });
 }
 
 }  // namespace
