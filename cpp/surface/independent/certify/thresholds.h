@@ -28,7 +28,7 @@ inline constexpr double least_gain = 1e-3;
 inline constexpr double least_shape = 0.3;
 /// Shape that a move may leave.
 inline constexpr double least_shape_of_move = 0.5;
-/// Lengths. Shorter edges are not split: what bends by more than is tolerated over a fifth of the size is a feature of another size.
+/// Lengths. Shorter edges are not split: what bends by more than is tolerated over half of that is a feature of another size.
 inline constexpr double shortest_split = 0.3;
 /// Lengths. A swap makes no longer edge where none was.
 inline constexpr double longest_swapped = 1.8;
