@@ -65,4 +65,19 @@ bool writes_beyond_32_bits(const std::string& path, int rank, int size) {
   return written && read && sparse && same;
 }
 
+bool sends_in_pieces(int rank, int size) {
+  constexpr std::size_t each = 1000, guard = 9;
+  bool same = true;
+  for (const std::size_t most : {std::size_t{1}, std::size_t{77}, std::size_t{500}, each, 2 * each})
+    for (int from = 0; from < size; ++from) {
+      std::string bytes(each + guard, '?');
+      const auto wanted = [&](std::size_t i) { return static_cast<char>((i * 31 + static_cast<std::size_t>(from)) % 251); };
+      if (rank == from)
+        for (std::size_t i = 0; i < each; ++i) bytes[i] = wanted(i);
+      same = carreau_mpi::broadcast(MPI_COMM_WORLD, from, bytes.data(), each, most) == MPI_SUCCESS && same;
+      for (std::size_t i = 0; i < bytes.size(); ++i) same = same && bytes[i] == (i < each ? wanted(i) : '?');
+    }
+  return same;
+}
+
 }  // namespace mpi_tests

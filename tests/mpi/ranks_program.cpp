@@ -379,6 +379,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "large_files") {
     expect(mpi_tests::all_slices_cover(), "slices cover files");
     expect(mpi_tests::writes_beyond_32_bits(folder + "/large.bin", rank, size), "bytes behind 2^32 are where they belong");
+    expect(mpi_tests::sends_in_pieces(rank, size), "what is sent in pieces arrives whole");
   } else if (name == "full_disk")
     full_disk(folder);
   else if (name == "other_curves")

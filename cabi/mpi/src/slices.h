@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a file is one rank's, and how it is written: positions have 64 bits, counts of MPI 32.
+// What of a file is one rank's, and how many bytes are written and sent: positions and lengths have 64 bits, counts of MPI 32.
 #pragma once
 
 #include <mpi.h>
@@ -22,6 +22,14 @@ constexpr SliceRange slice_of(std::int64_t n, int rank, int size) noexcept {
 }
 
 constexpr std::size_t most_of_a_call = std::size_t{1} << 30;
+
+/// MPI_Bcast of n bytes, `most` at a time; MPI's own code. Collective.
+inline int broadcast(MPI_Comm comm, int from, char* bytes, std::size_t n, std::size_t most = most_of_a_call) {
+  for (std::size_t done = 0; done < n; done += most)
+    if (const int code = MPI_Bcast(bytes + done, static_cast<int>(std::min(most, n - done)), MPI_BYTE, from, comm); code != MPI_SUCCESS)
+      return code;
+  return MPI_SUCCESS;
+}
 
 /// Writes n bytes at a position, `most` at a time. False: MPI has not written all of them.
 inline bool write_at(MPI_File file, std::int64_t position, const char* bytes, std::size_t n,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calls.h"
+#include "slices.h"
 
 using namespace carreau_mpi;
 
@@ -53,8 +54,11 @@ class MpiTeam {
     for (int r = 0; r < comm_.size(); ++r) total += static_cast<std::size_t>(sizes[r]);
     make_room(total);
     std::size_t at = 0;
-    for (int r = 0; r < comm_.size(); at += static_cast<std::size_t>(sizes[r++]))
-      broadcast(bytes, r, at, static_cast<std::size_t>(sizes[r]));
+    for (int r = 0; r < comm_.size(); at += static_cast<std::size_t>(sizes[r++])) {
+      const auto n_of_rank = static_cast<std::size_t>(sizes[r]);
+      if (r == comm_.rank()) std::copy_n(static_cast<const char*>(bytes), n_of_rank, all_.data() + at);
+      check(broadcast(comm_, r, all_.data() + at, n_of_rank), "exchange results");
+    }
     check(MPI_Barrier(comm_), "wait for all ranks");
   }
   [[nodiscard]] const void* all() const noexcept { return all_.data(); }
@@ -79,15 +83,6 @@ class MpiTeam {
     }
     check(MPI_Allreduce(&enough, &all_enough, 1, MPI_INT, MPI_MIN, comm_), "agree about memory");
     if (all_enough == 0) throw std::bad_alloc();
-  }
-
-  // Counts of MPI are of 32 bits: what is longer goes in pieces.
-  void broadcast(const void* mine, int from, std::size_t at, std::size_t n) {
-    constexpr std::size_t most = std::size_t{1} << 30;
-    if (from == comm_.rank()) std::copy_n(static_cast<const char*>(mine), n, all_.data() + at);
-    for (std::size_t done = 0; done < n; done += most)
-      check(MPI_Bcast(all_.data() + at + done, static_cast<int>(std::min(most, n - done)), MPI_BYTE, from, comm_),
-            "exchange results");
   }
 
   Communicator comm_;
