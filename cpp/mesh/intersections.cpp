@@ -11,6 +11,7 @@
 #include "mesh/crossings/graphs.h"
 #include "mesh/crossings/shared_search.h"
 #include "mesh/crossings/spatial_order.h"
+#include "mesh/crossings/views.h"
 #include "predicates/orientation_3d.h"
 #include "support/stepped_tasks.h"
 
@@ -20,10 +21,6 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 constexpr std::int8_t no_axis = -1;
-
-int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
-  return orientation(along(axis, a), along(axis, b), along(axis, c));
-}
 
 /// An axis along which the triangle has an area, the one with most of it if doubles can tell; no_axis: it has none.
 int axis_of(const Corners& t) noexcept {
@@ -169,8 +166,7 @@ bool parted_at_neighbour(std::span<const Vec3> vertices, const Indices& s, const
 /// What of a mesh can be asked.
 struct SoundTriangles {
   std::vector<std::int32_t> numbers;
-  // By triangle of the whole mesh: of axis_of(); how it is turned, seen along that axis.
-  std::vector<std::int8_t> axis, inside;
+  std::vector<TriangleView> view;  // by triangle of the whole mesh
 };
 
 Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t) noexcept {
@@ -181,22 +177,22 @@ Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t
 /// `wanted`: by triangle; empty: all.
 SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                const std::vector<char>& wanted, int threads, Monitor& monitor) {
+  const bool finite = std::all_of(vertices.begin(), vertices.end(), [](const Vec3& p) { return is_finite(p); });
   const auto usable = [&](std::int32_t v) {
-    return v >= 0 && static_cast<std::size_t>(v) < vertices.size() && is_finite(vertices[static_cast<std::size_t>(v)]);
+    return v >= 0 && static_cast<std::size_t>(v) < vertices.size() &&
+           (finite || is_finite(vertices[static_cast<std::size_t>(v)]));
   };
   constexpr std::size_t at_once = 16384;
   SoundTriangles sound;
-  sound.axis.assign(triangles.size(), no_axis), sound.inside.assign(triangles.size(), 0);
+  sound.view.resize(triangles.size());
   const std::size_t parts = (triangles.size() + at_once - 1) / at_once;
   std::vector<std::size_t> count(parts, 0);
   const auto look = [&](std::size_t part, Monitor&) {
     for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i) {
       const auto& t = triangles[i];
       if ((!wanted.empty() && wanted[i] == 0) || !usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
-      sound.axis[i] = static_cast<std::int8_t>(axis_of(corners_of(vertices, t)));
-      if (sound.axis[i] == no_axis) continue;
-      sound.inside[i] = static_cast<std::int8_t>(turn(sound.axis[i], vertices[t[0]], vertices[t[1]], vertices[t[2]]));
-      ++count[part];
+      sound.view[i] = view_of(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+      if (sound.view[i].any()) ++count[part];
     }
   };
   run_each(parts, false, threads, look, monitor);
@@ -204,7 +200,7 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
   for (std::size_t part = 0; part < parts; ++part) {
     monitor.checkpoint();
     for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i)
-      if (sound.axis[i] != no_axis) sound.numbers.push_back(static_cast<std::int32_t>(i));
+      if (sound.view[i].any()) sound.numbers.push_back(static_cast<std::int32_t>(i));
   }
   return sound;
 }
@@ -260,7 +256,7 @@ Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices
                          const std::vector<char>& asked, std::size_t limit, const Crew& crew, Monitor& monitor) {
   std::vector<std::int32_t> order =
       spatial_order(vertices, triangles, std::move(sound.numbers), monitor, crew.threads);
-  const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, order, crew.threads, monitor);
+  const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, sound.view, order, crew.threads, monitor);
   const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, crew.threads);
   const auto ask = [&](std::size_t part, Monitor&) {
     Intersections here;
@@ -268,9 +264,10 @@ Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices
     near.each(part, [&](std::size_t i, std::size_t j) {
       if (graph[i] >= 0 && graph[i] == graph[j]) return;
       if (!asked.empty() && asked[i] == 0 && asked[j] == 0) return;
-      if (parted_at_neighbour(vertices, triangles[i], triangles[j], sound.axis[i], sound.inside[i])) return;
+      const TriangleView view = sound.view[i];
+      if (parted_at_neighbour(vertices, triangles[i], triangles[j], view.axis(), view.turned())) return;
       Vec3 place;
-      if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))
+      if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), view.axis(), place))
         first.add({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}, place});
     });
     return here;

@@ -155,10 +155,11 @@ void FaceJob::mesh(Monitor& monitor) {
 
 void FaceJob::lift(Monitor& monitor) {
   std::vector<Vec2> places;
+  std::optional<std::vector<std::int32_t>> bad;  // triangles, where they are known
   {
     const Stopwatch watch(report_.seconds_lift);
     lift_patch(input_, *cad_, *mesh_, monitor);
-    swap_poor_edges(input_, *mesh_, monitor);
+    bad = swap_poor_edges(input_, *mesh_, monitor);
     places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor);
     if (corrections_ < most_corrections) {
       const std::vector<Vec2> steep = missed_steep_places(input_, *space_, *cad_, *rules_, *mesh_, monitor);
@@ -174,7 +175,7 @@ void FaceJob::lift(Monitor& monitor) {
   }
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
-  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
+  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor);
   const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
   const std::vector<int> doubtful = refine_in_space(
       input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);

@@ -2,6 +2,7 @@
 #include "geometry/bezier/bezier_patch.h"
 
 #include <array>
+#include <type_traits>
 
 namespace carreau {
 namespace {
@@ -9,9 +10,13 @@ namespace {
 /// Bernstein polynomials of a degree at t, [0], and their first and second derivatives.
 using Basis = std::array<std::array<double, largest_bezier_degree + 1>, 3>;
 
-/// B_i^k = (1 - t) B_i^(k-1) + t B_(i-1)^(k-1); derivatives are differences of those of lower degrees.
-void bernstein(int degree, double t, int order, Basis& basis) {
-  std::array<double, largest_bezier_degree + 1> b{1};
+/// B_i^k = (1 - t) B_i^(k-1) + t B_(i-1)^(k-1); derivatives are differences of those of lower degrees. `Degree`: int, or
+/// one that the compiler knows.
+template <typename Degree>
+void bernstein_of(Degree degree, double t, int order, Basis& basis) {
+  std::array<double, largest_bezier_degree + 1>& b = basis[0];
+  b[0] = 1;
+  for (int i = 1; i <= degree; ++i) b[i] = 0;
   for (int k = 0; k <= degree; ++k) {
     if (k == degree - 1 && order >= 1)
       for (int i = 0; i <= degree; ++i) basis[1][i] = degree * ((i > 0 ? b[i - 1] : 0) - (i < degree ? b[i] : 0));
@@ -23,8 +28,18 @@ void bernstein(int degree, double t, int order, Basis& basis) {
     for (int i = k + 1; i > 0; --i) b[i] = (i <= k ? (1 - t) * b[i] : 0) + t * b[i - 1];
     b[0] *= 1 - t;
   }
-  basis[0] = b;
   if (degree < 2) basis[2].fill(0);
+}
+
+void bernstein(int degree, double t, int order, Basis& basis) {
+  switch (degree) {
+    case 2:
+      return bernstein_of(std::integral_constant<int, 2>{}, t, order, basis);
+    case 3:
+      return bernstein_of(std::integral_constant<int, 3>{}, t, order, basis);
+    default:
+      return bernstein_of(degree, t, order, basis);
+  }
 }
 
 Vec3 sum(const BezierPatch& patch, const Basis& u, int du, const Basis& v, int dv) {

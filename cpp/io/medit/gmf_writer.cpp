@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cstring>
 
 #include "io/element_lists.h"
@@ -42,9 +43,11 @@ class GmfWriter {
                 const std::vector<std::int32_t>& refs) {
     if (list.empty()) return;
     section(code, list.size(), 4 * (N + 1));
+    std::array<std::int32_t, N + 1> record;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      for (const std::int32_t vertex : list[i]) append(vertex + 1);
-      append(ref_of(refs, i));
+      for (std::size_t k = 0; k < N; ++k) record[k] = list[i][k] + 1;
+      record[N] = ref_of(refs, i);
+      append(record);
     }
   }
 
@@ -103,9 +106,10 @@ void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink) {
   writer.section(GmfCode::vertices, mesh.vertices.size() + elements.centres.size(),
                  8 * static_cast<std::size_t>(mesh.dimension) + 4);
   const auto add = [&](const Vec3& p, std::int32_t ref) {
-    writer.append(p.x());
-    writer.append(p.y());
-    if (mesh.dimension == 3) writer.append(p.z());
+    if (mesh.dimension == 3)
+      writer.append(std::array<double, 3>{p.x(), p.y(), p.z()});
+    else
+      writer.append(std::array<double, 2>{p.x(), p.y()});
     writer.append(ref);
   };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) add(mesh.vertices[i], ref_of(mesh.vertex_refs, i));

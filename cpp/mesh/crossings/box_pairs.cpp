@@ -62,15 +62,6 @@ void BoxPairs::find_sets(std::span<const std::int32_t> set) {
   }
 }
 
-BoxPairs::Part BoxPairs::boxes_of(std::size_t part) const {
-  Part own;
-  own.first = part * blocks_of_part;
-  const std::size_t begin = own.first * block_size, end = std::min(begin + blocks_of_part * block_size, order_.size());
-  own.boxes.reserve(end - begin);
-  for (std::size_t k = begin; k < end; ++k) own.boxes.push_back(box_of(order_[k]));
-  return own;
-}
-
 void BoxPairs::load(std::size_t block, Loaded& loaded) const {
   loaded.block = block;
   loaded.size = size_of(block);

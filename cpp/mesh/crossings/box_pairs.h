@@ -41,14 +41,16 @@ class BoxPairs {
   /// Calls look(i, j), i < j, for each pair of the part, in any order.
   template <typename Look>
   void each(std::size_t part, const Look& look) const {
-    const Part own = boxes_of(part);
+    Part own{part * blocks_of_part, std::vector<Loaded>(blocks_of_part)};
     Meeting meeting;
     start(part, meeting);
     while (find_some(meeting)) {
       Loaded other;
       for (const auto& [b, a] : meeting.blocks) {
         if (other.block != b) load(b, other);
-        compare(own, a, other, look);
+        Loaded& of_a = own.blocks[a - own.first];
+        if (of_a.block != a) load(a, of_a);
+        compare(of_a, other, look);
       }
     }
   }
@@ -62,14 +64,15 @@ class BoxPairs {
     [[nodiscard]] std::size_t begin() const noexcept { return index << level; }
     [[nodiscard]] std::size_t end() const noexcept { return (index + 1) << level; }
   };
-  /// The boxes of the triangles of a part.
-  struct Part {
-    std::size_t first = 0;  // block
-    std::vector<Box> boxes;
-  };
+  /// The boxes of the triangles of a block.
   struct Loaded {
     std::size_t block = static_cast<std::size_t>(-1), size = 0;
     std::array<Box, block_size> boxes;
+  };
+  /// The blocks of a part, those that were asked for.
+  struct Part {
+    std::size_t first = 0;  // block
+    std::vector<Loaded> blocks;
   };
   /// Blocks whose boxes meet, some at a time; and nodes that are still to be compared.
   struct Meeting {
@@ -93,28 +96,28 @@ class BoxPairs {
     return box;
   }
   void find_sets(std::span<const std::int32_t> set);
-  [[nodiscard]] Part boxes_of(std::size_t part) const;
   void load(std::size_t block, Loaded& loaded) const;
   void start(std::size_t part, Meeting& meeting) const;
   /// Whether there are any more.
   bool find_some(Meeting& meeting) const;
   void go_down(const Node& a, const Node& b, std::vector<std::pair<Node, Node>>& todo) const;
 
-  /// a <= the block that is loaded.
+  /// own <= other.
   template <typename Look>
-  void compare(const Part& own, std::size_t a, const Loaded& other, const Look& look) const {
-    const Box* boxes = own.boxes.data() + (a - own.first) * block_size;
-    const std::int32_t *of_a = order_.data() + a * block_size, *of_b = order_.data() + other.block * block_size;
-    const Box &all_of_a = box({0, a}), &all_of_b = box({0, other.block});
+  void compare(const Loaded& own, const Loaded& other, const Look& look) const {
+    const std::array<Box, block_size>& boxes = own.boxes;
+    const std::int32_t* of_a = order_.data() + own.block * block_size;
+    const std::int32_t* of_b = order_.data() + other.block * block_size;
+    const Box &all_of_a = box({0, own.block}), &all_of_b = box({0, other.block});
     std::array<std::uint8_t, block_size> near_b;  // those of a
     std::size_t count = 0;
-    for (std::size_t k = 0, size = size_of(a); k < size; ++k)
+    for (std::size_t k = 0; k < own.size; ++k)
       if (!all_of_b.is_apart(boxes[k])) near_b[count++] = static_cast<std::uint8_t>(k);
     for (std::size_t l = 0; l < other.size; ++l) {
       if (all_of_a.is_apart(other.boxes[l])) continue;
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t k = near_b[i];
-        if (a == other.block && k >= l) break;
+        if (own.block == other.block && k >= l) break;
         if (!boxes[k].is_apart(other.boxes[l]))
           look(static_cast<std::size_t>(std::min(of_a[k], of_b[l])),
                static_cast<std::size_t>(std::max(of_a[k], of_b[l])));

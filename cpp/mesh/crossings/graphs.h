@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/crossings/views.h"
 #include "support/monitor.h"
 #include "support/vec.h"
 
@@ -16,16 +17,12 @@ namespace carreau {
 /// By triangle of the mesh: the number of its graph, or -1. Two triangles of one graph have nothing in common but
 /// vertices and edges that both have: seen along an axis all its triangles are turned alike, so that a place is covered
 /// as often as the lines round the graph go round it (the degree of a map), and these are decided exactly to be simple,
-/// one of them round all others. `order`: the triangles that are asked about, neighbours near each other: finite, with
-/// area, indices in range. They are looked at some thousands at a time, each share in one thread, and stand there graph
-/// by graph afterwards. Throws Cancelled soon after `monitor` was asked to stop.
+/// one of them round all others. `views`: of all triangles. `order`: those that are asked about, neighbours near each
+/// other: finite, with area, indices in range. They are looked at some ten thousands at a time, each share in one thread, and
+/// stand there graph by graph afterwards. Throws Cancelled soon after `monitor` was asked to stop.
 std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
-                                      std::span<std::int32_t> order, int threads, Monitor& monitor);
-
-/// A view along an axis, which keeps orders of rotation.
-inline Vec2 along(int axis, const Vec3& p) noexcept {
-  return axis == 0 ? Vec2{p.y(), p.z()} : axis == 1 ? Vec2{p.z(), p.x()} : Vec2{p.x(), p.y()};
-}
+                                      std::span<const TriangleView> views, std::span<std::int32_t> order, int threads,
+                                      Monitor& monitor);
 
 }  // namespace carreau

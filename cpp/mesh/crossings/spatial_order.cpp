@@ -7,6 +7,7 @@
 
 #include "support/box_tree.h"
 #include "support/stepped_tasks.h"
+#include "support/unfilled.h"
 
 namespace carreau {
 
@@ -18,12 +19,15 @@ using Box = BoxTree::Box;
 constexpr std::size_t most_sorted = 1 << 16, most_dealt = 1 << 17;
 // Neighbouring cells with fewer triangles are sorted together. [time only]
 constexpr std::size_t least_sorted = 1 << 12;
-// Triangles with one code that are left as they are. [time only]
-constexpr std::size_t crowd = 16;
-// Bits of each coordinate: of cells that triangles are dealt out to, and of the codes that they are sorted by, which
-// leave 16 bits for most_sorted.
-constexpr int cell_bits = 4, code_bits = 16;
+// Triangles with one code that are left as they are, and those that are sorted without digits. [time only]
+constexpr std::size_t crowd = 16, few = 128;
+// Bits of each coordinate of cells that triangles are dealt out to.
+constexpr int cell_bits = 4;
 constexpr std::size_t cells = std::size_t{1} << (3 * cell_bits);
+// Bits of each coordinate of the codes that triangles are sorted by, and of each of the three digits that codes have:
+// cells of the finest grid are smaller than triangles of one size on a surface are. [time only]
+constexpr int code_bits = 8, code_bits_of_many = 10;
+constexpr std::size_t many = 1 << 14;
 
 /// Some of the list.
 struct Range {
@@ -31,12 +35,12 @@ struct Range {
   [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
 };
 
-// The lowest 16 bits, each followed by two zeros.
-std::uint64_t spread_out(std::uint64_t bits) noexcept {
-  bits = (bits | bits << 16) & 0x0000ff0000ff;
-  bits = (bits | bits << 8) & 0x00f00f00f00f;
-  bits = (bits | bits << 4) & 0x0c30c30c30c3;
-  return (bits | bits << 2) & 0x249249249249;
+// The lowest 10 bits, each followed by two zeros.
+std::uint32_t spread_out(std::uint32_t bits) noexcept {
+  bits = (bits | bits << 16) & 0x030000ff;
+  bits = (bits | bits << 8) & 0x0300f00f;
+  bits = (bits | bits << 4) & 0x030c30c3;
+  return (bits | bits << 2) & 0x09249249;
 }
 
 /// Codes of places in a box, by a grid of cubes.
@@ -47,15 +51,15 @@ class Grid {
     scale_ = longest > 0 ? (last_ + 1) / longest : 0;
   }
   [[nodiscard]] bool is_a_point() const noexcept { return !(scale_ > 0); }
-  [[nodiscard]] std::uint64_t code(const Vec3& p) const noexcept {
+  [[nodiscard]] std::uint32_t code(const Vec3& p) const noexcept {
     return spread_out(step(p, 0)) << 2 | spread_out(step(p, 1)) << 1 | spread_out(step(p, 2));
   }
 
  private:
   // Any value at all, where numbers are too large to be subtracted.
-  [[nodiscard]] std::uint64_t step(const Vec3& p, int axis) const noexcept {
+  [[nodiscard]] std::uint32_t step(const Vec3& p, int axis) const noexcept {
     const double x = (p[axis] - low_[axis]) * scale_;
-    return x > 0 ? static_cast<std::uint64_t>(std::min(x, last_)) : 0;
+    return x > 0 ? static_cast<std::uint32_t>(std::min(x, last_)) : 0;
   }
 
   Vec3 low_;
@@ -85,10 +89,11 @@ class SpatialSort {
   }
 
  private:
+  // Three times the centre.
   [[nodiscard]] Vec3 centre(std::int32_t number) const noexcept {
     const auto& t = triangles_[static_cast<std::size_t>(number)];
     const auto corner = [&](std::size_t i) -> const Vec3& { return vertices_[static_cast<std::size_t>(t[i])]; };
-    return (1.0 / 3) * corner(0) + (1.0 / 3) * corner(1) + (1.0 / 3) * corner(2);
+    return corner(0) + corner(1) + corner(2);
   }
   [[nodiscard]] Box box_of(const Range& range) const noexcept {
     Box box;
@@ -119,8 +124,12 @@ class SpatialSort {
     for (const Box& of_task : boxes) box.add(of_task);
     const Grid grid(box, cell_bits);
     std::vector<std::array<std::size_t, cells>> next(tasks);  // numbers, then places in the list
+    UnfilledVector<std::uint16_t> code(range.size());
     each([&](std::size_t task, const Range& some) {
-      for (std::size_t k = some.begin; k < some.end; ++k) ++next[task][grid.code(centre(list_[k]))];
+      for (std::size_t k = some.begin; k < some.end; ++k) {
+        code[k - range.begin] = static_cast<std::uint16_t>(grid.code(centre(list_[k])));
+        ++next[task][code[k - range.begin]];
+      }
     });
     std::vector<Range> found;
     std::size_t place = range.begin;
@@ -132,7 +141,7 @@ class SpatialSort {
     if (found.size() == 1) return;  // one place, or too large for a grid
     buffer_.resize(list_.size());
     each([&](std::size_t task, const Range& some) {
-      for (std::size_t k = some.begin; k < some.end; ++k) buffer_[next[task][grid.code(centre(list_[k]))]++] = list_[k];
+      for (std::size_t k = some.begin; k < some.end; ++k) buffer_[next[task][code[k - range.begin]]++] = list_[k];
     });
     each([&](std::size_t, const Range& some) {
       std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(some.begin),
@@ -142,20 +151,46 @@ class SpatialSort {
     large.insert(large.end(), found.rbegin(), found.rend());  // the first one next
   }
 
+  struct Key {
+    std::uint32_t code;
+    std::int32_t number;
+  };
+  using Keys = UnfilledVector<Key>;
+
   void sort(const Range& range) {
-    const Grid grid(box_of(range), code_bits);
+    const int bits = range.size() < many ? code_bits : code_bits_of_many;
+    const Grid grid(box_of(range), bits);
     if (grid.is_a_point()) return;
-    std::vector<std::uint64_t> keys(range.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) keys[k] = grid.code(centre(list_[range.begin + k])) << code_bits | k;
-    std::sort(keys.begin(), keys.end());
-    std::vector<std::int32_t> sorted(range.size());
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      sorted[k] = list_[range.begin + (keys[k] & ((std::uint64_t{1} << code_bits) - 1))];
-    std::copy(sorted.begin(), sorted.end(), list_.begin() + static_cast<std::ptrdiff_t>(range.begin));
+    Keys keys(range.size());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const std::int32_t number = list_[range.begin + k];
+      keys[k] = {static_cast<std::uint32_t>(grid.code(centre(number))), number};
+    }
+    if (keys.size() < few)
+      std::stable_sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.code < b.code; });
+    else
+      sort_by_digits(keys, bits);
+    for (std::size_t k = 0; k < keys.size(); ++k) list_[range.begin + k] = keys[k].number;
     for (std::size_t k = 0; k < keys.size();) {
       const std::size_t first = k;
-      while (k < keys.size() && keys[k] >> code_bits == keys[first] >> code_bits) ++k;
+      while (k < keys.size() && keys[k].code == keys[first].code) ++k;
       if (k - first > crowd && k - first < keys.size()) sort({range.begin + first, range.begin + k});
+    }
+  }
+
+  // The lowest digit first; those that are equal stay in their order.
+  static void sort_by_digits(Keys& keys, int bits) {
+    constexpr std::size_t digits = 3;
+    const std::uint32_t last = (1U << bits) - 1;
+    std::array<std::array<std::uint32_t, std::size_t{1} << code_bits_of_many>, digits> next{};
+    for (const Key& key : keys)
+      for (std::size_t d = 0; d < digits; ++d) ++next[d][key.code >> (d * static_cast<std::size_t>(bits)) & last];
+    Keys sorted(keys.size());
+    for (std::size_t d = 0; d < digits; ++d) {
+      std::uint32_t place = 0;
+      for (std::uint32_t digit = 0; digit <= last; ++digit) place += std::exchange(next[d][digit], place);
+      for (const Key& key : keys) sorted[next[d][key.code >> (d * static_cast<std::size_t>(bits)) & last]++] = key;
+      keys.swap(sorted);
     }
   }
 

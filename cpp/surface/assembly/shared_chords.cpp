@@ -155,13 +155,16 @@ class Separator {
       if (edge.kind == PlaneEdgeKind::degenerate) flat.push_back(imposed.back());
     }
     std::sort(flat.begin(), flat.end());
+    const auto given = static_cast<std::int32_t>(domains_.domain[f]->plane.vertices.size());
     if (!flat.empty())
-      for (const auto& t : patches_[f]->plane.triangles)
+      for (const auto& t : patches_[f]->plane.triangles) {
+        if ((t[0] < given) + (t[1] < given) + (t[2] < given) < 2) continue;
         for (int i = 0; i < 3; ++i) {
           if (!std::binary_search(flat.begin(), flat.end(), local_edge(t[i], t[(i + 1) % 3]))) continue;
           imposed.push_back(local_edge(t[(i + 1) % 3], t[(i + 2) % 3]));
           imposed.push_back(local_edge(t[(i + 2) % 3], t[i]));
         }
+      }
     std::sort(imposed.begin(), imposed.end());
     return imposed;
   }
@@ -170,7 +173,8 @@ class Separator {
     std::vector<Chord> chords;
     const std::int32_t count = on_curves_[f];
     const std::vector<Local> keep = edges_to_keep(f);
-    for (const auto& t : patches_[f]->plane.triangles)
+    for (const auto& t : patches_[f]->plane.triangles) {
+      if (std::min({t[0], t[1], t[2]}) >= count) continue;
       for (int i = 0; i < 3; ++i) {
         const auto [a, b] = local_edge(t[i], t[(i + 1) % 3]);
         // Each inner edge is met twice, once in each direction.
@@ -179,6 +183,7 @@ class Separator {
         if (std::binary_search(keep.begin(), keep.end(), Local{a, b})) continue;
         chords.push_back({ordered(identity(f, a), identity(f, b)), f, {a, b}});
       }
+    }
     return chords;
   }
 

@@ -2,6 +2,7 @@
 #include "surface/improve/bad_region.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "support/all_that_hold.h"
 
@@ -13,11 +14,23 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& t, const std::vecto
   return l > 0 ? (1 / l) * n : Vec3{0, 0, 0};
 }
 
-BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
-                     int threads, Monitor& monitor)
-    : mesh_(mesh), xyz_(xyz) {
+// Without roots for those that are good, which nearly all are.
+bool is_below(double bound, const std::array<std::int32_t, 3>& t, const std::vector<Vec3>& xyz) {
+  const Vec3 ab = xyz[t[1]] - xyz[t[0]], ac = xyz[t[2]] - xyz[t[0]], bc = ac - ab, n = cross(ab, ac);
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ac, ac), good = 1.001 * bound;
+  return !(12 * dot(n, n) > good * good * squares * squares) && quality_in_space(t, xyz) < bound;
+}
+
+std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, int threads,
+                                          Monitor& monitor) {
+  return all_that_hold(mesh.triangles.size(), threads, monitor,
+                       [&](std::size_t t) { return is_below(bound, mesh.triangles[t], xyz); });
+}
+
+BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz,
+                     std::vector<std::int32_t> bad, int threads, Monitor& monitor)
+    : mesh_(mesh), xyz_(xyz), triangles_(std::move(bad)) {
   const std::size_t n = mesh.triangles.size();
-  triangles_ = all_that_hold(n, threads, monitor, [&](std::size_t t) { return is_below(bound, mesh.triangles[t]); });
   if (triangles_.empty()) return;
   movable_.assign(mesh.vertices.size(), 0);
   for (int ring = 0; ring < 2; ++ring) {
@@ -35,17 +48,10 @@ void BadRegion::mark_corners(const std::vector<std::int32_t>& triangles, std::ve
     for (const std::int32_t v : mesh_.triangles[t]) marked[v] = 1;
 }
 
-// Without roots for those that are good, which nearly all are.
-bool BadRegion::is_below(double bound, const Triangle& t) const {
-  const Vec3 ab = xyz_[t[1]] - xyz_[t[0]], ac = xyz_[t[2]] - xyz_[t[0]], bc = ac - ab, n = cross(ab, ac);
-  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ac, ac), good = 1.001 * bound;
-  return !(12 * dot(n, n) > good * good * squares * squares) && quality_in_space(t, xyz_) < bound;
-}
-
 std::vector<std::int32_t> BadRegion::below(double bound) const {
   std::vector<std::int32_t> found;
   for (const std::int32_t t : triangles_)
-    if (is_below(bound, mesh_.triangles[t])) found.push_back(t);
+    if (is_below(bound, mesh_.triangles[t], xyz_)) found.push_back(t);
   return found;
 }
 

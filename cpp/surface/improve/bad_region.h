@@ -24,13 +24,19 @@ inline double quality_in_space(const std::array<std::int32_t, 3>& triangle, cons
 /// Of unit length; zero for triangles without area.
 Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
 
+/// Whether its shape in space is below the bound.
+bool is_below(double bound, const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz);
+/// Those of a patch, increasing.
+std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, int threads,
+                                          Monitor& monitor);
+
 /// The triangles of a patch near those that are bad. Only these may be changed by what improves shapes.
 class BadRegion {
  public:
-  /// Two rings of triangles around those below `bound`. Keeps references to the mesh and its positions, whose numbers
+  /// Two rings of triangles around those that are `bad`. Keeps references to the mesh and its positions, whose numbers
   /// of vertices and triangles stay.
-  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
-            int threads, Monitor& monitor);
+  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz,
+            std::vector<std::int32_t> bad, int threads, Monitor& monitor);
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }
@@ -42,7 +48,6 @@ class BadRegion {
  private:
   using Triangle = std::array<std::int32_t, 3>;
 
-  [[nodiscard]] bool is_below(double bound, const Triangle& t) const;
   void mark_corners(const std::vector<std::int32_t>& triangles, std::vector<char>& marked) const;
 
   const PlaneMesh& mesh_;

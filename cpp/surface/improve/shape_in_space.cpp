@@ -11,17 +11,24 @@
 
 namespace carreau {
 
-void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
-  if (!input.isotropic) return;
-  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::poor, input.threads,
-                       monitor);
-  swap_in_space(poor, input.domain->plane, mesh.plane, mesh.xyz, monitor);
+std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
+  if (!input.isotropic) return {};
+  std::vector<std::int32_t> bad =
+      triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, input.threads, monitor);
+  std::vector<std::int32_t> poor;
+  for (const std::int32_t t : bad)
+    if (is_below(thresholds::shape::poor, mesh.plane.triangles[t], mesh.xyz)) poor.push_back(t);
+  if (poor.empty()) return bad;
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(poor), input.threads, monitor);
+  swap_in_space(region, input.domain->plane, mesh.plane, mesh.xyz, monitor);
+  return {};
 }
 
-void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor) {
+void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
+                    std::optional<std::vector<std::int32_t>> bad, Monitor& monitor) {
   if (!input.isotropic) return;
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::good, input.threads,
-                         monitor);
+  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, input.threads, monitor);
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(*bad), input.threads, monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;
   for (int round = 0; round < thresholds::shape::most_rounds; ++round) {

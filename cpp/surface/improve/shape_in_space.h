@@ -2,16 +2,23 @@
 // After the lift: shapes of triangles in space, by swaps and moves in turn.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "size/size_rules.h"
 #include "surface/patch.h"
 
 namespace carreau {
 
 /// Where sizes are isotropic: edges of the worst triangles (thresholds::shape::poor) are swapped. Asks no host.
-void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor);
+/// What is bad (BadRegion) where no triangle was among the worst: the mesh is as it was.
+std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor);
 
 /// Where sizes are isotropic: vertices and edges of bad triangles (BadRegion) are moved and swapped for their shapes in
 /// space. Of a lifted mesh whose sizes are known; keeps them up to date. Asks nothing where no triangle is bad.
-void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor);
+/// `bad`: where that is known.
+void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
+                    std::optional<std::vector<std::int32_t>> bad, Monitor& monitor);
 
 }  // namespace carreau

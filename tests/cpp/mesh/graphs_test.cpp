@@ -52,7 +52,12 @@ std::vector<std::int32_t> graphs_of(const Sheet& sheet, int threads = 1) {
   std::vector<std::int32_t> order(sheet.triangles.size());
   std::iota(order.begin(), order.end(), 0);
   order = spatial_order(sheet.vertices, sheet.triangles, std::move(order), monitor, threads);
-  return find_graphs(sheet.vertices, sheet.triangles, order, threads, monitor);
+  std::vector<TriangleView> views;
+  for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
+    const auto [a, b, c] = sheet.corners(t);
+    views.push_back(view_of(a, b, c));
+  }
+  return find_graphs(sheet.vertices, sheet.triangles, views, order, threads, monitor);
 }
 
 double share_in_graphs(const std::vector<std::int32_t>& graph) {
