@@ -16,6 +16,7 @@
 #include <fstream>
 
 #include "entity_check.h"
+#include "plain_step.h"
 #include "step_entities.h"
 #include "step_parts.h"
 #include "translator.h"
@@ -170,6 +171,7 @@ int StepReader::read_other_file(const std::string& name, const TCollection_Ascii
   if (!fresh) return found->second;
   const Handle(XSControl_WorkSession) session = new XSControl_WorkSession;
   session->SelectNorm("STEP");
+  session->SetLibrary(new PlainStepLibrary);
   STEPControl_Reader reader(session, Standard_False);
   int item = Document::none;
   if (reader.ReadFile(path.ToCString()) == IFSelect_RetDone) translate(reader, progress, &item);
@@ -220,6 +222,7 @@ using namespace carreau_occ;
 void carreau_translate_step(const std::string& path, const Message_ProgressRange& progress, ShapeFile& file) {
   STEPControl_Reader reader;  // settings are known once there is one
   choose_encoding(path);
+  reader.WS()->SetLibrary(new PlainStepLibrary);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) refuse(path, "is not a readable STEP file");
   take_out_zero_edges(reader.WS()->Model());
   const StepEntities kinds;
