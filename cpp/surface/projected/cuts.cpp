@@ -35,7 +35,7 @@ struct Cut {
   std::int32_t left = -1, right = -1;
   std::size_t start = 0, end = 0;  ///< nodes
   std::vector<CutPoint> inner = {};
-  bool exact = false;  ///< see ProjectedCharts
+  bool exact = false, undivided = false;  ///< see ProjectedCharts
 };
 
 /// An edge between charts, as the triangle on its left runs.
@@ -106,7 +106,8 @@ class CutTracer {
     }
     cut.start = node_at(cut.path.front(), cut.triangles.front());
     cut.end = node_at(cut.path.back(), cut.triangles.back());
-    cut.exact = input_.exact[cut.left] != 0 || input_.exact[cut.right] != 0;
+    const char exact = std::max(input_.exact[cut.left], input_.exact[cut.right]);
+    cut.exact = exact != 0, cut.undivided = exact == most_exact;
     for (const std::size_t end : {cut.start, cut.end})
       nodes_[end].stays = nodes_[end].stays || cut.exact || nodes_[end].vertex >= 0;
     nodes_[cut.start].cuts.emplace_back(cuts_.size(), true);
@@ -128,10 +129,18 @@ class CutTracer {
     return atlas_.charts.uv(triangle, static_cast<int>(std::ranges::find(corners, v) - corners.begin()));
   }
 
+  // Edges of the atlas may be longer than sizes want: they are divided, but for those whose parts would cross others.
   void keep_path(Cut& cut) const {
     cut.inner.clear();
-    for (std::size_t k = 1; k + 1 < cut.path.size(); ++k)
-      cut.inner.push_back({{cut.triangles[k], uv_of(cut.triangles[k], cut.path[k])}, atlas_.xyz(cut.path[k])});
+    for (std::size_t k = 0; k + 1 < cut.path.size(); ++k) {
+      const std::int32_t v = cut.path[k], w = cut.path[k + 1], t = cut.triangles[k];
+      const double length = norm(atlas_.xyz(w) - atlas_.xyz(v)), size = 0.5 * (input_.size[v] + input_.size[w]);
+      const int parts = cut.undivided ? 1 : std::max(1, static_cast<int>(std::lround(length / size)));
+      for (int j = k == 0 ? 1 : 0; j < parts; ++j) {
+        const double s = static_cast<double>(j) / parts;
+        cut.inner.push_back({{t, lerp(uv_of(t, v), uv_of(t, w), s)}, lerp(atlas_.xyz(v), atlas_.xyz(w), s)});
+      }
+    }
   }
 
   // Points along the path, about an edge apart, two at least.

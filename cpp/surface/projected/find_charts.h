@@ -14,7 +14,7 @@ struct ProjectedCharts {
   std::vector<std::int32_t> chart;  ///< by triangle of the atlas
   std::vector<Vec3> axis;           ///< by chart: of its projection, unit
   std::vector<char> exact;  ///< by triangle: borders of its chart are edges of the atlas, not those that sizes want,
-                            ///< which would cross
+                            ///< which would cross: 1: cut by the sizes, where they are long; 2: as they are
   bool complete = true;     ///< false: some triangle leans too much against every axis
 };
 

@@ -74,8 +74,12 @@ class ChartMerger {
 
   [[nodiscard]] bool fits(std::int32_t p, std::int32_t q) const {
     const Vec3 sum = sum_[p] + sum_[q];
-    const double least = cosine_ * norm(sum);
-    const auto shown = [&](std::int32_t t) { return dot(atlas_.normal[t], sum) >= least; };
+    // The surface leans more than its flat triangles: at their corners the projection must not turn over.
+    const double least = cosine_ * norm(sum), least_at_corners = least_cosine * norm(sum);
+    const auto shown = [&](std::int32_t t) {
+      return dot(atlas_.normal[t], sum) >= least &&
+             std::ranges::all_of(atlas_.corner[t], [&](const Vec3& n) { return dot(n, sum) >= least_at_corners; });
+    };
     return least > 0 && std::ranges::all_of(members_[p], shown) && std::ranges::all_of(members_[q], shown);
   }
 

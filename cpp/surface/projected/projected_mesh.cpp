@@ -30,7 +30,8 @@ struct ChartWork {
   std::vector<std::int32_t> triangles;  // of the atlas
   std::vector<const BorderChain*> chains;
   std::unique_ptr<ChartPlane> plane;
-  std::string why;  // its borders are none
+  std::string why;     // its borders are none
+  bool leans = false;  // it would be seen better in two
 };
 
 /// What comes of a chart.
@@ -101,7 +102,7 @@ struct Plan {
   Borders borders;
   std::vector<Vec3> xyz;
   std::vector<ChartWork> charts;
-  std::vector<std::int32_t> wrong;
+  std::vector<std::int32_t> wrong, leaning;
   [[nodiscard]] std::string why() const {
     return std::to_string(wrong.size()) + " of " + std::to_string(charts.size()) + " charts, " +
            charts[wrong.front()].why;
@@ -115,7 +116,7 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   auto borders = cut_borders(
       {source.atlas, found, source.lines, source.worked, source.size, exact, source.tolerance, source.cad}, monitor);
   if (!borders) return {};
-  Plan plan{std::move(*borders), {}, {}, {}};
+  Plan plan{std::move(*borders), {}, {}, {}, {}};
   plan.charts = charts_of(found, plan.borders);
   plan.xyz = places_of(source.atlas.mesh, plan.borders);
   const auto work = [&](std::size_t c, Monitor& own) {
@@ -127,13 +128,17 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
       check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size,
                      static_cast<std::int32_t>(c), plan.xyz},
                     own);
+      // What was cut in two may have come to lie along its axis.
+      if (exact[c] != 0 && chart.triangles.size() > 1 && chart.plane->least_cosine() < least_cosine) chart.leans = true;
     } catch (const DomainError& error) {
       chart.why = error.what();
     }
   };
   run_each(plan.charts.size(), false, source.threads, work, monitor);
   for (std::size_t c = 0; c < plan.charts.size(); ++c)
-    if (!plan.charts[c].why.empty()) {
+    if (plan.charts[c].leans) {
+      plan.leaning.push_back(static_cast<std::int32_t>(c));
+    } else if (!plan.charts[c].why.empty()) {
       plan.wrong.push_back(static_cast<std::int32_t>(c));
       monitor.message(Level::debug, "chart " + std::to_string(c) + " of " +
                                         std::to_string(plan.charts[c].triangles.size()) +
@@ -142,7 +147,7 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   return plan;
 }
 
-// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still.
+// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and leaves edges around single triangles whole.
 // False where nothing is left to do.
 bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
   std::vector<char> is_wrong(found.axis.size(), 0);
@@ -160,8 +165,14 @@ bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, Projec
   if (changed) return true;
   std::vector<char> apart(found.axis.size(), 0);
   for (const std::int32_t t : triangles) apart[found.chart[t]] = found.exact[t];
+  std::vector<int> members(found.axis.size(), 0);
+  for (const std::int32_t t : triangles) ++members[found.chart[t]];
+  std::vector<char> next;
+  for (const std::int32_t t : triangles)
+    next.push_back(found.exact[t] == 0 ? 1 : members[found.chart[t]] == 1 ? most_exact : found.exact[t]);
   changed = split_charts(atlas, apart, found, monitor);
-  for (const std::int32_t t : triangles) changed = changed || found.exact[t] == 0, found.exact[t] = 1;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    changed = changed || found.exact[triangles[k]] != next[k], found.exact[triangles[k]] = next[k];
   return changed;
 }
 
@@ -232,10 +243,14 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   ProjectedCharts found = find_charts(flat, monitor);
   if (!found.complete) return refuse("triangles lean too much");
   std::optional<Plan> plan;
-  for (int round = 0; !plan || !plan->wrong.empty(); ++round) {
-    if (round > 0 && (round > most_mendings || !mend(flat, plan->wrong, found, monitor))) return refuse(plan->why());
+  for (int round = 0;; ++round) {
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
+    std::vector<std::int32_t> worse = plan->wrong;
+    worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
+    if (!worse.empty() && round < most_mendings && mend(flat, worse, found, monitor)) continue;
+    if (plan->wrong.empty()) break;
+    return refuse(plan->why());
   }
   const auto work = [&](std::size_t c, Monitor& own) {
     const ChartWork& chart = plan->charts[c];

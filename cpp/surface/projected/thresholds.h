@@ -13,8 +13,10 @@ inline constexpr double usual_cosine = 0.55;
 inline constexpr double merge_cosine = 0.42;
 /// The same where borders would cross otherwise.
 inline constexpr double most_merge_cosine = 0.2;
+/// What ProjectedCharts::exact may be: 1 for borders of edges of the atlas, which are divided, 2 for those whose parts would cross, too.
+inline constexpr char most_exact = 2;
 /// Times that charts whose borders cross are mended.
-inline constexpr int most_mendings = 8;
+inline constexpr int most_mendings = 16;
 /// What is left between charts may lean so far: a ratio of 3.
 inline constexpr double loose_cosine = 0.3;
 /// Nothing is found in triangles that lean more: there the projection turns over soon.

@@ -19,6 +19,7 @@
 #include "mesh/quality.h"
 #include "session/session.h"
 #include "surface/discrete/start_mesh.h"
+#include "surface/projected/borders.h"
 #include "surface/projected/chart_plane.h"
 #include "surface/projected/find_charts.h"
 #include "surface/projected/thresholds.h"
@@ -199,6 +200,50 @@ TEST(ProjectedCharts, FacesOfACubeAreOneChartEach) {
   const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
   EXPECT_EQ(found.axis.size(), 6U);
   expect_charts(atlas, found, 1 - 1e-12);
+}
+
+// Facets of a coarse sphere lean less than the sphere does at their corners.
+TEST(ProjectedCharts, MergedOnesDoNotTurnOverAtTheirCorners) {
+  for (const int n : {3, 4, 6, 8}) {
+    Atlas atlas(sphere(n));
+    ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
+    const std::size_t before = found.axis.size();
+    ASSERT_TRUE(split_charts(atlas.flat, std::vector<char>(before, 1), found, atlas.silent));
+    const std::size_t split = found.axis.size();
+    merge_charts(atlas.flat, 0.05, {}, found, atlas.silent);
+    EXPECT_LT(found.axis.size(), split);
+    for (std::size_t t = 0; t < found.chart.size(); ++t)
+      for (const Vec3& normal : atlas.flat.corner[t])
+        EXPECT_GE(dot(normal, found.axis[static_cast<std::size_t>(found.chart[t])]), least_cosine - 1e-12);
+  }
+}
+
+// Borders of one chart and those of all: vertices of the atlas are among them, and between these as many others as the size wants, on the surface.
+TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
+  Atlas atlas(sphere(6));
+  const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
+  const std::size_t n = atlas.mesh.vertices.size();
+  for (const double size : {0.02, 0.05, 4.0})
+    for (const char exact : {char{1}, most_exact}) {
+      const std::vector<double> sizes(n, size);
+      const std::vector<char> all(found.axis.size(), exact);
+      const auto borders = cut_borders({atlas.flat, found, {}, {}, sizes, all, {}, *atlas.built.cad}, atlas.silent);
+      ASSERT_TRUE(borders);
+      double expected = 0;
+      for (std::int32_t t = 0; t < atlas.flat.triangles(); ++t)
+        for (int i = 0; i < 3; ++i) {
+          const Charts::Triangle& here = atlas.flat.at(t);
+          const std::int32_t u = here.beyond[static_cast<std::size_t>(i)];
+          if (u <= t || found.chart[static_cast<std::size_t>(u)] == found.chart[static_cast<std::size_t>(t)]) continue;
+          const double length = norm(atlas.flat.xyz(here.vertex[static_cast<std::size_t>((i + 1) % 3)]) -
+                                     atlas.flat.xyz(here.vertex[static_cast<std::size_t>(i)]));
+          expected += exact == most_exact ? 1 : std::max(1.0, std::round(length / size));
+        }
+      double edges = 0;
+      for (const BorderChain& chain : borders->chains) edges += static_cast<double>(chain.vertices.size()) - 1;
+      EXPECT_EQ(edges, expected);
+      for (const SurfacePlace& p : borders->added) EXPECT_NEAR(norm(p.xyz), 1, 2e-3);
+    }
 }
 
 // Of the triangles of the plane each place is found in its own one. Over the plane z = z(x, y) the metric has the
