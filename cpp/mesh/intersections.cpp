@@ -196,12 +196,15 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
     }
   };
   run_each(parts, false, threads, look, monitor);
-  sound.numbers.reserve(std::accumulate(count.begin(), count.end(), std::size_t{0}));
-  for (std::size_t part = 0; part < parts; ++part) {
-    monitor.checkpoint();
+  std::vector<std::size_t> first(parts + 1, 0);
+  std::partial_sum(count.begin(), count.end(), first.begin() + 1);
+  sound.numbers.resize(first.back());
+  const auto list = [&](std::size_t part, Monitor&) {
+    std::size_t place = first[part];
     for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i)
-      if (sound.view[i].any()) sound.numbers.push_back(static_cast<std::int32_t>(i));
-  }
+      if (sound.view[i].any()) sound.numbers[place++] = static_cast<std::int32_t>(i);
+  };
+  run_each(parts, false, threads, list, monitor);
   return sound;
 }
 

@@ -247,12 +247,15 @@ std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices, std::span<
         at_hand.give_back(std::move(graphs));
       },
       monitor);
-  std::int32_t before = 0;
-  for (std::size_t part = 0; part < parts; ++part) {
-    for (std::size_t k = part * triangles_at_once; k < std::min((part + 1) * triangles_at_once, order.size()); ++k)
-      if (std::int32_t& g = graph[static_cast<std::size_t>(order[k])]; g >= 0) g += before;
-    before += count[part];
-  }
+  std::vector<std::int32_t> before(parts, 0);
+  for (std::size_t part = 1; part < parts; ++part) before[part] = before[part - 1] + count[part - 1];
+  run_each(
+      parts, false, threads,
+      [&](std::size_t part, Monitor&) {
+        for (std::size_t k = part * triangles_at_once; k < std::min((part + 1) * triangles_at_once, order.size()); ++k)
+          if (std::int32_t& g = graph[static_cast<std::size_t>(order[k])]; g >= 0) g += before[part];
+      },
+      monitor);
   return graph;
 }
 

@@ -159,13 +159,18 @@ class SpatialSort {
 
   void sort(const Range& range) {
     const int bits = range.size() < many ? code_bits : code_bits_of_many;
-    const Grid grid(box_of(range), bits);
+    UnfilledVector<std::array<double, 3>> at(range.size());
+    Box box;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const Vec3 p = centre(list_[range.begin + k]);
+      box.add(p);
+      at[k] = {p.x(), p.y(), p.z()};
+    }
+    const Grid grid(box, bits);
     if (grid.is_a_point()) return;
     Keys keys(range.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      const std::int32_t number = list_[range.begin + k];
-      keys[k] = {static_cast<std::uint32_t>(grid.code(centre(number))), number};
-    }
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      keys[k] = {grid.code({at[k][0], at[k][1], at[k][2]}), list_[range.begin + k]};
     if (keys.size() < few)
       std::stable_sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.code < b.code; });
     else

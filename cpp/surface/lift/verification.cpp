@@ -166,9 +166,9 @@ class LiftCheck {
         const Vec3 e = mesh_.xyz[b] - mesh_.xyz[a];
         const double l2 = dot(e, e), expected2 = mesh_.size[a] * mesh_.size[b] * m2;
         if (!(expected2 > 0) || !(l2 > 0)) return;
-        const bool fits = l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2;
+        if (l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2) return;
         const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
-        if (!fits) misfits[part].push_back({l2 > excess2 * expected2 ? std::sqrt(l2 / expected2) : 0, p, q});
+        misfits[part].push_back({l2 > excess2 * expected2 ? std::sqrt(l2 / expected2) : 0, p, q});
       });
     });
     for (const std::vector<EdgeExcess>& some : misfits)
@@ -234,13 +234,15 @@ std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh
   const auto point_side = [&](const std::array<std::int32_t, 3>& t) -> std::size_t {
     std::array<double, 3> in_space, in_domain;  // squared
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = t[i], b = t[(i + 1) % 3];
-      const Vec3 edge = mesh.xyz[b] - mesh.xyz[a];
-      const Vec2 uv = mesh.plane.vertices[b] - mesh.plane.vertices[a];
-      in_space[i] = dot(edge, edge), in_domain[i] = dot(uv, uv);
+      const Vec3 edge = mesh.xyz[t[(i + 1) % 3]] - mesh.xyz[t[i]];
+      in_space[i] = dot(edge, edge);
     }
-    const double far = one_point * one_point * *std::max_element(in_space.begin(), in_space.end());
+    const double far = one_point * one_point * std::max({in_space[0], in_space[1], in_space[2]});
     if (std::min({in_space[0], in_space[1], in_space[2]}) > far) return 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 uv = mesh.plane.vertices[t[(i + 1) % 3]] - mesh.plane.vertices[t[i]];
+      in_domain[i] = dot(uv, uv);
+    }
     const double apart = one_point * one_point * *std::max_element(in_domain.begin(), in_domain.end());
     for (std::size_t i = 0; i < 3; ++i) {
       const bool inside = t[i] >= imposed || t[(i + 1) % 3] >= imposed;
