@@ -41,6 +41,8 @@ module carreau
   public :: carreau_get_integer, carreau_get_real, carreau_get_text, carreau_reset_parameter, carreau_reset_parameters
   public :: carreau_set_message_callback, carreau_set_progress_callback, carreau_stop
   public :: carreau_set_team, carreau_mesh_encode
+  public :: carreau_mesh_generate_part, carreau_mesh_part_count, carreau_mesh_part_quality, carreau_mesh_part_vertices
+  public :: carreau_mesh_part_triangles, carreau_part_counts
   public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
   public :: carreau_session_mesh, carreau_mesh_create, carreau_mesh_free, carreau_mesh_last_error
   public :: carreau_mesh_from_arrays
@@ -203,6 +205,12 @@ module carreau
     real(c_double) :: angle_min = 0, angle_max = 0, area = 0
     real(c_double) :: edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
   end type carreau_quality
+
+  !> Of a mesh in parts.
+  type :: carreau_part_counts
+    integer(c_int32_t) :: rank = 0, size = 0
+    integer(c_int64_t) :: own_vertices = 0, own_triangles = 0, all_vertices = 0, all_triangles = 0, all_edges = 0, crossings = 0
+  end type carreau_part_counts
 
   type :: carreau_cell_quality
     integer(c_int64_t) :: triangles3 = 0, triangles6 = 0, quads4 = 0, quads8 = 0, invalid = 0
@@ -1279,6 +1287,64 @@ contains
     if (present(user)) c_user = user
     status = c_mesh_encode(mesh%handle, c_text(suffix), c_funloc(sink), c_user)
   end subroutine carreau_mesh_encode
+
+  !> The part of this process of a mesh that all processes of the team make.
+  subroutine carreau_mesh_generate_part(session, part, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_mesh), intent(in) :: part
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_generate_part(session%handle, part%handle)
+  end subroutine carreau_mesh_generate_part
+
+  subroutine carreau_mesh_part_count(part, counts, status)
+    type(carreau_mesh), intent(in) :: part
+    type(carreau_part_counts), intent(out) :: counts
+    integer(c_int32_t), intent(out) :: status
+    type(c_part_counts) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_mesh_part_count(part%handle, c)
+    if (status /= CARREAU_OK) return
+    counts = carreau_part_counts(c%rank, c%size, c%own_vertices, c%own_triangles, c%all_vertices, c%all_triangles, &
+      c%all_edges, c%crossings)
+  end subroutine carreau_mesh_part_count
+
+  !> Of the whole mesh.
+  subroutine carreau_mesh_part_quality(part, quality, status)
+    type(carreau_mesh), intent(in) :: part
+    type(carreau_quality), intent(out) :: quality
+    integer(c_int32_t), intent(out) :: status
+    type(c_quality) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_mesh_part_quality(part%handle, c)
+    if (status /= CARREAU_OK) return
+    quality = carreau_quality(c%vertices, c%triangles, c%edges, c%open_edges, c%q1_mean, c%q1_min, c%q1_p1, &
+      c%q1_max, c%q2_mean, c%q2_min, c%q2_p1, c%q2_max, c%angle_min, c%angle_max, c%area, c%edge_min, c%edge_mean, &
+      c%edge_max, c%degree6)
+  end subroutine carreau_mesh_part_quality
+
+  !> numbers and rows count from 0
+  subroutine carreau_mesh_part_vertices(part, numbers, owners, rows, status)
+    type(carreau_mesh), intent(in) :: part
+    integer(c_int64_t), allocatable, intent(out) :: numbers(:), rows(:)
+    integer(c_int32_t), allocatable, intent(out) :: owners(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(part, n, m, k, f, status)
+    allocate (numbers(n), owners(n), rows(n))
+    if (status == CARREAU_OK) status = c_mesh_part_vertices(part%handle, n, numbers, owners, rows)
+  end subroutine carreau_mesh_part_vertices
+
+  !> numbers count from 0
+  subroutine carreau_mesh_part_triangles(part, numbers, owners, status)
+    type(carreau_mesh), intent(in) :: part
+    integer(c_int64_t), allocatable, intent(out) :: numbers(:)
+    integer(c_int32_t), allocatable, intent(out) :: owners(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(part, n, m, k, f, status)
+    allocate (numbers(m), owners(m))
+    if (status == CARREAU_OK) status = c_mesh_part_triangles(part%handle, m, numbers, owners)
+  end subroutine carreau_mesh_part_triangles
 
   subroutine carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     type(carreau_mesh), intent(in) :: mesh

@@ -130,6 +130,14 @@ module carreau_c
       triangle_refs = c_null_ptr, edge_refs = c_null_ptr, corner_uv = c_null_ptr
   end type c_mesh_arrays
 
+  !> Numbers of a mesh in parts.
+  type, bind(c) :: c_part_counts
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: rank = 0, size = 0
+    integer(c_int64_t) :: own_vertices = 0, own_triangles = 0, all_vertices = 0, all_triangles = 0, all_edges = 0, &
+      crossings = 0
+  end type c_part_counts
+
   !> What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two
   !! sides that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular
   !! polygon; both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of
@@ -863,6 +871,51 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_encode
 
+    !> carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its part:
+    !! the mesh that one process makes, bit for bit, which no process ever has as a whole. `part` (carreau_mesh_create)
+    !! becomes that part: the triangles of the faces that this process has meshed and, behind them, ghosts: those of
+    !! other processes that touch them in a vertex.
+    function c_mesh_generate_part(session, part) result(status) bind(c, name="carreau_mesh_generate_part")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session, part
+      integer(c_int32_t) :: status
+    end function c_mesh_generate_part
+
+    !> Tells them.
+    function c_mesh_part_count(part, counts) result(status) bind(c, name="carreau_mesh_part_count")
+      import :: c_int32_t, c_part_counts, c_ptr
+      implicit none
+      type(c_ptr), value :: part
+      type(c_part_counts), intent(inout) :: counts
+      integer(c_int32_t) :: status
+    end function c_mesh_part_count
+
+    !> Copy results into arrays with room for `capacity` rows, one for each vertex or triangle of the part
+    !! (carreau_mesh_count).
+    function c_mesh_part_vertices(part, capacity, numbers, owners, rows) result(status) &
+        bind(c, name="carreau_mesh_part_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: part
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: numbers(*)
+      integer(c_int32_t), intent(inout) :: owners(*)
+      integer(c_int64_t), intent(inout) :: rows(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_part_vertices
+
+    function c_mesh_part_triangles(part, capacity, numbers, owners) result(status) &
+        bind(c, name="carreau_mesh_part_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: part
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: numbers(*)
+      integer(c_int32_t), intent(inout) :: owners(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_part_triangles
+
     !> Counts vertices (n), triangles (m), edges of curves (k), and faces (f).
     function c_mesh_count(mesh, vertices, triangles, edges, faces) result(status) bind(c, name="carreau_mesh_count")
       import :: c_int32_t, c_int64_t, c_ptr
@@ -1046,6 +1099,16 @@ module carreau_c
       type(c_quality), intent(inout) :: quality
       integer(c_int32_t) :: status
     end function c_mesh_quality
+
+    !> The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded
+    !! otherwise than in one process.
+    function c_mesh_part_quality(part, quality) result(status) bind(c, name="carreau_mesh_part_quality")
+      import :: c_int32_t, c_ptr, c_quality
+      implicit none
+      type(c_ptr), value :: part
+      type(c_quality), intent(inout) :: quality
+      integer(c_int32_t) :: status
+    end function c_mesh_part_quality
 
     !> Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area
     !! or twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that

@@ -769,9 +769,44 @@ CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* pa
 /* Gets n bytes of a file from `position` on. Returns 0, or any other value to end the call. */
 typedef int32_t (*carreau_bytes_fn)(int64_t position, int64_t n, const void* bytes, void* user);
 /* Gives the bytes that carreau_mesh_write would write to a file with this suffix (".meshb"), in ascending positions, to
- * `sink`: for files that the host writes itself. Not ".exr". Errors: ARGUMENT (suffix, refs); CALLBACK (what sink
+ * `sink`: for files that the host writes itself. Not ".exr". Of a part (carreau_mesh_generate_part) ".meshb" alone: what this process
+ * has of the file of the whole mesh, each byte of which is one process's. Errors: ARGUMENT (suffix, refs); CALLBACK (what sink
  * returned). */
 CARREAU_API carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* suffix, carreau_bytes_fn sink, void* user);
+
+/* ---- Meshes in parts ---- */
+
+/* carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its part: the mesh
+ * that one process makes, bit for bit, which no process ever has as a whole. `part` (carreau_mesh_create) becomes that part: the
+ * triangles of the faces that this process has meshed and, behind them, ghosts: those of other processes that touch them in a vertex.
+ * Vertices that this process owns come first. Its faces are those of the whole mesh; carreau_mesh_encode gives ".meshb" what this process
+ * has of the file of the whole mesh; other functions take it as a mesh of its own. The mesh of the session stays what it was.
+ * What needs the whole mesh is refused: gradation, elements other than p1, patches=independent, cracks, narrow_faces=collapse, measure,
+ * surfaces given as triangles.
+ * Errors: those of carreau_mesh_generate, on all processes; carreau_last_error has the sentence. ARGUMENT (no team; what needs
+ * the whole mesh; part is NULL or a session's). */
+CARREAU_API carreau_status carreau_mesh_generate_part(carreau_session* session, carreau_mesh* part);
+
+/* Numbers of a mesh in parts. */
+typedef struct carreau_part_counts {
+  size_t struct_size;
+  int32_t rank, size;                     /* of the process and of the team */
+  int64_t own_vertices, own_triangles;    /* the first ones of the part */
+  int64_t all_vertices, all_triangles;    /* of the whole mesh */
+  int64_t all_edges;                      /* on curves */
+  int64_t crossings;                      /* pairs of triangles of the whole mesh that cross; -1: they were not looked for */
+} carreau_part_counts;
+/* Tells them. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
+CARREAU_API carreau_status carreau_mesh_part_count(carreau_mesh* part, carreau_part_counts* out_counts);
+/* Copy results into arrays with room for `capacity` rows, one for each vertex or triangle of the part (carreau_mesh_count). Any array may
+ * be NULL. Errors: ARGUMENT (capacity), SEQUENCE (the mesh is no part).
+ *   numbers   in the whole mesh, from 0: ascending for own ones, then for others
+ *   owners    ranks; of a vertex on curves the least rank that keeps a face of one of its curves
+ *   rows      numbers of the same vertices in which those of each rank are consecutive */
+CARREAU_API carreau_status carreau_mesh_part_vertices(carreau_mesh* part, int64_t capacity, int64_t out_numbers[], int32_t out_owners[],
+                                                      int64_t out_rows[]);
+CARREAU_API carreau_status carreau_mesh_part_triangles(carreau_mesh* part, int64_t capacity, int64_t out_numbers[],
+                                                       int32_t out_owners[]);
 
 /* Counts vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. Errors:
  * ARGUMENT, SEQUENCE (no mesh). */
@@ -892,6 +927,9 @@ typedef struct carreau_quality {
 
 /* Measures the triangles. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
+/* The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded otherwise than in one
+ * process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
+CARREAU_API carreau_status carreau_mesh_part_quality(carreau_mesh* part, carreau_quality* out_quality);
 
 /* Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area or
  * twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that are not

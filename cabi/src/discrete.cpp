@@ -187,6 +187,7 @@ carreau_status carreau_triangles_refine(carreau_session* session, double angle, 
     mesh->flat = flat_mesh(surface, refined);
     mesh->flat_faces = faces_of(mesh->flat);
     mesh->filled = true;
+    mesh->part.reset();
     mesh->corner_uv.clear();
   });
 }

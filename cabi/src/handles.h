@@ -19,6 +19,7 @@
 #include "model/model.h"
 #include "session/session.h"
 #include "support/monitor.h"
+#include "surface/parts/part_mesh.h"
 #include "variable/remesh.h"
 
 namespace carreau::abi {
@@ -100,6 +101,7 @@ struct carreau_mesh {
   bool filled = false;                 // of `flat`
   std::vector<double> corner_uv;       // of `flat`, 6 a triangle, or empty
   std::optional<carreau::abi::RemeshedFields> remeshed = {};  // of `flat`
+  std::optional<carreau::PartMesh> part = {};  // without its mesh, which is `flat`: of a mesh in parts
   std::string text;                    // returned to the caller, who may look at it until the next call
   carreau::abi::ErrorSlot error;
   std::atomic<bool> busy{false};

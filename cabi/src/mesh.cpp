@@ -8,6 +8,7 @@
 #include "carreau.h"
 #include "guard.h"
 #include "io/mesh_files.h"
+#include "io/medit/part_files.h"
 #include "mesh/flat_defects.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"
@@ -102,6 +103,23 @@ std::vector<carreau_mesh::FaceOfFile> carreau::abi::faces_of(const FlatMesh& fla
   return faces;
 }
 
+carreau_quality carreau::abi::quality_of(const QualitySummary& summary) {
+  carreau_quality result{};
+  result.vertices = std::int64_t(summary.vertices);
+  result.triangles = std::int64_t(summary.triangles);
+  result.edges = std::int64_t(summary.edges);
+  result.open_edges = std::int64_t(summary.open_edges);
+  result.q1_mean = summary.q1.mean, result.q1_min = summary.q1.min;
+  result.q1_p1 = summary.q1.p1, result.q1_max = summary.q1.max;
+  result.q2_mean = summary.q2.mean, result.q2_min = summary.q2.min;
+  result.q2_p1 = summary.q2.p1, result.q2_max = summary.q2.max;
+  result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
+  result.area = summary.area;
+  result.edge_min = summary.edge_min, result.edge_mean = summary.edge_mean, result.edge_max = summary.edge_max;
+  result.degree6 = summary.degree6;
+  return result;
+}
+
 carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out_mesh) {
   return guarded(session, [&] {
     required(out_mesh, "out_mesh");
@@ -135,6 +153,7 @@ carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path) {
     mesh->filled = true;
     mesh->corner_uv.clear();
     mesh->remeshed.reset();
+    mesh->part.reset();
   });
 }
 
@@ -157,10 +176,14 @@ carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* suffix, carre
     if (sink == nullptr) throw InvalidArgument("the argument sink is NULL");
     require_content(*mesh);
     const carreau::MeshFormat format = carreau::mesh_format_of(suffix);
+    const auto give = [&](std::uint64_t position, std::string_view bytes) {
+      if (const std::int32_t returned = sink(std::int64_t(position), std::int64_t(bytes.size()), bytes.data(), user); returned != 0)
+        throw carreau::CallbackError("the sink of the bytes of a file has returned " + std::to_string(returned));
+    };
+    if (mesh->part) return carreau::write_part(*mesh->part, mesh->flat, format, give);
     const std::string bytes =
         mesh->session != nullptr ? mesh->session->session.encoded(format) : carreau::mesh_bytes(mesh->flat, format);
-    if (const std::int32_t returned = sink(0, std::int64_t(bytes.size()), bytes.data(), user); returned != 0)
-      throw carreau::CallbackError("the sink of the bytes of a file has returned " + std::to_string(returned));
+    give(0, bytes);
   });
 }
 
@@ -352,20 +375,7 @@ carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_qua
         mesh->session != nullptr
             ? mesh->session->session.quality()
             : carreau::summarise_quality(mesh->flat, processors());
-    carreau_quality result{};
-    result.vertices = std::int64_t(summary.vertices);
-    result.triangles = std::int64_t(summary.triangles);
-    result.edges = std::int64_t(summary.edges);
-    result.open_edges = std::int64_t(summary.open_edges);
-    result.q1_mean = summary.q1.mean, result.q1_min = summary.q1.min;
-    result.q1_p1 = summary.q1.p1, result.q1_max = summary.q1.max;
-    result.q2_mean = summary.q2.mean, result.q2_min = summary.q2.min;
-    result.q2_p1 = summary.q2.p1, result.q2_max = summary.q2.max;
-    result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
-    result.area = summary.area;
-    result.edge_min = summary.edge_min, result.edge_mean = summary.edge_mean, result.edge_max = summary.edge_max;
-    result.degree6 = summary.degree6;
-    write_struct(result, out_quality, "out_quality");
+    write_struct(quality_of(summary), out_quality, "out_quality");
   });
 }
 

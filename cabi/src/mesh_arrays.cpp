@@ -86,6 +86,7 @@ carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const carreau_mesh_a
     mesh->flat = std::move(flat);
     mesh->corner_uv = std::move(uv);
     mesh->filled = true;
+    mesh->part.reset();
     mesh->remeshed.reset();
   });
 }

@@ -6,6 +6,7 @@
 
 #include "guard.h"
 #include "handles.h"
+#include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 
 namespace carreau::abi {
@@ -18,6 +19,11 @@ inline const SurfaceMesh& surface_of(const carreau_mesh& mesh) { return mesh.ses
 inline FlatMesh flat_of(const carreau_mesh& mesh) { return flatten(surface_of(mesh), false); }
 /// Throws where a file has made it; `what`: "corners".
 const SurfaceMesh& session_only(const carreau_mesh& mesh, const char* what);
+
+carreau_quality quality_of(const QualitySummary& summary);
+
+/// The mesh becomes a part.
+void keep_part(PartMesh part, carreau_mesh& mesh);
 
 /// Numbers of rows of either kind of mesh.
 struct Counts {

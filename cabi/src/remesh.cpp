@@ -222,6 +222,7 @@ carreau_status carreau_remesh(carreau_mesh* mesh, const carreau_remesh_input* in
     mesh->flat = std::move(flat);
     mesh->corner_uv.clear();
     mesh->filled = true;
+    mesh->part.reset();
     mesh->remeshed = std::move(fields);
   });
 }

@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/session.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "arguments.h"
 #include "guard.h"
+#include "mesh_content.h"
 
 using carreau::FaceMesh;
 using carreau::FaceStatus;
 using namespace carreau::abi;
+
+namespace {
+
+[[noreturn]] void report_failed(std::size_t failed, std::size_t all, int first, const std::string& why) {
+  throw StatusError(CARREAU_ERR_PARTIAL, std::to_string(failed) + " of " + std::to_string(all) +
+                                             " faces could not be meshed; the first is " + std::to_string(first) + ": " + why);
+}
+
+void report_failed_faces(const carreau::PartMesh& part) {
+  const auto failed = [](const carreau::WholeFace& each) { return each.face.status == FaceStatus::failed; };
+  const auto first = std::find_if(part.faces.begin(), part.faces.end(), failed);
+  if (first == part.faces.end()) return;
+  report_failed(std::size_t(std::count_if(part.faces.begin(), part.faces.end(), failed)), part.faces.size(), first->face.ref, first->face.why);
+}
+
+}  // namespace
 
 void carreau::abi::report_failed_faces(const carreau::Session& session) {
   const FaceMesh* first = nullptr;
@@ -20,9 +38,7 @@ void carreau::abi::report_failed_faces(const carreau::Session& session) {
     ++failed;
   }
   if (first == nullptr) return;
-  throw StatusError(CARREAU_ERR_PARTIAL, std::to_string(failed) + " of " + std::to_string(all) +
-                                             " faces could not be meshed; the first is " + std::to_string(first->ref) +
-                                             ": " + first->why);
+  report_failed(failed, all, first->ref, first->why);
 }
 
 namespace {
@@ -100,6 +116,19 @@ carreau_status carreau_mesh_generate(carreau_session* session) {
     session->commit_model();
     session->session.make_mesh();
     report_failed_faces(session->session);
+  });
+}
+
+carreau_status carreau_mesh_generate_part(carreau_session* session, carreau_mesh* part) {
+  return guarded(session, [&] {
+    required(part, "part");
+    if (part->session != nullptr) throw carreau::InvalidArgument("the mesh of a session cannot be a part: use carreau_mesh_create");
+    session->monitor.begin_run();
+    require_geometry(*session);
+    if (session->model().faces.empty()) throw StatusError(CARREAU_ERR_SEQUENCE, "the model has no face yet");
+    session->commit_model();
+    keep_part(session->session.make_part(), *part);
+    report_failed_faces(*part->part);
   });
 }
 

@@ -309,6 +309,12 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
                     monitor);
 }
 
+Intersections find_intersections_of(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                    const std::vector<char>& asked, std::size_t limit, int threads, Monitor& monitor) {
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, threads, monitor), asked, limit,
+                    Crew{nullptr, threads}, monitor);
+}
+
 Intersections find_intersections_again(const SearchedMesh& before, std::span<const Vec3> vertices,
                                        std::span<const std::array<std::int32_t, 3>> triangles, std::size_t limit,
                                        const Crew& crew, Monitor& monitor) {

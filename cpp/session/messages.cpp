@@ -30,9 +30,14 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
     }
 }
 
-void describe_result(const CompositeResult& result, const QualitySummary& q, Monitor& monitor) {
-  const SurfaceMesh& mesh = result.mesh;
-  const std::vector<WholeFace> all = whole_faces(mesh);
+namespace {
+
+/// What there is of a mesh.
+struct Extent {
+  std::int64_t vertices = 0, triangles = 0, edges = 0, loose_edges = 0;
+};
+
+void describe(const std::vector<WholeFace>& all, const Extent& extent, const CompositeReport& r, const QualitySummary& q, Monitor& monitor) {
   const auto whole = [](std::int64_t n) { return std::to_string(n); };
   const auto count = [&](FaceStatus status) {
     return std::count_if(all.begin(), all.end(), [&](const WholeFace& each) { return each.face.status == status; });
@@ -42,19 +47,16 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
   if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
   monitor.message(Level::summary,
-                  faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) + " vertices, " +
-                      whole(static_cast<std::int64_t>(mesh.triangle_count())) + " triangles, " +
-                      whole(static_cast<std::int64_t>(mesh.edge_count())) + " edges on curves" +
-                      (mesh.loose_edge_count() > 0 ? ", " + whole(static_cast<std::int64_t>(mesh.loose_edge_count())) +
-                                                         " of them on curves of no face"
-                                                   : ""));
+                  faces + ": " + whole(extent.vertices) + " vertices, " +
+                      whole(extent.triangles) + " triangles, " +
+                      whole(extent.edges) + " edges on curves" +
+                      (extent.loose_edges > 0 ? ", " + whole(extent.loose_edges) + " of them on curves of no face" : ""));
   const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
   // Parts of a micrometre have a diagonal, and slivers a quality.
   const auto not_zero = [&](double x) { return x > 0 && x < 0.01 ? short_number(x) : short_text(x); };
   monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
                                       short_text(q.q2.p1) + ", worst " + not_zero(q.q2.min) + "; angles " +
                                       short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
-  const CompositeReport& r = result.report;
   if (r.gradation_rounds > 0)
     monitor.message(Level::summary,
                     "gradation: sizes graded on " + whole(static_cast<std::int64_t>(r.gradation_triangles)) +
@@ -66,6 +68,20 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
                                       short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +
                                       ", plane meshes " + short_text(r.seconds_plane) + ", lift " +
                                       short_text(r.seconds_lift) + ")");
+}
+
+}  // namespace
+
+void describe_result(const CompositeResult& result, const QualitySummary& q, Monitor& monitor) {
+  const SurfaceMesh& mesh = result.mesh;
+  describe(whole_faces(mesh),
+           {static_cast<std::int64_t>(mesh.vertices.size()), static_cast<std::int64_t>(mesh.triangle_count()),
+            static_cast<std::int64_t>(mesh.edge_count()), static_cast<std::int64_t>(mesh.loose_edge_count())},
+           result.report, q, monitor);
+}
+
+void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor) {
+  describe(part.faces, {part.vertices, part.triangles, part.curve_edges, part.loose_edges}, report, part.quality, monitor);
 }
 
 void describe_evaluation(const SurfaceMesh& mesh, const MeshEvaluation& delivered, Monitor& monitor) {

@@ -6,6 +6,7 @@
 #include "mesh/quality.h"
 #include "model/model.h"
 #include "support/monitor.h"
+#include "surface/parts/part_mesh.h"
 #include "surface/result.h"
 #include "surface/supports.h"
 
@@ -16,6 +17,8 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
 
 /// The few lines that a person wants after a run.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
+
+void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor);
 
 /// Histograms as a summary, a warning for each prescription that is not met, and one for the faces with triangles beyond their tolerances.
 void describe_evaluation(const SurfaceMesh& mesh, const MeshEvaluation& delivered, Monitor& monitor);

@@ -20,9 +20,26 @@
 #include "support/part_monitor.h"
 #include "surface/discrete/beside_patches.h"
 #include "surface/discrete/discrete_run.h"
+#include "surface/parts/part_mesh.h"
 #include "surface/team/same_hosts.h"
 
 namespace carreau {
+
+namespace {
+
+void refuse_parts_of(const Model& model, const Parameters& parameters) {
+  const std::string option = parameters.text("option");
+  std::string what;
+  if (has_discrete(model))
+    what = "surfaces given as triangles";
+  else if (parameters.integer("measure") != 0)
+    what = "measures of what a mesh delivers (parameter measure)";
+  else if (!option.empty() && option != "allsurf3d")
+    what = "an export of other than all of space (parameter option)";
+  if (!what.empty()) throw InvalidArgument(needs_whole_mesh(what));
+}
+
+}  // namespace
 
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}
 Session::~Session() = default;
@@ -147,20 +164,27 @@ void Session::together(const std::function<void(const Crew&)>& body) const {
 }
 
 void Session::make_mesh(double from, double to) {
-  together([&](const Crew&) { make_mesh_alone(from, to); });
+  together([&](const Crew&) { make_mesh_alone(from, to, nullptr); });
 }
 
-void Session::make_mesh_alone(double from, double to) {
+PartMesh Session::make_part() {
+  if (!state_->team) throw InvalidArgument("a mesh is kept in parts by the processes of a team: the session has none");
+  PartMesh part;
+  together([&](const Crew&) { make_mesh_alone(0, 1, &part); });
+  return part;
+}
+
+// `part`: what becomes of it; null: the mesh of the session.
+void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   State& s = *state_;
-  s.tried_parameters = s.parameters;
-  s.last_failed = true;
+  if (part == nullptr) s.tried_parameters = s.parameters, s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
   Model known = s.model;
   for (;;) {
     PartMonitor run(s.monitor, from, to);
     try {
-      make_mesh_of(known, run);
+      make_mesh_of(known, run, part);
       return;
     } catch (const Error& error) {
       if (!leaves_out(s.parameters) || !leave_out(known, error)) throw;
@@ -173,7 +197,7 @@ void Session::make_mesh_alone(double from, double to) {
 }
 
 // Leaves out faces of `known` whose curves cannot be had, when that is wanted.
-void Session::make_mesh_of(Model& known, Monitor& run) {
+void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   State& s = *state_;
   CheckedCad whole_cad(*s.cad);
   run.progress(Phase::model, 0, 0);
@@ -182,6 +206,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
   if (has_discrete(known) && !s.triangles)
     throw InvalidModel("the model has faces given by triangles, and no triangles");
+  if (part != nullptr) refuse_parts_of(known, s.parameters);
   if (is_discrete(known)) return make_discrete_mesh(known, whole_cad, making, measuring, run);
   leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
@@ -200,6 +225,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
   options.team = s.team.get();
+  options.parts = part != nullptr;
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -216,15 +242,30 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
     parts = mesh_beside(std::move(result), known, *s.triangles, whole_cad, std::move(options_here), triangles);
     result = beside_each_other(parts->patches, parts->triangles, largest_references(model));
   }
-  if (result.mesh.triangle_count() == 0 && result.mesh.loose_edge_count() == 0) {
+  const bool any_triangle = result.shares ? result.shares->triangles > 0 : result.mesh.triangle_count() > 0;
+  if (!any_triangle && result.mesh.loose_edge_count() == 0) {
     const auto failed = std::find_if(result.mesh.faces.begin(), result.mesh.faces.end(),
                                      [](const FaceMesh& face) { return !face.why.empty(); });
     throw DomainError("no face could be meshed: " +
                       (failed != result.mesh.faces.end() ? failed->why : std::string("no reason is known")));
   }
-  keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
-              std::move(parts), background, measuring);
+  if (part != nullptr)
+    *part = part_of(model, std::move(result));
+  else
+    keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
+                std::move(parts), background, measuring);
   run.progress(Phase::idle, 0, 1);
+}
+
+PartMesh Session::part_of(const Model& model, CompositeResult result) {
+  State& s = *state_;
+  const CompositeReport report = result.report;
+  PartMesh part = carreau::make_part(*s.team, std::move(result), s.parameters.integer("flag") == 1, threads_of(s.parameters));
+  if (model.plane) part.mesh.dimension = 2;
+  for (std::int32_t& ref : part.mesh.vertex_refs)
+    if (const auto found = model.shown_points.find(ref); found != model.shown_points.end()) ref = found->second;
+  describe_part(part, report, s.monitor);
+  return part;
 }
 
 // A surface given as triangles has no curves to be found, glued or cut first.

@@ -25,6 +25,7 @@
 #include "support/ranks/crew.h"
 #include "support/ranks/team.h"
 #include "surface/composite.h"
+#include "surface/parts/part_mesh.h"
 
 namespace carreau {
 
@@ -79,6 +80,11 @@ class Session {
   /// with them is made again; DomainError when none is left.
   /// Progress is told from `from` to `to`: the share that this is of a longer run.
   void make_mesh(double from = 0, double to = 1);
+
+  /// The same by all processes of the team, each of which keeps its part: patches stay where they were made, and the mesh is that of
+  /// make_mesh(), numbers and all, which no process holds. mesh() stays what it was. Throws InvalidArgument without a team, and where
+  /// something is wanted that needs the whole mesh (surface/parts).
+  [[nodiscard]] PartMesh make_part();
 
   /// Throws InvalidArgument before the first make_mesh().
   [[nodiscard]] const SurfaceMesh& mesh() const;
@@ -146,8 +152,9 @@ class Session {
 
  private:
   [[nodiscard]] const QualitySummary& shapes() const;
-  void make_mesh_alone(double from, double to);
-  void make_mesh_of(Model& known, Monitor& run);
+  void make_mesh_alone(double from, double to, PartMesh* part);
+  void make_mesh_of(Model& known, Monitor& run, PartMesh* part);
+  PartMesh part_of(const Model& model, CompositeResult result);
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);
   void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
                    CompositeResult result, std::shared_ptr<const PartResults> parts,

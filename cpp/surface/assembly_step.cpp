@@ -9,6 +9,7 @@
 #include "surface/assembly/narrow_collapse.h"
 #include "surface/assembly/shared_chords.h"
 #include "surface/lift/verification.h"
+#include "surface/parts/shares.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -17,14 +18,24 @@ namespace carreau {
 namespace {
 
 void refuse_degenerate(CompositeRun& run) {
+  std::vector<std::string> why(run.patches.size());
+  for (std::size_t f = 0; f < run.patches.size(); ++f)
+    if (run.patches[f])
+      why[f] = degenerate_inside(run.model.faces[f].ref, *run.domains.domain[f], *run.patches[f], run.options.threads,
+                                 run.monitor);
+  if (run.options.parts) share_sentences(*run.options.team, why);
   for (std::size_t f = 0; f < run.patches.size(); ++f) {
-    if (!run.patches[f]) continue;
-    const std::string why = degenerate_inside(run.model.faces[f].ref, *run.domains.domain[f], *run.patches[f],
-                                              run.options.threads, run.monitor);
-    if (why.empty()) continue;
-    run.fail(f, why);
+    if (why[f].empty()) continue;
+    run.fail(f, why[f]);
     run.patches[f].reset();
+    run.keeper[f] = no_process;
   }
+}
+
+std::vector<char> faces_with_patches(const CompositeRun& run) {
+  std::vector<char> has_patch(run.keeper.size());
+  for (std::size_t f = 0; f < has_patch.size(); ++f) has_patch[f] = run.has_patch(f) ? 1 : 0;
+  return has_patch;
 }
 
 // At its ends, too, what the curve was cut with: a corner's size is the mean of directions that differ.
@@ -87,9 +98,10 @@ std::vector<FaceCollapse> collapses(CompositeRun& run) {
 void assemble_patches(CompositeRun& run) {
   run.tell(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
   separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads,
-                  run.monitor);
+                  run.options.parts ? run.options.team : nullptr, run.monitor);
   refuse_degenerate(run);
-  assemble(run.model, run.topology, run.domains, run.curves, run.patches, run.result);
+  assemble(run.model, run.topology, run.domains, run.curves, faces_with_patches(run), run.patches, run.result);
+  if (run.options.parts) run.result.shares = share_out(run);
   keep_prescriptions(run);
   say_what_is_narrow(run);
   say_what_is_remarkable(run);

@@ -8,6 +8,7 @@
 #include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
+#include "surface/parts/shares.h"
 #include "surface/run.h"
 #include "surface/team/same_hosts.h"
 #include "surface/thresholds.h"
@@ -97,6 +98,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   const auto start = std::chrono::steady_clock::now();
   CompositeRun run(model, topology, supports, cad, options, monitor);
   if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
+  if (run.options.parts) refuse_parts(run.options, run.rules);
   grade_sizes(run);
   discretise_curves(run);
   find_narrow(run);

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
 #include "mesh/crossings/shared_search.h"
 #include "surface/attempts.h"
 #include "surface/crossings/common_points.h"
+#include "surface/parts/part_crossings.h"
 #include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
@@ -88,20 +90,37 @@ void add(const SurfaceMesh& mesh, const WholeMesh& all, std::int32_t triangle, d
 }
 
 /// The mesh of the run with its crossings.
-struct Crossings {
-  explicit Crossings(const CompositeRun& run)
-      : all(whole(run.result.mesh)),
-        found(find_intersections(run.result.mesh.vertices, all.triangles,
-                                 most_pairs, {run.options.team, run.options.threads}, run.monitor)) {}
+class Crossings {
+ public:
+  explicit Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
+    if (run.result.shares) {
+      PartCrossings of_all = find_part_crossings(run, most_pairs);
+      crossing_ = std::make_unique<SurfaceMesh>(std::move(of_all.mesh));
+      mesh_ = crossing_.get();
+      all = whole(mesh()), found = std::move(of_all.found);
+      triangles = run.result.shares->triangles;
+      return;
+    }
+    all = whole(mesh());
+    found = find_intersections(mesh().vertices, all.triangles, most_pairs, {run.options.team, run.options.threads}, run.monitor);
+    triangles = static_cast<std::int64_t>(all.triangles.size());
+  }
+
+  /// That of the run, or of one in parts the triangles that cross.
+  [[nodiscard]] const SurfaceMesh& mesh() const noexcept { return *mesh_; }
+  [[nodiscard]] PatchTriangle triangle(std::int32_t number) const {
+    const MeshTriangle which = all.origin(number);
+    return {mesh(), which.face, which.local};
+  }
 
   WholeMesh all;
   Intersections found;
-};
+  std::int64_t triangles = 0;  ///< of the whole mesh
 
-PatchTriangle triangle_of(const CompositeRun& run, const Crossings& crossings, std::int32_t triangle) {
-  const MeshTriangle which = crossings.all.origin(triangle);
-  return {run.result.mesh, which.face, which.local};
-}
+ private:
+  std::unique_ptr<SurfaceMesh> crossing_;  // null: that of the run
+  const SurfaceMesh* mesh_;
+};
 
 /// By vertex of the mesh.
 std::vector<bool> vertices_of_curves(const SurfaceMesh& mesh) {
@@ -114,10 +133,10 @@ std::vector<bool> vertices_of_curves(const SurfaceMesh& mesh) {
 /// No gaps near places where both faces cross in the geometry itself. `of`: pairs of triangles of two faces.
 void drop_vain_gaps(const CompositeRun& run, const Crossings& crossings, std::pair<int, int> faces,
                     const std::vector<std::size_t>& of, const std::vector<bool>& on_curve, std::vector<Gap>& gaps) {
-  CommonPoints common(run.result.mesh, faces.first, faces.second);
+  CommonPoints common(crossings.mesh(), faces.first, faces.second);
   const auto corners = [&](std::size_t k) {
     const auto [s, t] = crossings.found.pairs[k].triangles;
-    return std::pair{triangle_of(run, crossings, s), triangle_of(run, crossings, t)};
+    return std::pair{crossings.triangle(s), crossings.triangle(t)};
   };
   // Over edges of curves triangles may leave the face.
   const auto at_curve = [&](std::int32_t t) {
@@ -150,14 +169,14 @@ std::vector<Gap> gaps_of(const CompositeRun& run, const Crossings& crossings) {
   std::map<std::pair<int, int>, std::vector<std::size_t>> of_faces;  // those of which some have gaps
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [s, t] = pairs[k].triangles;
-    gaps[k] = gap_at(run, triangle_of(run, crossings, s), triangle_of(run, crossings, t), pairs[k].place);
+    gaps[k] = gap_at(run, crossings.triangle(s), crossings.triangle(t), pairs[k].place);
     if (const std::pair<int, int> faces = faces_of(k); gaps[k].width > 0 && faces.first != faces.second)
       of_faces.try_emplace(faces);
   }
   if (of_faces.empty()) return gaps;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (const auto of = of_faces.find(faces_of(k)); of != of_faces.end()) of->second.push_back(k);
-  const std::vector<bool> on_curve = vertices_of_curves(run.result.mesh);
+  const std::vector<bool> on_curve = vertices_of_curves(crossings.mesh());
   for (const auto& [faces, of] : of_faces) drop_vain_gaps(run, crossings, faces, of, on_curve, gaps);
   return gaps;
 }
@@ -174,7 +193,7 @@ FinerPlaces places_to_refine(const CompositeRun& run, const Crossings& crossings
     if (gap_of[k].width == 0 || gap_of[k].share >= kept) continue;
     gaps.push_back(gap_of[k].width);
     for (const std::int32_t t : crossings.found.pairs[k].triangles)
-      add(run.result.mesh, all, t, gap_of[k].share, places);
+      add(crossings.mesh(), all, t, gap_of[k].share, places);
   }
   if (gaps.empty()) return places;
   const auto middle = gaps.begin() + std::ssize(gaps) / 2;
@@ -226,7 +245,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
   }
   Crossings now(run);
   Intersections fewest = now.found;
-  const std::size_t first = now.all.triangles.size();
+  const std::int64_t first = now.triangles;
   Attempts attempts(run, mesh_again);
   FinerPlaces places = places_to_refine(run, now);
   for (int round = 0; round < run.options.crossing_rounds && !places.edges.empty(); ++round) {
@@ -234,14 +253,15 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     now = Crossings(run);
     const bool best = attempts.keep_if(now.found.count < fewest.count);
     if (best) fewest = now.found;
-    if (now.all.triangles.size() > most_growth * first) break;
+    if (now.triangles > most_growth * first) break;
     FinerPlaces next = places_to_refine(run, now);
     if (!best && surfaces_cross(places, next)) break;
     places = std::move(next);
   }
   attempts.finish();
   run.result.report.crossings = fewest.count;
-  run.result.crossings = std::move(fewest.pairs);
+  // Of a mesh in parts they are of triangles that no process can number.
+  if (!run.options.parts) run.result.crossings = std::move(fewest.pairs);
 }
 
 }  // namespace carreau

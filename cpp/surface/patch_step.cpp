@@ -73,8 +73,9 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
 void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
   CompositeRun& run = work.run;
   run.patches[f] = std::move(outcome.patch);
+  run.keeper[f] = outcome.elsewhere ? outcome.elsewhere->rank : all_have;
   if (!outcome.remark.empty()) run.remarks[f] = outcome.remark;
-  work.left -= static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
+  work.left -= outcome.elsewhere ? outcome.elsewhere->triangles : static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
   const std::int64_t most = run.options.max_triangles;
   if (work.left < 0)
     refuse_triangles(Where{.face = run.model.faces[f].ref}, static_cast<double>(most - work.left), most);
@@ -95,7 +96,7 @@ void make_jobs(PatchJobs& work) {
   const bool reentrant = asks_from_threads(run.options, run.cad);
   work.short_edges.assign(run.model.faces.size(), {});
   for (std::size_t f = 0; f < run.model.faces.size(); ++f) {
-    if (!run.domains.domain[f] || run.patches[f]) continue;
+    if (!run.domains.domain[f] || run.has_patch(f)) continue;
     std::vector<EdgeSizes::Source> grow_from;
     PatchInput input = input_of(work, f, grow_from);
     if (keep_known(work, f, input, grow_from)) continue;
@@ -181,6 +182,7 @@ void mesh_in_team(PatchJobs& work, Team& team) {
               .expected = std::move(expected),
               .least_shared = least_shared,
               .threads = run.options.threads,
+              .parts = run.options.parts,
               .on_begun =
                   [&](std::size_t i, std::size_t begun) {
                     run.tell(Phase::patches, run.model.faces[work.face_of[i]].ref,
@@ -211,11 +213,20 @@ void start_result(CompositeRun& run) {
   }
 }
 
+// All have made the patch.
+void keep_in_turn(CompositeRun& run, std::size_t i, std::size_t f) {
+  const Team& team = *run.options.team;
+  run.keeper[f] = static_cast<int>(i % static_cast<std::size_t>(team.size()));
+  if (run.keeper[f] != team.rank()) run.patches[f].reset();
+}
+
 void place_narrow_patches(CompositeRun& run) {
   for (std::size_t i = 0; i < run.between.size(); ++i) {
     const int f = run.narrow.strips[i].face;
     run.domains.domain[f] = std::move(run.between[i].domain);
     run.patches[f] = std::move(run.between[i].mesh);
+    run.keeper[f] = all_have;
+    if (run.options.parts) keep_in_turn(run, i, static_cast<std::size_t>(f));
   }
 }
 
@@ -225,6 +236,7 @@ void mesh_patches(CompositeRun& run) {
   start_result(run);
   run.remarks.clear();
   run.patches.assign(run.model.faces.size(), std::nullopt);
+  run.keeper.assign(run.model.faces.size(), no_process);
   place_narrow_patches(run);
   for (std::size_t f = 0; f < run.model.faces.size(); ++f)
     if (!run.domains.domain[f] && !run.domains.failure[f].empty() && !run.model.faces[f].discrete) run.fail(f, run.domains.failure[f]);
@@ -240,7 +252,7 @@ void mesh_patches(CompositeRun& run) {
     mesh_in_team(work, *run.options.team);
   else
     mesh_here(work);
-  const bool none = std::none_of(run.patches.begin(), run.patches.end(), [](const auto& p) { return p.has_value(); });
+  const bool none = std::all_of(run.keeper.begin(), run.keeper.end(), [](int rank) { return rank == no_process; });
   if (none && work.first_beyond_limit) throw LimitError(*work.first_beyond_limit);
 }
 

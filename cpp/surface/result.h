@@ -38,6 +38,21 @@ struct CurveGap {
   int use = 0;
 };
 
+/// The mesh of one face of a mesh that is kept in parts.
+struct FaceShare {
+  int rank = -1;                                   ///< of the process that keeps it; -1: the face has no mesh
+  std::int64_t first_vertex = 0, vertices = 0;     ///< numbers in the whole mesh of those that are not on curves
+  std::int64_t first_triangle = 0, triangles = 0;
+};
+
+/// Who keeps what of a mesh of which each process has its part, and where that is in the whole mesh.
+struct MeshShares {
+  int rank = 0, processes = 1;   ///< of this one
+  std::int64_t on_curves = 0;    ///< vertices of curves, which all processes have; they come first
+  std::vector<FaceShare> of_face;
+  std::int64_t vertices = 0, triangles = 0;  ///< of the whole mesh
+};
+
 /// A mesh, and what goes by its vertices and curves.
 struct SizedMesh {
   SurfaceMesh mesh;
@@ -57,7 +72,9 @@ struct CompositeResult : SizedMesh {
   std::shared_ptr<const Charts> atlas;  ///< of a mesh that is independent of its patches, else null: the one before
   std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
-  std::vector<TriangleIntersection> crossings;  ///< the first of the report's, by triangles face after face
+  std::vector<TriangleIntersection> crossings;  ///< the first of the report's, by triangles face after face; none of a mesh in parts
+  /// Set: the mesh has the vertices of all curves, and of the faces that this process keeps the triangles.
+  std::optional<MeshShares> shares = {};
 };
 
 }  // namespace carreau

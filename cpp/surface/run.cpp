@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gradation/gradation.h"
+#include "support/ranks/team.h"
 #include "surface/quads/quadrilaterals.h"
 
 #if defined(__unix__)
@@ -45,7 +46,8 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
       rules(model, topology, cad, enlarged(options.size, enlargement_for(options.element))),
       curve_model{model, topology, supports.of_face, cad} {
   options.size = enlarged(options.size, enlargement_for(options.element));
-  if (options.max_triangles <= 0) options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4);
+  if (options.max_triangles <= 0)
+    options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4) * (options.parts ? options.team->size() : 1);
   result.report.diag = supports.diag;
 }
 

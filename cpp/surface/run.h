@@ -23,6 +23,9 @@
 
 namespace carreau {
 
+/// CompositeRun::keeper.
+inline constexpr int no_process = -1, all_have = 0;
+
 /// What is given, what steps have made so far, and the result. Keeps references to all that is given.
 struct CompositeRun {
   CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,
@@ -38,6 +41,8 @@ struct CompositeRun {
   void say(Level level, const std::string& what);
   /// Says that the prescribed edges of a curve stay although something wants others.
   void say_kept(int curve, const std::string& what_wants_others);
+  /// Here or, where patches stay, with another process.
+  [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
   /// The face has no mesh; others go on.
   void fail(std::size_t face, const std::string& why);
 
@@ -57,6 +62,8 @@ struct CompositeRun {
   RefinedDomains domains;                         ///< refine_boundaries()
   std::vector<NarrowPatch> between;               ///< the same; of narrow.strips
   std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
+  /// The process that keeps each patch, which is empty elsewhere: all_have where patches do not stay; no_process: there is none.
+  std::vector<int> keeper;
   std::map<std::size_t, std::string> remarks;     ///< the same; what is to be known of a face that was meshed
   CompositeResult result;                         ///< assemble_patches()
   /// What part_crossing_triangles() goes on from, and what it has done: the curves that the mesh was made with, and by

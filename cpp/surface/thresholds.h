@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace carreau::thresholds::patches {
 
@@ -99,6 +100,6 @@ inline constexpr double sagitta_share = 0.5;
 inline constexpr double least_share = 0.25, most_share = 0.6;
 /// Ratio of triangles to those of the first mesh. No round follows on a larger one: clearances of bolts in an assembly
 /// meshed coarsely would ask for all of its triangles to be small.
-inline constexpr std::size_t most_growth = 30;
+inline constexpr std::int64_t most_growth = 30;
 
 }  // namespace carreau::thresholds::crossings

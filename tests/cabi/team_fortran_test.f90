@@ -44,7 +44,11 @@ program team_fortran_test
   use lone_rank
   implicit none
   type(carreau_session) :: session
-  type(carreau_mesh) :: mesh
+  type(carreau_mesh) :: mesh, part
+  type(carreau_part_counts) :: counts
+  type(carreau_quality) :: quality
+  integer(c_int64_t), allocatable :: numbers(:), rows(:)
+  integer(c_int32_t), allocatable :: owners(:)
   integer(c_int32_t) :: status
   integer(c_int64_t) :: alone, in_team, length
   character(len=1000) :: clone
@@ -65,6 +69,24 @@ program team_fortran_test
   call carreau_mesh_write(mesh, 'team.meshb', status)
   inquire (file='team.meshb', size=length)
   if (length /= bytes_seen) error stop 'a file of another length'
+
+  ! The only part is the whole mesh.
+  call carreau_mesh_create(part, status)
+  call carreau_mesh_generate_part(session, part, status)
+  if (status /= CARREAU_OK) error stop 'the part of a team of one'
+  call carreau_mesh_part_count(part, counts, status)
+  if (counts%size /= 1 .or. counts%own_triangles /= alone .or. counts%all_triangles /= alone) error stop 'counts of a part'
+  call carreau_mesh_part_quality(part, quality, status)
+  if (quality%triangles /= alone) error stop 'the quality of all parts'
+  call carreau_mesh_part_vertices(part, numbers, owners, rows, status)
+  if (any(numbers /= [(length, length=0, counts%all_vertices - 1)]) .or. any(rows /= numbers)) error stop 'numbers of vertices'
+  call carreau_mesh_part_triangles(part, numbers, owners, status)
+  if (size(numbers) /= alone .or. any(owners /= 0)) error stop 'numbers of triangles'
+  length = bytes_seen
+  bytes_seen = 0
+  call carreau_mesh_encode(part, '.meshb', count_bytes, status)
+  if (status /= CARREAU_OK .or. length /= bytes_seen) error stop 'the bytes of a part'
+  call carreau_mesh_free(part)
   call carreau_session_free(session)
 contains
   function triangles() result(n)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // carreau_set_team without MPI: ranks are threads of this process, each with a session of its own.
+#include <algorithm>
+#include <array>
 #include <barrier>
 #include <carreau.hpp>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -96,6 +99,109 @@ TEST(Team, RanksMakeTheMeshOfOneProcess) {
     });
   for (std::thread& thread : threads) thread.join();
   for (const abi_tests::MeshData& mesh : found) EXPECT_EQ(mesh, expected);
+}
+
+/// What one rank keeps.
+struct Kept {
+  std::string bytes;
+  carreau_part_counts counts{};
+  carreau_quality quality{};
+  carreau::PartVertices vertices;
+  carreau::PartTriangles triangles;
+};
+
+std::vector<Kept> kept_by(int ranks, const std::function<carreau::Session()>& make_session) {
+  Office office(ranks);
+  std::vector<Kept> kept(static_cast<std::size_t>(ranks));
+  std::vector<std::thread> threads;
+  for (int r = 0; r < ranks; ++r)
+    threads.emplace_back([&, r] {
+      Rank rank{office, r, {}};
+      carreau::Session session = make_session();
+      const carreau_team team = rank.team();
+      session.set_team(&team);
+      carreau::Mesh part;
+      session.generate_part(part);
+      kept[static_cast<std::size_t>(r)] = {part.encode(".meshb"), part.part_counts(), part.part_quality(), part.part_vertices(), part.part_triangles()};
+      session.set_team(nullptr);
+    });
+  for (std::thread& thread : threads) thread.join();
+  return kept;
+}
+
+/// The file of all parts.
+std::string file_of(const std::vector<Kept>& kept) {
+  std::string all;
+  for (const Kept& each : kept) {
+    all.resize(std::max(all.size(), each.bytes.size()), '\0');
+    for (std::size_t k = 0; k < each.bytes.size(); ++k) all[k] = static_cast<char>(all[k] | each.bytes[k]);
+  }
+  return all;
+}
+
+TEST(Team, RanksKeepPartsOfTheMeshOfOneProcess) {
+  carreau::Session alone = strip_of_squares();
+  alone.generate();
+  const std::vector<Kept> kept = kept_by(3, strip_of_squares);
+  std::int64_t own = 0;
+  for (const Kept& each : kept) {
+    own += each.counts.own_triangles;
+    EXPECT_EQ(each.counts.all_triangles, alone.mesh().quality().triangles);
+    EXPECT_EQ(each.quality.edges, alone.mesh().quality().edges);
+    EXPECT_EQ(each.vertices.owners.size(), each.vertices.rows.size());
+    EXPECT_LE(static_cast<std::size_t>(each.counts.own_triangles), each.triangles.numbers.size());
+  }
+  EXPECT_EQ(own, alone.mesh().quality().triangles);
+  EXPECT_EQ(file_of(kept), alone.mesh().encode(".meshb"));
+}
+
+/// Two bowls z = x^2 + y^2, one .02 above the other and over another square: coarse chords of one cross the other. Rounds part them.
+carreau::Session close_bowls(int rounds) {
+  carreau::Session session;
+  std::vector<carreau::BezierPatch> bowls;
+  for (const auto& [low, high, lift] : {std::array{-1., 1., 0.}, {-0.93, 0.97, 0.02}}) {
+    carreau::BezierPatch bowl{.m = 2, .n = 2, .controls = {}};
+    const std::array<double, 3> x{low, (low + high) / 2, high}, squared{low * low, low * high, high * high};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) bowl.controls.push_back({x[i], x[j], squared[i] + squared[j] + lift});
+    bowls.push_back(bowl);
+  }
+  carreau::add_bezier(session, bowls);
+  session.set("hphydef", 0.3);
+  session.set("threads", 1);
+  session.set("crossing_rounds", rounds);
+  return session;
+}
+
+TEST(Team, PartsTellWhichTrianglesCrossAndPartThem) {
+  carreau::Session coarse = close_bowls(0), alone = close_bowls(5);
+  coarse.generate(), alone.generate();
+  ASSERT_GT(alone.mesh().quality().triangles, coarse.mesh().quality().triangles);
+  for (const int ranks : {1, 2, 3}) {
+    const std::vector<Kept> kept = kept_by(ranks, [] { return close_bowls(5); });
+    EXPECT_EQ(file_of(kept), alone.mesh().encode(".meshb")) << ranks;
+    for (const Kept& each : kept) EXPECT_EQ(each.counts.crossings, alone.mesh().intersections().count) << ranks;
+  }
+}
+
+/// The spout of the teapot crosses its body: it is meshed again in vain.
+carreau::Session teapot() {
+  carreau::Session session;
+  carreau::load_bezier(session, CARREAU_SOURCE_DIR "/fortran_examples/teapot/teapot.bpt");
+  session.set("hphydef", 0.3);
+  session.set("threads", 1);
+  session.set("crossing_rounds", 3);
+  return session;
+}
+
+TEST(Team, PartsOfTheTeapotCrossWhereItDoes) {
+  carreau::Session alone = teapot();
+  alone.generate();
+  const std::int64_t crossings = alone.mesh().intersections().count;
+  ASSERT_GT(crossings, 0);
+  const std::vector<Kept> kept = kept_by(4, teapot);
+  for (const Kept& each : kept) EXPECT_EQ(each.counts.crossings, crossings);
+  EXPECT_EQ(file_of(kept), alone.mesh().encode(".meshb"));
 }
 
 TEST(Team, RefusesARankThatIsNone) {

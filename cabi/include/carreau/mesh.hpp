@@ -33,6 +33,19 @@ struct MeshArrays {
   std::span<const std::array<Point2, 3>> corner_uv{};
 };
 
+/// Of the vertices of a part: numbers in the whole mesh, ranks, and rows of solvers.
+struct PartVertices {
+  std::vector<std::int64_t> numbers;
+  std::vector<std::int32_t> owners;
+  std::vector<std::int64_t> rows;
+};
+
+/// The same of its triangles.
+struct PartTriangles {
+  std::vector<std::int64_t> numbers;
+  std::vector<std::int32_t> owners;
+};
+
 /// Pairs of triangles that cross, and a place of each.
 struct Intersections {
   std::int64_t count = 0; ///< of all pairs; the vectors may hold fewer
@@ -68,12 +81,15 @@ class Mesh {
 
   void read(const std::string& path) { done(carreau_mesh_read(mesh_, path.c_str())); }
   void write(const std::string& path) const { done(carreau_mesh_write(mesh_, path.c_str())); }
-  /// What write() would put into a file with this suffix (".meshb").
+  /// What write() would put into a file with this suffix (".meshb"). Of a part what this process has of the file, and zeros where the bytes
+  /// of others are.
   [[nodiscard]] std::string encode(const std::string& suffix) const {
     std::string bytes;
-    const carreau_bytes_fn append = [](std::int64_t, std::int64_t n, const void* part, void* user) -> std::int32_t {
+    const carreau_bytes_fn append = [](std::int64_t position, std::int64_t n, const void* part, void* user) -> std::int32_t {
       try {
-        static_cast<std::string*>(user)->append(static_cast<const char*>(part), static_cast<std::size_t>(n));
+        auto& all = *static_cast<std::string*>(user);
+        all.resize(static_cast<std::size_t>(position));
+        all.append(static_cast<const char*>(part), static_cast<std::size_t>(n));
         return 0;
       } catch (...) { // no memory
         return 1;
@@ -187,6 +203,23 @@ class Mesh {
     return out;
   }
   [[nodiscard]] carreau_quality quality() const { return filled(carreau_mesh_quality); }
+  /// Of a part: its counts, the quality of the whole mesh, and numbers of its vertices and triangles there.
+  [[nodiscard]] carreau_part_counts part_counts() const { return filled(carreau_mesh_part_count); }
+  [[nodiscard]] carreau_quality part_quality() const { return filled(carreau_mesh_part_quality); }
+  [[nodiscard]] PartVertices part_vertices() const {
+    PartVertices out;
+    const auto n = static_cast<std::size_t>(counts().vertices);
+    out.numbers.resize(n), out.owners.resize(n), out.rows.resize(n);
+    done(carreau_mesh_part_vertices(mesh_, detail::count_of(n), out.numbers.data(), out.owners.data(), out.rows.data()));
+    return out;
+  }
+  [[nodiscard]] PartTriangles part_triangles() const {
+    PartTriangles out;
+    const auto n = static_cast<std::size_t>(counts().triangles);
+    out.numbers.resize(n), out.owners.resize(n);
+    done(carreau_mesh_part_triangles(mesh_, detail::count_of(n), out.numbers.data(), out.owners.data()));
+    return out;
+  }
   [[nodiscard]] carreau_cell_quality cell_quality() const { return filled(carreau_mesh_cell_quality); }
   /// A sentence for each of the first `limit` defects; none: empty.
   [[nodiscard]] std::vector<std::string> defects(bool closed = false, std::int64_t limit = 100) const {

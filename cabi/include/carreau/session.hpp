@@ -199,6 +199,8 @@ class Session {
   // ---- Runs and results ----
 
   Outcome generate() { return outcome(carreau_mesh_generate(get())); }
+  /// The part of this process of a mesh that all processes of the team make.
+  Outcome generate_part(Mesh& part) { return outcome(carreau_mesh_generate_part(get(), part.get())); }
   Outcome run_env(const std::string& path) { return outcome(carreau_run_env(get(), path.c_str())); }
   /// The latest mesh, always: later runs show in it, too.
   [[nodiscard]] Mesh mesh() {

@@ -9,6 +9,9 @@
  *   carreau_mpi_write(session, comm, "big.pvtu");                       // or "big.meshb"
  *   carreau_session_mesh(session, &mesh);
  *   carreau_part_create(mesh, rank, size, 1, &part);                    // this rank's triangles and a layer of ghosts
+ * A mesh that no rank could hold: each keeps its part.
+ *   carreau_mesh_generate_parts(session, comm, &part);
+ *   carreau_part_write(session, part, comm, "huge.meshb");
  *
  * The rules of carreau.h hold. Communicators are given as Fortran's handles, which are integers of every MPI:
  * MPI_Comm_c2f(comm). Functions that take one are collective. MPI must have been initialised, with MPI_THREAD_FUNNELED
@@ -31,6 +34,16 @@ extern "C" {
  * Errors: those of carreau_mesh_generate and carreau_set_team; CALLBACK (MPI has failed). */
 CARREAU_API carreau_status carreau_mesh_generate_mpi(carreau_session* session, int32_t comm);
 
+/* The part of a mesh that is one rank's. */
+typedef struct carreau_part carreau_part;
+
+/* The same, of which each rank keeps its part: no rank ever has the whole mesh, whose size the memory of all ranks bounds. A part is
+ * the triangles of the faces that the rank has meshed, with a layer of ghosts; it is the rank's until carreau_part_free. Vertices,
+ * triangles and their numbers are those of carreau_mesh_generate_mpi, bit for bit; what needs the whole mesh is refused
+ * (carreau_mesh_generate_part of carreau.h). An earlier mesh of the session stays.
+ * Errors: those of carreau_mesh_generate_part; CALLBACK (MPI has failed). With PARTIAL (some faces failed) there is a part. */
+CARREAU_API carreau_status carreau_mesh_generate_parts(carreau_session* session, int32_t comm, carreau_part** out_part);
+
 /* carreau_set_team with the ranks of a communicator: every mesh of the session is made by all of them from now on, and what
  * carreau_set_team lists (estimates, fields carried over, ...) is called by all of them. The communicator is duplicated; the duplicate stays until MPI_Finalize. Free the session, or
  * give it another team, before that.
@@ -49,8 +62,7 @@ CARREAU_API carreau_status carreau_mpi_write(carreau_session* session, int32_t c
 
 /* ---- Parts ---- */
 
-/* The part of a mesh that is one rank's. It makes no call of MPI: every process can ask for the part of any rank. */
-typedef struct carreau_part carreau_part;
+/* Parts of a mesh that every rank has (carreau_part_create) make no call of MPI: every process can ask for the part of any rank. */
 
 /* Divides the triangles of a mesh by recursive bisection of the coordinates of their centres (M. J. Berger, S. H. Bokhari,
  * IEEE Trans. Computers C-36 (1987)): parts differ by one triangle at most. Parts depend on the mesh and on `size` alone.
@@ -60,6 +72,14 @@ typedef struct carreau_part carreau_part;
  * of those about the mesh. */
 CARREAU_API carreau_status carreau_part_create(carreau_mesh* mesh, int32_t rank, int32_t size, int32_t layers,
                                                carreau_part** out_part);
+/* The mesh of a part of carreau_mesh_generate_parts, which lives as long as the part: places, references of faces and vertices, edges of
+ * curves, faces and their status (carreau_mesh_...), and the quality of the whole mesh (carreau_mesh_part_quality).
+ * Errors: ARGUMENT (NULL), SEQUENCE (the part is one of carreau_part_create, whose mesh you have). */
+CARREAU_API carreau_status carreau_part_mesh(const carreau_part* part, carreau_mesh** out_mesh);
+/* Writes the parts of carreau_mesh_generate_parts as carreau_mpi_write does: .pvtu, a piece for each rank, or .meshb, one file, the
+ * same bytes as those of one process, which no rank makes as a whole. The path is that of rank 0. The session gets the sentence of an
+ * error. Errors: FILE, ARGUMENT (suffix, part), SEQUENCE (a part of carreau_part_create), on all ranks. */
+CARREAU_API carreau_status carreau_part_write(carreau_session* session, const carreau_part* part, int32_t comm, const char* path);
 /* NULL is allowed. */
 CARREAU_API void carreau_part_free(carreau_part* part);
 /* Triangles and vertices of the part; own ones come first, in ascending order of their numbers in the mesh, then those

@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::int32_t not_here = -1;
 
-void require(carreau_mesh* mesh, carreau_status status) {
-  if (status != CARREAU_OK) throw Failure(status, carreau_mesh_last_error(mesh));
-}
-
 /// The least rank with a triangle at each vertex; `size`, no rank, for a vertex without triangles.
 std::vector<std::int32_t> owners_of_vertices(const WholeMesh& mesh, const std::vector<std::int32_t>& rank_of, int size) {
   std::vector<std::int32_t> owner(mesh.vertices.size(), size);
@@ -71,6 +67,30 @@ std::vector<std::int64_t> own_first(std::size_t n, Own&& own, Ghost&& ghost, std
 }
 
 }  // namespace
+
+void require(carreau_mesh* mesh, carreau_status status) {
+  if (status != CARREAU_OK) throw Failure(status, carreau_mesh_last_error(mesh));
+}
+
+ListedPart listed(const carreau_part& part) {
+  carreau_mesh* const mesh = part.mesh.get();
+  ListedPart all;
+  std::int64_t n = 0, m = 0;
+  require(mesh, carreau_mesh_count(mesh, &n, &m, nullptr, nullptr));
+  const auto vertices = static_cast<std::size_t>(n), triangles = static_cast<std::size_t>(m);
+  all.xyz.resize(3 * vertices), all.refs.resize(triangles);
+  carreau_part& lists = all.part;
+  lists.own_triangles = part.own_triangles, lists.own_vertices = part.own_vertices;
+  lists.triangle.resize(triangles), lists.triangle_owner.resize(triangles), lists.corners.resize(triangles);
+  lists.vertex.resize(vertices), lists.vertex_owner.resize(vertices);
+  require(mesh, carreau_mesh_part_vertices(mesh, n, lists.vertex.data(), lists.vertex_owner.data(), nullptr));
+  require(mesh, carreau_mesh_part_triangles(mesh, m, lists.triangle.data(), lists.triangle_owner.data()));
+  if (n > 0) require(mesh, carreau_mesh_vertices(mesh, n, all.xyz.data()));
+  if (m == 0) return all;
+  require(mesh, carreau_mesh_triangles(mesh, m, lists.corners.front().data()));
+  require(mesh, carreau_mesh_triangle_refs(mesh, m, all.refs.data()));
+  return all;
+}
 
 WholeMesh whole_mesh(carreau_mesh* mesh) {
   std::int64_t n = 0, m = 0;
@@ -127,6 +147,18 @@ bool has_room(std::int64_t capacity, std::size_t rows) {
   return capacity >= 0 && static_cast<std::uint64_t>(capacity) >= rows;
 }
 
+/// Of a part whose mesh is its own.
+carreau_status copy_triangles(const carreau_part& part, std::int64_t capacity, std::int64_t* numbers, std::int32_t* owners, std::int32_t* layers,
+                              std::int32_t* vertices) {
+  carreau_mesh* const mesh = part.mesh.get();
+  std::int64_t m = 0;
+  carreau_status status = carreau_mesh_count(mesh, nullptr, &m, nullptr, nullptr);
+  if (status == CARREAU_OK) status = carreau_mesh_part_triangles(mesh, capacity, numbers, owners);
+  if (status == CARREAU_OK && vertices != nullptr) status = carreau_mesh_triangles(mesh, capacity, vertices);
+  for (std::int64_t t = 0; status == CARREAU_OK && layers != nullptr && t < m; ++t) layers[t] = t < part.own_triangles ? 0 : 1;
+  return status;
+}
+
 }  // namespace
 
 carreau_status carreau_part_create(carreau_mesh* mesh, int32_t rank, int32_t size, int32_t layers,
@@ -146,21 +178,33 @@ carreau_status carreau_part_create(carreau_mesh* mesh, int32_t rank, int32_t siz
   }
 }
 
+carreau_status carreau_part_mesh(const carreau_part* part, carreau_mesh** out_mesh) {
+  if (part == nullptr || out_mesh == nullptr) return CARREAU_ERR_ARGUMENT;
+  if (!part->mesh) return CARREAU_ERR_SEQUENCE;
+  *out_mesh = part->mesh.get();
+  return CARREAU_OK;
+}
+
 void carreau_part_free(carreau_part* part) { delete part; }
 
 carreau_status carreau_part_count(const carreau_part* part, int64_t* out_own_triangles, int64_t* out_triangles,
                                   int64_t* out_own_vertices, int64_t* out_vertices) {
   if (part == nullptr) return CARREAU_ERR_ARGUMENT;
+  auto vertices = static_cast<std::int64_t>(part->vertex.size()), triangles = static_cast<std::int64_t>(part->triangle.size());
+  if (part->mesh)
+    if (const carreau_status status = carreau_mesh_count(part->mesh.get(), &vertices, &triangles, nullptr, nullptr); status != CARREAU_OK)
+      return status;
   if (out_own_triangles != nullptr) *out_own_triangles = part->own_triangles;
-  if (out_triangles != nullptr) *out_triangles = static_cast<std::int64_t>(part->triangle.size());
+  if (out_triangles != nullptr) *out_triangles = triangles;
   if (out_own_vertices != nullptr) *out_own_vertices = part->own_vertices;
-  if (out_vertices != nullptr) *out_vertices = static_cast<std::int64_t>(part->vertex.size());
+  if (out_vertices != nullptr) *out_vertices = vertices;
   return CARREAU_OK;
 }
 
 carreau_status carreau_part_triangles(const carreau_part* part, int64_t capacity, int64_t out_numbers[],
                                       int32_t out_owners[], int32_t out_layers[], int32_t out_vertices[]) {
   if (part == nullptr || !has_room(capacity, part->triangle.size())) return CARREAU_ERR_ARGUMENT;
+  if (part->mesh) return copy_triangles(*part, capacity, out_numbers, out_owners, out_layers, out_vertices);
   copy(part->triangle, out_numbers);
   copy(part->triangle_owner, out_owners);
   copy(part->triangle_layer, out_layers);
@@ -172,6 +216,7 @@ carreau_status carreau_part_triangles(const carreau_part* part, int64_t capacity
 carreau_status carreau_part_vertices(const carreau_part* part, int64_t capacity, int64_t out_numbers[],
                                      int32_t out_owners[], int64_t out_rows[]) {
   if (part == nullptr || !has_room(capacity, part->vertex.size())) return CARREAU_ERR_ARGUMENT;
+  if (part->mesh) return carreau_mesh_part_vertices(part->mesh.get(), capacity, out_numbers, out_owners, out_rows);
   copy(part->vertex, out_numbers);
   copy(part->vertex_owner, out_owners);
   copy(part->row, out_rows);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "carreau_mpi.h"
@@ -17,9 +18,22 @@ struct carreau_part {
   std::vector<std::int64_t> vertex;                  ///< numbers in the mesh
   std::vector<std::int32_t> vertex_owner;
   std::vector<std::int64_t> row;
+  /// Of carreau_mesh_generate_parts: it has all of this, and the lists are empty. Else null.
+  std::unique_ptr<carreau_mesh, void (*)(carreau_mesh*)> mesh{nullptr, carreau_mesh_free};
 };
 
 namespace carreau_mpi {
+
+/// Throws Failure with the sentence of the mesh.
+void require(carreau_mesh* mesh, carreau_status status);
+
+/// A part with its lists: `part` itself, or what the mesh of one knows. Rows of `xyz` are of its vertices, `refs` of its triangles.
+struct ListedPart {
+  carreau_part part;
+  std::vector<double> xyz;
+  std::vector<std::int32_t> refs;
+};
+ListedPart listed(const carreau_part& part);
 
 /// What parts are made of.
 struct WholeMesh {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calls.h"
+#include "part.h"
 #include "slices.h"
 
 using namespace carreau_mpi;
@@ -141,13 +142,43 @@ carreau_status carreau_mpi_attach(carreau_session* session, int32_t comm) {
   return guarded(session, [&] { attach(session, comm); });
 }
 
-carreau_status carreau_mesh_generate_mpi(carreau_session* session, int32_t comm) {
+namespace {
+
+/// generate() by all ranks of a communicator, which are the team of the session for that long.
+template <typename Generate>
+carreau_status generate_together(carreau_session* session, std::int32_t comm, const Generate& generate) {
   MpiTeam* team = nullptr;
   if (const carreau_status status = guarded(session, [&] { team = attach(session, comm); }); status != CARREAU_OK) return status;
-  const carreau_status status = carreau_mesh_generate(session);
+  const carreau_status status = generate();
   const std::string sentence = carreau_last_error(session);
   team->free_together();  // a run ends on all ranks, whatever its end
   carreau_set_team(session, nullptr);
   // The sentence of the run stays.
   return status == CARREAU_OK ? status : carreau_set_error(session, status, sentence.c_str());
+}
+
+}  // namespace
+
+carreau_status carreau_mesh_generate_mpi(carreau_session* session, int32_t comm) {
+  return generate_together(session, comm, [&] { return carreau_mesh_generate(session); });
+}
+
+carreau_status carreau_mesh_generate_parts(carreau_session* session, int32_t comm, carreau_part** out_part) {
+  std::unique_ptr<carreau_part> part;
+  const carreau_status made = guarded(session, [&] {
+    if (out_part == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, "the argument out_part is NULL");
+    part = std::make_unique<carreau_part>();
+    carreau_mesh* mesh = nullptr;
+    if (const carreau_status status = carreau_mesh_create(&mesh); status != CARREAU_OK) throw Failure(status, "a mesh cannot be made");
+    part->mesh.reset(mesh);
+  });
+  if (made != CARREAU_OK) return made;
+  const carreau_status status = generate_together(session, comm, [&] { return carreau_mesh_generate_part(session, part->mesh.get()); });
+  if (status != CARREAU_OK && status != CARREAU_ERR_PARTIAL) return status;
+  carreau_part_counts counts{};
+  counts.struct_size = sizeof counts;
+  if (const carreau_status known = carreau_mesh_part_count(part->mesh.get(), &counts); known != CARREAU_OK) return known;
+  part->own_vertices = counts.own_vertices, part->own_triangles = counts.own_triangles;
+  *out_part = part.release();
+  return status;
 }

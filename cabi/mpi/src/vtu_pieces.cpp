@@ -50,13 +50,6 @@ class Arrays {
   std::string bytes_;
 };
 
-std::vector<double> places(const WholeMesh& mesh, const carreau_part& part) {
-  std::vector<double> xyz;
-  for (const std::int64_t v : part.vertex)
-    for (const double x : mesh.vertices[static_cast<std::size_t>(v)]) xyz.push_back(x);
-  return xyz;
-}
-
 std::vector<std::uint8_t> ghosts(const std::vector<std::int32_t>& owners, int rank) {
   std::vector<std::uint8_t> types;
   for (const std::int32_t owner : owners) types.push_back(owner == rank ? 0 : duplicate);
@@ -100,7 +93,8 @@ std::string escaped(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& refs, const carreau_part& part, int rank) {
+std::vector<std::string> vtu_of_part(const ListedPart& listed, int rank) {
+  const carreau_part& part = listed.part;
   constexpr std::size_t of_vertex = 8 + 1 + 4 + 24, of_triangle = 8 + 1 + 4 + 4 + 24 + 8 + 1, of_lengths = 11 * 8;
   Arrays arrays(of_vertex * part.vertex.size() + of_triangle * part.triangle.size() + of_lengths);
   arrays.line("<?xml version=\"1.0\"?>");
@@ -113,16 +107,14 @@ std::vector<std::string> vtu_of_part(const WholeMesh& mesh, const std::vector<st
   arrays.add("UInt8", "vtkGhostType", 1, ghosts(part.vertex_owner, rank));
   arrays.add("Int32", "owner", 1, part.vertex_owner);
   arrays.line("</PointData>");
-  std::vector<std::int32_t> own_refs;
-  for (const std::int64_t t : part.triangle) own_refs.push_back(refs[static_cast<std::size_t>(t)]);
   arrays.line("<CellData GlobalIds=\"GlobalElementIds\">");
   arrays.add("Int64", "GlobalElementIds", 1, part.triangle);
   arrays.add("UInt8", "vtkGhostType", 1, ghosts(part.triangle_owner, rank));
-  arrays.add("Int32", "reference", 1, own_refs);
+  arrays.add("Int32", "reference", 1, listed.refs);
   arrays.add("Int32", "owner", 1, part.triangle_owner);
   arrays.line("</CellData>");
   arrays.line("<Points>");
-  arrays.add("Float64", "Points", 3, places(mesh, part));
+  arrays.add("Float64", "Points", 3, listed.xyz);
   arrays.line("</Points>");
   add_cells(arrays, part);
   arrays.line("</Piece>");

@@ -9,8 +9,8 @@
 
 namespace carreau_mpi {
 
-/// The file of one part, as bytes, one string behind the other (VTK XML, raw appended data). `refs`: of the triangles of the whole mesh.
-std::vector<std::string> vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& refs, const carreau_part& part, int rank);
+/// The file of one part, as bytes, one string behind the other (VTK XML, raw appended data).
+std::vector<std::string> vtu_of_part(const ListedPart& listed, int rank);
 
 /// "a/x.pvtu" and 3: "a/x_3.vtu".
 std::string name_of_piece(const std::string& path, int rank);

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 
 #include "calls.h"
 #include "slices.h"
@@ -16,10 +17,6 @@
 using namespace carreau_mpi;
 
 namespace {
-
-void require(carreau_mesh* mesh, carreau_status status) {
-  if (status != CARREAU_OK) throw Failure(status, carreau_mesh_last_error(mesh));
-}
 
 std::string suffix_of(const std::string& path) {
   const std::size_t dot = path.find_last_of('.'), slash = path.find_last_of('/');
@@ -86,21 +83,24 @@ void give_name(const std::string& path) {
   if (std::rename(temporary_of(path).c_str(), path.c_str()) != 0) refuse(path, std::strerror(errno));
 }
 
-// Of its arrays nothing is left when it is written.
-std::vector<std::string> file_of_piece(const Communicator& comm, carreau_mesh* mesh) {
+ListedPart part_of_mesh(const Communicator& comm, carreau_mesh* mesh) {
   const WholeMesh whole = whole_mesh(mesh);
   constexpr int layers = 1;
-  const carreau_part part = part_of(whole, comm.rank(), comm.size(), layers);
+  ListedPart all{part_of(whole, comm.rank(), comm.size(), layers), {}, {}};
+  for (const std::int64_t v : all.part.vertex)
+    for (const double x : whole.vertices[static_cast<std::size_t>(v)]) all.xyz.push_back(x);
   std::vector<std::int32_t> refs(whole.triangles.size());
   require(mesh, carreau_mesh_triangle_refs(mesh, static_cast<std::int64_t>(refs.size()), refs.data()));
-  return vtu_of_part(whole, refs, part, comm.rank());
+  for (const std::int64_t t : all.part.triangle) all.refs.push_back(refs[static_cast<std::size_t>(t)]);
+  return all;
 }
 
-void write_pvtu(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {
+/// `file_of_piece`: that of this rank.
+void write_pvtu(const Communicator& comm, const std::string& path, const std::function<std::vector<std::string>()>& file_of_piece) {
   const std::string piece = name_of_piece(path, comm.rank());
   try {
     together(comm, [&] {
-      write_alone(temporary_of(piece), piece, file_of_piece(comm, mesh));
+      write_alone(temporary_of(piece), piece, file_of_piece());
       if (comm.rank() == 0) write_alone(temporary_of(path), path, {pvtu_text(path, comm.size())});
     });
   } catch (...) {
@@ -145,11 +145,11 @@ void write_slice(MPI_File file, const std::string& path, const Slice& slice) {
     refuse(path, errno != 0 ? std::strerror(errno) : "MPI could not write all bytes; the disk may be full");
 }
 
-void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {
-  SliceRequest request{comm.rank(), comm.size(), {}};
-  together(comm, [&] { require(mesh, carreau_mesh_encode(mesh, suffix_of(path).c_str(), keep_slice, &request)); });
+/// `write_own`: writes the bytes of this rank, and gives where the last of them ends.
+void write_file(const Communicator& comm, const std::string& path, const std::function<std::int64_t(MPI_File)>& write_own) {
   const std::string temporary = temporary_of(path);
   MPI_File file = MPI_FILE_NULL;
+  std::int64_t end = 0;
   try {
     together(comm, [&] {
       if (comm.rank() == 0) write_alone(temporary, path, {});  // an older one ends here, and why it cannot be written
@@ -160,13 +160,14 @@ void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string
     });
     together(comm, [&] {
       errno = 0;
-      write_slice(file, path, request.slice);
+      end = write_own(file);
     });
     const int closed = MPI_File_close(&file);
+    check(MPI_Allreduce(MPI_IN_PLACE, &end, 1, MPI_INT64_T, MPI_MAX, comm), "agree about the size of a file");
     together(comm, [&] {
       struct stat status {};
       if (closed != MPI_SUCCESS) refuse(path, "MPI could not close it");
-      if (comm.rank() == 0 && (stat(temporary.c_str(), &status) != 0 || status.st_size != request.slice.total))
+      if (comm.rank() == 0 && (stat(temporary.c_str(), &status) != 0 || status.st_size != end))
         refuse(path, "its size is not that of its bytes; the disk may be full");
     });
     together(comm, [&] {
@@ -179,6 +180,53 @@ void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string
   }
 }
 
+void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {
+  SliceRequest request{comm.rank(), comm.size(), {}};
+  together(comm, [&] { require(mesh, carreau_mesh_encode(mesh, suffix_of(path).c_str(), keep_slice, &request)); });
+  write_file(comm, path, [&](MPI_File file) {
+    write_slice(file, path, request.slice);
+    return request.slice.total;
+  });
+}
+
+/// What a part has of a file, which is written as it comes.
+struct PartRequest {
+  MPI_File file;
+  std::int64_t end = 0;
+  bool failed = false;
+};
+
+std::int32_t write_some(std::int64_t position, std::int64_t n, const void* bytes, void* user) {
+  auto& request = *static_cast<PartRequest*>(user);
+  request.failed = !write_at(request.file, position, static_cast<const char*>(bytes), static_cast<std::size_t>(n));
+  request.end = std::max(request.end, position + n);
+  return request.failed ? CARREAU_ERR_FILE : 0;
+}
+
+void write_part_bytes(const Communicator& comm, carreau_mesh* part, const std::string& path) {
+  write_file(comm, path, [&](MPI_File file) {
+    PartRequest request{file};
+    const carreau_status status = carreau_mesh_encode(part, suffix_of(path).c_str(), write_some, &request);
+    if (request.failed) refuse(path, errno != 0 ? std::strerror(errno) : "MPI could not write all bytes; the disk may be full");
+    require(part, status);
+    return request.end;
+  });
+}
+
+void write_part(const carreau_part* part, std::int32_t handle, const char* given) {
+  const Communicator comm(handle);
+  together(comm, [&] {
+    if (given == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, "the argument path is NULL");
+    if (part == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, "the argument part is NULL");
+    if (!part->mesh) throw Failure(CARREAU_ERR_SEQUENCE, "the part is of a mesh that each rank has: carreau_mpi_write writes that");
+  });
+  const std::string path = of_first_rank(comm, given);
+  if (suffix_of(path) == ".pvtu")
+    write_pvtu(comm, path, [&] { return vtu_of_part(listed(*part), comm.rank()); });
+  else
+    write_part_bytes(comm, part->mesh.get(), path);
+}
+
 void write(carreau_session* session, std::int32_t handle, const char* given) {
   const Communicator comm(handle);
   carreau_mesh* mesh = nullptr;
@@ -189,7 +237,7 @@ void write(carreau_session* session, std::int32_t handle, const char* given) {
   });
   const std::string path = of_first_rank(comm, given);
   if (suffix_of(path) == ".pvtu")
-    write_pvtu(comm, mesh, path);
+    write_pvtu(comm, path, [&] { return vtu_of_part(part_of_mesh(comm, mesh), comm.rank()); });
   else
     write_bytes(comm, mesh, path);
 }
@@ -198,4 +246,8 @@ void write(carreau_session* session, std::int32_t handle, const char* given) {
 
 carreau_status carreau_mpi_write(carreau_session* session, int32_t comm, const char* path) {
   return guarded(session, [&] { write(session, comm, path); });
+}
+
+carreau_status carreau_part_write(carreau_session* session, const carreau_part* part, int32_t comm, const char* path) {
+  return guarded(session, [&] { write_part(part, comm, path); });
 }

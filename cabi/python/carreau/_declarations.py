@@ -396,6 +396,20 @@ class carreau_mesh_arrays(Structure):
     ]
 
 
+class carreau_part_counts(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("rank", c_int32),
+        ("size", c_int32),
+        ("own_vertices", c_int64),
+        ("own_triangles", c_int64),
+        ("all_vertices", c_int64),
+        ("all_triangles", c_int64),
+        ("all_edges", c_int64),
+        ("crossings", c_int64),
+    ]
+
+
 class carreau_cell_quality(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -942,6 +956,10 @@ CARREAU = {
     "carreau_mesh_from_arrays": (c_int32, [c_void_p, POINTER(carreau_mesh_arrays)]),
     "carreau_mesh_write": (c_int32, [c_void_p, c_char_p]),
     "carreau_mesh_encode": (c_int32, [c_void_p, c_char_p, carreau_bytes_fn, c_void_p]),
+    "carreau_mesh_generate_part": (c_int32, [c_void_p, c_void_p]),
+    "carreau_mesh_part_count": (c_int32, [c_void_p, POINTER(carreau_part_counts)]),
+    "carreau_mesh_part_vertices": (c_int32, [c_void_p, c_int64, Int64s, Int32s, Int64s]),
+    "carreau_mesh_part_triangles": (c_int32, [c_void_p, c_int64, Int64s, Int32s]),
     "carreau_mesh_count": (c_int32, [c_void_p, POINTER(c_int64), POINTER(c_int64), POINTER(c_int64), POINTER(c_int64)]),
     "carreau_mesh_dimension": (c_int32, [c_void_p, POINTER(c_int32)]),
     "carreau_mesh_vertices": (c_int32, [c_void_p, c_int64, Doubles]),
@@ -961,6 +979,7 @@ CARREAU = {
     "carreau_mesh_cell_quality": (c_int32, [c_void_p, POINTER(carreau_cell_quality)]),
     "carreau_mesh_face": (c_int32, [c_void_p, c_int64, POINTER(carreau_face)]),
     "carreau_mesh_quality": (c_int32, [c_void_p, POINTER(carreau_quality)]),
+    "carreau_mesh_part_quality": (c_int32, [c_void_p, POINTER(carreau_quality)]),
     "carreau_mesh_defects": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_char_p)]),
     "carreau_mesh_intersections": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), Int32s, Doubles]),
     "carreau_write_exr": (c_int32, [c_void_p, c_char_p, POINTER(carreau_exr_options)]),

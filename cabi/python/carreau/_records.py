@@ -95,6 +95,19 @@ class AdaptationReport(NamedTuple):
     outside: int
 
 
+class PartCounts(NamedTuple):
+    """Numbers of a mesh in parts."""
+
+    rank: int
+    size: int
+    own_vertices: int
+    own_triangles: int
+    all_vertices: int
+    all_triangles: int
+    all_edges: int
+    crossings: int
+
+
 class CellQuality(NamedTuple):
     """What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular polygon; both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element."""
 
@@ -380,6 +393,7 @@ RECORDS: dict[type, Any] = {
     c.carreau_interface: Interface,
     c.carreau_background_report: BackgroundReport,
     c.carreau_adaptation_report: AdaptationReport,
+    c.carreau_part_counts: PartCounts,
     c.carreau_cell_quality: CellQuality,
     c.carreau_face: Face,
     c.carreau_quality: Quality,

@@ -148,6 +148,29 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
   return given;
 }
 
+std::vector<std::string> Team::exchange_results(std::string_view step, const std::function<std::string()>& mine) {
+  PacketWriter packet;
+  try {
+    const std::string result = mine();
+    packet.put(false);
+    packet.put(std::string_view(result));
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    packet.put(true);
+    packet.put(std::string_view(SharedError::of(std::current_exception()).bytes));
+  }
+  std::vector<std::string> all = exchange(step, packet.bytes());
+  for (std::string& each : all) {
+    PacketReader reader(each);
+    const bool failed = reader.flag();
+    std::string bytes = reader.text();
+    if (failed) SharedError{std::move(bytes)}.raise();
+    each = std::move(bytes);
+  }
+  return all;
+}
+
 void Team::exchange_in_turn(std::string_view step, std::string mine, const std::function<void(int, const std::string&)>& use) {
   for (int r = 0; r < size(); ++r) {
     const std::vector<std::string> all = exchange(step, r == rank() ? std::string_view(mine) : std::string_view());

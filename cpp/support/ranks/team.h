@@ -63,6 +63,9 @@ class Team {
   /// What all processes give for `step`, by rank. Throws the error of a process that has left the run, and Error where
   /// processes are at different steps.
   std::vector<std::string> exchange(std::string_view step, std::string_view mine);
+  /// The same of what mine() gives, which may throw: the error of the first process that has one comes out of all, with its class
+  /// and sentence. A stop, and what is no Error, are thrown at once: the process leaves the run.
+  std::vector<std::string> exchange_results(std::string_view step, const std::function<std::string()>& mine);
   /// The same of much: use(rank, what it gives) for one process after another, so that none ever holds what all give.
   void exchange_in_turn(std::string_view step, std::string mine, const std::function<void(int, const std::string&)>& use);
   /// Throws Failure with `sentence(rank)` of the first process whose value is another one than that of rank 0.

@@ -12,17 +12,18 @@ constexpr std::int32_t unknown = -1;
 class Assembler {
  public:
   Assembler(const Model& model, const Topology& topology, const RefinedDomains& domains,
-            const std::vector<DiscreteCurve>& curves, CompositeResult& result)
+            const std::vector<DiscreteCurve>& curves, const std::vector<char>& has_patch, CompositeResult& result)
       : model_(model),
         topology_(topology),
         domains_(domains),
         curves_(curves),
+        has_patch_(has_patch),
         mesh_(result.mesh),
         sizes_(result.vertex_size) {}
 
   void run(std::vector<std::optional<PatchMesh>>& patches) {
     corner_vertex_.assign(topology_.points.size(), unknown);
-    add_curves(patches);
+    add_curves();
     reserve(patches);
     for (std::size_t f = 0; f < patches.size(); ++f) {
       add_face(f, patches[f]);
@@ -56,13 +57,13 @@ class Assembler {
   }
 
   // Corners come first, in the order of the model; only what a meshed face or a wire holds becomes a vertex.
-  void add_curves(const std::vector<std::optional<PatchMesh>>& patches) {
+  void add_curves() {
     const auto is_of_wire = [&](const CurveUse& use) {
       return model_.faces[use.face].is_wire() && model_.faces[use.face].left_out.empty();
     };
     const auto is_used = [&](const Curve& curve) {
       return std::any_of(curve.uses.begin(), curve.uses.end(),
-                         [&](const CurveUse& use) { return patches[use.face].has_value() || is_of_wire(use); });
+                         [&](const CurveUse& use) { return has_patch_[use.face] != 0 || is_of_wire(use); });
     };
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       const Curve& shape = topology_.curves[c];
@@ -78,7 +79,7 @@ class Assembler {
       for (const CurveUse& use : shape.uses)
         curve.uses.push_back({use.face, model_.faces[use.face].curves[use.curve].type == CurveType::internal});
       curve.loose = is_used(shape) && std::none_of(shape.uses.begin(), shape.uses.end(),
-                                                   [&](const CurveUse& use) { return patches[use.face].has_value(); });
+                                                   [&](const CurveUse& use) { return has_patch_[use.face] != 0; });
       if (is_used(shape)) {
         curve.vertices.push_back(corner_vertex_[shape.end1]);
         if (!shape.degenerate) {
@@ -100,6 +101,9 @@ class Assembler {
 
   void add_face(std::size_t f, std::optional<PatchMesh>& patch) {
     FaceMesh& face = mesh_.faces[f];
+    if (has_patch_[f] == 0) return;
+    face.status = domains_.mended[f] != 0 ? FaceStatus::mended : FaceStatus::meshed;
+    if (face.status == FaceStatus::mended) face.why = "curves were refined so that the domain could be meshed";
     if (!patch) return;
     const FaceDomain& domain = *domains_.domain[f];
     face.uv = std::move(patch->plane.vertices);
@@ -114,14 +118,13 @@ class Assembler {
       if (flat) face.flattened.push_back(t);
       return flat;
     });
-    face.status = domains_.mended[f] != 0 ? FaceStatus::mended : FaceStatus::meshed;
-    if (face.status == FaceStatus::mended) face.why = "curves were refined so that the domain could be meshed";
   }
 
   const Model& model_;
   const Topology& topology_;
   const RefinedDomains& domains_;
   const std::vector<DiscreteCurve>& curves_;
+  const std::vector<char>& has_patch_;
   SurfaceMesh& mesh_;
   std::vector<double>& sizes_;
   std::vector<std::int32_t> corner_vertex_;
@@ -130,9 +133,9 @@ class Assembler {
 }  // namespace
 
 void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
-              const std::vector<DiscreteCurve>& curves, std::vector<std::optional<PatchMesh>>& patches,
-              CompositeResult& result) {
-  Assembler(model, topology, domains, curves, result).run(patches);
+              const std::vector<DiscreteCurve>& curves, const std::vector<char>& has_patch,
+              std::vector<std::optional<PatchMesh>>& patches, CompositeResult& result) {
+  Assembler(model, topology, domains, curves, has_patch, result).run(patches);
 }
 
 }  // namespace carreau

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "mesh/editable_mesh.h"
+#include "support/ranks/packet.h"
+#include "support/ranks/team.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -21,6 +23,9 @@ constexpr int chord_passes = 10;
 
 using Key = std::array<std::int64_t, 2>;
 
+// Of vertices of space: those inside faces begin here.
+constexpr std::int64_t first_inside = std::int64_t{1} << 62;
+
 using Local = std::array<std::int32_t, 2>;  // vertices of a patch, ascending
 Local local_edge(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -33,11 +38,54 @@ struct Chord {
   friend auto operator<=>(const Chord&, const Chord&) = default;
 };
 
+/// A triangle by its vertices of space.
+struct Corners {
+  std::array<std::int64_t, 3> key;
+  int face;
+  std::size_t triangle;
+};
+
+void put(PacketWriter& packet, const Chord& chord) {
+  for (const std::int64_t value : chord.key) packet.put(value);
+  packet.put(std::int64_t{chord.face});
+  for (const std::int32_t v : chord.local) packet.put(std::int64_t{v});
+}
+void get(PacketReader& packet, Chord& chord) {
+  for (std::int64_t& value : chord.key) value = packet.integer();
+  chord.face = static_cast<int>(packet.integer());
+  for (std::int32_t& v : chord.local) v = static_cast<std::int32_t>(packet.integer());
+}
+void put(PacketWriter& packet, const Corners& corners) {
+  for (const std::int64_t value : corners.key) packet.put(value);
+  packet.put(std::int64_t{corners.face});
+  packet.put(static_cast<std::int64_t>(corners.triangle));
+}
+void get(PacketReader& packet, Corners& corners) {
+  for (std::int64_t& value : corners.key) value = packet.integer();
+  corners.face = static_cast<int>(packet.integer());
+  corners.triangle = static_cast<std::size_t>(packet.integer());
+}
+
+/// Those of other processes behind one's own. `shown`: what others may have, too.
+template <typename Item, typename Shown>
+void add_of_others(Team& team, std::string_view step, const Shown& shown, std::vector<Item>& items) {
+  PacketWriter packet;
+  packet.put(static_cast<std::int64_t>(std::count_if(items.begin(), items.end(), shown)));
+  for (const Item& item : items)
+    if (shown(item)) put(packet, item);
+  const std::vector<std::string> all = team.exchange(step, packet.bytes());
+  for (std::size_t rank = 0; rank < all.size(); ++rank) {
+    if (static_cast<int>(rank) == team.rank()) continue;
+    PacketReader reader(all[rank]);
+    for (std::size_t n = reader.count(sizeof(std::int64_t)); n > 0; --n) get(reader, items.emplace_back());
+  }
+}
+
 class Separator {
  public:
   Separator(const Model& model, const Topology& topology, const RefinedDomains& domains,
             const std::vector<DiscreteCurve>& curves, Cad& cad, std::vector<std::optional<PatchMesh>>& patches,
-            int threads, Monitor& monitor)
+            int threads, Team* team, Monitor& monitor)
       : model_(model),
         topology_(topology),
         domains_(domains),
@@ -45,6 +93,7 @@ class Separator {
         cad_(cad),
         patches_(patches),
         threads_(threads),
+        team_(team),
         monitor_(monitor) {
     auto next = static_cast<std::int64_t>(topology.points.size());
     for (const DiscreteCurve& curve : curves) {
@@ -58,31 +107,60 @@ class Separator {
   std::int64_t run() {
     // A new vertex may see both sides of a seam: the next pass finds that.
     for (int pass = 0; pass < chord_passes; ++pass) {
-      const std::int64_t before = added_;
       chords_.clear();
       std::vector<std::vector<Chord>> of_face(patches_.size());
       each_patch([&](int f) {
         if (pass == 0 || changed_[f]) of_face[f] = chords_of(f);
       });
       for (const std::vector<Chord>& some : of_face) chords_.insert(chords_.end(), some.begin(), some.end());
+      // One with an end inside a face has no other face.
+      const auto on_curves = [this](const Chord& chord) { return chord.local[1] < on_curves_[chord.face]; };
+      if (team_ != nullptr) add_of_others(*team_, "chords", on_curves, chords_);
       std::sort(chords_.begin(), chords_.end());
       changed_.assign(patches_.size(), false);
-      for (std::size_t from = 0, to = 0; from < chords_.size(); from = to) {
-        while (to < chords_.size() && chords_[to].key == chords_[from].key) ++to;
-        const Key key = chords_[from].key;
-        const bool all =
-            to - from > 1 || key[0] == key[1] || std::binary_search(curve_edges_.begin(), curve_edges_.end(), key);
-        for (std::size_t i = from; i < to; ++i)
-          if (all || goes_round(chords_[i])) split_chord(chords_[i]);
-      }
-      if (added_ == before) break;
+      if (count_added([this] { split_chords(); }) == 0) break;
     }
     editable_.clear();
-    split_equal_triangles();
-    return added_;
+    std::vector<Corners> triangles = triangles_on_curves();
+    const auto all_on_curves = [](const Corners& corners) { return corners.key[2] < first_inside; };
+    if (team_ != nullptr) add_of_others(*team_, "triangles on curves", all_on_curves, triangles);
+    count_added([&] { split_equal_triangles(triangles); });
+    return added_everywhere_;
   }
 
  private:
+  /// New vertices of all processes in a step that adds some.
+  template <typename Step>
+  std::int64_t count_added(const Step& step) {
+    const std::int64_t before = added_;
+    std::int64_t new_ones = 0;
+    if (team_ == nullptr) {
+      step();
+      new_ones = added_ - before;
+    } else {
+      const std::vector<std::string> all = team_->exchange_results("divided chords", [&] {
+        step();
+        PacketWriter packet;
+        packet.put(added_ - before);
+        return packet.take();
+      });
+      for (const std::string& of_rank : all) new_ones += PacketReader(of_rank).integer();
+    }
+    added_everywhere_ += new_ones;
+    return new_ones;
+  }
+
+  void split_chords() {
+    for (std::size_t from = 0, to = 0; from < chords_.size(); from = to) {
+      while (to < chords_.size() && chords_[to].key == chords_[from].key) ++to;
+      const Key key = chords_[from].key;
+      const bool all =
+          to - from > 1 || key[0] == key[1] || std::binary_search(curve_edges_.begin(), curve_edges_.end(), key);
+      for (std::size_t i = from; i < to; ++i)
+        if (patches_[chords_[i].face] && (all || goes_round(chords_[i]))) split_chord(chords_[i]);
+    }
+  }
+
   /// Calls work(f) for each face that has a patch, from several threads.
   template <typename Work>
   void each_patch(const Work& work) {
@@ -96,7 +174,7 @@ class Separator {
   [[nodiscard]] std::int64_t identity(int f, std::int32_t v) const {
     constexpr int face_bit = 31;
     if (v < on_curves_[f]) return identity_[f][v];
-    return (std::int64_t{1} << 62) + (static_cast<std::int64_t>(f) << face_bit) + v;
+    return first_inside + (static_cast<std::int64_t>(f) << face_bit) + v;
   }
 
   // Vertices of space, before they have numbers in the mesh: corners, then those of curves.
@@ -225,12 +303,7 @@ class Separator {
   }
 
   // Faces of three edges each, back to back.
-  void split_equal_triangles() {
-    struct Corners {
-      std::array<std::int64_t, 3> key;
-      int face;
-      std::size_t triangle;
-    };
+  [[nodiscard]] std::vector<Corners> triangles_on_curves() {
     std::vector<std::vector<Corners>> of_face(patches_.size());
     each_patch([&](int f) {
       const std::int32_t count = on_curves_[f];
@@ -246,10 +319,15 @@ class Separator {
     });
     std::vector<Corners> all;
     for (const std::vector<Corners>& some : of_face) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }
+
+  void split_equal_triangles(std::vector<Corners>& all) {
     std::stable_sort(all.begin(), all.end(), [](const Corners& p, const Corners& q) { return p.key < q.key; });
     for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
       while (to < all.size() && all[to].key == all[from].key) ++to;
-      for (std::size_t i = from; to - from > 1 && i < to; ++i) split_triangle(all[i].face, all[i].triangle);
+      for (std::size_t i = from; to - from > 1 && i < to; ++i)
+        if (patches_[all[i].face]) split_triangle(all[i].face, all[i].triangle);
     }
   }
 
@@ -274,6 +352,7 @@ class Separator {
   Cad& cad_;
   std::vector<std::optional<PatchMesh>>& patches_;
   int threads_;
+  Team* team_;
   Monitor& monitor_;
   std::vector<std::int64_t> first_;                  // [curve]: number of its vertex 0
   std::vector<std::vector<std::int64_t>> identity_;  // [face][local vertex on a curve]
@@ -283,15 +362,15 @@ class Separator {
   std::vector<Key> curve_edges_;
   std::vector<Chord> chords_;
   std::vector<bool> changed_;  // [face]: in this pass
-  std::int64_t added_ = 0;
+  std::int64_t added_ = 0, added_everywhere_ = 0;
 };
 
 }  // namespace
 
 std::int64_t separate_chords(const Model& model, const Topology& topology, const RefinedDomains& domains,
                              const std::vector<DiscreteCurve>& curves, Cad& cad,
-                             std::vector<std::optional<PatchMesh>>& patches, int threads, Monitor& monitor) {
-  return Separator(model, topology, domains, curves, cad, patches, threads, monitor).run();
+                             std::vector<std::optional<PatchMesh>>& patches, int threads, Team* team, Monitor& monitor) {
+  return Separator(model, topology, domains, curves, cad, patches, threads, team, monitor).run();
 }
 
 }  // namespace carreau

@@ -17,7 +17,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int64_t packet_version = 3;
+constexpr std::int64_t packet_version = 4;
 
 using Message = std::pair<Level, std::string>;
 
@@ -38,11 +38,23 @@ class FaceMonitor final : public Monitor {
 /// What this process sends. Used by several threads.
 class Sent {
  public:
+  explicit Sent(const DealtFaces& faces) : parts_(faces.parts), rank_(faces.team.rank()) {}
   void add(std::size_t job, const std::vector<Message>& messages, FaceOutcome& outcome) {
     PacketWriter packet = begun(job, messages);
     packet.put(false);
-    outcome.put(packet);
+    (parts_ ? outcome.without_patch(rank_) : outcome).put(packet);
     keep(packet);
+    if (!parts_ || !outcome.patch) return;
+    const std::scoped_lock lock(mutex_);
+    outcome.space.reset();
+    kept_.emplace(job, std::move(*outcome.patch));
+  }
+  /// Of a job that this process has done and of which the others have been told; once.
+  void give_kept(std::size_t job, FaceOutcome& outcome) {
+    const auto found = kept_.find(job);
+    if (found == kept_.end()) return;
+    outcome.patch = std::move(found->second);
+    kept_.erase(found);
   }
   void add_error(std::size_t job, const std::vector<Message>& messages, const SharedError& error) {
     PacketWriter packet = begun(job, messages);
@@ -91,8 +103,11 @@ class Sent {
     faces_.push_back(packet.take());
   }
 
+  bool parts_;
+  int rank_;
   std::mutex mutex_;
   std::vector<std::string> faces_;
+  std::map<std::size_t, PatchMesh> kept_;  // by job; where patches stay
   std::vector<std::int32_t> aside_;
   std::map<std::size_t, std::vector<Message>> said_;
   std::atomic<std::size_t> first_failed_{static_cast<std::size_t>(-1)};
@@ -249,6 +264,18 @@ struct SharedFace {
 };
 using SharedFaces = std::map<std::size_t, SharedFace>;  // by job
 
+// All have made the patch: one of them keeps it.
+void keep_by_one(const Team& team, std::size_t job, FaceOutcome& outcome) {
+  if (!outcome.patch) return;
+  const int rank = static_cast<int>(job % static_cast<std::size_t>(team.size()));
+  if (rank != team.rank()) {
+    outcome = outcome.without_patch(rank);
+    return;
+  }
+  outcome.elsewhere = PatchElsewhere{rank, static_cast<std::int64_t>(outcome.patch->plane.triangles.size())};
+  outcome.space.reset();
+}
+
 // One after the other, and each with all threads of all processes. `said`: what this process has heard of a job before.
 template <typename Said>
 void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, std::size_t begun, const Said& said, SharedFaces& made,
@@ -267,6 +294,7 @@ void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, s
     }
     face.outcome = job.take_outcome();
     faces.jobs[i].reset();
+    if (faces.parts) keep_by_one(faces.team, i, *face.outcome);
   }
 }
 
@@ -279,7 +307,7 @@ void say(const std::vector<Message>& messages, Monitor& monitor) {
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
   SharedFaces shared;
   make_together(faces, faces.shared, 0, [](std::size_t) { return std::vector<Message>{}; }, shared, monitor);
-  Sent sent;
+  Sent sent(faces);
   const SharedError error = mesh_own_share(faces, sent, monitor);
   Received all{std::vector<std::optional<ReceivedFace>>(faces.jobs.size()), {}};
   faces.team.exchange_in_turn("patches", sent.packed(error), [&](int rank, const std::string& packet) {
@@ -298,6 +326,7 @@ void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
     ReceivedFace face = *std::exchange(all.faces[i], std::nullopt);
     say(face.messages, monitor);
     if (!face.outcome) face.error.raise();
+    sent.give_kept(i, *face.outcome);
     faces.on_finished(i, std::move(*face.outcome));
   }
 }

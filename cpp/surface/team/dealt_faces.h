@@ -22,9 +22,10 @@ struct DealtFaces {
   std::vector<double> expected;                  ///< triangles, by job, judged by boundaries
   double least_shared = 0;                       ///< triangles of a face that all make together
   int threads = 1;
+  bool parts = false;  ///< patches stay with the process that has meshed them; those that all make are kept by one each, in turn
   /// Called from the thread that runs when job `i` is begun, the `begun`-th of all processes.
   std::function<void(std::size_t i, std::size_t begun)> on_begun;
-  /// Called for 0, 1, 2, ... in every process, with the same outcomes.
+  /// Called for 0, 1, 2, ... in every process, with the same outcomes; where patches stay, in one of them with the patch.
   std::function<void(std::size_t i, FaceOutcome)> on_finished;
 };
 

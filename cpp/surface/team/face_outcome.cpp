@@ -40,6 +40,8 @@ LimitError limit_of(PacketReader& packet) {
 void FaceOutcome::put(PacketWriter& packet) const {
   packet.put(patch.has_value());
   if (patch) carreau::put(packet, *patch);
+  packet.put(elsewhere.has_value());
+  if (elsewhere) packet.put(std::int64_t{elsewhere->rank}), packet.put(elsewhere->triangles);
   packet.put(space.has_value());
   if (space) space->put(packet);
   packet.put(std::string_view(failure));
@@ -53,6 +55,10 @@ void FaceOutcome::put(PacketWriter& packet) const {
 FaceOutcome FaceOutcome::from(PacketReader& packet) {
   FaceOutcome outcome;
   if (packet.flag()) outcome.patch = patch_of(packet);
+  if (packet.flag()) {
+    const auto rank = static_cast<int>(packet.integer());
+    outcome.elsewhere = PatchElsewhere{rank, packet.integer()};
+  }
   if (packet.flag()) outcome.space = ControlSpace::from(packet);
   outcome.failure = packet.text();
   outcome.remark = packet.text();
@@ -60,6 +66,15 @@ FaceOutcome FaceOutcome::from(PacketReader& packet) {
   outcome.seconds_sampling = packet.real(), outcome.seconds_plane = packet.real(), outcome.seconds_lift = packet.real();
   outcome.corrections = static_cast<int>(packet.integer());
   return outcome;
+}
+
+FaceOutcome FaceOutcome::without_patch(int rank) const {
+  FaceOutcome told;
+  if (patch) told.elsewhere = PatchElsewhere{rank, static_cast<std::int64_t>(patch->plane.triangles.size())};
+  told.failure = failure, told.remark = remark, told.beyond_limit = beyond_limit;
+  told.seconds_sampling = seconds_sampling, told.seconds_plane = seconds_plane, told.seconds_lift = seconds_lift;
+  told.corrections = corrections;
+  return told;
 }
 
 }  // namespace carreau

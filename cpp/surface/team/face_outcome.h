@@ -12,8 +12,15 @@
 
 namespace carreau {
 
+/// A patch that one process keeps.
+struct PatchElsewhere {
+  int rank = 0;
+  std::int64_t triangles = 0;
+};
+
 struct FaceOutcome {
   std::optional<PatchMesh> patch;          ///< empty: the face failed
+  std::optional<PatchElsewhere> elsewhere = {};  ///< set: the patch stays with a process, and is empty for all others
   std::optional<ControlSpace> space;       ///< what was meshed in; empty when it could not be sampled
   std::string failure;                     ///< why the domain could not be meshed; empty when it was
   std::string remark;                      ///< what is to be known of a mesh that could only be made in another way
@@ -25,6 +32,9 @@ struct FaceOutcome {
   /// As bytes for another process, and back. The second throws Error for bytes that are no outcome.
   void put(PacketWriter& packet) const;
   static FaceOutcome from(PacketReader& packet);
+
+  /// What others are told when the patch stays with process `rank`: all but the patch and its control space.
+  [[nodiscard]] FaceOutcome without_patch(int rank) const;
 };
 
 }  // namespace carreau

@@ -63,6 +63,24 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
   return packet.take();
 }
 
+/// By face.
+std::vector<std::vector<Vec2>> places_in_patches(Team& team, const CompositeRun& run) {
+  std::vector<std::vector<Vec2>> places(run.patches.size());
+  PacketWriter packet;
+  for (std::size_t f = 0; f < run.patches.size(); ++f) {
+    if (!run.patches[f] || !run.domains.domain[f]) continue;
+    places[f] = places_in(*run.patches[f], run.domains.domain[f]->plane.vertices.size());
+    if (run.options.parts) packet.put(static_cast<std::int64_t>(f)), packet.put(places[f]);
+  }
+  if (!run.options.parts) return places;
+  for (const std::string& of_rank : team.exchange("places", packet.bytes()))
+    for (PacketReader reader(of_rank); !reader.at_end();) {
+      const auto f = static_cast<std::size_t>(reader.integer());
+      places.at(f) = reader.plane_points();
+    }
+  return places;
+}
+
 [[noreturn]] void refuse_face(int ref, std::size_t rank) {
   throw InvalidModel("face " + std::to_string(ref) + " is another one on rank " + std::to_string(rank) +
                      " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
@@ -112,9 +130,10 @@ void require_same_mesh(Team& team, const SurfaceMesh& mesh) {
 void require_same_surfaces(Team& team, const CompositeRun& run) {
   std::string sums;
   std::vector<int> faces;
+  const std::vector<std::vector<Vec2>> places = places_in_patches(team, run);
   for (std::size_t f = 0; f < run.patches.size(); ++f) {
-    if (!run.patches[f] || !run.domains.domain[f]) continue;
-    sums += checksum(answers(run, f, places_in(*run.patches[f], run.domains.domain[f]->plane.vertices.size())));
+    if (!run.has_patch(f) || !run.domains.domain[f]) continue;
+    sums += checksum(answers(run, f, places[f]));
     faces.push_back(run.model.faces[f].ref);
   }
   const std::vector<std::string> all = team.exchange("surfaces", sums);

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/parts/near_triangles.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mesh/crossings/spatial_order.h"
+#include "support/box_tree.h"
+#include "support/ranks/packet.h"
+#include "support/ranks/team.h"
+
+namespace carreau {
+
+namespace {
+
+using Corners = std::array<std::int32_t, 3>;
+using Box = BoxTree::Box;
+
+// Of one box: 0.2 bytes a triangle reach all processes. [time and memory only]
+constexpr std::size_t triangles_of_box = 256;
+
+/// Which of two processes looks: each for half of the others.
+int looks(int a, int b) noexcept { return (a + b) % 2 == 0 ? std::min(a, b) : std::max(a, b); }
+
+Box box_of(const std::vector<Vec3>& vertices, const Corners& corners) {
+  Box box;
+  for (const std::int32_t v : corners) box.add(vertices[static_cast<std::size_t>(v)]);
+  return box;
+}
+
+BoxTree tree_of(const std::vector<Box>& boxes, const CompositeRun& run) {
+  std::vector<Vec3> centres;
+  centres.reserve(boxes.size());
+  for (const Box& box : boxes) centres.push_back(0.5 * (box.low + box.high));
+  return {boxes, centres, &run.monitor, run.options.threads};
+}
+
+/// Boxes that meet one.
+void all_that_meet(const BoxTree& tree, const std::vector<Box>& boxes, const Box& box, std::vector<Box>& found) {
+  found.clear();
+  tree.all_that_meet([&](const Box& node) { return !box.is_apart(node); },
+                     [&](const BoxTree::Node& leaf) {
+                       for (const std::int32_t i : tree.things(leaf))
+                         if (!box.is_apart(boxes[static_cast<std::size_t>(i)])) found.push_back(boxes[static_cast<std::size_t>(i)]);
+                     });
+}
+
+/// The triangles of this process: which they are, and groups of neighbours with their boxes.
+struct OwnGroups {
+  std::vector<TriangleOfFace> which;
+  std::vector<Corners> corners;
+  std::vector<std::int32_t> order;
+  std::vector<Box> boxes;
+
+  explicit OwnGroups(const CompositeRun& run) {
+    const SurfaceMesh& mesh = run.result.mesh;
+    corners.reserve(mesh.triangle_count()), which.reserve(mesh.triangle_count());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (std::size_t t = 0; t < mesh.faces[f].triangles.size(); ++t) {
+        const FaceMesh& face = mesh.faces[f];
+        const Corners& local = face.triangles[t];
+        corners.push_back({face.vertex[local[0]], face.vertex[local[1]], face.vertex[local[2]]});
+        which.push_back({static_cast<std::int32_t>(f), static_cast<std::int32_t>(t)});
+      }
+    std::vector<std::int32_t> numbers(corners.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    order = spatial_order(mesh.vertices, corners, std::move(numbers), run.monitor, run.options.threads);
+    boxes.resize((order.size() + triangles_of_box - 1) / triangles_of_box);
+    for (std::size_t k = 0; k < order.size(); ++k)
+      boxes[k / triangles_of_box].add(box_of(mesh.vertices, corners[static_cast<std::size_t>(order[k])]));
+  }
+};
+
+std::string packed(const std::vector<Box>& boxes) {
+  PacketWriter packet;
+  std::vector<Vec3> corners;
+  corners.reserve(2 * boxes.size());
+  for (const Box& box : boxes) corners.insert(corners.end(), {box.low, box.high});
+  packet.put(corners);
+  return packet.take();
+}
+
+/// Of the processes that look for what crosses between themselves and this one.
+std::vector<Box> boxes_of_lookers(Team& team, const std::vector<Box>& own) {
+  std::vector<Box> boxes;
+  const std::vector<std::string> all = team.exchange("boxes", packed(own));
+  for (int rank = 0; rank < team.size(); ++rank) {
+    if (rank == team.rank() || looks(rank, team.rank()) != rank) continue;
+    PacketReader packet(all[static_cast<std::size_t>(rank)]);
+    const std::vector<Vec3> corners = packet.points();
+    for (std::size_t k = 0; k + 1 < corners.size(); k += 2) boxes.push_back({corners[k], corners[k + 1]});
+  }
+  return boxes;
+}
+
+/// Those that others look at.
+std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnGroups& own, const std::vector<Box>& lookers) {
+  std::vector<TriangleOfFace> shown;
+  const BoxTree tree = tree_of(lookers, run);
+  std::vector<Box> near;
+  for (std::size_t group = 0; group < own.boxes.size(); ++group) {
+    all_that_meet(tree, lookers, own.boxes[group], near);
+    const std::size_t begin = group * triangles_of_box, end = std::min(begin + triangles_of_box, own.order.size());
+    for (std::size_t k = begin; k < end && !near.empty(); ++k) {
+      const auto t = static_cast<std::size_t>(own.order[k]);
+      const Box box = box_of(run.result.mesh.vertices, own.corners[t]);
+      if (std::any_of(near.begin(), near.end(), [&](const Box& other) { return !box.is_apart(other); }))
+        shown.push_back(own.which[t]);
+    }
+  }
+  std::sort(shown.begin(), shown.end());
+  return shown;
+}
+
+/// A triangle of another process, with vertices as NearTriangles has them.
+struct OtherTriangle {
+  TriangleOfFace which;
+  Corners corners{};
+};
+
+/// Takes what others show, as far as it is near one's own.
+class Receiver {
+ public:
+  Receiver(const CompositeRun& run, const std::vector<Box>& own, std::vector<Vec3>& vertices)
+      : run_(run), own_(own), tree_(tree_of(own, run)), vertices_(vertices) {}
+
+  void take(const std::string& bytes, std::vector<OtherTriangle>& others) {
+    std::vector<Box> near;
+    for_shown_triangles(bytes, run_.result.mesh, *run_.result.shares, [&](const ShownTriangle& shown) {
+      Box box;
+      for (const ShownTriangle::Corner& corner : shown.corners) box.add(corner.xyz);
+      all_that_meet(tree_, own_, box, near);
+      if (near.empty()) return;
+      OtherTriangle& other = others.emplace_back();
+      other.which = shown.which;
+      for (std::size_t k = 0; k < 3; ++k) other.corners[k] = index_of(shown.corners[k]);
+    });
+  }
+
+ private:
+  std::int32_t index_of(const ShownTriangle::Corner& corner) {
+    if (corner.number < run_.result.shares->on_curves) return static_cast<std::int32_t>(corner.number);
+    const auto [found, is_new] = index_.try_emplace(corner.number, static_cast<std::int32_t>(vertices_.size()));
+    if (is_new) vertices_.push_back(corner.xyz);
+    return found->second;
+  }
+
+  const CompositeRun& run_;
+  const std::vector<Box>& own_;
+  BoxTree tree_;
+  std::vector<Vec3>& vertices_;
+  std::map<std::int64_t, std::int32_t> index_;
+};
+
+void add_face(const FaceMesh& face, NearTriangles& near) {
+  for (const auto& [a, b, c] : face.triangles) near.triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
+  near.own.resize(near.triangles.size(), 1);
+}
+
+}  // namespace
+
+TriangleOfFace NearTriangles::origin(std::int32_t triangle) const {
+  const auto next = std::upper_bound(first.begin(), first.end(), triangle);  // faces without triangles have none of them
+  const auto face = static_cast<std::int32_t>(next - first.begin()) - 1;
+  const std::int32_t rank = triangle - *(next - 1);
+  const auto others = locals.find(face);
+  return {face, others == locals.end() ? rank : others->second[static_cast<std::size_t>(rank)]};
+}
+
+NearTriangles near_triangles(const CompositeRun& run) {
+  Team& team = *run.options.team;
+  const SurfaceMesh& mesh = run.result.mesh;
+  NearTriangles near;
+  near.vertices = mesh.vertices;
+  std::vector<OtherTriangle> others;
+  {
+    const OwnGroups own(run);
+    const std::vector<Box> lookers = boxes_of_lookers(team, own.boxes);
+    Receiver receiver(run, own.boxes, near.vertices);
+    team.exchange_in_turn("triangles near others", show_triangles(mesh, *run.result.shares, triangles_to_show(run, own, lookers)),
+                          [&](int rank, const std::string& bytes) {
+                            run.monitor.checkpoint();
+                            if (rank != team.rank() && looks(rank, team.rank()) == team.rank()) receiver.take(bytes, others);
+                          });
+  }
+  std::sort(others.begin(), others.end(), [](const OtherTriangle& a, const OtherTriangle& b) { return a.which < b.which; });
+  near.triangles.reserve(mesh.triangle_count() + others.size());
+  near.own.reserve(mesh.triangle_count() + others.size());
+  auto other = others.begin();
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    near.first.push_back(static_cast<std::int32_t>(near.triangles.size()));
+    add_face(mesh.faces[f], near);
+    for (; other != others.end() && other->which.face == static_cast<std::int32_t>(f); ++other) {
+      near.triangles.push_back(other->corners), near.own.push_back(0);
+      near.locals[other->which.face].push_back(other->which.local);
+    }
+  }
+  near.first.push_back(static_cast<std::int32_t>(near.triangles.size()));
+  return near;
+}
+
+}  // namespace carreau
