@@ -14,15 +14,15 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& t, const std::vecto
 }
 
 BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
-                     int threads, Monitor& monitor)
+                     const Crew& crew, Monitor& monitor)
     : mesh_(mesh), xyz_(xyz) {
   const std::size_t n = mesh.triangles.size();
-  triangles_ = all_that_hold(n, threads, monitor, [&](std::size_t t) { return is_below(bound, mesh.triangles[t]); });
+  triangles_ = all_that_hold(n, crew, "bad triangles", monitor, [&](std::size_t t) { return is_below(bound, mesh.triangles[t]); });
   if (triangles_.empty()) return;
   movable_.assign(mesh.vertices.size(), 0);
   for (int ring = 0; ring < 2; ++ring) {
     mark_corners(triangles_, movable_);
-    triangles_ = all_that_hold(n, threads, monitor, [&](std::size_t t) {
+    triangles_ = all_that_hold(n, {nullptr, crew.threads}, "", monitor, [&](std::size_t t) {
       const Triangle& c = mesh.triangles[t];
       return (movable_[c[0]] | movable_[c[1]] | movable_[c[2]]) != 0;
     });

@@ -9,6 +9,7 @@
 #include "mesh/plane_mesh.h"
 #include "mesh/quality.h"
 #include "support/monitor.h"
+#include "support/ranks/crew.h"
 
 namespace carreau {
 
@@ -30,7 +31,7 @@ class BadRegion {
   /// Two rings of triangles around those below `bound`. Keeps references to the mesh and its positions, whose numbers
   /// of vertices and triangles stay.
   BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
-            int threads, Monitor& monitor);
+            const Crew& crew, Monitor& monitor);
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }

@@ -11,16 +11,16 @@
 
 namespace carreau {
 
-void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
+void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor, Team* team) {
   if (!input.isotropic) return;
-  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::poor, input.threads,
+  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::poor, {team, input.threads},
                        monitor);
   swap_in_space(poor, input.domain->plane, mesh.plane, mesh.xyz, monitor);
 }
 
-void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor) {
+void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor, Team* team) {
   if (!input.isotropic) return;
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::good, input.threads,
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::good, {team, input.threads},
                          monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support/ranks/packet.h"
+#include "surface/sample/shared_answers.h"
 
 namespace carreau {
 
@@ -63,11 +64,6 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
   return packet.take();
 }
 
-[[noreturn]] void refuse_face(int ref, std::size_t rank) {
-  throw InvalidModel("face " + std::to_string(ref) + " is another one on rank " + std::to_string(rank) +
-                     " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
-}
-
 }  // namespace
 
 std::int64_t least_of(Team& team, std::int64_t most_triangles) {
@@ -121,7 +117,7 @@ void require_same_surfaces(Team& team, const CompositeRun& run) {
   for (std::size_t r = 1; r < all.size(); ++r) {
     if (all[r] == all[0]) continue;
     const std::size_t i = first_other(all[0], all[r]);
-    refuse_face(i < faces.size() ? faces[i] : 0, r);
+    refuse_other_face(i < faces.size() ? faces[i] : 0, r);
   }
 }
 
@@ -130,7 +126,7 @@ void require_same_samples(Team& team, int face, const ControlSpace& space) {
   space.put(packet);
   const std::vector<std::string> all = team.exchange("samples", checksum(packet.bytes()));
   for (std::size_t r = 1; r < all.size(); ++r)
-    if (all[r] != all[0]) refuse_face(face, r);
+    if (all[r] != all[0]) refuse_other_face(face, r);
 }
 
 }  // namespace carreau
