@@ -84,6 +84,13 @@ void FaceJob::step(Monitor& monitor) {
   }
 }
 
+std::unique_ptr<FaceJob> FaceJob::shared() const {
+  auto job = std::make_unique<FaceJob>(given_, even_ ? *even_->host_cad : *cad_, even_ ? *even_->host_rules : *rules_, options_,
+                                       reentrant_, plane_);
+  job->team_ = options_.team;
+  return job;
+}
+
 FaceOutcome FaceJob::take_outcome() {
   FaceOutcome outcome{.patch = {},
                       .space = std::move(space_),
@@ -114,7 +121,7 @@ void FaceJob::sample(Monitor& monitor) {
                      .usual_speed = even_ ? 1. : 0.,
                      .most_uneven = most_uneven()};
   try {
-    space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor, &facts);
+    space_ = sampled(monitor, &facts);
   } catch (const UnevenSpeed& speed) {
     even_out(speed, monitor);
     return;  // and the same step again
@@ -126,8 +133,14 @@ void FaceJob::sample(Monitor& monitor) {
   next_ = Step::mesh;
 }
 
+// Of a plane domain all is known: to evaluate it takes no longer than to hear of it from another process.
+ControlSpace FaceJob::sampled(Monitor& monitor, SampledFacts* facts) const {
+  return sample_face(input_, *cad_, *rules_, probe_points_, monitor, facts, asking_samples());
+}
+
 void FaceJob::bound_growth_from_edges(Monitor& monitor) {
-  std::optional<EdgeSizes> bounded = bound_growth(input_, *cad_, *rules_, probe_points_, monitor, *space_);
+  std::optional<EdgeSizes> bounded = bound_growth(input_, *cad_, *rules_, probe_points_, monitor, *space_,
+                                                   asking_samples());
   if (!bounded) return;
   const double asked = input_.limits.edges->smallest();
   bounded_edges_ = std::move(*bounded);
@@ -158,9 +171,9 @@ void FaceJob::lift(Monitor& monitor) {
   std::optional<std::vector<std::int32_t>> bad;  // triangles, where they are known
   {
     const Stopwatch watch(report_.seconds_lift);
-    lift_patch(input_, *cad_, *mesh_, monitor);
-    bad = swap_poor_edges(input_, *mesh_, monitor);
-    places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor);
+    lift_patch(input_, *cad_, *mesh_, monitor, asking_positions());
+    bad = swap_poor_edges(input_, *mesh_, monitor, team_);
+    places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor, team_);
     if (corrections_ < most_corrections) {
       const std::vector<Vec2> steep = missed_steep_places(input_, *space_, *cad_, *rules_, *mesh_, monitor);
       places.insert(places.end(), steep.begin(), steep.end());
@@ -175,10 +188,10 @@ void FaceJob::lift(Monitor& monitor) {
   }
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
-  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor);
+  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor, team_);
   const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
   const std::vector<int> doubtful = refine_in_space(
-      input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
+      input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor, team_);
   check_agreement(doubtful, monitor);
 }
 
@@ -208,7 +221,7 @@ bool FaceJob::sample_bounded(Monitor& monitor) {
   input_.limits.lean = most_lean;
   if (bounded_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
   const Stopwatch watch(report_.seconds_sampling);
-  space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor);
+  space_ = sampled(monitor, nullptr);
   const double most = most_growth_bounded * static_cast<double>(best_->mesh.plane.triangles.size());
   return space_->measure() <= std::min(most, static_cast<double>(options_.max_triangles));
 }
@@ -301,7 +314,7 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
   probe_points_.insert(probe_points_.end(), places.begin(), places.end());
   SampledFacts facts;
-  ControlSpace finer = sample_face(input_, *cad_, *rules_, probe_points_, monitor, &facts);
+  ControlSpace finer = sampled(monitor, &facts);
   if (!differ_at(places, *space_, finer)) return false;
   input_.one_size = facts.isotropic;
   refuse_beyond_limit(finer.measure());

@@ -22,13 +22,15 @@ namespace carreau {
 /// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
 class FaceJob final : public SteppedTask {
  public:
-  /// Keeps references to `cad` and `options`.
-  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
-      : input_(std::move(input)),
+  /// Keeps references to `cad` and `options`. `plane`: S(u, v) = (u, v, 0).
+  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant, bool plane)
+      : given_(std::move(input)),
+        input_(given_),
         cad_(&cad),
         rules_(&rules),
         options_(options),
         reentrant_(reentrant),
+        plane_(plane),
         given_slope_(input_.slope),
         squares_(has_quads(options.element) && !options.independent) {}
 
@@ -36,8 +38,8 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
-  /// All processes of the team make this face, step by step, and share the work on its plane mesh. Before that is begun.
-  void share() noexcept { team_ = options_.team; }
+  /// The same face from its beginning, for all processes of the team to make it together, step by step, and share the work.
+  [[nodiscard]] std::unique_ptr<FaceJob> shared() const;
   /// Triangles that its samples promise, when it has been sampled and not been meshed; else 0.
   [[nodiscard]] double promised() const noexcept {
     return next_ == Step::mesh && space_ && !mesh_ && !best_ && !squares_ ? space_->measure() : 0;
@@ -63,6 +65,9 @@ class FaceJob final : public SteppedTask {
   bool refill_undersampled(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
+  [[nodiscard]] ControlSpace sampled(Monitor& monitor, SampledFacts* facts) const;
+  [[nodiscard]] Team* asking_samples() const noexcept { return plane_ && rules_->constant() ? nullptr : team_; }
+  [[nodiscard]] Team* asking_positions() const noexcept { return plane_ ? nullptr : team_; }
   void even_out(const UnevenSpeed& speed, Monitor& monitor);
   [[nodiscard]] double most_uneven() const noexcept;
   void return_to_host(Monitor& monitor);
@@ -80,11 +85,12 @@ class FaceJob final : public SteppedTask {
     const SizeRules* host_rules = nullptr;
   };
 
-  PatchInput input_;
+  PatchInput given_, input_;
   Cad* cad_;
   const SizeRules* rules_;
   const CompositeOptions& options_;
   bool reentrant_;
+  bool plane_;
   double given_slope_;
   EdgeSizes bounded_edges_;  // in place of those of input_, where these are too small
   std::optional<LimitError> beyond_limit_;

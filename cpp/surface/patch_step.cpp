@@ -101,7 +101,7 @@ void make_jobs(PatchJobs& work) {
     PatchInput input = input_of(work, f, grow_from);
     if (keep_known(work, f, input, grow_from)) continue;
     run.known.keep(f, input, std::move(grow_from));
-    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.options, reentrant));
+    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.options, reentrant, run.model.plane));
     work.face_of.push_back(f);
   }
 }

@@ -22,26 +22,31 @@ using Work = std::function<std::string(std::size_t, Monitor&)>;
 /// What this process has done. Used by several threads.
 class Done {
  public:
-  void add(std::size_t i, std::string_view result, const SharedError& error) {
-    PacketWriter packet;
-    packet.put(static_cast<std::int64_t>(i));
-    packet.put(std::string_view(error.bytes));
-    packet.put(result);
+  void add(std::size_t i, std::string result, SharedError error) {
     const std::scoped_lock lock(mutex_);
-    results_.push_back(packet.take());
+    pieces_.push_back({i, std::move(result), std::move(error)});
   }
   /// `error`: of the process itself, or none.
   std::string packed(const SharedError& error) {
     PacketWriter packet;
     packet.put(std::string_view(error.bytes));
-    packet.put(static_cast<std::int64_t>(results_.size()));
-    for (std::string& result : results_) packet.put(std::string_view(std::exchange(result, {})));
+    packet.put(static_cast<std::int64_t>(pieces_.size()));
+    for (Piece& piece : pieces_) {
+      packet.put(static_cast<std::int64_t>(piece.i));
+      packet.put(std::string_view(piece.error.bytes));
+      packet.put(std::string_view(std::exchange(piece.result, {})));
+    }
     return packet.take();
   }
 
  private:
+  struct Piece {
+    std::size_t i;
+    std::string result;
+    SharedError error;
+  };
   std::mutex mutex_;
-  std::vector<std::string> results_;
+  std::vector<Piece> pieces_;
 };
 
 /// Takes work until there is none left. Where only the calling thread may take, others do what it has taken.
@@ -102,12 +107,10 @@ void read(std::string_view packet, const std::string& teller, std::vector<Result
   PacketReader reader(packet);
   if (const SharedError error{reader.text()}; error.any()) error.raise(teller);
   for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
-    const std::string one = reader.text();
-    PacketReader of_one(one);
-    const auto i = static_cast<std::uint64_t>(of_one.integer());
+    const auto i = static_cast<std::uint64_t>(reader.integer());
     if (i >= results.size()) throw Error(teller + "has sent work that nobody knows");
-    results[i].error.bytes = of_one.text();
-    results[i].bytes = of_one.text();
+    results[i].error.bytes = reader.text();
+    results[i].bytes = reader.text();
     results[i].known = true;
   }
 }

@@ -142,8 +142,9 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
                   "\" (step " + std::to_string(number) + "), rank " + std::to_string(rank()) + " at \"" +
                   std::string(step) + "\" (step " + std::to_string(step_) + ")");
     }
-    given.push_back(reader.text());
-    all[r] = {};
+    const std::size_t size = reader.count(1);
+    all[r].erase(0, all[r].size() - size);  // what comes before it
+    given.push_back(std::move(all[r]));
   }
   return given;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gradation/metric_grading.h"
+#include "support/ranks/packet.h"
 #include "surface/grade/size_grading.h"
 #include "surface/refine/boundary_refinement.h"
 #include "surface/sample/face_sampling.h"
@@ -61,10 +62,26 @@ struct GradingWork {
   std::vector<std::vector<int>> places_of;  // of vertices, where sizes differ by direction
 };
 
+/// What one face brings to the graph; made by one process, and the same in all of them.
+struct FaceInGraph {
+  PlaneMesh mesh;  ///< empty where it cannot be made
+  std::vector<GradingWork::Sample> samples;
+  std::vector<Vec2> missed;  ///< as GradingWork, with those of before
+  // By vertex of `mesh`: positions and normals of the surface, and what is prescribed, by direction or not (0: unknown).
+  std::vector<Vec3> xyz, normal;
+  std::vector<double> h;
+  std::vector<TangentMetric> metric;
+
+  /// As bytes for another process, and back.
+  void put(PacketWriter& packet) const;
+  static FaceInGraph from(PacketReader& packet);
+};
+
 /// `raw`: prescribed sizes of the curves; `before`: what the graph is made with.
 void make_graph(GradingWork& work, const std::vector<SizeSamples>& raw, const GradedModel& before);
-/// The plane mesh of a face in the graph's own control space; what the host says meanwhile is kept in work.samples.
-PlaneMesh mesh_in_graph(GradingWork& work, const PatchInput& input);
+/// The plane mesh of a face in the graph's own control space, and what the host says meanwhile and at its vertices.
+/// Several threads may make faces at a time.
+FaceInGraph face_in_graph(const GradingWork& work, const PatchInput& input, Monitor& monitor);
 
 /// So many layers as options.proximity between two boundaries of a face, and between faces that face each other.
 void bound_narrow_zones(GradingWork& work);

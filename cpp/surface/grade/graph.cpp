@@ -4,6 +4,7 @@
 
 #include "gradation/place_fans.h"
 #include "support/infinity.h"
+#include "support/ranks/crew.h"
 #include "surface/grade/grading_work.h"
 #include "surface/grade/thresholds.h"
 #include "surface/sample/face_metric.h"
@@ -73,22 +74,15 @@ void number_vertices(GradingWork& work, const std::vector<SizeSamples>& raw) {
 
 // Positions, normals and prescribed sizes; on curves those of the face count beside those of the curve, so that
 // nothing jumps at its border.
-void evaluate(GradingWork& work, const PatchInput& input, GradedFace& face, std::size_t first) {
-  FaceMetric prescribed = unlimited_prescription_of(input, work.rules, work.monitor);
-  const auto keep = [&](std::size_t v, const SurfaceJet& jet, Metric2 metric) {
+void take_over(GradingWork& work, const FaceDomain& domain, FaceInGraph& made, GradedFace& face, std::size_t first) {
+  for (std::size_t v = 0; v < face.uv.size(); ++v) {
     const int vertex = work.graph.places[first + v].vertex;
-    const bool on_curve = v < input.domain->origin.size() && input.domain->origin[v].curve >= 0;
-    if (!on_curve) work.graph.xyz[vertex] = face.xyz[v] = jet.s;
-    face.normal[v] = unit(cross(jet.su, jet.sv));
-    if (work.by_direction) {
-      auto sizes = tangent_metric(jet, metric);
-      if (!sizes) sizes = prescribed.limit(face.uv[v], jet);
-      work.metric.push_back(sizes ? *sizes : TangentMetric{});
-    } else if (const double h = isotropic_size(jet, metric); h > 0) {
-      work.h[vertex] = std::min(work.h[vertex], h);
-    }
-  };
-  prescribed.sample(work.model.cad, input.ref, want_position, face.uv, keep);
+    const bool on_curve = v < domain.origin.size() && domain.origin[v].curve >= 0;
+    if (!on_curve) work.graph.xyz[vertex] = face.xyz[v] = made.xyz[v];
+    if (!work.by_direction && made.h[v] > 0) work.h[vertex] = std::min(work.h[vertex], made.h[v]);
+  }
+  face.normal = std::move(made.normal);
+  work.metric.insert(work.metric.end(), made.metric.begin(), made.metric.end());
 }
 
 // Where the parametrisation is degenerate, the mean of the triangles around.
@@ -166,21 +160,23 @@ void locate_samples(GradingWork& work, std::size_t f) {
   }
 }
 
-void add_face(GradingWork& work, std::size_t f, const SizeLimits& limits) {
+PatchInput input_of(const GradingWork& work, std::size_t f, const SizeLimits& limits) {
   const FaceDomain& domain = *work.domains.domain[f];
-  PatchInput input{.face = static_cast<int>(f),
-                   .ref = work.model.model.faces[f].ref,
-                   .domain = &domain,
-                   .curve_xyz = positions_on_curves(domain, work.curves, work.model.topology),
-                   .limits = limits,
-                   .tolerance = graph_tolerance};
-  PlaneMesh mesh = mesh_in_graph(work, input);
+  return {.face = static_cast<int>(f),
+          .ref = work.model.model.faces[f].ref,
+          .domain = &domain,
+          .curve_xyz = positions_on_curves(domain, work.curves, work.model.topology),
+          .limits = limits,
+          .tolerance = graph_tolerance};
+}
+
+void add_face(GradingWork& work, std::size_t f, FaceInGraph& made) {
+  const FaceDomain& domain = *work.domains.domain[f];
   GradedFace& face = work.faces[f];
-  face.uv = std::move(mesh.vertices);
-  face.triangles = std::move(mesh.triangles);
-  face.xyz = std::move(input.curve_xyz);
+  face.uv = std::move(made.mesh.vertices);
+  face.triangles = std::move(made.mesh.triangles);
+  face.xyz = positions_on_curves(domain, work.curves, work.model.topology);
   face.xyz.resize(face.uv.size());
-  face.normal.resize(face.uv.size());
   const std::size_t first = work.graph.places.size(), imposed = domain.origin.size();
   for (std::size_t v = 0; v < face.uv.size(); ++v) {
     const DomainVertexOrigin origin = v < imposed ? domain.origin[v] : DomainVertexOrigin{};
@@ -193,12 +189,26 @@ void add_face(GradingWork& work, std::size_t f, const SizeLimits& limits) {
     }
     work.graph.places.push_back({vertex, {}});
   }
-  evaluate(work, input, face, first);
+  take_over(work, domain, made, face, first);
   mend_normals(face);
   set_normals(work, face, first);
   add_triangles(work, domain, face, first);
   face.tree = TriangleTree(face.uv, face.triangles, work.monitor);
+  work.samples[f] = std::move(made.samples);
   locate_samples(work, f);
+}
+
+/// Of the faces whose domains could be made, by the threads and processes of the run.
+std::vector<FaceInGraph> make_faces(const GradingWork& work, const std::vector<std::size_t>& which, const SizeLimits& limits) {
+  const auto make = [&](std::size_t i, Monitor& monitor) {
+    monitor.checkpoint();
+    return face_in_graph(work, input_of(work, which[i], limits), monitor);
+  };
+  const auto put = [](PacketWriter& packet, const FaceInGraph& face) { face.put(packet); };
+  const auto get = [](PacketReader& packet) { return FaceInGraph::from(packet); };
+  const bool bound = !asks_from_threads(work.options, work.model.cad);
+  return shared_work<FaceInGraph>({work.options.team, work.options.threads}, "faces of a graph", which.size(), bound, make, put, get,
+                                  work.monitor);
 }
 
 void add_faces(GradingWork& work, const SizeLimits& limits, const GradedModel& before) {
@@ -207,19 +217,18 @@ void add_faces(GradingWork& work, const SizeLimits& limits, const GradedModel& b
   work.samples.resize(work.faces.size());
   work.missed = before.missed;
   work.missed.resize(work.faces.size());
-  for (std::size_t f = 0; f < work.faces.size(); ++f) {
+  std::vector<std::size_t> which;
+  for (std::size_t f = 0; f < work.faces.size(); ++f)
+    if (work.domains.domain[f]) which.push_back(f);
+  std::vector<FaceInGraph> made = make_faces(work, which, limits);
+  for (std::size_t f = 0, i = 0; f < work.faces.size(); ++f) {
     work.monitor.checkpoint();
     work.place_of[f] = work.graph.places.size();
     if (!work.domains.domain[f]) continue;
-    try {
-      add_face(work, f, limits);
-    } catch (const DomainError&) {
-      work.faces[f] = {};  // it will fail again, and then say so
-      work.samples[f].clear();
-    } catch (const UnevenSpeed&) {
-      work.faces[f] = {};  // sizes grow inside it by its own control space alone
-      work.samples[f].clear();
-    }
+    FaceInGraph& face = made[i++];
+    work.missed[f] = std::move(face.missed);
+    if (!face.mesh.triangles.empty()) add_face(work, f, face);
+    face = {};
   }
 }
 

@@ -21,9 +21,9 @@ bool is_below(double bound, const std::array<std::int32_t, 3>& t, const std::vec
   return !(12 * dot(n, n) > good * good * squares * squares) && quality_in_space(t, xyz) < bound;
 }
 
-std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, int threads,
+std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, const Crew& crew,
                                           Monitor& monitor) {
-  return all_that_hold(mesh.triangles.size(), threads, monitor,
+  return all_that_hold(mesh.triangles.size(), crew, "bad triangles", monitor,
                        [&](std::size_t t) { return is_below(bound, mesh.triangles[t], xyz); });
 }
 
@@ -35,7 +35,7 @@ BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std
   movable_.assign(mesh.vertices.size(), 0);
   for (int ring = 0; ring < 2; ++ring) {
     mark_corners(triangles_, movable_);
-    triangles_ = all_that_hold(n, threads, monitor, [&](std::size_t t) {
+    triangles_ = all_that_hold(n, {nullptr, threads}, "", monitor, [&](std::size_t t) {
       const Triangle& c = mesh.triangles[t];
       return (movable_[c[0]] | movable_[c[1]] | movable_[c[2]]) != 0;
     });

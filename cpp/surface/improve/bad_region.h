@@ -9,6 +9,7 @@
 #include "mesh/plane_mesh.h"
 #include "mesh/quality.h"
 #include "support/monitor.h"
+#include "support/ranks/crew.h"
 
 namespace carreau {
 
@@ -27,8 +28,8 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std
 /// Whether its shape in space is below the bound.
 bool is_below(double bound, const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz);
 /// Those of a patch, increasing.
-std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, int threads,
-                                          Monitor& monitor);
+std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
+                                          const Crew& crew, Monitor& monitor);
 
 /// The triangles of a patch near those that are bad. Only these may be changed by what improves shapes.
 class BadRegion {

@@ -26,8 +26,8 @@ using namespace thresholds::refinement;
 class Refinement {
  public:
   Refinement(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept, PatchMesh& mesh,
-             Monitor& monitor)
-      : input_(input), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), kept_(kept), agreement_(kept) {}
+             Monitor& monitor, Team* team)
+      : input_(input), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), team_(team), kept_(kept), agreement_(kept) {}
 
   std::vector<int> run() {
     std::vector<int> wrong = find_wrong();
@@ -94,7 +94,7 @@ class Refinement {
     }
     if (known_) ask_curves();
     const std::vector<Vec3>& normal = known_ ? mesh_.normal : around;
-    return all_that_hold(triangles.size(), input_.threads, monitor_, [&](std::size_t t) {
+    return all_that_hold(triangles.size(), {team_, input_.threads}, "doubtful triangles", monitor_, [&](std::size_t t) {
       return is_doubtful(triangles[t], normal) && !collapsed(triangles[t]);
     });
   }
@@ -276,6 +276,7 @@ class Refinement {
   const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
+  Team* team_;  // null: this process alone
   GeometricLimits kept_;
   KeptAgreement agreement_;
   bool with_normals_ = false;  // the mesh has them at all vertices
@@ -289,8 +290,8 @@ class Refinement {
 }  // namespace
 
 std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
-                                 PatchMesh& mesh, Monitor& monitor) {
-  return Refinement(input, cad, rules, kept, mesh, monitor).run();
+                                 PatchMesh& mesh, Monitor& monitor, Team* team) {
+  return Refinement(input, cad, rules, kept, mesh, monitor, team).run();
 }
 
 }  // namespace carreau

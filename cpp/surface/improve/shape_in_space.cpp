@@ -11,10 +11,11 @@
 
 namespace carreau {
 
-std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
+std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor,
+                                                        Team* team) {
   if (!input.isotropic) return {};
   std::vector<std::int32_t> bad =
-      triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, input.threads, monitor);
+      triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, {team, input.threads}, monitor);
   std::vector<std::int32_t> poor;
   for (const std::int32_t t : bad)
     if (is_below(thresholds::shape::poor, mesh.plane.triangles[t], mesh.xyz)) poor.push_back(t);
@@ -25,9 +26,9 @@ std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input
 }
 
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
-                    std::optional<std::vector<std::int32_t>> bad, Monitor& monitor) {
+                    std::optional<std::vector<std::int32_t>> bad, Monitor& monitor, Team* team) {
   if (!input.isotropic) return;
-  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, input.threads, monitor);
+  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, {team, input.threads}, monitor);
   const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(*bad), input.threads, monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;

@@ -4,16 +4,36 @@
 #include <span>
 
 #include "cad/batches.h"
+#include "surface/sample/shared_answers.h"
 
 namespace carreau {
 
-void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
+namespace {
+
+std::vector<double> shared_positions(Team& team, const PatchInput& input, Cad& cad, std::span<const Vec2> uv, Monitor& monitor) {
+  const auto ask = [&](std::span<const Vec2> some, double* out, Monitor& of_piece) {
+    for_batches(cad, input.ref, want_position, some, of_piece,
+                [&](std::size_t first, std::span<const Vec2>, std::span<const SurfaceJet> jets) {
+                  for (std::size_t k = 0; k < jets.size(); ++k) Eigen::Map<Vec3>(out + 3 * (first + k)) = jets[k].s;
+                });
+  };
+  return shared_answers(team, input.ref, {"positions", 3, input.host_threads, ask}, uv, monitor);
+}
+
+}  // namespace
+
+void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor, Team* team) {
   const std::size_t imposed = input.curve_xyz.size();
   mesh.xyz.reserve(mesh.plane.vertices.size());
   mesh.xyz = input.curve_xyz;
   mesh.xyz.resize(mesh.plane.vertices.size());
-  for_batches(cad, input.ref, want_position, std::span<const Vec2>(mesh.plane.vertices).subspan(imposed),
-              input.host_threads, monitor,
+  const std::span<const Vec2> uv = std::span<const Vec2>(mesh.plane.vertices).subspan(imposed);
+  if (is_shared(team, uv.size())) {
+    const std::vector<double> xyz = shared_positions(*team, input, cad, uv, monitor);
+    for (std::size_t k = 0; k < uv.size(); ++k) mesh.xyz[imposed + k] = Eigen::Map<const Vec3>(xyz.data() + 3 * k);
+    return;
+  }
+  for_batches(cad, input.ref, want_position, uv, input.host_threads, monitor,
               [&](std::size_t first, std::span<const Vec2>, std::span<const SurfaceJet> jets) {
                 for (std::size_t k = 0; k < jets.size(); ++k) mesh.xyz[imposed + first + k] = jets[k].s;
               });

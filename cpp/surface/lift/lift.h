@@ -2,11 +2,13 @@
 // From a plane mesh to the surface.
 #pragma once
 
+#include "support/ranks/team.h"
 #include "surface/patch.h"
 
 namespace carreau {
 
-/// Position of every vertex in space: surf0 once for each that lies on no curve.
-void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor);
+/// Position of every vertex in space: surf0 once for each that lies on no curve. `team`: whose processes share the
+/// questions; null: this one alone asks its host.
+void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
 
 }  // namespace carreau

@@ -27,6 +27,8 @@ inline constexpr double one_point = 1e-6;
 inline constexpr std::size_t most_places = 500;
 /// Triangles. Of a part that one thread looks at between two looks at the monitor. [tests/cpp/measure: stops; time only]
 inline constexpr std::size_t triangles_a_part = 1 << 14;
+/// Parts. Below, each process that makes the patch looks at all of them: it would wait longer for the others. [time only]
+inline constexpr std::size_t least_shared_parts = 8;
 
 // Steep places of space (steep_places)
 /// Steps. Of Gauss and Newton from the nearest point of the mesh to that of the surface; they are of second order.

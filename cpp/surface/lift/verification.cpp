@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <span>
+#include <string_view>
 
 #include "cad/fundamental_forms.h"
 #include "predicates/polygon_locator.h"
 #include "support/all_that_hold.h"
 #include "support/format.h"
-#include "support/stepped_tasks.h"
+#include "support/ranks/crew.h"
+#include "surface/lift/excess_packet.h"
 #include "surface/lift/thresholds.h"
 #include "surface/sample/face_metric.h"
+#include "surface/sample/shared_answers.h"
 
 namespace carreau {
 
@@ -20,13 +23,13 @@ namespace {
 
 using namespace thresholds::lift;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_size = -1;
 
 class LiftCheck {
  public:
   LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
-            Monitor& monitor)
-      : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor) {}
+            Monitor& monitor, Team* team)
+      : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), team_(team) {}
 
   std::vector<Vec2> run() {
     if (rules_.uses_metrics()) {
@@ -59,17 +62,41 @@ class LiftCheck {
     FaceMetric prescribed = prescription_of(input_, rules_, monitor_);
     const std::size_t imposed = input_.domain->size.size();
     mesh_.normal.assign(mesh_.plane.vertices.size(), {});
-    prescribed.sample(cad_, input_.ref, 0, std::span<const Vec2>(mesh_.plane.vertices).subspan(imposed),
-                      [&](std::size_t k, const SurfaceJet& jet, Metric2 m) { compare_at(imposed + k, jet, m); });
+    const std::span<const Vec2> uv = std::span<const Vec2>(mesh_.plane.vertices).subspan(imposed);
+    if (!is_shared(team_, uv.size())) {
+      prescribed.sample(cad_, input_.ref, 0, uv, [&](std::size_t k, const SurfaceJet& jet, Metric2 m) {
+        keep(imposed + k, compare_at(uv[k], jet, m));
+      });
+      return;
+    }
+    const auto ask = [&](std::span<const Vec2> some, double* out, Monitor&) {
+      prescribed.sample(cad_, input_.ref, 0, some, [&](std::size_t k, const SurfaceJet& jet, Metric2 m) {
+        const Compared c = compare_at(some[k], jet, m);
+        std::ranges::copy(std::array{c.normal.x(), c.normal.y(), c.normal.z(), c.size, c.agrees ? 1. : 0.}, out + 5 * k);
+      });
+    };
+    const std::vector<double> all = shared_answers(*team_, input_.ref, {"metrics at vertices", 5, 1, ask}, uv, monitor_);
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+      const double* c = all.data() + 5 * k;
+      keep(imposed + k, {{c[0], c[1], c[2]}, c[3], c[4] != 0});
+    }
   }
-  void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
-    mesh_.normal[v] = unit_normal(jet).value_or(Vec3{});
-    const double h = geometric_mean_size(jet, metric);
-    if (!(h > 0)) return;
-    mesh_.size[v] = h;
-    const Vec2 p = mesh_.plane.vertices[v];
-    const LengthRatios ratios = length_ratios(metric, space_.at(p));
-    if (!agree(ratios, input_)) places_.push_back(p);
+  /// What the metric at a vertex tells.
+  struct Compared {
+    Vec3 normal;
+    double size = 0;
+    bool agrees = true;  ///< with the control space
+  };
+  [[nodiscard]] Compared compare_at(Vec2 p, const SurfaceJet& jet, Metric2 metric) const {
+    Compared c{unit_normal(jet).value_or(Vec3{}), geometric_mean_size(jet, metric)};
+    if (c.size > 0) c.agrees = agree(length_ratios(metric, space_.at(p)), input_);
+    return c;
+  }
+  void keep(std::size_t v, const Compared& c) {
+    mesh_.normal[v] = c.normal;
+    if (!(c.size > 0)) return;
+    mesh_.size[v] = c.size;
+    if (!c.agrees) places_.push_back(mesh_.plane.vertices[v]);
   }
 
   [[nodiscard]] std::size_t parts() const {
@@ -85,10 +112,11 @@ class LiftCheck {
       for (int i = 0; i < 3; ++i)
         if (const std::int32_t a = triangles[k][i], b = triangles[k][i == 2 ? 0 : i + 1]; a < b) use(a, b);
   }
-  /// Calls work(part) for all parts, on several threads.
-  template <typename Work>
-  void for_parts(const Work& work) {
-    run_each(parts(), false, input_.threads, [&](std::size_t part, Monitor&) { work(part); }, monitor_);
+  /// What work(part) gives for all parts, by the threads and processes that make the patch.
+  template <typename Result, typename Work, typename Put, typename Get>
+  std::vector<Result> of_parts(std::string_view step, const Work& work, const Put& put, const Get& get) {
+    const Crew crew{parts() >= least_shared_parts ? team_ : nullptr, input_.threads};
+    return shared_work<Result>(crew, step, parts(), false, [&](std::size_t part, Monitor&) { return work(part); }, put, get, monitor_);
   }
   [[nodiscard]] double squared_promise(int a, int b) const {
     const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
@@ -99,11 +127,16 @@ class LiftCheck {
   // The size that the control space prescribes at a vertex: length in space over metric length, averaged over its
   // edges. Spends no callback; exact where the sampled first fundamental form is.
   void compare_lengths() {
-    promised_.resize(parts());
-    for_parts([&](std::size_t part) {
-      promised_[part].reserve(3 * triangles_a_part / 2 + 1);
-      for_edges(part, [&](int a, int b) { promised_[part].push_back(std::sqrt(squared_promise(a, b))); });
-    });
+    promised_ = of_parts<std::vector<double>>(
+        "promised lengths",
+        [&](std::size_t part) {
+          std::vector<double> promised;
+          promised.reserve(3 * triangles_a_part / 2 + 1);
+          for_edges(part, [&](int a, int b) { promised.push_back(std::sqrt(squared_promise(a, b))); });
+          return promised;
+        },
+        [](PacketWriter& packet, const std::vector<double>& promised) { packet.put(promised); },
+        [](PacketReader& packet) { return packet.reals(); });
     // One after the other: sums have one order.
     std::vector<double> of_space(mesh_.xyz.size(), 0), of_metric(mesh_.xyz.size(), 0);
     for (std::size_t part = 0; part < parts(); ++part) {
@@ -130,17 +163,35 @@ class LiftCheck {
   // Where sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
   void ask_host() {
     if (rules_.uses_curvature()) return;
-    for (std::size_t v = input_.domain->size.size(); v < mesh_.xyz.size(); ++v) {
-      bool answered = true;
-      const auto no_answer = [&](Vec2) {
-        answered = false;
-        return mesh_.size[v];
-      };
-      double h = unknown;
-      rules_.on_surface(input_.face, {&mesh_.plane.vertices[v], 1}, {}, no_answer, {&h, 1});
-      if (answered) mesh_.size[v] = input_.limits.bounded(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v], h);
-      if (v % 512 == 0) monitor_.checkpoint();
+    const std::size_t imposed = input_.domain->size.size();
+    const std::span<const Vec2> uv = std::span<const Vec2>(mesh_.plane.vertices).subspan(imposed);
+    const auto ask = [&](std::span<const Vec2> some, double* out, Monitor& monitor) {
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        out[k] = prescribed_at(some[k]);
+        if (k % 512 == 0) monitor.checkpoint();
+      }
+    };
+    std::vector<double> sizes;
+    if (is_shared(team_, uv.size())) {
+      sizes = shared_answers(*team_, input_.ref, {"sizes at vertices", 1, 1, ask}, uv, monitor_);
+    } else {
+      sizes.resize(uv.size());
+      ask(uv, sizes.data(), monitor_);
     }
+    for (std::size_t k = 0; k < uv.size(); ++k)
+      if (const std::size_t v = imposed + k; sizes[k] != no_size)
+        mesh_.size[v] = input_.limits.bounded(input_.face, uv[k], mesh_.xyz[v], sizes[k]);
+  }
+  /// no_size where the host does not answer.
+  [[nodiscard]] double prescribed_at(const Vec2& p) const {
+    bool answered = true;
+    const auto no_answer = [&](Vec2) {
+      answered = false;
+      return 1.;
+    };
+    double h = no_size;
+    rules_.on_surface(input_.face, {&p, 1}, {}, no_answer, {&h, 1});
+    return answered ? h : no_size;
   }
 
   // All is compared by squares: an edge has three square roots else.
@@ -154,8 +205,8 @@ class LiftCheck {
       at_apex.resize(domain.vertices.size(), 0);
       at_apex[e.a] = at_apex[e.b] = 1;
     }
-    std::vector<std::vector<EdgeExcess>> misfits(parts());  // edges that do not fit
-    for_parts([&](std::size_t part) {
+    const auto misfits_of = [&](std::size_t part) {
+      std::vector<EdgeExcess> misfits;  // edges that do not fit
       std::size_t rank = 0;
       for_edges(part, [&](int a, int b) {
         const double promised = promised_.empty() ? 0 : static_cast<float>(promised_[part][rank++]);
@@ -168,10 +219,12 @@ class LiftCheck {
         if (!(expected2 > 0) || !(l2 > 0)) return;
         if (l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2) return;
         const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
-        misfits[part].push_back({l2 > excess2 * expected2 ? std::sqrt(l2 / expected2) : 0, p, q});
+        misfits.push_back({l2 > excess2 * expected2 ? std::sqrt(l2 / expected2) : 0, p, q});
       });
-    });
-    for (const std::vector<EdgeExcess>& some : misfits)
+      return misfits;
+    };
+    for (const std::vector<EdgeExcess>& some :
+         of_parts<std::vector<EdgeExcess>>("edges that do not fit", misfits_of, put_excesses, excesses_of))
       for (const EdgeExcess& edge : some) {
         if (edge.ratio > 0) mesh_.excesses.push_back(edge);
         if (report) places_.push_back(0.5 * (edge.from + edge.to));
@@ -184,6 +237,7 @@ class LiftCheck {
   const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
+  Team* team_;                                 // null: this process alone
   std::vector<std::vector<double>> promised_;  // by part and edge, where sizes vary
   std::vector<Vec2> places_;
 };
@@ -196,8 +250,8 @@ bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept {
 }
 
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
-                              PatchMesh& mesh, Monitor& monitor) {
-  return LiftCheck(input, space, cad, rules, mesh, monitor).run();
+                              PatchMesh& mesh, Monitor& monitor, Team* team) {
+  return LiftCheck(input, space, cad, rules, mesh, monitor, team).run();
 }
 
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {
@@ -251,7 +305,7 @@ std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh
     return 3;
   };
   const auto& triangles = mesh.plane.triangles;
-  const std::vector<std::int32_t> found = all_that_hold(triangles.size(), threads, monitor,
+  const std::vector<std::int32_t> found = all_that_hold(triangles.size(), {nullptr, threads}, "", monitor,
                                                         [&](std::size_t t) { return point_side(triangles[t]) < 3; });
   if (found.empty()) return {};
   const auto& t = triangles[static_cast<std::size_t>(found.front())];

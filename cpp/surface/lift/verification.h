@@ -22,9 +22,9 @@ bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept;
 /// where sizes come from curvature or from interpolation, what the control space says around. Chords shorter than their
 /// arcs are no disagreement. Empty on surfaces that the control space knows. At most 500 places. Where metrics govern,
 /// the prescribed metric is evaluated at each vertex inside and compared with the control space's; mesh.size is then
-/// the size in the mean, sqrt(h1 h2), and mesh.normal is filled.
+/// the size in the mean, sqrt(h1 h2), and mesh.normal is filled. `team`: whose processes share all that; null: this one alone.
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
-                              PatchMesh& mesh, Monitor& monitor);
+                              PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
 
 /// Whether two control spaces differ at one of these places by more than their tolerance explains.
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);

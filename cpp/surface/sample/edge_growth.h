@@ -16,6 +16,7 @@ namespace carreau {
 /// Returns what bounds sizes now and replaces `space`, which obeys them; empty: nothing had to be done. Evaluates the
 /// face again only where the space promises many triangles. Throws what the host throws, and Cancelled.
 std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const SizeRules& rules,
-                                      std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space);
+                                      std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space,
+                                      Team* team = nullptr);
 
 }  // namespace carreau

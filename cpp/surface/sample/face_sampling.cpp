@@ -6,6 +6,7 @@
 
 #include "support/infinity.h"
 #include "surface/sample/face_metric.h"
+#include "surface/sample/shared_answers.h"
 #include "surface/sample/thresholds.h"
 
 namespace carreau {
@@ -30,6 +31,31 @@ double usual_square(std::vector<double>& squares) {
   return *middle > 0 ? *middle : infinity;
 }
 
+/// What the samples of a batch tell: of jets the first derivatives.
+struct Samples {
+  std::span<SurfaceJet> jets;
+  std::span<Metric2> metric;
+};
+
+// By all processes that make the patch. From the calling thread: what is prescribed is found by one.
+void share_samples(Team& team, int ref, Cad& cad, FaceMetric& prescribed, std::span<const Vec2> uv, const Samples& out,
+                   Monitor& monitor) {
+  constexpr std::size_t width = 9;
+  const auto ask = [&](std::span<const Vec2> some, double* row, Monitor&) {
+    prescribed.sample(cad, ref, 0, some, [&](std::size_t, const SurfaceJet& jet, const Metric2& m) {
+      for (int axis = 0; axis < 3; ++axis) row[axis] = jet.su[axis], row[3 + axis] = jet.sv[axis];
+      row[6] = m.a, row[7] = m.b, row[8] = m.c;
+      row += width;
+    });
+  };
+  const std::vector<double> all = shared_answers(team, ref, {"samples of a face", width, 1, ask}, uv, monitor);
+  for (std::size_t k = 0; k < uv.size(); ++k) {
+    const double* row = all.data() + k * width;
+    out.jets[k].su = {row[0], row[1], row[2]}, out.jets[k].sv = {row[3], row[4], row[5]};
+    out.metric[k] = {row[6], row[7], row[8]};
+  }
+}
+
 }  // namespace
 
 void SpeedWatch::look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets) {
@@ -50,23 +76,31 @@ void SpeedWatch::find_usual(std::span<const SurfaceJet> jets) {
 }
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
-                         Monitor& monitor, SampledFacts* facts) {
+                         Monitor& monitor, SampledFacts* facts, Team* team) {
   FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<SurfaceJet> jets;
   const SampledFacts asked = facts != nullptr ? *facts : SampledFacts{};
   SpeedWatch speeds(asked.most_uneven, asked.usual_speed);
-  const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
-                                     std::span<SurfaceTangents> tangents) {
-    jets.resize(uv.size());
-    cad.surface(input.ref, prescribed.wants(), uv, jets);
-    speeds.look(uv, jets);
-    prescribed.at(uv, jets, metric);
+  const auto look = [&](std::span<const Vec2> uv, std::span<const Metric2> metric, std::span<SurfaceTangents> tangents) {
     for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = {jets[i].su, jets[i].sv};
     if (facts == nullptr) return;
     for (std::size_t i = 0; i < uv.size(); ++i) {
       if (facts->normals != nullptr) facts->normals->add(uv[i], cross(jets[i].su, jets[i].sv));
       if (rules.uses_metrics()) facts->isotropic = facts->isotropic && has_one_size(jets[i], metric[i]);
     }
+  };
+  const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
+                                     std::span<SurfaceTangents> tangents) {
+    jets.resize(uv.size());
+    if (is_shared(team, uv.size())) {
+      share_samples(*team, input.ref, cad, prescribed, uv, {jets, metric}, monitor);
+      speeds.look(uv, jets);
+    } else {
+      cad.surface(input.ref, prescribed.wants(), uv, jets);
+      speeds.look(uv, jets);
+      prescribed.at(uv, jets, metric);
+    }
+    look(uv, metric, tangents);
   };
   ControlSpaceOptions space_options;
   space_options.probe_points = probe_points;

@@ -7,6 +7,7 @@
 
 #include "control_space/sampled_normals.h"
 #include "support/infinity.h"
+#include "support/ranks/team.h"
 #include "surface/patch.h"
 
 namespace carreau {
@@ -42,9 +43,9 @@ class SpeedWatch {
 };
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `probe_points`: see
-/// ControlSpaceOptions.
+/// ControlSpaceOptions. `team`: whose processes share the questions to their hosts; null: this one alone asks.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
-                         Monitor& monitor, SampledFacts* facts = nullptr);
+                         Monitor& monitor, SampledFacts* facts = nullptr, Team* team = nullptr);
 
 /// Sizes in the mean, sqrt(h1 h2), that FaceMetric prescribes within input.limits.
 std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,

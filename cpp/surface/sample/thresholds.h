@@ -2,6 +2,8 @@
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 
+#include <cstddef>
+
 namespace carreau::thresholds::sample {
 
 // In brackets: the tests that rest on it, of tests/cpp/surface.
@@ -31,5 +33,15 @@ inline constexpr double few_triangles = 10'000;
 inline constexpr double most_growth_excess = 2;
 /// Times. Of the least size of edges, from one try to the next. [limits_test]
 inline constexpr double growth_raise = 8;
+
+// Questions that processes share (shared_answers) [time only]
+/// Places. Below, a question is asked by each process: to wait for the others twice takes longer than a thousand answers that
+/// take half a microsecond each.
+inline constexpr std::size_t least_shared = 1024;
+/// Pieces of a question, and places of a piece: so many that a process that is late takes fewer, and so large that hosts get
+/// batches.
+inline constexpr std::size_t pieces_of_a_question = 32, least_at_once = 128, most_at_once = 8192;
+/// Places of which one is asked of each process, so that hosts that differ are found: 1.6 % more calls.
+inline constexpr std::size_t places_of_one_compared = 64;
 
 }  // namespace carreau::thresholds::sample

@@ -66,15 +66,9 @@ class Sent {
     }
   }
   /// It is too large for one process.
-  void put_aside(std::size_t job, const std::vector<Message>& messages) {
+  void put_aside(std::size_t job) {
     const std::scoped_lock lock(mutex_);
     aside_.push_back(static_cast<std::int32_t>(job));
-    said_.emplace(job, messages);
-  }
-  /// Of a job that this process has put aside.
-  [[nodiscard]] std::vector<Message> said(std::size_t job) const {
-    const auto found = said_.find(job);
-    return found != said_.end() ? found->second : std::vector<Message>{};
   }
   /// Jobs behind it need not be done.
   [[nodiscard]] std::size_t first_failed() const noexcept { return first_failed_.load(); }
@@ -109,7 +103,6 @@ class Sent {
   std::vector<std::string> faces_;
   std::map<std::size_t, PatchMesh> kept_;  // by job; where patches stay
   std::vector<std::int32_t> aside_;
-  std::map<std::size_t, std::vector<Message>> said_;
   std::atomic<std::size_t> first_failed_{static_cast<std::size_t>(-1)};
 };
 
@@ -183,7 +176,7 @@ class Taker final : public SteppedTask {
   bool put_aside() {
     const double promised = job_->promised();
     if (promised == 0 || !promises_.too_large(i_, promised)) return false;
-    sent_.put_aside(i_, messages_);
+    sent_.put_aside(i_);
     job_ = nullptr;
     return true;
   }
@@ -276,16 +269,14 @@ void keep_by_one(const Team& team, std::size_t job, FaceOutcome& outcome) {
   outcome.space.reset();
 }
 
-// One after the other, and each with all threads of all processes. `said`: what this process has heard of a job before.
-template <typename Said>
-void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, std::size_t begun, const Said& said, SharedFaces& made,
-                   Monitor& monitor) {
+// One after the other, and each with all threads of all processes; from the beginning, although one of them may have sampled it.
+void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, std::size_t begun, SharedFaces& made, Monitor& monitor) {
   for (const std::size_t i : jobs) {
     faces.on_begun(i, begun++);
-    auto& job = static_cast<FaceJob&>(*faces.jobs[i]);
-    job.share();
+    const std::unique_ptr<FaceJob> shared = static_cast<FaceJob&>(*faces.jobs[i]).shared();
+    faces.jobs[i].reset();
+    FaceJob& job = *shared;
     SharedFace& face = made[i];
-    face.messages = said(i);
     FaceMonitor of_face(face.messages);
     of_face.listen(monitor);
     while (!job.finished()) {
@@ -293,7 +284,6 @@ void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, s
       job.step(of_face);
     }
     face.outcome = job.take_outcome();
-    faces.jobs[i].reset();
     if (faces.parts) keep_by_one(faces.team, i, *face.outcome);
   }
 }
@@ -306,7 +296,7 @@ void say(const std::vector<Message>& messages, Monitor& monitor) {
 
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
   SharedFaces shared;
-  make_together(faces, faces.shared, 0, [](std::size_t) { return std::vector<Message>{}; }, shared, monitor);
+  make_together(faces, faces.shared, 0, shared, monitor);
   Sent sent(faces);
   const SharedError error = mesh_own_share(faces, sent, monitor);
   Received all{std::vector<std::optional<ReceivedFace>>(faces.jobs.size()), {}};
@@ -315,7 +305,7 @@ void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
     monitor.checkpoint();
   });
   std::sort(all.aside.begin(), all.aside.end());
-  make_together(faces, all.aside, faces.jobs.size() - all.aside.size(), [&](std::size_t i) { return sent.said(i); }, shared, monitor);
+  make_together(faces, all.aside, faces.jobs.size() - all.aside.size(), shared, monitor);
   for (std::size_t i = 0; i < all.faces.size(); ++i) {
     if (const auto found = shared.find(i); found != shared.end()) {
       say(found->second.messages, monitor);

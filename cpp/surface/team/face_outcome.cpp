@@ -2,6 +2,7 @@
 #include "surface/team/face_outcome.h"
 
 #include "support/ranks/triangle_packet.h"
+#include "surface/lift/excess_packet.h"
 
 namespace carreau {
 
@@ -12,8 +13,7 @@ void put(PacketWriter& packet, const PatchMesh& patch) {
   put_triangles(packet, patch.plane.triangles);
   packet.put(patch.xyz);
   packet.put(patch.size);
-  packet.put(static_cast<std::int64_t>(patch.excesses.size()));
-  for (const EdgeExcess& e : patch.excesses) packet.put(e.ratio), packet.put(e.from), packet.put(e.to);
+  put_excesses(packet, patch.excesses);
   packet.put(patch.normal);
 }
 
@@ -23,8 +23,7 @@ PatchMesh patch_of(PacketReader& packet) {
   patch.plane.triangles = triangles_of(packet);
   patch.xyz = packet.points();
   patch.size = packet.reals();
-  patch.excesses.resize(packet.count(5 * sizeof(double)));
-  for (EdgeExcess& e : patch.excesses) e.ratio = packet.real(), e.from = packet.plane_point(), e.to = packet.plane_point();
+  patch.excesses = excesses_of(packet);
   patch.normal = packet.points();
   return patch;
 }

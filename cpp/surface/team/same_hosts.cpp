@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support/ranks/packet.h"
+#include "surface/sample/shared_answers.h"
 
 namespace carreau {
 
@@ -81,11 +82,6 @@ std::vector<std::vector<Vec2>> places_in_patches(Team& team, const CompositeRun&
   return places;
 }
 
-[[noreturn]] void refuse_face(int ref, std::size_t rank) {
-  throw InvalidModel("face " + std::to_string(ref) + " is another one on rank " + std::to_string(rank) +
-                     " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
-}
-
 }  // namespace
 
 std::int64_t least_of(Team& team, std::int64_t most_triangles) {
@@ -140,7 +136,7 @@ void require_same_surfaces(Team& team, const CompositeRun& run) {
   for (std::size_t r = 1; r < all.size(); ++r) {
     if (all[r] == all[0]) continue;
     const std::size_t i = first_other(all[0], all[r]);
-    refuse_face(i < faces.size() ? faces[i] : 0, r);
+    refuse_other_face(i < faces.size() ? faces[i] : 0, r);
   }
 }
 
@@ -149,7 +145,7 @@ void require_same_samples(Team& team, int face, const ControlSpace& space) {
   space.put(packet);
   const std::vector<std::string> all = team.exchange("samples", checksum(packet.bytes()));
   for (std::size_t r = 1; r < all.size(); ++r)
-    if (all[r] != all[0]) refuse_face(face, r);
+    if (all[r] != all[0]) refuse_other_face(face, r);
 }
 
 }  // namespace carreau

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/sample/shared_answers.h"
+
+#include <algorithm>
+#include <exception>
+#include <string>
+
+#include "support/error.h"
+#include "support/ranks/crew.h"
+#include "support/ranks/packet.h"
+#include "surface/sample/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::sample;
+
+/// What the host of this process says at some places, or its error.
+struct OwnAnswers {
+  LongChecksum sum;
+  SharedError error;
+};
+
+OwnAnswers own_answers(const HostQuestion& question, std::span<const Vec2> uv, Monitor& monitor) {
+  std::vector<Vec2> some;
+  for (std::size_t k = 0; k < uv.size(); k += places_of_one_compared) some.push_back(uv[k]);
+  OwnAnswers own;
+  std::vector<double> answers(question.width * some.size());
+  try {
+    question.ask(some, answers.data(), monitor);
+    own.sum.add(some), own.sum.add(answers);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    own.error = SharedError::of(std::current_exception());
+  }
+  return own;
+}
+
+void require_same_answers(Team& team, int ref, const HostQuestion& question, std::span<const Vec2> uv, Monitor& monitor) {
+  const OwnAnswers own = own_answers(question, uv, monitor);
+  PacketWriter packet;
+  packet.put(std::string_view(own.error.bytes));
+  packet.put(std::string_view(own.sum.text()));
+  const std::vector<std::string> all = team.exchange(question.step, packet.bytes());
+  std::vector<SharedError> errors;
+  for (const std::string& of_rank : all) errors.push_back({PacketReader(of_rank).text()});
+  if (std::all_of(errors.begin(), errors.end(), [](const SharedError& e) { return e.any(); })) return;
+  for (std::size_t r = 0; r < errors.size(); ++r)
+    if (errors[r].any()) errors[r].raise("rank " + std::to_string(r) + ": ");
+  for (std::size_t r = 1; r < all.size(); ++r)
+    if (all[r] != all[0]) refuse_other_face(ref, r);
+}
+
+}  // namespace
+
+void refuse_other_face(int ref, std::size_t rank) {
+  throw InvalidModel("face " + std::to_string(ref) + " is another one on rank " + std::to_string(rank) +
+                     " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
+}
+
+bool is_shared(const Team* team, std::size_t n) noexcept { return team != nullptr && n >= least_shared; }
+
+std::vector<double> shared_answers(Team& team, int ref, const HostQuestion& question, std::span<const Vec2> uv,
+                                   Monitor& monitor) {
+  require_same_answers(team, ref, question, uv, monitor);
+  const auto ask = [&](std::size_t first, std::size_t last, double* out, Monitor& of_piece) {
+    question.ask(uv.subspan(first, last - first), out, of_piece);
+  };
+  return shared_rows({&team, question.threads}, question.step,
+                     {.count = uv.size(),
+                      .width = question.width,
+                      .at_once = std::clamp(uv.size() / pieces_of_a_question, least_at_once, most_at_once),
+                      .bound = question.threads == 1},
+                     ask, monitor);
+}
+
+}  // namespace carreau
