@@ -16,6 +16,7 @@
 #include <fstream>
 
 #include "entity_check.h"
+#include "known_curves.h"
 #include "plain_step.h"
 #include "step_entities.h"
 #include "step_parts.h"
@@ -227,6 +228,7 @@ void carreau_translate_step(const std::string& path, const Message_ProgressRange
   take_out_zero_edges(reader.WS()->Model());
   const StepEntities kinds;
   const EntityCheck check(reader.WS(), kinds);
+  const KnownCurves known;
   Document document;
   const bool translated = StepReader(document).translate(reader, progress);
   file.losses = check.losses();
