@@ -180,7 +180,7 @@ class FreeElements {
         if (v >= 0) v = vertex[v];
       all.cells.push_back(cell);
     }
-    static_cast<SizedMesh&>(made_) = reassemble(before_, all, lines_.lines(), made_.worked, frame_.corners, monitor_);
+    static_cast<SizedMesh&>(made_) = reassemble(before_, all, lines_.lines(), made_.worked, frame_.corners, frame_.workers, monitor_);
   }
 
   const SurfaceMesh& before_;

@@ -120,6 +120,7 @@ SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_di
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
   const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
+  frame.workers = {options, cad};
   FreedMesh made = reassembled(result.mesh, start_free_mesh(cad, tolerances, result, frame), frame, monitor);
   if (frame.elements) frame.elements(result.mesh, made);
   take(std::move(made), frame, result, monitor);
@@ -128,14 +129,15 @@ void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
                           CompositeResult& result, Monitor& monitor) {
   const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
+  frame.workers = {options, cad};
   std::optional<StartedMesh> placed = mended(cad, tolerances, result, frame, monitor);
   if (!placed) return "it is not made in planes";
-  const bool poor = summarise_shapes(*placed->free).mean < least_mean;
+  const bool poor = summarise_shapes(*placed->free, options.threads, monitor).mean < least_mean;
   FreedMesh made = reassembled(result.mesh, std::move(*placed), frame, monitor);
   Intersections found = find_crossings(made.mesh, options, monitor);
   if (found.count > 0 && found.count > find_crossings(result.mesh, options, monitor).count) return "triangles would cross";
   if (poor) return "shapes would be poor";
-  std::string why = why_worse(made.mesh, result.mesh);
+  std::string why = why_worse(made.mesh, result.mesh, options.threads, monitor);
   if (!why.empty()) return why;
   if (result.report.crossings >= 0) result.report.crossings = found.count, result.crossings = std::move(found.pairs);
   take(std::move(made), frame, result, monitor);

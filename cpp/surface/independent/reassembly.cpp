@@ -8,17 +8,21 @@
 #include <utility>
 
 #include "support/error.h"
+#include "support/stepped_tasks.h"
 #include "surface/independent/cell_placer.h"
 
 namespace carreau {
 
 namespace {
 
+/// Cells that one thread places, and such parts between two times that cells are dealt out to faces [time and memory only].
+constexpr std::size_t cells_of_part = 4096, parts_placed_at_once = 64;
+
 /// Deals cells out to faces, and edges of lines to curves.
 class Reassembler {
  public:
-  Reassembler(const SurfaceMesh& before, const CellsInSpace& cells, Monitor& monitor)
-      : before_(before), free_(cells.vertices), in_space_(cells), monitor_(monitor) {
+  Reassembler(const SurfaceMesh& before, const CellsInSpace& cells, const RemeshingWorkers& workers, Monitor& monitor)
+      : before_(before), free_(cells.vertices), in_space_(cells), workers_(workers), monitor_(monitor) {
     result_.mesh.independent = true;
   }
 
@@ -28,7 +32,8 @@ class Reassembler {
     place_cells();
     result_.feet.resize(before_.faces.size());
     result_.mid_feet.resize(before_.faces.size());
-    for (std::size_t f = 0; f < before_.faces.size(); ++f) add_face(f);
+    result_.mesh.faces.resize(before_.faces.size());
+    run_each(before_.faces.size(), false, workers_.threads, [&](std::size_t f, Monitor&) { add_face(f); }, monitor_);
     add_curves(lines);
     place_on_curves(worked);
     return std::move(result_);
@@ -65,28 +70,43 @@ class Reassembler {
     }
   }
 
+  [[nodiscard]] FreeCell nodes_of(std::size_t cell) const {
+    return in_space_.nodes.empty() ? FreeCell{-1, -1, -1, -1} : in_space_.nodes[cell];
+  }
+
   void place_cells() {
-    CellPlacer place(free_, in_space_.charts, in_space_.cad);
     of_face_.resize(before_.faces.size());
-    for (std::size_t c = 0; c < in_space_.cells.size(); ++c) {
-      if (c % 256 == 0) monitor_.checkpoint();
-      const FreeCell& cell = in_space_.cells[c];
-      const FreeCell nodes = in_space_.nodes.empty() ? FreeCell{-1, -1, -1, -1} : in_space_.nodes[c];
-      PlacedCell placed = place(cell, nodes);
-      for (int i = 0; i < placed.count; ++i) {
-        const std::int32_t v = cell[i], w = cell[(i + 1) % placed.count];
-        if (free_.is_free(v) || free_.is_free(w)) continue;
-        Beside& beside = beside_[mesh_edge(v, w)];
-        beside.faces.push_back(placed.face);
-        beside.node = nodes[i];
-      }
-      of_face_[placed.face].push_back(placed);
+    const std::size_t n = in_space_.cells.size(), at_once = parts_placed_at_once * cells_of_part;
+    std::vector<PlacedCell> placed(std::min(n, at_once));
+    for (std::size_t first = 0; first < n; first += at_once) {
+      const std::size_t end = std::min(n, first + at_once);
+      const auto place_part = [&](std::size_t part, Monitor& own) {
+        CellPlacer place(free_, in_space_.charts, in_space_.cad);
+        for (std::size_t c = first + part * cells_of_part; c < std::min(end, first + (part + 1) * cells_of_part); ++c) {
+          if (c % 256 == 0) own.checkpoint();
+          placed[c - first] = place(in_space_.cells[c], nodes_of(c));
+        }
+      };
+      run_each((end - first + cells_of_part - 1) / cells_of_part, !workers_.hosts_threads, workers_.threads, place_part, monitor_);
+      for (std::size_t c = first; c < end; ++c) deal_out(c, placed[c - first]);
     }
+  }
+
+  void deal_out(std::size_t c, const PlacedCell& placed) {
+    const FreeCell& cell = in_space_.cells[c];
+    for (int i = 0; i < placed.count; ++i) {
+      const std::int32_t v = cell[i], w = cell[(i + 1) % placed.count];
+      if (free_.is_free(v) || free_.is_free(w)) continue;
+      Beside& beside = beside_[mesh_edge(v, w)];
+      beside.faces.push_back(placed.face);
+      beside.node = nodes_of(c)[i];
+    }
+    of_face_[placed.face].push_back(placed);
   }
 
   void add_face(std::size_t f) {
     const FaceMesh& old = before_.faces[f];
-    FaceMesh& face = result_.mesh.faces.emplace_back();
+    FaceMesh& face = result_.mesh.faces[f];
     face.ref = old.ref, face.name = old.name, face.rgb = old.rgb, face.part_of = old.part_of;
     face.status = old.status, face.why = old.why;
     if (of_face_[f].empty()) {
@@ -273,6 +293,7 @@ class Reassembler {
   const SurfaceMesh& before_;
   const PlacedVertices& free_;
   const CellsInSpace& in_space_;
+  const RemeshingWorkers& workers_;
   Monitor& monitor_;
   SizedMesh result_;
   std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
@@ -304,8 +325,9 @@ SharpLine what_is_left(const SharpLine& line, const std::function<bool(std::int3
 }
 
 SizedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
-                     std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, Monitor& monitor) {
-  return Reassembler(before, cells, monitor).run(lines, worked, corners);
+                     std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, const RemeshingWorkers& workers,
+                     Monitor& monitor) {
+  return Reassembler(before, cells, workers, monitor).run(lines, worked, corners);
 }
 
 }  // namespace carreau

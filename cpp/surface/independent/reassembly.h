@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "surface/independent/cell_placer.h"
+#include "surface/independent/division/divided_remeshing.h"
 #include "surface/independent/free_mesh.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/sharp_edges.h"
@@ -38,8 +39,9 @@ struct CellsInSpace {
 /// A cell belongs to the face of the foot of its centroid. Faces without a cell are collapsed; edges of lines
 /// have the curve of the middle one of the edges that they stand for, and curves without an edge have no vertices. Curves that
 /// no face has stay as they are, without nodes on their edges.
-/// `worked`: by line, where the vertices are that are left of it.
+/// `worked`: by line, where the vertices are that are left of it; `workers`: the mesh does not depend on their threads.
 SizedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
-                     std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, Monitor& monitor);
+                     std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, const RemeshingWorkers& workers,
+                     Monitor& monitor);
 
 }  // namespace carreau

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "mesh/flat_mesh.h"
 #include "model/bucket_sort.h"
 #include "support/infinity.h"
+#include "support/stepped_tasks.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
 #include "surface/independent/certify/certification.h"
@@ -75,12 +77,12 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
 bool falls(double to, double from) { return to < from - rounding_of_mean; }
 
 // Where the mean has fallen by little more work at shapes makes up for it.
-ShapeSummary regained(FreeMesh& mesh, double mean, Monitor& monitor) {
-  ShapeSummary now = summarise_shapes(mesh);
+ShapeSummary regained(FreeMesh& mesh, double mean, int threads, Monitor& monitor) {
+  ShapeSummary now = summarise_shapes(mesh, threads, monitor);
   for (const double below : regained_below) {
     if (!falls(now.mean, mean) || now.mean < mean - most_regained) break;
     polish(mesh, below, monitor);
-    now = summarise_shapes(mesh);
+    now = summarise_shapes(mesh, threads, monitor);
   }
   return now;
 }
@@ -118,10 +120,14 @@ Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& bef
                                   IntersectionOptions{}.limit, {options.team, options.threads}, monitor);
 }
 
-std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before) {
-  const std::vector<std::string> defects = find_defects(made, {.closed = false, .limit = 1});
+std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor) {
+  std::vector<std::string> defects;
+  std::array<std::int64_t, 2> numbers{};
+  const std::array<std::function<void()>, 3> work{[&] { defects = find_defects(made, {.closed = false, .limit = 1}); },
+                                                  [&] { numbers[0] = euler(made); }, [&] { numbers[1] = euler(before); }};
+  run_each(work.size(), false, threads, [&](std::size_t k, Monitor&) { work[k](); }, monitor);
   if (!defects.empty() && find_defects(before, {.closed = false, .limit = 1}).empty()) return defects.front();
-  return euler(made) != euler(before) ? "its Euler number would differ" : "";
+  return numbers[0] != numbers[1] ? "its Euler number would differ" : "";
 }
 
 std::span<const Weighing> weighings(bool triangles_pass, double sharp_angle) noexcept {
@@ -142,7 +148,7 @@ FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const Reme
   CellsInSpace cells{*start.free, *frame.charts, start.free->cad(), {}, {}};
   for (const auto& t : start.free->triangles())
     if (t[0] >= 0) cells.cells.push_back({t[0], t[1], t[2], -1});
-  FreedMesh made{reassemble(before, cells, frame.lines, start.worked, frame.corners, monitor)};
+  FreedMesh made{reassemble(before, cells, frame.lines, start.worked, frame.corners, frame.workers, monitor)};
   if (frame.elements) made.free = std::move(start.free), made.worked = std::move(start.worked);
   return made;
 }
@@ -175,7 +181,7 @@ bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, b
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
     report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, frame_.everywhere && coarsely, around);
     if (weighing.kept == keep_all) free.budget.price *= price_growth;
-    done = round > first || !(least > 0) || summarise_shapes(free).mean >= least;
+    done = round > first || !(least > 0) || summarise_shapes(free, options_.threads, monitor_).mean >= least;
   }
   monitor_.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                       std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -187,7 +193,7 @@ bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, b
 Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
   StartedMesh start = start_free_mesh(cad_, tolerances_, before_, frame_);
   FreeMesh& free = *start.free;
-  const ShapeSummary before = summarise_shapes(free);
+  const ShapeSummary before = summarise_shapes(free, options_.threads, monitor_);
   free.budget = {.price = weighing.price, .mean = weighing.weighs_moves ? before.mean : good_shape};
   if (weighing.weighs_moves) free.budget.floor = std::min(before.worst, least_line_shape);
   if (weighing.kept != keep_none) free.budget.floor = before.worst;
@@ -199,7 +205,7 @@ Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
     return {std::move(start), keep_all, in_range, &weighing};
   }
   raise_worst(free, before.worst + above_worst, monitor_);
-  const ShapeSummary after = regained(free, may_end ? before.mean : 0, monitor_);
+  const ShapeSummary after = regained(free, may_end ? before.mean : 0, options_.threads, monitor_);
   // The worst triangle of no mesher says nothing, nor that which other elements are made of.
   const bool worst_falls = !frame_.everywhere && !frame_.elements && falls(after.worst, before.worst);
   const KeptShapes worse_in = falls(after.mean, before.mean) ? keep_all : worst_falls ? keep_worst : keep_none;
@@ -219,30 +225,32 @@ Tries::Outcome Tries::put_together(StartedMesh& mesh) {
   Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
   outcome.crossings = find_crossings(outcome.made.mesh, before_, options_, monitor_);
   outcome.crosses = outcome.crossings.count > 0 && outcome.crossings.count > crossings_before();
-  outcome.why = outcome.crosses ? "more triangles would cross" : why_worse(outcome.made.mesh, before_.mesh);
+  outcome.why = outcome.crosses ? "more triangles would cross" : why_worse(outcome.made.mesh, before_.mesh, options_.threads, monitor_);
   return outcome;
 }
 
-// All or nothing; where triangles would cross for it nothing is edited around.
-void Tries::certify_surface(StartedMesh& mesh, Outcome& outcome) {
-  if (frame_.everywhere || frame_.elements || options_.certified == Certified::none) return;
-  Certifier certifier(*mesh.free, options_.certified == Certified::all, monitor_);
+// All or nothing; where triangles would cross for it nothing is edited around. What it has edited is put together first: mostly that is what counts.
+Tries::Outcome Tries::certified(StartedMesh& mesh) {
+  if (frame_.everywhere || frame_.elements || options_.certified == Certified::none) return put_together(mesh);
+  Certifier certifier(*mesh.free, options_.certified == Certified::all, frame_.workers, monitor_);
+  std::optional<Outcome> plain;  // without its edits
   for (int round = 0; round < most_certifications; ++round) {
     const Certification done = certifier.run();
     monitor_.message(Level::detail, "bounds of A0 and A1: " + std::to_string(done.beyond_before) + " triangles beyond, " +
                                         std::to_string(done.beyond) + " after " + std::to_string(done.swaps) + " swaps, " +
                                         std::to_string(done.moves) + " moves and " + std::to_string(done.splits) + " splits");
-    if (!done.has_edits()) return;
+    if (!done.has_edits()) break;
     Outcome better = put_together(mesh);
-    const bool crosses = better.crossings.count > outcome.crossings.count;
-    if (better.why.empty() && !crosses) {
-      outcome = std::move(better);
-      return;
-    }
-    if (!crosses) return;
+    if (better.why.empty() && better.crossings.count == 0) return better;
     certifier.undo();
+    if (!plain) plain = put_together(mesh);
+    if (!plain->why.empty()) break;
+    const bool crosses = better.crossings.count > plain->crossings.count;
+    if (better.why.empty() && !crosses) return better;
+    if (!crosses) break;
     guard(better.crossings, better.made);
   }
+  return plain ? std::move(*plain) : put_together(mesh);
 }
 
 Tries::Outcome Tries::run() {
@@ -266,11 +274,8 @@ Tries::Outcome Tries::run() {
       std::swap(tried, *spare);
       if (tried.ended != nullptr) remesh_between_lines(tried.mesh, *tried.ended, false, 1, 0);
     }
-    outcome = put_together(tried.mesh);
-    if (outcome.why.empty()) {
-      certify_surface(tried.mesh, outcome);
-      return outcome;
-    }
+    outcome = certified(tried.mesh);
+    if (outcome.why.empty()) return outcome;
     if (outcome.crosses) guard(outcome.crossings, outcome.made);
   }
   return spare && (frame_.everywhere || frame_.elements) ? put_together(spare->mesh) : std::move(outcome);

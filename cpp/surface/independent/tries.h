@@ -55,7 +55,7 @@ Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& bef
                              Monitor& monitor);
 
 /// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
-std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before);
+std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor);
 
 /// Keeps references to all that it is given.
 class Tries {
@@ -79,7 +79,7 @@ class Tries {
   };
   Try make(const Weighing& weighing, bool coarsely);
   Outcome put_together(StartedMesh& mesh);  // it stays where no elements are made of it
-  void certify_surface(StartedMesh& mesh, Outcome& outcome);
+  Outcome certified(StartedMesh& mesh);
   bool remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least);
   void guard(const Intersections& found, const FreedMesh& made);
   [[nodiscard]] std::int64_t crossings_before();

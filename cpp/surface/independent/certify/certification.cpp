@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/stepped_tasks.h"
 #include "surface/independent/certify/free_bounds.h"
 #include "surface/independent/certify/thresholds.h"
 #include "surface/independent/edits/edge_edits.h"
@@ -24,9 +25,10 @@ using namespace thresholds::certify;
 
 class Certifier::Work {
  public:
-  Work(FreeMesh& mesh, bool all, Monitor& monitor)
+  Work(FreeMesh& mesh, bool all, const RemeshingWorkers& workers, Monitor& monitor)
       : mesh_(mesh),
         all_(all),
+        workers_(workers),
         monitor_(monitor),
         bounds_(mesh, mesh.cad()),
         edits_before_(mesh.edits()),
@@ -36,7 +38,7 @@ class Certifier::Work {
     report_ = {};
     std::vector<Beyond> beyond = find();
     report_.beyond_before = static_cast<std::int64_t>(beyond.size());
-    const double mean = beyond.empty() ? 0 : summarise_shapes(mesh_).mean;
+    const double mean = beyond.empty() ? 0 : shapes_mean();
     const std::int64_t end = bounds_.evaluations() + std::max(always_evaluations, most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size()));
     std::vector<std::int32_t> worked;
     for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
@@ -117,7 +119,7 @@ class Certifier::Work {
   }
 
   [[nodiscard]] bool costs_too_much(double mean_before) const {
-    const double mean = summarise_shapes(mesh_).mean;
+    const double mean = shapes_mean();
     return mean < std::min(least_mean, mean_before) && (mean_before >= least_mean || mean < mean_before - most_mean_lost);
   }
 
@@ -206,15 +208,36 @@ class Certifier::Work {
     return shapes.share > suspect_share * suspect_share;
   }
 
+  [[nodiscard]] double shapes_mean() const { return summarise_shapes(mesh_, workers_.threads, monitor_).mean; }
+
+  // Of all triangles that are suspect, whose shares are known then. A part is a fixed number of them.
+  std::vector<char> bound_suspects() {
+    const auto& all = mesh_.triangles();
+    share_.resize(all.size(), unknown);
+    std::vector<char> suspect(all.size(), 0);
+    const std::size_t parts = (all.size() + bounded_at_once - 1) / bounded_at_once;
+    std::vector<std::int64_t> evaluations(parts, 0);
+    const auto look = [&](std::size_t part, Monitor& own) {
+      FreeBounds bounds(mesh_, mesh_.cad());
+      for (std::size_t t = part * bounded_at_once; t < std::min(all.size(), (part + 1) * bounded_at_once); ++t) {
+        if (t % 64 == 0) own.checkpoint();
+        if (all[t][0] < 0 || !is_suspect(all[t])) continue;
+        suspect[t] = 1;
+        if (share_[t] == unknown) share_[t] = bounds.share(all[t]);
+      }
+      evaluations[part] = bounds.evaluations();
+    };
+    run_each(parts, !workers_.hosts_threads, workers_.threads, look, monitor_);
+    for (const std::int64_t n : evaluations) bounds_.count(n);
+    return suspect;
+  }
+
   // Worst first.
   std::vector<Beyond> find() {
     std::vector<Beyond> found;
-    for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
-      if (t % 64 == 0) monitor_.checkpoint();
-      const Corners corners = mesh_.triangles()[t];
-      if (corners[0] < 0 || !is_suspect(corners)) continue;
-      if (const double share = share_of(static_cast<std::int32_t>(t)); share > 1) found.push_back({share, corners, static_cast<std::int32_t>(t)});
-    }
+    const std::vector<char> suspect = bound_suspects();
+    for (std::size_t t = 0; t < suspect.size(); ++t)
+      if (suspect[t] != 0 && share_[t] > 1) found.push_back({share_[t], mesh_.triangles()[t], static_cast<std::int32_t>(t)});
     std::ranges::sort(found, [](const Beyond& p, const Beyond& q) { return p.share != q.share ? p.share > q.share : p.corners < q.corners; });
     return found;
   }
@@ -416,6 +439,7 @@ class Certifier::Work {
 
   FreeMesh& mesh_;
   const bool all_;
+  const RemeshingWorkers workers_;
   Monitor& monitor_;
   FreeBounds bounds_;
   const std::size_t edits_before_;  // the mesh was made by them
@@ -430,7 +454,8 @@ class Certifier::Work {
   Certification report_;
 };
 
-Certifier::Certifier(FreeMesh& mesh, bool all, Monitor& monitor) : work_(std::make_unique<Work>(mesh, all, monitor)) {}
+Certifier::Certifier(FreeMesh& mesh, bool all, const RemeshingWorkers& workers, Monitor& monitor)
+    : work_(std::make_unique<Work>(mesh, all, workers, monitor)) {}
 
 Certifier::~Certifier() = default;
 

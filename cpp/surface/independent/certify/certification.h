@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "support/monitor.h"
+#include "surface/independent/division/divided_remeshing.h"
 #include "surface/independent/free_mesh.h"
 
 namespace carreau {
@@ -17,11 +18,11 @@ struct Certification {
   [[nodiscard]] bool has_edits() const noexcept { return swaps + moves + splits > 0; }
 };
 
-/// Bounds A0 and A1 of triangles, and works where some are beyond their tolerances. Keeps a reference to `mesh`.
+/// Bounds A0 and A1 of triangles, and works where some are beyond their tolerances. Keeps a reference to `mesh`. Threads bound triangles, one edits.
 class Certifier {
  public:
   /// `all`: of triangles that none of the normals at their corners makes suspect, too.
-  Certifier(FreeMesh& mesh, bool all, Monitor& monitor);
+  Certifier(FreeMesh& mesh, bool all, const RemeshingWorkers& workers, Monitor& monitor);
   ~Certifier();
   Certifier(const Certifier&) = delete;
   Certifier& operator=(const Certifier&) = delete;

@@ -24,6 +24,8 @@ class FreeBounds {
   [[nodiscard]] double share_roughly(const EditableMesh::Triangle& t) { return share(t, true); }
   /// Places of the surface that were asked for.
   [[nodiscard]] std::int64_t evaluations() const noexcept { return evaluations_; }
+  /// Others asked for so many.
+  void count(std::int64_t evaluations) noexcept { evaluations_ += evaluations; }
 
  private:
   struct Corners {

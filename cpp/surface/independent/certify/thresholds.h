@@ -2,6 +2,7 @@
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace carreau::thresholds::certify {
@@ -10,6 +11,8 @@ namespace carreau::thresholds::certify {
 inline constexpr double suspect_share = 0.5;
 /// Share of a tolerance. What is below is within: measures see triangles from places that differ a little.
 inline constexpr double within = 0.98;
+/// Triangles that one thread bounds [time only].
+inline constexpr std::size_t bounded_at_once = 512;
 /// Rounds of edits: each halves edges once.
 inline constexpr int most_rounds = 6;
 /// Rounds after which a group that is no nearer is given up. What splits help is nearer after two.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/infinity.h"
+#include "support/stepped_tasks.h"
 #include "surface/independent/edits/edge_edits.h"
 #include "surface/independent/thresholds.h"
 
@@ -133,11 +134,24 @@ class WorstFirst {
 
 }  // namespace
 
-ShapeSummary summarise_shapes(const FreeMesh& mesh) {
-  TriangleShapes shapes;
-  for (const Corners& t : mesh.triangles())
-    if (t[0] >= 0) mesh.judge_shape(t[0], t[1], t[2], shapes);
-  return {shapes.sum / std::max(shapes.count, 1), shapes.worst, shapes.count};
+ShapeSummary summarise_shapes(const FreeMesh& mesh, int threads, Monitor& monitor) {
+  constexpr std::size_t at_once = 4096;
+  const auto& all = mesh.triangles();
+  std::vector<double> shape(all.size());
+  const auto judge = [&](std::size_t part, Monitor&) {
+    for (std::size_t t = part * at_once; t < std::min(all.size(), (part + 1) * at_once); ++t) {
+      TriangleShapes shapes;
+      if (all[t][0] >= 0) mesh.judge_shape(all[t][0], all[t][1], all[t][2], shapes);
+      shape[t] = shapes.sum;
+    }
+  };
+  run_each((all.size() + at_once - 1) / at_once, false, threads, judge, monitor);
+  ShapeSummary summary;
+  double sum = 0;
+  for (std::size_t t = 0; t < all.size(); ++t)
+    if (all[t][0] >= 0) sum += shape[t], summary.worst = std::min(summary.worst, shape[t]), ++summary.count;
+  summary.mean = sum / std::max(summary.count, 1);
+  return summary;
 }
 
 std::int64_t raise_worst(FreeMesh& mesh, double floor, Monitor& monitor) {

@@ -14,7 +14,8 @@ struct ShapeSummary {
   double mean = 1, worst = 1;  ///< Q2
   int count = 0;
 };
-ShapeSummary summarise_shapes(const FreeMesh& mesh);
+/// The same for any number of threads.
+ShapeSummary summarise_shapes(const FreeMesh& mesh, int threads, Monitor& monitor);
 
 /// Swaps edges of triangles below `floor` and moves their corners, worst first, where the worst one around is better
 /// for it, no more lengths are out of range and the surface agrees. Number of edits. Deterministic. Throws what the

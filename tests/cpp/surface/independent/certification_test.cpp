@@ -145,7 +145,7 @@ TEST(Certification, UndoesItsOwnEditsAlone) {
   const auto triangles = free.triangles();
   std::vector<Vec3> places;
   for (std::size_t v = 0; v < free.vertices(); ++v) places.push_back(free.position(static_cast<std::int32_t>(v)));
-  Certifier certifier(free, true, quiet);
+  Certifier certifier(free, true, {}, quiet);
   ASSERT_TRUE(certifier.run().has_edits());
   EXPECT_NE(free.triangles(), triangles);
   certifier.undo();
