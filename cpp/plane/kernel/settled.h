@@ -20,10 +20,7 @@ struct Settled {
   static constexpr std::uint8_t acute = 1, good = 2, fine = 4;
   std::vector<std::uint8_t> of;
 
-  /// The triangle, and the one that its half-edge `beyond` is of.
-  [[nodiscard]] bool are_acute(int t, HalfEdge beyond) const noexcept {
-    return beyond != no_edge && (of[t] & of[beyond >> 2] & acute) != 0;
-  }
+  [[nodiscard]] bool are_acute(int t, int u) const noexcept { return (of[t] & of[u] & acute) != 0; }
   [[nodiscard]] bool is_good(int t) const noexcept { return (of[t] & good) != 0; }
   [[nodiscard]] bool is_fine(int t) const noexcept { return (of[t] & fine) != 0; }
   void forget(int t) noexcept { of[t] = 0; }
@@ -39,17 +36,19 @@ struct Settled {
 /// times as much, and the mean of the four by an eighth of N: angles of cosine acute_cosine remain acute. Lengths in the
 /// mean of two corners are at least 1 - alike_share of those in N, squared.
 inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex& R) noexcept {
-  const float ra = std::max({P.a, Q.a, R.a}) - std::min({P.a, Q.a, R.a}),
-              rb = std::max({P.b, Q.b, R.b}) - std::min({P.b, Q.b, R.b}),
-              rc = std::max({P.c, Q.c, R.c}) - std::min({P.c, Q.c, R.c});
+  // Two by two: of lists a compiler makes loops.
+  const auto least = [](auto x, auto y, auto z) { return std::min(std::min(x, y), z); };
+  const auto largest = [](auto x, auto y, auto z) { return std::max(std::max(x, y), z); };
+  const float ra = largest(P.a, Q.a, R.a) - least(P.a, Q.a, R.a), rb = largest(P.b, Q.b, R.b) - least(P.b, Q.b, R.b),
+              rc = largest(P.c, Q.c, R.c) - least(P.c, Q.c, R.c);
   const Metric2 m = P.metric() + Q.metric() + R.metric();
   const double det = determinant(m);
   // Eigenvalues of a tensor are at least its determinant over its trace.
   if (!(3 * static_cast<double>(std::max(ra, rc) + rb) * (m.a + m.c) <= alike_share * det)) return 0;
   const Vec2 u = Q.point() - P.point(), v = R.point() - P.point();
   const double uu = squared_length(m, u), vv = squared_length(m, v), uv = dot(m, u, v), ww = uu + vv - 2 * uv;
-  const double longest2 = std::max({uu, vv, ww}), shortest2 = std::min({uu, vv, ww}), sum = uu + vv + ww;
-  const bool acute = cross(u, v) > 0 && std::min({uv, uu - uv, vv - uv}) >= acute_cosine * longest2;
+  const double longest2 = largest(uu, vv, ww), shortest2 = least(uu, vv, ww), sum = uu + vv + ww;
+  const bool acute = cross(u, v) > 0 && least(uv, uu - uv, vv - uv) >= acute_cosine * longest2;
   const double area2 = 12 * (uu * vv - uv * uv), sum2 = sum * sum;
   const bool good = shortest2 > 3 * surely_not_crowded2 && area2 > surely_not_bad * surely_not_bad * sum2;
   const bool fine = area2 > surely_not_searched * surely_not_searched * sum2;

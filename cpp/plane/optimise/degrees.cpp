@@ -49,32 +49,53 @@ bool wants_swap(const PlaneWork& work, const Degrees& degrees, int t, int i) {
          work.shapes.quality(c, d, b) > degree_swap_quality;
 }
 
+// What one look tells of triangles, as bits.
+constexpr std::uint8_t uneven = 1;   // an edge between two of these may want a swap, no other does
+constexpr std::uint8_t changed = 2;  // since the pass began: what was refused elsewhere would be again
+
 // Marks the triangles whose edges see the degree of v: those around it, and those beyond.
-void open_around(const Triangulation& mesh, int v, std::vector<std::uint8_t>& open) {
+void mark_around(const Triangulation& mesh, int v, std::uint8_t bits, std::vector<std::uint8_t>& marks) {
+  const auto mark = [&](int t) { marks[t] = static_cast<std::uint8_t>(marks[t] | bits); };
   for_each_around(mesh, v, [&](int t) {
-    open[t] = 1;
+    mark(t);
     const HalfEdge beyond = mesh.triangles[t].n[mesh.corner_of(t, v)];
-    if (beyond != no_edge) open[beyond >> 2] = 1;
+    if (beyond != no_edge) mark(beyond >> 2);
   });
+}
+
+// A swap needs an excess at an end, or a lack beyond: where the corners of one triangle have neither it takes a lack of
+// three at the fourth vertex.
+std::vector<std::uint8_t> mark_uneven(const Triangulation& mesh, const Degrees& degrees) {
+  std::vector<std::uint8_t> marks(mesh.triangles.size());
+  for (std::size_t t = 0; t < marks.size(); ++t) {
+    const std::int32_t* const v = mesh.triangles[t].v;
+    const bool even = (degrees.excess(v[0]) | degrees.excess(v[1]) | degrees.excess(v[2])) == 0;
+    marks[t] = even ? 0 : uneven;
+  }
+  for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v)
+    if (degrees.excess(v) <= -3 && mesh.vertices[v].triangle >= 0) mark_around(mesh, v, uneven, marks);
+  return marks;
 }
 
 }  // namespace
 
 void swap_to_degree_six(PlaneWork& work, Degrees& degrees) {
   Triangulation& mesh = work.mesh;
-  // After the first pass only where degrees have changed: what was refused elsewhere would be again.
-  std::vector<std::uint8_t> open(mesh.triangles.size(), 0);
+  std::vector<std::uint8_t> marks = mark_uneven(mesh, degrees);
   for (int pass = 0; pass < degree_passes; ++pass) {
+    const std::uint8_t wanted = pass == 0 ? uneven : uneven | changed;
+    const auto calls_for = [&](int t, int u) { return (marks[t] & wanted) == wanted && (marks[u] & uneven) != 0; };
     bool any = false;
-    for_inner_edges(mesh, work.monitor, [&](int t, int i) {
-      if ((pass > 0 && open[t] == 0) || !wants_swap(work, degrees, t, i)) return;
+    for_calling_edges(mesh, work.monitor, calls_for, [&](int t, int i) {
       const HalfEdge o = mesh.triangles[t].n[i];
+      if ((marks[t] & wanted) != wanted || !wants_swap(work, degrees, t, i)) return false;
       const Triangle A = mesh.triangles[t];
       const std::int32_t ends[4] = {A.v[i], A.v[next3[i]], A.v[prev3[i]], mesh.triangles[o >> 2].v[o & 3]};
       mesh.swap_edge(t, i);
       ++degrees.found[ends[0]], --degrees.found[ends[1]], --degrees.found[ends[2]], ++degrees.found[ends[3]];
-      for (const std::int32_t v : ends) open_around(mesh, v, open);
+      for (const std::int32_t v : ends) mark_around(mesh, v, uneven | changed, marks);
       any = true;
+      return true;
     });
     if (!any) break;
   }

@@ -111,9 +111,14 @@ Settled swap_to_delaunay(PlaneWork& work) {
     settled.forget(t), settled.forget(u);
     mesh.swap_edge(t, i);
   };
-  for_inner_edges(mesh, work.monitor, [&](int t, int i) {
-    if (!settled.are_acute(t, mesh.triangles[t].n[i]) && wants_swap(work, t, i)) swap(t, i, changed);
-  });
+  for_calling_edges(
+      mesh, work.monitor, [&](int t, int u) { return !settled.are_acute(t, u); },
+      [&](int t, int i) {
+        const HalfEdge o = mesh.triangles[t].n[i];
+        if (o == no_edge || settled.are_acute(t, o >> 2) || !wants_swap(work, t, i)) return false;
+        swap(t, i, changed);
+        return true;
+      });
   // A bounded number of delaunay_passes: in a metric that varies swaps can run in circles. Then both triangles of each
   // swap come back, and the list doubles with each pass.
   const std::size_t most = 2 * mesh.triangles.size();

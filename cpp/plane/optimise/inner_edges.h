@@ -30,6 +30,22 @@ inline void list_edges(const Triangulation& mesh, std::int32_t first, std::int32
   edges.resize(static_cast<std::size_t>(to - edges.data()));
 }
 
+/// Those of them between triangles t and u of which calls_for(t, u) is true, as it is of few.
+template <typename CallsFor>
+void list_calling_edges(const Triangulation& mesh, std::int32_t first, std::int32_t end, std::vector<HalfEdge>& edges,
+                        const CallsFor& calls_for) {
+  edges.clear();
+  for (std::int32_t t = first; t < end; ++t) {
+    const HalfEdge* const n = mesh.triangles[t].n;
+    const std::int32_t u[3] = {std::max(n[0] >> 2, t), std::max(n[1] >> 2, t), std::max(n[2] >> 2, t)};
+    if ((static_cast<int>(calls_for(t, u[0])) | static_cast<int>(calls_for(t, u[1])) |
+         static_cast<int>(calls_for(t, u[2]))) == 0)
+      continue;
+    for (int i = 0; i < 3; ++i)
+      if (u[i] > t && calls_for(t, u[i])) edges.push_back(4 * t + i);
+  }
+}
+
 /// Calls for what the edges some places after k will ask for.
 inline void prefetch_beyond(const Triangulation& mesh, const std::vector<HalfEdge>& edges, std::size_t k) {
   constexpr std::size_t far = 24, near = 12;
@@ -45,17 +61,26 @@ inline void prefetch_beyond(const Triangulation& mesh, const std::vector<HalfEdg
   }
 }
 
-/// Calls use(t, i) for the inner edges, batch by batch: what `use` swaps is seen by the batches after.
-template <typename Use>
-void for_inner_edges(const Triangulation& mesh, Monitor& monitor, const Use& use) {
-  std::vector<HalfEdge> edges;
+/// Calls use(t, i) for the inner edges between two triangles t < u of which calls_for(t, u) is true when their batch
+/// begins, and in a batch for all edges after the first of which use(t, i) tells that it has changed something: as if all
+/// were used, if use(t, i) does nothing for an edge that calls for nothing.
+template <typename CallsFor, typename Use>
+void for_calling_edges(const Triangulation& mesh, Monitor& monitor, const CallsFor& calls_for, const Use& use) {
+  std::vector<HalfEdge> calling, all;
   const auto total = static_cast<std::int32_t>(mesh.triangles.size());
   for (std::int32_t first = 0; first < total; first += triangles_at_once) {
     if (first % steps_between_checks == 0) monitor.checkpoint();
-    list_edges(mesh, first, std::min(total, first + triangles_at_once), edges);
-    for (std::size_t k = 0; k < edges.size(); ++k) {
-      prefetch_beyond(mesh, edges, k);
-      use(edges[k] >> 2, edges[k] & 3);
+    const std::int32_t end = std::min(total, first + triangles_at_once);
+    list_calling_edges(mesh, first, end, calling, calls_for);
+    if (calling.empty()) continue;
+    list_edges(mesh, first, end, all);
+    const std::vector<HalfEdge>* edges = &calling;
+    for (std::size_t k = 0; k < edges->size(); ++k) {
+      prefetch_beyond(mesh, *edges, k);
+      const HalfEdge he = (*edges)[k];
+      if (!use(he >> 2, he & 3) || edges == &all) continue;
+      edges = &all;
+      k = static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), he) - all.begin());
     }
   }
 }

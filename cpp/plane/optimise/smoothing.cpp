@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/kernel/pair.h"
 #include "plane/kernel/star.h"
 #include "plane/thresholds.h"
 #include "predicates/predicates.h"
@@ -143,18 +144,19 @@ void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
       k0 = k * (1 + slope), k1 = k * third, low = 1.5 * k1, high = 6 * k1;
     }
     if (spoiled) spoiled_triangles.push_back(static_cast<std::int32_t>(t));
-    const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
-      // The metric's normal of the base, to the left.
-      const double ex = to.x - from.x, ey = to.y - from.y, nx = -m.b * ex + -m.c * ey, ny = m.a * ex + m.b * ey;
-      const double height = k0 - std::min(std::max(k1 * (ex * ny - ey * nx), low), high);
-      const double x = 0.5 * (from.x + to.x) + height * nx, y = 0.5 * (from.y + to.y) + height * ny;
-      Vec2& p = proposals[v];
-      p.x() += by_size ? weight * x : x;
-      p.y() += by_size ? weight * y : y;
+    // The metric's normal of a base, to the left.
+    const Pair of_x{-m.b, m.a}, of_y{-m.c, m.b};
+    const auto tell = [&](int v, Pair from, Pair to) {
+      const Pair e = to - from, normal = of_x * first_twice(e) + of_y * second_twice(e);
+      const Pair products = e * exchanged(normal);
+      const double height = k0 - std::min(std::max(k1 * (products[0] - products[1]), low), high);
+      const Pair top = both(0.5) * (from + to) + both(height) * normal;
+      add(by_size ? both(weight) * top : top, proposals[v]);
     };
-    tell(T.v[0], Q, R);
-    tell(T.v[1], R, P);
-    tell(T.v[2], P, Q);
+    const Pair p = pair_of(P), q = pair_of(Q), r = pair_of(R);
+    tell(T.v[0], q, r);
+    tell(T.v[1], r, p);
+    tell(T.v[2], p, q);
   }
 }
 
