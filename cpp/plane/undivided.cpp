@@ -2,6 +2,7 @@
 #include "plane/undivided.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "plane/kernel/boundary.h"
 #include "plane/optimise/local_search.h"
@@ -59,12 +60,8 @@ void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame
 
 }  // namespace
 
-namespace {
-
-enum class Improve : bool { no, yes };
-
-UndividedMesh mesh(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
-                   const PlaneMesherOptions& options, Improve improve, Monitor& monitor) {
+UndividedWork work_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                             const PlaneMesherOptions& options, Improve improve, Monitor& monitor) {
   BoundaryMesh boundary = triangulate_boundary(domain, monitor);
   const Field field(metric, boundary.frame, known);
   PlaneWork work{boundary.mesh, field, monitor};
@@ -78,7 +75,16 @@ UndividedMesh mesh(const PlaneDomain& domain, const ControlSpace& metric, Field:
       if (options.shape_trials) search_around_bad_triangles(work, settled, options.normals);
     }
   }
-  return {to_mesh(domain, boundary.mesh, boundary.frame), work.fixed};
+  const int fixed = work.fixed;
+  return {std::move(boundary), fixed};
+}
+
+namespace {
+
+UndividedMesh mesh(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                   const PlaneMesherOptions& options, Improve improve, Monitor& monitor) {
+  const UndividedWork work = work_undivided(domain, metric, known, options, improve, monitor);
+  return {to_mesh(domain, work.framed.mesh, work.framed.frame), work.fixed};
 }
 
 }  // namespace

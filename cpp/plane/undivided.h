@@ -4,6 +4,7 @@
 
 #include "control_space/control_space.h"
 #include "mesh/plane_mesh.h"
+#include "plane/kernel/boundary.h"
 #include "plane/kernel/frame.h"
 #include "plane/kernel/triangulation.h"
 #include "plane/options.h"
@@ -16,11 +17,20 @@ struct UndividedMesh {
   int fixed = 0;  ///< the first vertices: imposed ones, and those of the fans of degenerate sides
 };
 
+/// The same as the mesher works on it, with neighbours. Triangles and vertices that are removed are still there.
+struct UndividedWork {
+  BoundaryMesh framed;
+  int fixed = 0;
+};
+enum class Improve : bool { no, yes };  ///< no: swaps and moves are left to the caller
+UndividedWork work_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                             const PlaneMesherOptions& options, Improve improve, Monitor& monitor);
+
 /// As mesh_plane(), by one thread. `known`: of the metric in the domain.
 UndividedMesh mesh_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                              const PlaneMesherOptions& options, Monitor& monitor);
 
-/// The same before it is improved: swaps and moves are left to the caller.
+/// The same before it is improved.
 UndividedMesh place_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                               const PlaneMesherOptions& options, Monitor& monitor);
 

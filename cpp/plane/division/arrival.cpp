@@ -24,11 +24,11 @@ constexpr double same_stretch = 4;
 
 class March {
  public:
-  March(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& metric)
+  March(const CoarseMesh& coarse, const CoarseDomain& domain)
       : triangles_(coarse.mesh.triangles),
         points_(coarse.mesh.vertices),
         domain_(domain.domain),
-        metric_(metric),
+        metric_(coarse.metric),
         at_(points_.size()),
         around_(points_.size(), triangles_),
         settled_(points_.size(), 0) {}
@@ -44,7 +44,7 @@ class March {
     }
     std::vector<double> places;
     places.reserve(triangles_.size());
-    for (const auto& t : triangles_) places.push_back(at_centroid(t).place);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) places.push_back(at_centroid(t).place);
     return places;
   }
 
@@ -85,7 +85,7 @@ class March {
 
   void pass(std::int32_t t) {
     const auto& corners = triangles_[t];
-    const Metric2 m = metric_.at(centroid(corners));
+    const Metric2 m = metric_[t];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t a = corners[(i + 1) % 3], b = corners[(i + 2) % 3], c = corners[i];
       if (settled_[c] != 0) continue;
@@ -94,9 +94,10 @@ class March {
       if (settled_[a] != 0 && settled_[b] != 0) reach(c, across(m, a, b, points_[c]));
     }
   }
-  [[nodiscard]] Arrival at_centroid(const std::array<std::int32_t, 3>& t) const {
+  [[nodiscard]] Arrival at_centroid(std::size_t of) const {
+    const auto& t = triangles_[of];
     const Vec2 p = centroid(t);
-    const Metric2 m = metric_.at(p);
+    const Metric2 m = metric_[of];
     Arrival best = along(m, t[0], p);
     for (std::size_t i = 0; i < 3; ++i)
       for (const Arrival& other : {along(m, t[i], p), across(m, t[i], t[(i + 1) % 3], p)})
@@ -129,7 +130,7 @@ class March {
   const std::vector<std::array<std::int32_t, 3>>& triangles_;
   const std::vector<Vec2>& points_;
   const PlaneDomain& domain_;
-  const ControlSpace& metric_;
+  const std::vector<Metric2>& metric_;  // by triangle
   std::vector<Arrival> at_;
   Incidence around_;  // triangles by vertex
   std::vector<char> settled_;
@@ -139,8 +140,8 @@ class March {
 
 }  // namespace
 
-std::vector<double> arrivals(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& metric) {
-  return March(coarse, domain, metric).run();
+std::vector<double> arrivals(const CoarseMesh& coarse, const CoarseDomain& domain) {
+  return March(coarse, domain).run();
 }
 
 }  // namespace carreau::plane

@@ -27,23 +27,29 @@ bool is_mostly_zone(const Pieces& pieces, double triangles) {
   return 4.0 * zone_layers * static_cast<double>(pieces.separators.size()) > most_of_zone * triangles;
 }
 
+// Units. In larger meshes separators may have longer straight parts: the coarse mesh, which one thread makes, has fewer
+// triangles for each of the fine one.
+double coarse_edge(double triangles) {
+  return separator_length * std::sqrt(std::sqrt(std::max(triangles / many_for_longer_separators, 1.0)));
+}
+
 // Empty where separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
   const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
   const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
   if (parts < 2) return {};
+  const double edge = coarse_edge(context.known.triangles);
   ControlSpace wide = context.metric;
-  wide.scale_lengths(1.0 / separator_length);
-  const CoarseDomain coarse = make_coarse(context.domain, context.metric, separator_length);
+  wide.scale_lengths(1 / edge);
+  const CoarseDomain coarse = make_coarse(context.domain, context.metric, edge);
   const PlaneMesherOptions options{.frontal = context.options.frontal, .max_triangles = context.options.max_triangles};
-  const Field::Known known{.bends = context.known.bends, .triangles = wide.measure()};
-  const CoarseMesh mesh =
-      make_coarse_mesh(mesh_undivided(coarse.domain, wide, known, options, context.monitor).mesh, context.metric);
+  const Field::Known known{.bends = context.known.bends, .triangles = context.known.triangles / (edge * edge)};
+  const CoarseMesh mesh = make_coarse_mesh(coarse, wide, edge, known, options, context.monitor);
   context.monitor.checkpoint();
-  const Partition partition = divide(mesh, coarse, wide, parts, context.monitor);
+  const Partition partition = divide(mesh, coarse, parts, context.monitor);
   context.monitor.checkpoint();
   if (partition.parts < 2) return {};
-  return make_pieces(context.domain, coarse, mesh, partition, context.metric);
+  return make_pieces(context.domain, coarse, mesh, partition, context.metric, edge);
 }
 
 // Whether a piece has edges of the domain. Around a pole, where layers come from the fan of another piece, it may lie
@@ -55,30 +61,38 @@ bool layers_can_start(const Piece& piece) {
   });
 }
 
-void put_piece(PacketWriter& packet, const UndividedMesh& piece) {
-  packet.put(piece.mesh.vertices);
-  put_triangles(packet, piece.mesh.triangles);
-  packet.put(std::int64_t{piece.fixed});
+void put_piece(PacketWriter& packet, const MeshedPiece& piece) {
+  packet.put(piece.work.mesh.vertices);
+  put_triangles(packet, piece.work.mesh.triangles);
+  packet.put(std::int64_t{piece.work.fixed});
+  for (const auto* numbers : {&piece.near.vertices, &piece.near.level, &piece.near.band, &piece.near.triangles})
+    packet.put(*numbers);
 }
-UndividedMesh get_piece(PacketReader& packet) {
-  UndividedMesh piece;
-  piece.mesh.vertices = packet.plane_points();
-  piece.mesh.triangles = triangles_of(packet);
-  piece.fixed = static_cast<int>(packet.integer());
+MeshedPiece get_piece(PacketReader& packet) {
+  MeshedPiece piece;
+  piece.work.mesh.vertices = packet.plane_points();
+  piece.work.mesh.triangles = triangles_of(packet);
+  piece.work.fixed = static_cast<int>(packet.integer());
+  for (auto* numbers : {&piece.near.vertices, &piece.near.level, &piece.near.band, &piece.near.triangles})
+    *numbers = packet.integers();
   return piece;
 }
 
-std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
-  const auto mesh_piece = [&](std::size_t p, Monitor& monitor) {
+std::vector<MeshedPiece> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
+  const auto mesh_piece = [&](std::size_t p, Monitor& monitor) -> MeshedPiece {
     const Piece& piece = pieces.pieces[p];
     PlaneMesherOptions options = context.options;
     options.threads = 1;
     if (layers_can_start(piece)) options.resting = piece.on_separator;
-    return mesh_undivided(piece.domain, context.metric,
-                          {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
+    const UndividedWork work =
+        work_undivided(piece.domain, context.metric, {.bends = context.known.bends, .triangles = piece.triangles},
+                       options, Improve::yes, monitor);
+    PlaneMesh mesh = to_mesh(piece.domain, work.framed.mesh, work.framed.frame);
+    NearSeparators near = near_separators(piece, pieces.separator, work.framed.mesh, mesh, monitor);
+    return {{std::move(mesh), work.fixed}, std::move(near)};
   };
-  return results_of<UndividedMesh>("pieces", pieces.pieces.size(), context.options, context.monitor,
-                                   {put_piece, get_piece}, mesh_piece);
+  return results_of<MeshedPiece>("pieces", pieces.pieces.size(), context.options, context.monitor,
+                                 {put_piece, get_piece}, mesh_piece);
 }
 
 // Memory comes page by page, which takes longer than what is written there: a stop is looked for on the way.
@@ -133,9 +147,8 @@ class Assembly {
   void number_vertices() {
     const Pieces& pieces = joined_.pieces;
     const std::size_t last = count_ - 1;
-    const auto all =
-        static_cast<std::int32_t>(static_cast<std::size_t>(joined_.inside[last]) +
-                                  joined_.meshes[last].mesh.vertices.size() - pieces.pieces[last].whole.size());
+    const auto all = static_cast<std::int32_t>(static_cast<std::size_t>(joined_.inside[last]) +
+                                               joined_.mesh(last).vertices.size() - pieces.pieces[last].whole.size());
     auto next = all - static_cast<std::int32_t>(removed_.size());
     for (std::int32_t& number : added_)
       if (number == 0) number = next++;
@@ -146,13 +159,13 @@ class Assembly {
   void count_triangles() {
     first_.assign(count_ + 1, 0);
     for (std::size_t p = 0; p < count_; ++p)
-      first_[p + 1] = joined_.meshes[p].mesh.triangles.size() - joined_.in_zone[p].size();
+      first_[p + 1] = joined_.mesh(p).triangles.size() - joined_.meshes[p].near.triangles.size();
     for (std::size_t p = 0; p < count_; ++p) first_[p + 1] += first_[p];
     resize(mesh_.triangles, first_[count_] + zone_.triangles.size(), context_.monitor);
   }
 
   void put_piece(std::size_t p) {
-    const PlaneMesh& mesh = joined_.meshes[p].mesh;
+    const PlaneMesh& mesh = joined_.mesh(p);
     std::vector<std::int32_t> number(mesh.vertices.size());
     const std::size_t shared = joined_.pieces.pieces[p].whole.size();
     // Those inside have consecutive numbers but for some that are removed.
@@ -179,7 +192,7 @@ class Assembly {
         *to++ = {number[a], number[b], number[c]};
       }
     };
-    for (const std::int32_t taken : joined_.in_zone[p]) {
+    for (const std::int32_t taken : joined_.meshes[p].near.triangles) {
       put_until(static_cast<std::size_t>(taken));
       ++t;
     }
@@ -223,8 +236,8 @@ std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSp
   try {
     const std::optional<Pieces> pieces = cut(context, a_piece);
     if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};
-    const std::vector<UndividedMesh> meshes = mesh_pieces(*pieces, context);
-    const JoinedPieces joined = join(*pieces, meshes, context);
+    const std::vector<MeshedPiece> meshes = mesh_pieces(*pieces, context);
+    const JoinedPieces joined = join(*pieces, meshes);
     const Zone zone = improved_zone(joined, context);
     PlaneMesh mesh = Assembly(joined, zone, context).run();
     if (static_cast<std::int64_t>(mesh.triangles.size()) > options.max_triangles)

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "model/union_find.h"
 #include "plane/division/arrival.h"
 #include "plane/kernel/triangulation.h"
 #include "plane/thresholds.h"
+#include "plane/undivided.h"
 
 namespace carreau::plane {
 
@@ -19,11 +19,10 @@ namespace {
 
 class Division {
  public:
-  Division(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& metric, Monitor& monitor)
+  Division(const CoarseMesh& coarse, const CoarseDomain& domain, Monitor& monitor)
       : monitor_(monitor),
         coarse_(coarse),
         domain_(domain),
-        metric_(metric),
         n_(coarse.mesh.triangles.size()),
         clump_(n_),
         part_(n_, 0),
@@ -72,7 +71,7 @@ class Division {
   [[nodiscard]] bool is_bad(std::size_t t) const {
     const auto& [a, b, c] = coarse_.mesh.triangles[t];
     const Vec2 p = coarse_.mesh.vertices[a], q = coarse_.mesh.vertices[b], r = coarse_.mesh.vertices[c];
-    const Metric2 m = metric_.at((1.0 / 3) * (p + q + r));
+    const Metric2 m = coarse_.metric[t];
     const double pq = squared_length(m, q - p), qr = squared_length(m, r - q), rp = squared_length(m, p - r);
     const double shape = 2 * std::numbers::sqrt3 * cross(q - p, r - p) * std::sqrt(std::max(determinant(m), 0.0));
     return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > least_coarse_quality * (pq + qr + rp));
@@ -81,21 +80,62 @@ class Division {
   // Sectors: where layers arrive that start at a stretch of the border. Separators lie across these layers, or where
   // those from several sides meet. Clumps go where their first triangle does.
   void cut_into_sectors(int parts) {
-    const std::vector<double> place = arrivals(coarse_, domain_, metric_);
+    const std::vector<double> place = arrivals(coarse_, domain_);
     monitor_.checkpoint();
     std::vector<std::int32_t> triangles(n_);
     std::iota(triangles.begin(), triangles.end(), 0);
     std::stable_sort(triangles.begin(), triangles.end(),
                      [&](std::int32_t s, std::int32_t t) { return place[s] < place[t]; });
+    std::vector<double> upto(n_);  // by triangle: the share of what comes before it
     const double whole = std::accumulate(coarse_.weight.begin(), coarse_.weight.end(), 0.0);
     double sum = 0;
+    for (const std::int32_t t : triangles) upto[t] = sum / whole * parts, sum += coarse_.weight[t];
+    const double from = start_of_sectors(upto, parts);
     for (const std::int32_t t : triangles) {
       std::int32_t& part = part_of_clump_[clump_.find(t)];
-      if (part < 0) part = std::min(static_cast<int>(sum / whole * parts), parts - 1);
+      if (part < 0) part = sector(upto[t], from, parts);
       part_[t] = part;
-      sum += coarse_.weight[t];
     }
     last_ = parts - 1;
+  }
+
+  static int sector(double upto, double from, int parts) {
+    const auto k = static_cast<int>(upto + from);
+    return k < parts ? k : k - parts;
+  }
+
+  // In sectors. On a single loop they may start anywhere, and do where their separators are shortest, if that makes
+  // much of a difference; where there are several loops, the first sector starts with the first one. Two sectors start
+  // with the loop, too.
+  [[nodiscard]] double start_of_sectors(const std::vector<double>& upto, int parts) const {
+    double best = 0;
+    if (parts < 4 || !is_one_loop()) return best;
+    std::size_t least = 0;
+    std::vector<int> sectors(n_);
+    for (int k = 0; k < starts_of_sectors; ++k) {
+      const double from = static_cast<double>(k) / starts_of_sectors;
+      for (std::size_t t = 0; t < n_; ++t) sectors[t] = sector(upto[t], from, parts);
+      std::size_t cut = 0;
+      for (std::size_t t = 0; t < n_; ++t)
+        for (const std::int32_t u : coarse_.beyond[t])
+          if (u >= 0 && sectors[t] != sectors[u]) ++cut;
+      if (k == 0)
+        least = static_cast<std::size_t>(much_shorter * static_cast<double>(cut));
+      else if (cut < least)
+        least = cut, best = from;
+    }
+    return best;
+  }
+  [[nodiscard]] bool is_one_loop() const {
+    const auto& edges = domain_.domain.edges;
+    std::vector<std::int32_t> next(domain_.domain.vertices.size(), -1);
+    for (const PlaneEdge& edge : edges) {
+      if (edge.kind == PlaneEdgeKind::internal || next[edge.a] >= 0) return false;
+      next[edge.a] = edge.b;
+    }
+    std::size_t passed = 1;
+    for (std::int32_t v = next[edges[0].a]; v >= 0 && v != edges[0].a && passed <= edges.size(); v = next[v]) ++passed;
+    return passed == edges.size();
   }
 
   // A triangle with two neighbours in one other part joins it.
@@ -179,7 +219,6 @@ class Division {
   Monitor& monitor_;
   const CoarseMesh& coarse_;
   const CoarseDomain& domain_;
-  const ControlSpace& metric_;
   std::size_t n_;
   UnionFind clump_;
   std::vector<std::int32_t> part_, part_of_clump_, queue_;
@@ -188,40 +227,31 @@ class Division {
 
 }  // namespace
 
-CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit) {
-  CoarseMesh coarse{.mesh = std::move(mesh), .beyond = {}, .weight = {}};
-  const auto& triangles = coarse.mesh.triangles;
-  coarse.beyond.assign(triangles.size(), {-1, -1, -1});
-  struct Side {
-    std::int32_t low, high, triangle, side;
-    bool operator<(const Side& s) const { return std::tie(low, high) < std::tie(s.low, s.high); }
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  coarse.weight.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
+CoarseMesh make_coarse_mesh(const CoarseDomain& domain, const ControlSpace& metric, double length, Field::Known known,
+                            const PlaneMesherOptions& options, Monitor& monitor) {
+  UndividedWork work = work_undivided(domain.domain, metric, known, options, Improve::yes, monitor);
+  Triangulation& triangulation = work.framed.mesh;
+  triangulation.drop_removed();  // so that triangles keep their numbers
+  CoarseMesh coarse{
+      .mesh = to_mesh(domain.domain, triangulation, work.framed.frame), .beyond = {}, .metric = {}, .weight = {}};
+  const std::size_t n = triangulation.triangles.size();
+  coarse.beyond.reserve(n), coarse.metric.reserve(n), coarse.weight.reserve(n);
+  for (std::size_t t = 0; t < n; ++t) {
+    const auto& sides = triangulation.triangles[t].n;
+    const auto beyond = [&](int i) { return sides[i] == no_edge ? -1 : sides[i] >> 2; };
+    coarse.beyond.push_back({beyond(0), beyond(1), beyond(2)});
+    const auto& [a, b, c] = coarse.mesh.triangles[t];
     const Vec2 p = coarse.mesh.vertices[a], q = coarse.mesh.vertices[b], r = coarse.mesh.vertices[c];
-    const double det = std::max(determinant(unit.at((1.0 / 3) * (p + q + r))), 0.0);
-    coarse.weight.push_back(2 / std::numbers::sqrt3 * cross(q - p, r - p) * std::sqrt(det));
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t u = triangles[t][next3[i]], v = triangles[t][prev3[i]];
-      sides.push_back({std::min(u, v), std::max(u, v), static_cast<std::int32_t>(t), i});
-    }
-  }
-  std::stable_sort(sides.begin(), sides.end());
-  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-    const Side &s = sides[k], &t = sides[k + 1];
-    if (s.low != t.low || s.high != t.high) continue;
-    coarse.beyond[s.triangle][s.side] = t.triangle;
-    coarse.beyond[t.triangle][t.side] = s.triangle;
+    const Metric2 m = metric.at((1.0 / 3) * (p + q + r));
+    coarse.metric.push_back(m);
+    coarse.weight.push_back(length * length * 2 / std::numbers::sqrt3 * cross(q - p, r - p) *
+                            std::sqrt(std::max(determinant(m), 0.0)));
   }
   return coarse;
 }
 
-Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts,
-                 Monitor& monitor) {
-  return Division(coarse, domain, coarse_metric, monitor).run(parts);
+Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, int parts, Monitor& monitor) {
+  return Division(coarse, domain, monitor).run(parts);
 }
 
 }  // namespace carreau::plane

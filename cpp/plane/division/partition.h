@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "control_space/control_space.h"
+#include "metric/metric2.h"
 #include "plane/division/coarse_domain.h"
+#include "plane/kernel/frame.h"
+#include "plane/options.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {
@@ -16,20 +19,21 @@ namespace carreau::plane {
 struct CoarseMesh {
   PlaneMesh mesh;
   std::vector<std::array<std::int32_t, 3>> beyond;  ///< by triangle and side (opposite to its corner); -1: nothing
+  std::vector<Metric2> metric;                      ///< by triangle: at its centroid, of edges of the coarse mesh
   std::vector<double> weight;                       ///< by triangle: unit triangles that it holds
 };
 
-/// `unit`: the metric of the fine mesh.
-CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit);
+/// The mesh of `domain` in `metric`, in which edges of `length` units are unit.
+CoarseMesh make_coarse_mesh(const CoarseDomain& domain, const ControlSpace& metric, double length, Field::Known known,
+                            const PlaneMesherOptions& options, Monitor& monitor);
 
 /// By triangle: the part that it belongs to, from 0. Parts are connected, and their borders are as short as the sides
-/// of triangles of the mesh, unit in `coarse_metric`, let them be; they keep off degenerate sides and triangles that
+/// of triangles of the mesh let them be; they keep off degenerate sides and triangles that
 /// are badly shaped. There may be fewer parts than asked for.
 struct Partition {
   std::vector<std::int32_t> part;
   int parts = 0;
 };
-Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts,
-                 Monitor& monitor);
+Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, int parts, Monitor& monitor);
 
 }  // namespace carreau::plane

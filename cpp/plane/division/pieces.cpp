@@ -13,14 +13,22 @@ namespace carreau::plane {
 
 namespace {
 
+// Of the metric along separators, whose points are a unit apart.
+constexpr double samples_a_unit = 8;
+
 using Ends = std::pair<std::int32_t, std::int32_t>;
 using Known = std::pair<Ends, std::int32_t>;
 
 class PieceMaker {
  public:
   PieceMaker(const PlaneDomain& domain, const CoarseDomain& coarse, const CoarseMesh& mesh, const Partition& partition,
-             const ControlSpace& unit)
-      : domain_(domain), coarse_(coarse), mesh_(mesh), partition_(partition), unit_(unit) {}
+             const ControlSpace& unit, double edge)
+      : domain_(domain),
+        coarse_(coarse),
+        mesh_(mesh),
+        partition_(partition),
+        unit_(unit),
+        upto_(static_cast<std::size_t>(std::ceil(samples_a_unit * edge)) + 1, 0) {}
 
   Pieces run() {
     imposed_.reserve(coarse_.domain.edges.size());
@@ -130,17 +138,17 @@ class PieceMaker {
   }
   // Adds the vertices from a to b, a unit apart, to the points.
   void cut(std::int32_t a, std::int32_t b) {
-    constexpr int samples = 8 * separator_length;
     const Vec2 p = mesh_.mesh.vertices[a], q = mesh_.mesh.vertices[b];
-    double upto[samples + 1] = {0};
+    const auto samples = static_cast<int>(upto_.size()) - 1;
     for (int k = 0; k < samples; ++k)
-      upto[k + 1] = upto[k] + length(unit_.at(lerp(p, q, (k + 0.5) / samples)), q - p) / samples;
-    const int edges = std::max(1, static_cast<int>(std::lround(upto[samples])));
+      upto_[k + 1] = upto_[k] + length(unit_.at(lerp(p, q, (k + 0.5) / samples)), q - p) / samples;
+    const double whole = upto_.back();
+    const int edges = std::max(1, static_cast<int>(std::lround(whole)));
     points_.push_back(number_of(a));
     for (int j = 1, k = 0; j < edges; ++j) {
-      const double at = upto[samples] * j / edges;
-      while (k + 1 < samples && upto[k + 1] < at) ++k;
-      points_.push_back(add_vertex(lerp(p, q, (k + (at - upto[k]) / (upto[k + 1] - upto[k])) / samples)));
+      const double at = whole * j / edges;
+      while (k + 1 < samples && upto_[k + 1] < at) ++k;
+      points_.push_back(add_vertex(lerp(p, q, (k + (at - upto_[k]) / (upto_[k + 1] - upto_[k])) / samples)));
     }
     points_.push_back(number_of(b));
   }
@@ -175,14 +183,15 @@ class PieceMaker {
   std::vector<std::int32_t> points_;  // of each cut their number, then themselves
   std::vector<std::int32_t> cut_;     // where they start, by triangle and side
   std::vector<std::int32_t> number_;  // by vertex of the coarse mesh; -1: none yet
+  std::vector<double> upto_;          // the length of an edge up to each of its samples
   Pieces result_;
 };
 
 }  // namespace
 
 Pieces make_pieces(const PlaneDomain& domain, const CoarseDomain& coarse, const CoarseMesh& mesh,
-                   const Partition& partition, const ControlSpace& unit) {
-  return PieceMaker(domain, coarse, mesh, partition, unit).run();
+                   const Partition& partition, const ControlSpace& unit, double edge) {
+  return PieceMaker(domain, coarse, mesh, partition, unit, edge).run();
 }
 
 }  // namespace carreau::plane

@@ -25,8 +25,8 @@ struct Pieces {
   static constexpr std::int32_t none = -1, several = -2;
 };
 
-/// `unit`: the metric of the fine mesh.
+/// `unit`: the metric of the fine mesh; `edge`: units that an edge of the coarse mesh has, about.
 Pieces make_pieces(const PlaneDomain& domain, const CoarseDomain& coarse, const CoarseMesh& mesh,
-                   const Partition& partition, const ControlSpace& unit);
+                   const Partition& partition, const ControlSpace& unit, double edge);
 
 }  // namespace carreau::plane

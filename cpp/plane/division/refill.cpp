@@ -78,18 +78,15 @@ class Void {
 
 }  // namespace
 
-Refilled refill(const Zone& zone, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free,
-                const ZoneContext& context, Monitor& monitor) {
+Refilled refill(const Zone& zone, std::span<const std::uint8_t> free, const ZoneContext& context, Monitor& monitor) {
   std::vector<std::uint8_t> removed(zone.vertices.size(), 0);
   for (std::size_t v = 0; v < removed.size(); ++v) removed[v] = free[v] != 0 && zone.level[v] < refilled_layers;
   Refilled result;
   std::vector<std::array<std::int32_t, 3>> replaced;
-  result.triangles.reserve(triangles.size());
-  replaced.reserve(triangles.size());
-  for (const std::int32_t k : triangles) {
-    const auto& t = zone.triangles[k];
+  result.triangles.reserve(zone.triangles.size());
+  replaced.reserve(zone.triangles.size());
+  for (const auto& t : zone.triangles)
     (removed[t[0]] + removed[t[1]] + removed[t[2]] > 0 ? replaced : result.triangles).push_back(t);
-  }
   if (replaced.empty()) return result;
   const Void hole(zone, context, replaced, removed);
   try {

@@ -16,8 +16,8 @@ struct Refilled {
   std::vector<Vec2> added;  ///< vertices; numbered from the number of the zone's on
 };
 
-/// The triangles listed, those around free vertices of the innermost layers replaced. Where that fails, as they are.
-Refilled refill(const Zone& zone, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free,
-                const ZoneContext& context, Monitor& monitor);
+/// The triangles of the zone, those around free vertices of the innermost layers replaced. Where that fails, as they
+/// are.
+Refilled refill(const Zone& zone, std::span<const std::uint8_t> free, const ZoneContext& context, Monitor& monitor);
 
 }  // namespace carreau::plane

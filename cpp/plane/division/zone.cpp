@@ -7,7 +7,6 @@
 #include "plane/division/zone_part.h"
 #include "plane/thresholds.h"
 #include "support/ranks/triangle_packet.h"
-#include "support/stepped_tasks.h"
 #include "support/unfilled.h"
 
 namespace carreau::plane {
@@ -39,38 +38,21 @@ class TrianglesAround {
   UnfilledVector<std::int32_t> triangles_;
 };
 
-// Layers of vertices from those that have level 0, up to `most`. Returns the triangles that have a vertex below it,
-// ascending.
-std::vector<std::int32_t> spread(Triangles triangles, std::vector<std::uint8_t>& level, int most,
-                                 std::vector<std::int32_t>* band, Monitor& monitor) {
+// Layers of vertices from those that have level 0, up to `most`.
+void spread(Triangles triangles, std::vector<std::uint8_t>& level, int most, Monitor& monitor) {
   monitor.checkpoint();
   const TrianglesAround around(triangles, level.size());
-  std::vector<std::int32_t> front, next, near, all;
+  std::vector<std::int32_t> front, next;
   for (std::size_t v = 0; v < level.size(); ++v)
     if (level[v] == 0) front.push_back(static_cast<std::int32_t>(v));
-  for (int now = 0; now < most; ++now, front.swap(next)) {
+  for (int now = 0; now + 1 < most; ++now, front.swap(next)) {
     monitor.checkpoint();
-    near.clear(), next.clear();
+    next.clear();
     for (const std::int32_t v : front)
-      for (const std::int32_t t : around.of(v)) near.push_back(t);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    all.insert(all.end(), near.begin(), near.end());
-    for (std::size_t k = 0; k < near.size() && now + 1 < most; ++k) {
-      const auto& t = triangles[near[k]];
-      int from = -1;
-      for (const std::int32_t v : t)
-        if (level[v] == now && (from < 0 || (band != nullptr && (*band)[v] < (*band)[from]))) from = v;
-      for (const std::int32_t v : t)
-        if (level[v] > now + 1) {
-          level[v] = static_cast<std::uint8_t>(now + 1), next.push_back(v);
-          if (band != nullptr) (*band)[v] = (*band)[from];
-        }
-    }
+      for (const std::int32_t t : around.of(v))
+        for (const std::int32_t w : triangles[t])
+          if (level[w] > now + 1) level[w] = static_cast<std::uint8_t>(now + 1), next.push_back(w);
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
 }
 
 /// Makes a zone of the triangles of pieces that are near separators.
@@ -88,40 +70,47 @@ class ZoneMaker {
 
  private:
   void add_piece(std::size_t p) {
-    const PlaneMesh& mesh = joined_.meshes[p].mesh;
+    const PlaneMesh& mesh = joined_.mesh(p);
+    const NearSeparators& near = joined_.meshes[p].near;
+    const std::vector<std::int32_t>& whole = joined_.pieces.pieces[p].whole;
+    number_.assign(mesh.vertices.size(), -1);
+    near_.assign(mesh.vertices.size(), -1);
+    for (std::size_t v = 0; v < whole.size(); ++v) number_[v] = shared_[whole[v]];
+    for (std::size_t k = 0; k < near.vertices.size(); ++k) near_[near.vertices[k]] = static_cast<std::int32_t>(k);
+    for (const std::int32_t k : near.triangles) {
+      const std::array<std::int32_t, 3>& t = mesh.triangles[k];
+      for (const std::int32_t v : t)
+        if (number_[v] < 0) add_vertex(p, v);
+      zone_.triangles.push_back({number_[t[0]], number_[t[1]], number_[t[2]]});
+      zone_.band.push_back(band_of(near, t));
+    }
+    for (std::size_t v = 0; v < whole.size(); ++v) shared_[whole[v]] = number_[v];
+  }
+  void add_vertex(std::size_t p, std::int32_t v) {
     const auto n = static_cast<std::int32_t>(joined_.pieces.pieces[p].whole.size());
     const auto domain = static_cast<std::int32_t>(joined_.pieces.separator.size() - joined_.pieces.separators.size());
-    std::vector<std::int32_t> inside(mesh.vertices.size() - static_cast<std::size_t>(n), -1);
-    const auto number = [&](std::int32_t v) {
-      std::int32_t& known = v < n ? shared_[joined_.pieces.pieces[p].whole[v]] : inside[v - n];
-      if (known >= 0) return known;
-      known = static_cast<std::int32_t>(zone_.vertices.size());
-      const std::int32_t whole = joined_.whole(p, v);
-      zone_.vertices.push_back(mesh.vertices[v]);
-      zone_.whole.push_back(whole);
-      zone_.level.push_back(joined_.level[p][v]);
-      const bool imposed = v < n ? whole < domain : v < joined_.meshes[p].fixed;
-      zone_.fixed.push_back(imposed || joined_.level[p][v] == outside ? 1 : 0);
-      return known;
-    };
-    for (const std::int32_t k : joined_.in_zone[p]) {
-      const std::array<std::int32_t, 3>& t = mesh.triangles[k];
-      zone_.triangles.push_back({number(t[0]), number(t[1]), number(t[2])});
-      zone_.band.push_back(band_of(p, t));
-    }
+    number_[v] = static_cast<std::int32_t>(zone_.vertices.size());
+    const std::int32_t whole = joined_.whole(p, v);
+    const bool imposed = v < n ? whole < domain : v < joined_.meshes[p].work.fixed;
+    zone_.vertices.push_back(joined_.mesh(p).vertices[v]);
+    zone_.whole.push_back(whole);
+    zone_.level.push_back(near_[v] < 0 ? outside : static_cast<std::uint8_t>(joined_.meshes[p].near.level[near_[v]]));
+    zone_.fixed.push_back(imposed || near_[v] < 0 ? 1 : 0);
   }
-  [[nodiscard]] std::int32_t band_of(std::size_t p, const std::array<std::int32_t, 3>& t) const {
+  [[nodiscard]] std::int32_t band_of(const NearSeparators& near, const std::array<std::int32_t, 3>& t) const {
     std::int32_t band = Pieces::none;
     for (const std::int32_t v : t) {
-      if (joined_.level[p][v] == outside) continue;
-      const std::int32_t here = joined_.band[p][v];
+      if (near_[v] < 0) continue;
+      const std::int32_t here = near.band[near_[v]];
       band = band == Pieces::none || band == here ? here : Pieces::several;
     }
     return band;
   }
 
   const JoinedPieces& joined_;
-  std::vector<std::int32_t> shared_;  // numbers in the zone
+  std::vector<std::int32_t> shared_;  // numbers in the zone, by vertex of the whole mesh
+  std::vector<std::int32_t> number_;  // the same by vertex of the piece
+  std::vector<std::int32_t> near_;    // by vertex of the piece: its place among those near separators
   Zone zone_;
 };
 
@@ -217,7 +206,7 @@ void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting
   std::vector<std::uint8_t> level(zone.vertices.size(), meeting_layers), free(zone.vertices.size(), 0);
   for (std::size_t v = 0; v < level.size(); ++v)
     if (waiting[v] != 0) level[v] = 0;
-  spread(zone.triangles, level, meeting_layers, nullptr, context.monitor);
+  spread(zone.triangles, level, meeting_layers, context.monitor);
   context.monitor.checkpoint();
   for (std::size_t v = 0; v < level.size(); ++v) free[v] = level[v] < meeting_layers && zone.fixed[v] == 0 ? 1 : 0;
   std::vector<std::int32_t> near;
@@ -234,29 +223,13 @@ void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting
 
 }  // namespace
 
-JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, const ZoneContext& context) {
-  JoinedPieces joined{.pieces = pieces, .meshes = meshes, .inside = {}, .level = {}, .band = {}, .in_zone = {}};
+JoinedPieces join(const Pieces& pieces, std::span<const MeshedPiece> meshes) {
+  JoinedPieces joined{.pieces = pieces, .meshes = meshes, .inside = {}};
   auto next = static_cast<std::int32_t>(pieces.separator.size());
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     joined.inside.push_back(next);
-    next += static_cast<std::int32_t>(meshes[p].mesh.vertices.size() - pieces.pieces[p].whole.size());
+    next += static_cast<std::int32_t>(joined.mesh(p).vertices.size() - pieces.pieces[p].whole.size());
   }
-  joined.level.resize(meshes.size());
-  joined.band.resize(meshes.size());
-  joined.in_zone.resize(meshes.size());
-  run_each(
-      meshes.size(), false, context.options.threads,
-      [&](std::size_t p, Monitor& monitor) {
-        joined.level[p].assign(meshes[p].mesh.vertices.size(), outside);
-        joined.band[p].assign(meshes[p].mesh.vertices.size(), Pieces::none);
-        const std::vector<std::int32_t>& whole = pieces.pieces[p].whole;
-        for (std::size_t v = 0; v < whole.size(); ++v) {
-          joined.band[p][v] = pieces.separator[whole[v]];
-          if (joined.band[p][v] != Pieces::none) joined.level[p][v] = 0;
-        }
-        joined.in_zone[p] = spread(meshes[p].mesh.triangles, joined.level[p], zone_layers, &joined.band[p], monitor);
-      },
-      context.monitor);
   return joined;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plane/division/inner_edges.h"
+#include "plane/division/near_separators.h"
 #include "plane/division/pieces.h"
 #include "plane/undivided.h"
 
@@ -34,17 +35,19 @@ struct Zone {
   std::vector<std::int32_t> band;  ///< by triangle: the separator that it belongs to; Pieces::several: several
 };
 
+struct MeshedPiece {
+  UndividedMesh work;
+  NearSeparators near;
+};
+
 /// The whole mesh before its zone is improved: vertices of the domain, those of separators, then those inside of
 /// pieces.
 struct JoinedPieces {
   const Pieces& pieces;
-  std::span<const UndividedMesh> meshes;
+  std::span<const MeshedPiece> meshes;
   std::vector<std::int32_t> inside;  ///< by piece: its first vertex inside
-  std::vector<std::vector<std::uint8_t>>
-      level;  ///< by piece and vertex: layers from the separators, zone_layers at most
-  std::vector<std::vector<std::int32_t>> band;  ///< the same: the separator, Pieces::several or none
-  std::vector<std::vector<std::int32_t>> in_zone;  ///< by piece: its triangles that belong to the zone, ascending
 
+  [[nodiscard]] const PlaneMesh& mesh(std::size_t piece) const noexcept { return meshes[piece].work.mesh; }
   [[nodiscard]] std::int32_t whole(std::size_t piece, std::int32_t v) const noexcept {
     const std::vector<std::int32_t>& shared = pieces.pieces[piece].whole;
     const auto n = static_cast<std::int32_t>(shared.size());
@@ -52,8 +55,7 @@ struct JoinedPieces {
   }
 };
 
-/// Finds the layers around the separators, on several threads.
-JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, const ZoneContext& context);
+JoinedPieces join(const Pieces& pieces, std::span<const MeshedPiece> meshes);
 
 /// The zone, improved: first the bands along separators, each by itself, then where several of them meet.
 Zone improved_zone(const JoinedPieces& joined, const ZoneContext& context);

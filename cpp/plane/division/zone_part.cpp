@@ -2,12 +2,14 @@
 #include "plane/division/zone_part.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "plane/division/refill.h"
 #include "plane/kernel/domain_reader.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
 #include "plane/thresholds.h"
+#include "support/unfilled.h"
 
 namespace carreau::plane {
 
@@ -104,12 +106,60 @@ class PartOfZone {
   std::vector<std::int32_t> of_;
 };
 
+/// Some triangles of a zone with their vertices, in numbers of its own in the same order: there may be many parts, and
+/// work on one should not depend on how large the whole is.
+class Excerpt {
+ public:
+  Excerpt(const Zone& of, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free_of) : whole_(of) {
+    UnfilledVector<std::int32_t> local(of.vertices.size());  // those of these triangles alone
+    for (const std::int32_t t : triangles)
+      for (const std::int32_t v : of.triangles[t]) local[v] = -1;
+    for (const std::int32_t t : triangles)
+      for (const std::int32_t v : of.triangles[t])
+        if (local[v] < 0) local[v] = 0, of_.push_back(v);
+    std::sort(of_.begin(), of_.end());
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      const std::int32_t v = of_[k];
+      local[v] = static_cast<std::int32_t>(k);
+      zone.vertices.push_back(of.vertices[v]);
+      zone.level.push_back(of.level[v]);
+      free.push_back(free_of[v]);
+      if (static_cast<std::size_t>(v) < of.whole.size()) zone.whole.push_back(of.whole[v]);
+    }
+    zone.triangles.reserve(triangles.size());
+    for (const std::int32_t k : triangles) {
+      const auto& t = of.triangles[k];
+      zone.triangles.push_back({local[t[0]], local[t[1]], local[t[2]]});
+    }
+  }
+
+  /// In numbers of the whole zone.
+  [[nodiscard]] ZonePart back(ZonePart part) const {
+    const auto n = static_cast<std::int32_t>(of_.size());
+    const auto shift = static_cast<std::int32_t>(whole_.vertices.size()) - n;
+    for (std::int32_t& v : part.moved) v = of_[v];
+    for (auto& t : part.triangles)
+      for (std::int32_t& v : t) v = v < n ? of_[v] : v + shift;
+    return part;
+  }
+
+  Zone zone;  ///< vertices, whole, level, triangles
+  std::vector<std::uint8_t> free;
+
+ private:
+  const Zone& whole_;
+  std::vector<std::int32_t> of_;
+};
+
 }  // namespace
 
-ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free,
-                       const ZoneContext& context, Monitor& monitor) {
+ZonePart optimise_part(const Zone& whole, std::span<const std::int32_t> triangles,
+                       std::span<const std::uint8_t> free_of_whole, const ZoneContext& context, Monitor& monitor) {
+  const Excerpt excerpt(whole, triangles, free_of_whole);
+  const Zone& zone = excerpt.zone;
+  const std::vector<std::uint8_t>& free = excerpt.free;
   const Frame frame = frame_of(context.domain);
-  const Refilled refilled = refill(zone, triangles, free, context, monitor);
+  const Refilled refilled = refill(zone, free, context, monitor);
   PartOfZone part(zone, refilled, free, context, frame);
   const Field field(context.metric, frame, context.known);
   PlaneWork work{part.mesh, field, monitor};
@@ -134,7 +184,7 @@ ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles
   const auto number = [&](std::int32_t v) { return static_cast<std::size_t>(v) < n ? part.of()[v] : base + v; };
   for (const Triangle& T : part.mesh.triangles)
     if (T.v[0] >= 0) result.triangles.push_back({number(T.v[0]), number(T.v[1]), number(T.v[2])});
-  return result;
+  return excerpt.back(std::move(result));
 }
 
 }  // namespace carreau::plane

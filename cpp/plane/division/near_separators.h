@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Layers of a piece beside its separators.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/plane_mesh.h"
+#include "plane/division/pieces.h"
+#include "plane/kernel/triangulation.h"
+#include "support/monitor.h"
+
+namespace carreau::plane {
+
+/// What of the mesh of a piece is near separators.
+struct NearSeparators {
+  std::vector<std::int32_t> vertices;   ///< those less than zone_layers layers away
+  std::vector<std::int32_t> level;      ///< by these: layers from the separators
+  std::vector<std::int32_t> band;       ///< by these: the separator, or Pieces::several
+  std::vector<std::int32_t> triangles;  ///< those that have one of these vertices, ascending
+};
+
+/// `mesh`: that of the piece, of which `result` has been made. `separator`: as that of Pieces.
+NearSeparators near_separators(const Piece& piece, const std::vector<std::int32_t>& separator,
+                               const Triangulation& mesh, const PlaneMesh& result, Monitor& monitor);
+
+}  // namespace carreau::plane
