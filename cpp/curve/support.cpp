@@ -75,6 +75,15 @@ Excess excess_of(V v, V chord, const Tolerance& tolerance) noexcept {
   return worst;
 }
 
+/// Whether all components of v are within the tolerance, beyond any doubt of rounding: what is true of nearly all edges of
+/// the last pass, without roots.
+template <typename V>
+bool surely_within(const V& v, const V& chord, const Tolerance& tolerance) noexcept {
+  constexpr double sure = 1 - 1e-9;
+  const double least = std::min(tolerance.across, tolerance.along);
+  return dot(v, v) < sure * std::max(tolerance.relative * tolerance.relative * dot(chord, chord), least * least);
+}
+
 Excess worse(Excess p, Excess q) noexcept { return {std::max(p.ratio, q.ratio), std::max(p.parts, q.parts)}; }
 
 /// Refines the samples of one curve until (PL) holds.
@@ -181,21 +190,37 @@ class Builder {
     return {relative_, std::max(across_floor * length, rounding), std::max(along_floor * length, rounding)};
   }
 
-  /// Deviation that the bends at both ends of edge i let expect, in one space.
+  /// Deviation that the bends at both ends of edge i let expect, in one space. `bend`: that at its start, then at its end.
+  /// Where nothing is too large the ratio is not always told.
   template <typename V>
-  Excess edge_excess(const std::vector<V>& points, std::size_t i, const Tolerance& tolerance) const noexcept {
+  Excess edge_excess(const std::vector<V>& points, std::size_t i, const Tolerance& tolerance, V& bend) const noexcept {
     const V chord = points[i + 1] - points[i];
     const std::size_t last = points.size() - 1;
     const double w = support_.t[i + 1] - support_.t[i];
+    const V at_start = i > 0 ? V(0.125 * w * w * bend) : V::Zero();
+    if (i + 1 < last) bend = bend_at(support_.t, points, i + 1);
+    const V at_end = i + 1 < last ? V(0.125 * w * w * bend) : V::Zero();
+    if (surely_within(at_start, chord, tolerance) && surely_within(at_end, chord, tolerance)) return {};
     Excess left, right;
-    if (i > 0) left = excess_of<V>(0.125 * w * w * bend_at(support_.t, points, i), chord, tolerance);
-    if (i + 1 < last) right = excess_of<V>(0.125 * w * w * bend_at(support_.t, points, i + 1), chord, tolerance);
+    if (i > 0) left = excess_of<V>(at_start, chord, tolerance);
+    if (i + 1 < last) right = excess_of<V>(at_end, chord, tolerance);
     Excess both = worse(left, right);
     // The two ends tell different stories: no smooth arc, and halving is all that can be trusted.
     if (i > 0 && i + 1 < last && 2 * std::min(left.ratio, right.ratio) < both.ratio) {
       both.parts = std::min(both.parts, 2);
     }
     return both;
+  }
+
+  /// At the start of an edge, in both spaces.
+  struct Bends {
+    Vec2 plane{0, 0};
+    Vec3 space{0, 0, 0};
+  };
+  /// The larger of both spaces; edges are to be asked one after the other, from the first one on.
+  Excess edge_excess(std::size_t i, const Tolerance& plane, const Tolerance& space, Bends& bends) const noexcept {
+    const Excess in_plane = edge_excess(support_.uv, i, plane, bends.plane);
+    return worse(in_plane, edge_excess(support_.xyz, i, space, bends.space));
   }
 
   [[nodiscard]] bool divisible(std::size_t i, int parts) const noexcept {
@@ -212,8 +237,9 @@ class Builder {
     if (support_.t.size() < 3) return added;
     const Tolerance plane = tolerance_of(support_.uv);
     const Tolerance space = tolerance_of(support_.xyz);
+    Bends bends;
     for (std::size_t i = 0; i + 1 < support_.t.size(); ++i) {
-      const Excess excess = worse(edge_excess(support_.uv, i, plane), edge_excess(support_.xyz, i, space));
+      const Excess excess = edge_excess(i, plane, space, bends);
       const int parts = std::min(excess.parts, most_parts_in(pass));
       limited = limited || excess.ratio > 1;
       if (excess.ratio <= 1 || !divisible(i, parts)) continue;
@@ -234,8 +260,9 @@ class Builder {
     const Tolerance plane = tolerance_of(support_.uv);
     const Tolerance space = tolerance_of(support_.xyz);
     double worst = 1;
+    Bends bends;
     for (std::size_t i = 0; i + 1 < support_.t.size(); ++i) {
-      const double ratio = worse(edge_excess(support_.uv, i, plane), edge_excess(support_.xyz, i, space)).ratio;
+      const double ratio = edge_excess(i, plane, space, bends).ratio;
       if (ratio > worst) {
         worst = ratio;
         support_.limited = true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -190,11 +191,12 @@ void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const 
   const auto total = static_cast<std::int64_t>(mesh.triangles.size());
   const std::int64_t budget = search_shapes + search_shapes_a_triangle * total;
   std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
-  SearchZone zone(work, normals);
+  std::optional<SearchZone> made;  // most meshes need none
   BadTriangles bad(work, settled);
   for (int pass = 0; pass < search_passes; ++pass) {
     bool any = false;
     for (const auto& [rank, t] : bad.list()) {
+      SearchZone& zone = made ? *made : made.emplace(work, normals);
       if (zone.shapes_asked > std::min(budget, allowed)) return;
       work.monitor.checkpoint();
       const Triangle& T = mesh.triangles[t];

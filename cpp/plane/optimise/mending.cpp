@@ -14,6 +14,8 @@ namespace {
 
 // What moves make small: bad triangles weigh much; one that is turned over outweighs everything.
 double penalty(double quality) noexcept { return quality > 0 ? 1 / (quality * quality) : infinity; }
+// Of the best shape, 1, and a thousandth for the rounding of much stretched metrics.
+constexpr double least_penalty = 0.999;
 
 double shape(const Mending& m, const Triangle& T) { return m.work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]); }
 
@@ -39,8 +41,9 @@ bool swap(Mending& m, int t) {
 bool move_to_best(Mending& m, int v) {
   Triangulation& mesh = m.work.mesh;
   Vertex& P = mesh.vertices[v];
+  StarBound bound{.least = least_penalty};
   const auto cost = [&](double enough) {
-    return star_cost(m.work.shapes, v, m.star.link, enough, penalty, m.shapes_asked);
+    return bounded_star_cost(m.work.shapes, v, m.star.link, enough, penalty, bound, m.shapes_asked);
   };
   const double before = cost(infinity);
   double best = before;

@@ -2,11 +2,13 @@
 // What the shapes of a star cost. Private to plane/optimise.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "plane/kernel/shapes.h"
+#include "support/infinity.h"
 
 namespace carreau::plane {
 
@@ -20,6 +22,39 @@ double star_cost(const Shapes& shapes, int v, const std::vector<std::int32_t>& l
   for (; k < link.size() && sum < enough; ++k)
     sum += cost(shapes.quality_at_centroid(v, link[k], link[k + 1 < link.size() ? k + 1 : 0]));
   asked += static_cast<std::int64_t>(k);
+  return sum;
+}
+
+/// What costs of single triangles are at least, and the one of the star that is asked first: moves that gain nothing
+/// mostly make that one worse which was worst before.
+struct StarBound {
+  double least;
+  std::size_t hardest = 0;
+};
+
+/// star_cost(), infinite once that one cannot be below `enough`, whatever the triangles not yet asked cost: the sum is in
+/// the same order, so it decides the same. A share of `rounding` is left for sums.
+template <typename Cost>
+double bounded_star_cost(const Shapes& shapes, int v, const std::vector<std::int32_t>& link, double enough, const Cost& cost,
+                         StarBound& bound, std::int64_t& asked) {
+  constexpr double rounding = 1e-12;
+  const std::size_t n = link.size(), first = std::min(bound.hardest, n - 1);
+  const double most = enough * (1 + rounding);
+  const auto cost_of = [&](std::size_t k) {
+    ++asked;
+    return cost(shapes.quality_at_centroid(v, link[k], link[k + 1 < n ? k + 1 : 0]));
+  };
+  const auto least_of = [&](std::size_t triangles) { return bound.least * static_cast<double>(triangles); };
+  const double head = cost_of(first);
+  if (head + least_of(n - 1) > most) return infinity;
+  double sum = 0, highest = head;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double one = k == first ? head : cost_of(k);
+    if (one > highest) highest = one, bound.hardest = k;
+    sum += one;
+    const double rest = k < first ? head + least_of(n - k - 2) : least_of(n - k - 1);
+    if (sum + rest > most) return infinity;
+  }
   return sum;
 }
 
