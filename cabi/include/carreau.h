@@ -781,7 +781,7 @@ CARREAU_API carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* s
  * triangles of the faces that this process has meshed and, behind them, ghosts: those of other processes that touch them in a vertex.
  * Vertices that this process owns come first. Its faces are those of the whole mesh; carreau_mesh_encode gives ".meshb" what this process
  * has of the file of the whole mesh; other functions take it as a mesh of its own. The mesh of the session stays what it was.
- * What needs the whole mesh is refused: gradation, elements other than p1, patches=independent, cracks, narrow_faces=collapse, measure,
+ * What needs the whole mesh is refused: gradation, elements other than p1, patches=independent, cracks, faces that narrow_faces=collapse lets vanish, measure,
  * surfaces given as triangles.
  * Errors: those of carreau_mesh_generate, on all processes; carreau_last_error has the sentence. ARGUMENT (no team; what needs
  * the whole mesh; part is NULL or a session's). */

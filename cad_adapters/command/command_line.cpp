@@ -100,6 +100,7 @@ void CommandLine::add_mesh() {
   mesh->add_option("--dump-failed", mesh_.dump_failed,
                    "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
       ->type_name(kind::file);
+  add_parts_option(mesh, mesh_);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
 }
@@ -126,6 +127,7 @@ void CommandLine::add_plane() {
       ->check(not_empty)
       ->type_name(kind::file);
   add_mesh_options(plane, plane_);
+  add_parts_option(plane, plane_);
   plane->add_flag("--json", plane_.json, "Print a summary as JSON on the standard output");
   plane->add_flag("-q,--quiet", plane_.quiet, "Tell errors only");
 }

@@ -53,6 +53,7 @@ struct MeshOptions : InputChoice {
   int threads = 0;                            ///< 0: all cores
   bool quiet = false;
   bool json = false;  ///< a summary on the standard output
+  bool parts = false;  ///< each process keeps its part of the mesh
 };
 
 /// Meshes a file of geometry. 0 all faces, 1 some faces have no mesh; throws Failure when none has one.

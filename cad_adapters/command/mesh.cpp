@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <functional>
+#include <utility>
 
 #include "cad_input.h"
 #include "commands.h"
@@ -76,12 +78,12 @@ void refuse_elements(carreau_session* session, const std::vector<std::string>& o
   }
 }
 
-/// Throws Failure when there is no mesh.
+/// `make` makes the mesh. Throws Failure when there is none.
 void generate(carreau_session* session, const MeshOptions& options, CadInput& input, const SizeMap& map,
-              Adaptation& adaptation, FailedFaces& failed, Progress& progress) {
+              Adaptation& adaptation, const std::function<carreau_status()>& make, FailedFaces& failed, Progress& progress) {
   require(session, input.give_to(session));
   prescribe_curve_edges(session, options, input);
-  const carreau_status status = adaptation.run(session, input.diagonal());
+  const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
     if (!failure.empty()) throw Failure(failure);
@@ -96,8 +98,28 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   throw Failure(sentence);
 }
 
+/// The mesh of the session, or the part of this process.
+void take_mesh(MeshRun& run, const Ranks* ranks, const Ranks::Part& part) {
+  run.quality.struct_size = sizeof run.quality;
+  if (part != nullptr) {
+    run.mesh = ranks->mesh_of(part);
+    require(run.mesh, carreau_mesh_part_quality(run.mesh, &run.quality));
+  } else {
+    require(run.session, carreau_session_mesh(run.session, &run.mesh));
+    require(run.mesh, carreau_mesh_quality(run.mesh, &run.quality));
+  }
+  run.faces = faces_of(run.mesh);
+  for (FaceResult& face : run.faces) face.why = in_terms_of_file(run.input, face.why);
+}
+
+/// What is wrong with a mesh in parts.
+void warn_of_parts(const MeshRun& run, Progress& progress) {
+  if (const std::string open = free_edges_of_parts(run); !open.empty()) progress.warning(open);
+  if (const std::string cross = crossings_of_parts(run); !cross.empty()) progress.warning(cross);
+}
+
 void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, Adaptation& adaptation,
-              FailedFaces& failed, Progress& progress) {
+              const Ranks* ranks, Ranks::Part& part, FailedFaces& failed, Progress& progress) {
   progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
   refuse_elements(run.session, options.outputs);
@@ -110,13 +132,13 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   if (by_curvature != 0)
     for (const std::string& kink : input.kinks()) progress.warning(kink);
   const std::clock_t start = std::clock();
-  generate(run.session, options, input, map, adaptation, failed, progress);
+  const auto make = [&] {
+    return options.parts ? ranks->generate_parts(run.session, part) : adaptation.run(run.session, input.diagonal());
+  };
+  generate(run.session, options, input, map, adaptation, make, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  require(run.session, carreau_session_mesh(run.session, &run.mesh));
-  run.quality.struct_size = sizeof run.quality;
-  require(run.mesh, carreau_mesh_quality(run.mesh, &run.quality));
-  run.faces = faces_of(run.mesh);
-  for (FaceResult& face : run.faces) face.why = in_terms_of_file(input, face.why);
+  take_mesh(run, ranks, part);
+  if (options.parts) return warn_of_parts(run, progress);
   if (const std::string open = unexpectedly_open(run); !open.empty()) progress.warning(open);
   if (!options.quiet || options.json || has_report(options)) {
     constexpr std::size_t faces_told = 10;
@@ -150,7 +172,7 @@ std::string page_of(const MeshRun& run) {
 
 /// Pieces that come with a file are behind the outputs in `paths`: with it they are written.
 void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vector<std::string>& paths,
-               const Ranks* ranks, Progress& progress) {
+               const Ranks* ranks, const Ranks::Part& part, Progress& progress) {
   carreau_exr_options fields{};
   fields.struct_size = sizeof fields;
   fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
@@ -163,7 +185,9 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     progress.part(done, done + each);
     done += each;
     const bool alone = suffix_of(path) == ".exr" || is_solution(path) || is_report(path);
-    if (ranks != nullptr && !alone)
+    if (part != nullptr)
+      ranks->write(run.session, part, path);
+    else if (ranks != nullptr && !alone)
       ranks->write(run.session, path);
     else if (is_solution(path))
       adaptation.write_fields(run.session, path, progress);  // ranks share the work, and the first one writes
@@ -198,6 +222,15 @@ std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress)
   return open_several(all, options);
 }
 
+/// What a program would be told, and what there is of faces that failed, needs the whole mesh.
+void refuse_with_parts(const MeshOptions& options) {
+  for (const auto& [given, name] : {std::pair{options.json, "--json"}, {!options.dump_failed.empty(), "--dump-failed"}})
+    if (given) throw Failure(std::string("--parts and ") + name + " exclude each other: no process has the whole mesh.");
+  for (const std::string& path : options.outputs)
+    if (!is_one_of(suffix_of(path), {".meshb", ".pvtu"}))
+      throw Failure("'" + path + "' is made of the whole mesh: --parts writes .meshb and .pvtu.");
+}
+
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
@@ -212,6 +245,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
   read.insert(read.end(), options.more_inputs.begin(), options.more_inputs.end());
+  if (given.parts) refuse_with_parts(given);  // on all ranks
   if (ranks != nullptr) suffixes.emplace_back(".pvtu");
   const std::vector<std::string> files = ranks != nullptr ? ranks->all_files(options.outputs) : options.outputs;
   OutputFiles outputs(files, suffixes, read);
@@ -224,13 +258,14 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const Stopwatch reading;
   const std::unique_ptr<CadInput> input = opened(options, progress);
   const SessionHandle session = make_session();
-  if (ranks != nullptr) ranks->attach(session.get());
+  if (ranks != nullptr && !options.parts) ranks->attach(session.get());
+  Ranks::Part part;
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
   progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
   progress.line(input->summary());
   try {
-    mesh_all(options, run, *input, map, adaptation, dumped, progress);
+    mesh_all(options, run, *input, map, adaptation, ranks, part, dumped, progress);
   } catch (const Failure&) {
     for (const std::string& path : dumped.files()) progress.line("dumped     " + path);
     throw;
@@ -240,19 +275,19 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const bool any =
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
-  if (!options.quiet || options.json || has_report(options)) run.short_edges = find_short_edges(run.session, run.mesh, run.quality);
+  if (part == nullptr && (!options.quiet || options.json || has_report(options))) run.short_edges = find_short_edges(run.session, run.mesh, run.quality);
   run.warnings = progress.warnings();
   if (has_report(options)) measure(run.session);
   const Stopwatch writing;
-  const auto write = [&](const std::vector<std::string>& paths) { write_all(run, adaptation, paths, ranks, progress); };
+  const auto write = [&](const std::vector<std::string>& paths) { write_all(run, adaptation, paths, ranks, part, progress); };
   if (ranks == nullptr || ranks->speaks())
     outputs.write(write);
   else
     write(files);
   run.seconds_writing = writing.seconds();
   if (!given.quiet) {  // ranks that say nothing share the work
-    const std::string line = input->of_mesh(run.session);
-    for (const std::string& before : summary_lines(run)) progress.line(before);
+    const std::string line = part != nullptr ? "" : input->of_mesh(run.session);
+    for (const std::string& before : part != nullptr ? part_lines(run, ranks->size()) : summary_lines(run)) progress.line(before);
     if (!line.empty()) progress.line(line);
   }
   run.warnings = progress.warnings();
@@ -267,7 +302,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
 
 int mesh(const MeshOptions& options) {
   catch_signals();
-  const std::unique_ptr<Ranks> ranks = Ranks::join(options.outputs);
+  const std::unique_ptr<Ranks> ranks = Ranks::join(options.outputs, options.parts);
   if (!ranks) return mesh_in(options, nullptr);
   std::string why;
   try {

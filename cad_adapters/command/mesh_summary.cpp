@@ -205,10 +205,11 @@ std::string unexpectedly_open(const MeshRun& run) {
          (gluing.open > 0 ? ", on curves " + gluing.list : "") + ".";
 }
 
-std::vector<std::string> summary_lines(const MeshRun& run) {
+namespace {
+
+/// Of faces and edges.
+std::vector<std::string> first_lines(const MeshRun& run) {
   const carreau_quality& q = run.quality;
-  const carreau_report r = report_of(run.session);
-  const std::vector<carreau_interface> interfaces = interfaces_of(run.session);
   const auto of = [&](std::int32_t status) { return whole(count(run.faces, status)); };
   std::vector<std::string> lines{text("faces      %lld meshed, %lld mended, %lld failed", of(CARREAU_FACE_MESHED),
                                       of(CARREAU_FACE_MENDED), of(CARREAU_FACE_FAILED))};
@@ -217,6 +218,47 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   for (std::string& line : face_lines(run.faces)) lines.push_back(std::move(line));
   lines.push_back(text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
                        q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str()));
+  return lines;
+}
+
+carreau_part_counts counts_of(carreau_mesh* part) {
+  carreau_part_counts counts{};
+  counts.struct_size = sizeof counts;
+  require(part, carreau_mesh_part_count(part, &counts));
+  return counts;
+}
+
+}  // namespace
+
+std::string free_edges_of_parts(const MeshRun& run) {
+  const std::int64_t edges = run.quality.open_edges;
+  if (edges == 0 || count(run.faces, CARREAU_FACE_FAILED) > 0 || !run.input.closed()) return "";
+  return "The faces of the file close, the mesh does not: " + std::to_string(edges) + (edges == 1 ? " free edge." : " free edges.");
+}
+
+std::string crossings_of_parts(const MeshRun& run) {
+  const std::int64_t pairs = counts_of(run.mesh).crossings;
+  if (pairs <= 0) return "";
+  return std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
+         " of triangles cross, and smaller ones do, too: faces cross in the geometry itself, or lie at one place";
+}
+
+std::vector<std::string> part_lines(const MeshRun& run, int processes) {
+  std::vector<std::string> lines = first_lines(run);
+  const carreau_part_counts counts = counts_of(run.mesh);
+  lines.push_back(text("parts      %d processes; the first has %lld of %lld triangles", processes, whole(counts.own_triangles),
+                       whole(counts.all_triangles)));
+  const std::int32_t threads = threads_of(run.session);
+  lines.push_back(text("seconds    reading %.3f, writing %.3f (%d %s for each process)", run.seconds_reading, run.seconds_writing,
+                       static_cast<int>(threads), threads == 1 ? "thread" : "threads"));
+  for (const std::string& path : run.options.outputs) lines.push_back("written    " + path);
+  return lines;
+}
+
+std::vector<std::string> summary_lines(const MeshRun& run) {
+  const carreau_report r = report_of(run.session);
+  const std::vector<carreau_interface> interfaces = interfaces_of(run.session);
+  std::vector<std::string> lines = first_lines(run);
   if (std::string line = short_edges_line(run.short_edges); !line.empty()) lines.push_back(std::move(line));
   lines.push_back(interfaces_line(interfaces));
   for (std::string& line : gluing_lines(run.input, interfaces)) lines.push_back(std::move(line));

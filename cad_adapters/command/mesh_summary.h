@@ -48,6 +48,12 @@ std::string unexpectedly_open(const MeshRun& run);
 /// A table: faces, lengths, times, files; the library's own messages tell counts, shape and the times of its phases.
 std::vector<std::string> summary_lines(const MeshRun& run);
 
+/// The same of a mesh that several processes keep in parts: `run.mesh` is the part of this one.
+std::vector<std::string> part_lines(const MeshRun& run, int processes);
+/// Sentences about such a mesh: that it has free edges although the file closes, and that triangles cross; "": not so.
+std::string free_edges_of_parts(const MeshRun& run);
+std::string crossings_of_parts(const MeshRun& run);
+
 /// Everything about a run that a program may want, without its format: what `carreau mesh --json` prints. `delivered`: with
 /// what was delivered, for which the mesh is measured when it has not been.
 nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered);

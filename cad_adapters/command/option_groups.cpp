@@ -35,6 +35,11 @@ CLI::Option* threads(CLI::App* app, int& value) {
       ->capture_default_str();
 }
 
+void add_parts_option(CLI::App* app, MeshOptions& options) {
+  app->add_flag("--parts", options.parts,
+                "Under mpirun: each process keeps its part, and none holds the whole mesh; writes .meshb and .pvtu");
+}
+
 void add_mesh_options(CLI::App* app, MeshOptions& options) {
   app->add_option("--size", options.size,
                   "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")

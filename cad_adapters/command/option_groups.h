@@ -25,6 +25,8 @@ inline constexpr const char* rounds = "ROUNDS";
 std::string not_empty(const std::string& value);
 /// `--set`, and options like it, take one value each time they are given.
 CLI::Option* repeated(CLI::Option* option);
+/// Of commands that mesh once.
+void add_parts_option(CLI::App* app, MeshOptions& options);
 CLI::Option* threads(CLI::App* app, int& value);
 
 /// What governs a mesh.

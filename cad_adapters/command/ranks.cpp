@@ -54,14 +54,16 @@ Function* function(void* library, const char* name) {
 
 }  // namespace
 
-std::unique_ptr<Ranks> Ranks::join(const std::vector<std::string>& outputs) {
+std::unique_ptr<Ranks> Ranks::join(const std::vector<std::string>& outputs, bool parts) {
   const auto parallel = std::find_if(outputs.begin(), outputs.end(), is_parallel);
-  if (processes() <= 1 && parallel == outputs.end()) return nullptr;
+  if (processes() <= 1 && parallel == outputs.end() && !parts) return nullptr;
   // MPI's own plugins look for its symbols in the whole program.
   void* const library = dlopen(library_name, RTLD_NOW | RTLD_GLOBAL);
   if (library == nullptr) {
     const std::string who = parallel != outputs.end()
                                 ? "'" + *parallel + "' is written by many processes"
+                            : processes() <= 1
+                                ? std::string("--parts is for many processes")
                                 : "This is one of " + std::to_string(processes()) + " processes that make one mesh";
     throw Failure(who + ", but libcarreau_mpi is not here: build Carreau with MPI (libopenmpi-dev, CARREAU_MPI).");
   }
@@ -86,6 +88,24 @@ int Ranks::threads() const noexcept {
 
 void Ranks::attach(carreau_session* session) const {
   if (CARREAU_MPI_FUNCTION(carreau_mpi_attach)(session, comm_) != CARREAU_OK) throw Failure(carreau_last_error(session));
+}
+
+carreau_status Ranks::generate_parts(carreau_session* session, Part& part) const {
+  carreau_part* made = nullptr;
+  const carreau_status status = CARREAU_MPI_FUNCTION(carreau_mesh_generate_parts)(session, comm_, &made);
+  part = Part(made, &CARREAU_MPI_FUNCTION(carreau_part_free));
+  return status;
+}
+
+carreau_mesh* Ranks::mesh_of(const Part& part) const {
+  carreau_mesh* mesh = nullptr;
+  if (CARREAU_MPI_FUNCTION(carreau_part_mesh)(part.get(), &mesh) != CARREAU_OK) throw Failure("There is no part of a mesh.");
+  return mesh;
+}
+
+void Ranks::write(carreau_session* session, const Part& part, const std::string& path) const {
+  if (CARREAU_MPI_FUNCTION(carreau_part_write)(session, part.get(), comm_, path.c_str()) != CARREAU_OK)
+    throw Failure(carreau_last_error(session));
 }
 
 void Ranks::write(carreau_session* session, const std::string& path) const {

@@ -12,9 +12,12 @@ namespace command {
 
 class Ranks {
  public:
-  /// The processes of this run; null where this one is alone and no output needs others (.pvtu). Throws Failure where
+  /// A part of a mesh (carreau_mpi.h).
+  using Part = std::shared_ptr<carreau_part>;
+
+  /// The processes of this run; null where this one is alone and neither an output (.pvtu) nor `parts` needs others. Throws Failure where
   /// there are others and libcarreau_mpi is not there.
-  static std::unique_ptr<Ranks> join(const std::vector<std::string>& outputs);
+  static std::unique_ptr<Ranks> join(const std::vector<std::string>& outputs, bool parts);
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
@@ -26,6 +29,11 @@ class Ranks {
 
   /// All meshes of the session are made by all ranks. Throws Failure.
   void attach(carreau_session* session) const;
+  /// The mesh of a session that is not attached, of which each rank keeps its part; carreau_mesh_generate_parts.
+  carreau_status generate_parts(carreau_session* session, Part& part) const;
+  [[nodiscard]] carreau_mesh* mesh_of(const Part& part) const;
+  /// Writes it by all ranks, to the path of the first one. Throws Failure.
+  void write(carreau_session* session, const Part& part, const std::string& path) const;
   /// Writes the mesh by all ranks, to the path of the first one. Throws Failure.
   void write(carreau_session* session, const std::string& path) const;
   /// Files of `outputs` and those that come with them: pieces of .pvtu, in the order of the ranks, behind all outputs.

@@ -102,6 +102,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   grade_sizes(run);
   discretise_curves(run);
   find_narrow(run);
+  if (run.options.parts) refuse_narrow_parts(run.narrow);
   const NarrowModel narrow = run.narrow;
   const auto mesh = [&] {
     run.narrow = narrow;

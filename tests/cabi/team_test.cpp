@@ -184,6 +184,31 @@ TEST(Team, PartsTellWhichTrianglesCrossAndPartThem) {
   }
 }
 
+TEST(Team, PartsRefuseFacesThatVanish) {
+  const auto narrow = [] {
+    carreau::Session session;
+    std::vector<carreau::BezierPatch> squares;
+    for (const auto& [low, high] : {std::array{0., 1.}, {1., 1.001}, {1.001, 2.}})
+      squares.push_back({.m = 1, .n = 1, .controls = {{low, 0, 0}, {low, 1, 0}, {high, 0, 0}, {high, 1, 0}}});
+    carreau::add_bezier(session, squares);
+    session.set("hphydef", 0.1);
+    session.set("narrow_faces", "collapse");
+    return session;
+  };
+  carreau::Session alone = narrow();
+  alone.generate();
+  ASSERT_EQ(alone.mesh().faces()[1].status, CARREAU_FACE_COLLAPSED);
+  Office office(1);
+  Rank rank{office, 0, {}};
+  carreau::Session session = narrow();
+  const carreau_team team = rank.team();
+  session.set_team(&team);
+  carreau::Mesh part;
+  EXPECT_THROW(session.generate_part(part), carreau::Error);
+  EXPECT_NE(std::string(carreau_last_error(session.get())).find("narrow_faces"), std::string::npos);
+  session.set_team(nullptr);
+}
+
 /// The spout of the teapot crosses its body: it is meshed again in vain.
 carreau::Session teapot() {
   carreau::Session session;

@@ -46,6 +46,31 @@ def same_files(folder):
         subprocess.run([VTK, f"{HERE}/read_pvtu.py", f"{folder}/many0.pvtu", f"{folder}/one0.vtu", str(RANKS)], check=True)
 
 
+def same_parts(folder):
+    """Each rank keeps its part. The teapot's spout crosses its body: what crosses is found, and meshed again in vain, in parts, too."""
+    for i, options in enumerate([["--size", "0.15"], ["--angle", "12", "--set", "crossing_rounds=3"]]):
+        one, many = f"{folder}/one{i}.meshb", f"{folder}/many{i}.meshb"
+        first = alone("mesh", TEAPOT, *options, "-o", one, "-o", f"{folder}/one{i}.vtu")
+        done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, *options, "--parts", "-o", many, "-o", f"{folder}/many{i}.pvtu")
+        assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
+        assert content(one) == content(many), options
+        said = done.stdout + done.stderr
+        assert f"parts      {RANKS} processes" in said and "triangles cross" in said, said
+        # What is told of the whole mesh is what one process tells.
+        for line in (first.stdout + first.stderr).splitlines():
+            if line.startswith(("edges ", "faces ")) or "shape quality" in line or "triangles, " in line:
+                assert line in said, (line, said)
+    if VTK != "NONE":
+        subprocess.run([VTK, f"{HERE}/read_pvtu.py", f"{folder}/many0.pvtu", f"{folder}/one0.vtu", str(RANKS), "kept"], check=True)
+    before = sorted(os.listdir(folder))
+    for refused, word in [(["--element", "p2"], "element"), (["--angle", "12", "--gradation", "1.3"], "gradation"), (["--json"], "--json")]:
+        done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, "--size", "0.3", *refused, "--parts", "-o", f"{folder}/x.meshb")
+        assert done.returncode == 2 and done.stderr.count("carreau: ") == 1 and word in done.stderr, (done.returncode, done.stderr)
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, "--size", "0.3", "--parts", "-o", f"{folder}/x.stl")
+    assert done.returncode == 2 and ".stl" in done.stderr, (done.returncode, done.stderr)
+    assert sorted(os.listdir(folder)) == before
+
+
 def write_torus(path, around=48, across=24):
     nodes, triangles = [], []
     for i in range(around):
@@ -170,6 +195,8 @@ with tempfile.TemporaryDirectory() as temporary:
     same_files(temporary)
     bad_input(temporary)
 with tempfile.TemporaryDirectory() as temporary:
+    same_parts(temporary)
+with tempfile.TemporaryDirectory() as temporary:
     same_triangles(temporary)
 with tempfile.TemporaryDirectory() as temporary:
     same_adaptations(temporary)
@@ -178,6 +205,7 @@ with tempfile.TemporaryDirectory() as temporary, tempfile.TemporaryDirectory() a
     write_torus(torus_file), write_square(square_file)
     for rank in {0, RANKS - 1}:
         killed(out, rank, ["mesh", TEAPOT, "--size", "0.012", "-o", f"{out}/x.pvtu"], 0.5)
+    killed(out, RANKS - 1, ["mesh", TEAPOT, "--parts", "--size", "0.012", "-o", f"{out}/x.pvtu"], 0.5)
     # While parts are remeshed by edits, and while fields are estimated.
     killed(out, RANKS - 1, ["mesh", torus_file, "--size", "0.03", "--element", "p2"], 2)
     killed(out, RANKS - 1, ["adapt", square_file, *ADAPTATION, "--iterations", "50", "--min", "0.002"], 1.5)

@@ -252,7 +252,7 @@ void refusals() {
   expect(carreau_mesh_generate(run.session) == CARREAU_OK, run.sentence());
   const std::string before = file_of(run.mesh()).bytes;
   for (const auto& [name, value, usual] : {std::array<std::string, 3>{"element", "p2", "p1"}, {"patches", "independent", "dependent"},
-                                           {"cracks", "1", "0"}, {"narrow_faces", "collapse", "keep"}, {"measure", "1", "0"}}) {
+                                           {"cracks", "1", "0"}, {"measure", "1", "0"}}) {
     expect(carreau_set_word(run.session, name.c_str(), value.c_str()) == CARREAU_OK, run.sentence());
     parts_of(run, CARREAU_ERR_ARGUMENT);
     expect(run.sentence().find(name) != std::string::npos && run.sentence().find("whole mesh") != std::string::npos, run.sentence());

@@ -2,7 +2,9 @@
 #include "surface/parts/near_triangles.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
+#include <string_view>
 
 #include "mesh/crossings/spatial_order.h"
 #include "support/box_tree.h"
@@ -16,8 +18,9 @@ namespace {
 using Corners = std::array<std::int32_t, 3>;
 using Box = BoxTree::Box;
 
-// Of one box: 0.2 bytes a triangle reach all processes. [time and memory only]
-constexpr std::size_t triangles_of_box = 256;
+// Of one box: 0.2 bytes a triangle reach all processes; and of one of those in boxes that meet others, 3 bytes a triangle. [time and
+// memory only]
+constexpr std::size_t triangles_of_box = 256, triangles_of_small_box = 16;
 
 /// Which of two processes looks: each for half of the others.
 int looks(int a, int b) noexcept { return (a + b) % 2 == 0 ? std::min(a, b) : std::max(a, b); }
@@ -71,6 +74,28 @@ struct OwnGroups {
   }
 };
 
+/// Parts of the groups that meet those of other processes.
+struct SmallGroups {
+  std::vector<std::size_t> first;  // of each, in OwnGroups::order
+  std::vector<Box> boxes;
+};
+
+SmallGroups small_groups(const CompositeRun& run, const OwnGroups& own, const std::vector<Box>& others) {
+  SmallGroups small;
+  const BoxTree tree = tree_of(others, run);
+  std::vector<Box> near;
+  for (std::size_t group = 0; group < own.boxes.size(); ++group) {
+    all_that_meet(tree, others, own.boxes[group], near);
+    if (near.empty()) continue;
+    const std::size_t begin = group * triangles_of_box, end = std::min(begin + triangles_of_box, own.order.size());
+    for (std::size_t k = begin; k < end; ++k) {
+      if ((k - begin) % triangles_of_small_box == 0) small.first.push_back(k), small.boxes.emplace_back();
+      small.boxes.back().add(box_of(run.result.mesh.vertices, own.corners[static_cast<std::size_t>(own.order[k])]));
+    }
+  }
+  return small;
+}
+
 std::string packed(const std::vector<Box>& boxes) {
   PacketWriter packet;
   std::vector<Vec3> corners;
@@ -80,12 +105,12 @@ std::string packed(const std::vector<Box>& boxes) {
   return packet.take();
 }
 
-/// Of the processes that look for what crosses between themselves and this one.
-std::vector<Box> boxes_of_lookers(Team& team, const std::vector<Box>& own) {
+/// What is wanted of those of other processes.
+std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::vector<Box>& own, const std::function<bool(int)>& wanted) {
   std::vector<Box> boxes;
-  const std::vector<std::string> all = team.exchange("boxes", packed(own));
+  const std::vector<std::string> all = team.exchange(step, packed(own));
   for (int rank = 0; rank < team.size(); ++rank) {
-    if (rank == team.rank() || looks(rank, team.rank()) != rank) continue;
+    if (rank == team.rank() || !wanted(rank)) continue;
     PacketReader packet(all[static_cast<std::size_t>(rank)]);
     const std::vector<Vec3> corners = packet.points();
     for (std::size_t k = 0; k + 1 < corners.size(); k += 2) boxes.push_back({corners[k], corners[k + 1]});
@@ -94,13 +119,16 @@ std::vector<Box> boxes_of_lookers(Team& team, const std::vector<Box>& own) {
 }
 
 /// Those that others look at.
-std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnGroups& own, const std::vector<Box>& lookers) {
+std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnGroups& own, const SmallGroups& small,
+                                              const std::vector<Box>& lookers) {
   std::vector<TriangleOfFace> shown;
   const BoxTree tree = tree_of(lookers, run);
   std::vector<Box> near;
-  for (std::size_t group = 0; group < own.boxes.size(); ++group) {
-    all_that_meet(tree, lookers, own.boxes[group], near);
-    const std::size_t begin = group * triangles_of_box, end = std::min(begin + triangles_of_box, own.order.size());
+  for (std::size_t group = 0; group < small.boxes.size(); ++group) {
+    all_that_meet(tree, lookers, small.boxes[group], near);
+    // Of the last one in a box there may be fewer.
+    const std::size_t begin = small.first[group], box_end = (begin / triangles_of_box + 1) * triangles_of_box;
+    const std::size_t end = std::min({begin + triangles_of_small_box, box_end, own.order.size()});
     for (std::size_t k = begin; k < end && !near.empty(); ++k) {
       const auto t = static_cast<std::size_t>(own.order[k]);
       const Box box = box_of(run.result.mesh.vertices, own.corners[t]);
@@ -175,9 +203,11 @@ NearTriangles near_triangles(const CompositeRun& run) {
   std::vector<OtherTriangle> others;
   {
     const OwnGroups own(run);
-    const std::vector<Box> lookers = boxes_of_lookers(team, own.boxes);
-    Receiver receiver(run, own.boxes, near.vertices);
-    team.exchange_in_turn("triangles near others", show_triangles(mesh, *run.result.shares, triangles_to_show(run, own, lookers)),
+    const SmallGroups small = small_groups(run, own, boxes_of_others(team, "boxes", own.boxes, [](int) { return true; }));
+    const std::vector<Box> lookers =
+        boxes_of_others(team, "small boxes", small.boxes, [&](int rank) { return looks(rank, team.rank()) == rank; });
+    Receiver receiver(run, small.boxes, near.vertices);
+    team.exchange_in_turn("triangles near others", show_triangles(mesh, *run.result.shares, triangles_to_show(run, own, small, lookers)),
                           [&](int rank, const std::string& bytes) {
                             run.monitor.checkpoint();
                             if (rank != team.rank() && looks(rank, team.rank()) == team.rank()) receiver.take(bytes, others);

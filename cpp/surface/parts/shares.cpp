@@ -40,11 +40,14 @@ void refuse_parts(const CompositeOptions& options, const SizeRules& rules) {
     what = "a mesh that is free of its patches (parameter patches)";
   else if (options.cracks)
     what = "cracks (parameter cracks)";
-  else if (options.narrow_faces == NarrowFaces::collapse)
-    what = "narrow faces that collapse (parameter narrow_faces)";
   else if (options.gradation > 0 && !(rules.constant() && options.proximity == 0))
     what = "a gradation (parameter gradation)";
   if (!what.empty()) throw InvalidArgument(needs_whole_mesh(what));
+}
+
+void refuse_narrow_parts(const NarrowModel& narrow) {
+  if (!narrow.vanishing.curve.empty())
+    throw InvalidArgument(needs_whole_mesh("narrow faces that collapse, of which the model has some (parameter narrow_faces)"));
 }
 
 void share_sentences(Team& team, std::vector<std::string>& of_face) {

@@ -12,6 +12,9 @@ namespace carreau {
 /// Throws InvalidArgument where the options want something that needs the whole mesh. Before anything is made.
 void refuse_parts(const CompositeOptions& options, const SizeRules& rules);
 
+/// The same where narrow faces are to vanish: before a face is meshed.
+void refuse_narrow_parts(const NarrowModel& narrow);
+
 /// What each process says of its own faces reaches all: `of_face` is "" for faces of others before.
 void share_sentences(Team& team, std::vector<std::string>& of_face);
 
