@@ -18,9 +18,12 @@ namespace {
 using Corners = std::array<std::int32_t, 3>;
 using Box = BoxTree::Box;
 
-// Of one box: 0.2 bytes a triangle reach all processes; and of one of those in boxes that meet others, 3 bytes a triangle. [time and
-// memory only]
+// Of one box: some 0.3 bytes a triangle reach all processes; and of one of those in boxes that meet others, 4 bytes a triangle. [time
+// and memory only]
 constexpr std::size_t triangles_of_box = 256, triangles_of_small_box = 16;
+// Sides of a box over those of its first triangle's: neighbours in the order may be far apart in space, and a box over both meets what
+// is near neither. Twice what compact groups of such numbers have. [time and memory only]
+constexpr double widest_box = 32, widest_small_box = 8;
 
 /// Which of two processes looks: each for half of the others.
 int looks(int a, int b) noexcept { return (a + b) % 2 == 0 ? std::min(a, b) : std::max(a, b); }
@@ -48,14 +51,19 @@ void all_that_meet(const BoxTree& tree, const std::vector<Box>& boxes, const Box
                      });
 }
 
-/// The triangles of this process: which they are, and groups of neighbours with their boxes.
-struct OwnGroups {
+/// Neighbours among triangles, with their boxes.
+struct Groups {
+  std::vector<std::size_t> first;  // of each, in OwnTriangles::order
+  std::vector<Box> boxes;
+};
+
+/// The triangles of this process, and their order in space.
+struct OwnTriangles {
   std::vector<TriangleOfFace> which;
   std::vector<Corners> corners;
   std::vector<std::int32_t> order;
-  std::vector<Box> boxes;
 
-  explicit OwnGroups(const CompositeRun& run) {
+  explicit OwnTriangles(const CompositeRun& run) : vertices_(run.result.mesh.vertices) {
     const SurfaceMesh& mesh = run.result.mesh;
     corners.reserve(mesh.triangle_count()), which.reserve(mesh.triangle_count());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
@@ -68,30 +76,42 @@ struct OwnGroups {
     std::vector<std::int32_t> numbers(corners.size());
     std::iota(numbers.begin(), numbers.end(), 0);
     order = spatial_order(mesh.vertices, corners, std::move(numbers), run.monitor, run.options.threads);
-    boxes.resize((order.size() + triangles_of_box - 1) / triangles_of_box);
-    for (std::size_t k = 0; k < order.size(); ++k)
-      boxes[k / triangles_of_box].add(box_of(mesh.vertices, corners[static_cast<std::size_t>(order[k])]));
   }
+  /// Of the k-th in the order.
+  [[nodiscard]] Box box(std::size_t k) const { return box_of(vertices_, corners[static_cast<std::size_t>(order[k])]); }
+
+  /// Divides what is from `begin` to before `end` in the order.
+  void divide(std::size_t begin, std::size_t end, std::size_t most, double widest, Groups& groups) const {
+    double limit = 0;
+    std::size_t first = begin;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Box added = box(k);
+      Box together = added;
+      if (k > begin) together.add(groups.boxes.back());
+      if (k == begin || k - first == most || longest_side(together) > limit) {
+        first = k, limit = widest * longest_side(added);
+        groups.first.push_back(k), groups.boxes.push_back(added);
+      } else {
+        groups.boxes.back() = together;
+      }
+    }
+  }
+
+ private:
+  static double longest_side(const Box& box) { return (box.high - box.low).maxCoeff(); }
+
+  const std::vector<Vec3>& vertices_;
 };
 
 /// Parts of the groups that meet those of other processes.
-struct SmallGroups {
-  std::vector<std::size_t> first;  // of each, in OwnGroups::order
-  std::vector<Box> boxes;
-};
-
-SmallGroups small_groups(const CompositeRun& run, const OwnGroups& own, const std::vector<Box>& others) {
-  SmallGroups small;
+Groups small_groups(const CompositeRun& run, const OwnTriangles& own, const Groups& groups, const std::vector<Box>& others) {
+  Groups small;
   const BoxTree tree = tree_of(others, run);
   std::vector<Box> near;
-  for (std::size_t group = 0; group < own.boxes.size(); ++group) {
-    all_that_meet(tree, others, own.boxes[group], near);
-    if (near.empty()) continue;
-    const std::size_t begin = group * triangles_of_box, end = std::min(begin + triangles_of_box, own.order.size());
-    for (std::size_t k = begin; k < end; ++k) {
-      if ((k - begin) % triangles_of_small_box == 0) small.first.push_back(k), small.boxes.emplace_back();
-      small.boxes.back().add(box_of(run.result.mesh.vertices, own.corners[static_cast<std::size_t>(own.order[k])]));
-    }
+  for (std::size_t g = 0; g < groups.boxes.size(); ++g) {
+    all_that_meet(tree, others, groups.boxes[g], near);
+    const std::size_t end = g + 1 < groups.first.size() ? groups.first[g + 1] : own.order.size();
+    if (!near.empty()) own.divide(groups.first[g], end, triangles_of_small_box, widest_small_box, small);
   }
   return small;
 }
@@ -119,21 +139,22 @@ std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::v
 }
 
 /// Those that others look at.
-std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnGroups& own, const SmallGroups& small,
+std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnTriangles& own, const Groups& groups, const Groups& small,
                                               const std::vector<Box>& lookers) {
   std::vector<TriangleOfFace> shown;
   const BoxTree tree = tree_of(lookers, run);
   std::vector<Box> near;
-  for (std::size_t group = 0; group < small.boxes.size(); ++group) {
-    all_that_meet(tree, lookers, small.boxes[group], near);
-    // Of the last one in a box there may be fewer.
-    const std::size_t begin = small.first[group], box_end = (begin / triangles_of_box + 1) * triangles_of_box;
-    const std::size_t end = std::min({begin + triangles_of_small_box, box_end, own.order.size()});
-    for (std::size_t k = begin; k < end && !near.empty(); ++k) {
-      const auto t = static_cast<std::size_t>(own.order[k]);
-      const Box box = box_of(run.result.mesh.vertices, own.corners[t]);
+  for (std::size_t g = 0; g < small.boxes.size(); ++g) {
+    all_that_meet(tree, lookers, small.boxes[g], near);
+    if (near.empty()) continue;
+    // The next one may be in a group far behind.
+    const auto behind = std::upper_bound(groups.first.begin(), groups.first.end(), small.first[g]);
+    std::size_t end = behind == groups.first.end() ? own.order.size() : *behind;
+    if (g + 1 < small.first.size()) end = std::min(end, small.first[g + 1]);
+    for (std::size_t k = small.first[g]; k < end; ++k) {
+      const Box box = own.box(k);
       if (std::any_of(near.begin(), near.end(), [&](const Box& other) { return !box.is_apart(other); }))
-        shown.push_back(own.which[t]);
+        shown.push_back(own.which[static_cast<std::size_t>(own.order[k])]);
     }
   }
   std::sort(shown.begin(), shown.end());
@@ -202,12 +223,14 @@ NearTriangles near_triangles(const CompositeRun& run) {
   near.vertices = mesh.vertices;
   std::vector<OtherTriangle> others;
   {
-    const OwnGroups own(run);
-    const SmallGroups small = small_groups(run, own, boxes_of_others(team, "boxes", own.boxes, [](int) { return true; }));
+    const OwnTriangles own(run);
+    Groups groups;
+    own.divide(0, own.order.size(), triangles_of_box, widest_box, groups);
+    const Groups small = small_groups(run, own, groups, boxes_of_others(team, "boxes", groups.boxes, [](int) { return true; }));
     const std::vector<Box> lookers =
         boxes_of_others(team, "small boxes", small.boxes, [&](int rank) { return looks(rank, team.rank()) == rank; });
     Receiver receiver(run, small.boxes, near.vertices);
-    team.exchange_in_turn("triangles near others", show_triangles(mesh, *run.result.shares, triangles_to_show(run, own, small, lookers)),
+    team.exchange_in_turn("triangles near others", show_triangles(mesh, *run.result.shares, triangles_to_show(run, own, groups, small, lookers)),
                           [&](int rank, const std::string& bytes) {
                             run.monitor.checkpoint();
                             if (rank != team.rank() && looks(rank, team.rank()) == team.rank()) receiver.take(bytes, others);
