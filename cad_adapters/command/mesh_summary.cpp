@@ -246,7 +246,7 @@ std::string crossings_of_parts(const MeshRun& run) {
 std::vector<std::string> part_lines(const MeshRun& run, int processes) {
   std::vector<std::string> lines = first_lines(run);
   const carreau_part_counts counts = counts_of(run.mesh);
-  lines.push_back(text("parts      %d processes; the first has %lld of %lld triangles", processes, whole(counts.own_triangles),
+  lines.push_back(text("parts      %d %s; the first has %lld of %lld triangles", processes, processes == 1 ? "process" : "processes", whole(counts.own_triangles),
                        whole(counts.all_triangles)));
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, writing %.3f (%d %s for each process)", run.seconds_reading, run.seconds_writing,

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 
 #include "support/infinity.h"
 #include "support/ranks/packet.h"
@@ -124,21 +126,43 @@ class Edges {
     }
   }
 
-  void measure(const FaceMesh& face) {
-    std::vector<Edge> sides;
-    sides.reserve(3 * face.triangles.size());
+  template <typename Use>
+  void for_sides(const FaceMesh& face, const Use& use) const {
     for (const auto& t : face.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const auto [a, b] = std::minmax(face.vertex[t[k]], face.vertex[t[(k + 1) % 3]]);
-        sides.push_back({a, b});
+        use(a, b);
       }
-    std::sort(sides.begin(), sides.end());
-    for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-      while (j < sides.size() && sides[j] == sides[i]) ++j;
-      if (sides[i][1] < on_curves_)
-        of_curves_[sides[i]] += static_cast<std::int64_t>(j - i);
+  }
+
+  // Sides are listed by their greater vertex, which is one inside the face, but of sides between vertices of curves.
+  void measure(const FaceMesh& face) {
+    std::int32_t first = std::numeric_limits<std::int32_t>::max(), behind = 0;
+    for (const std::int32_t v : face.vertex)
+      if (v >= on_curves_) first = std::min(first, v), behind = std::max(behind, v + 1);
+    const auto n = static_cast<std::size_t>(std::max(behind - first, 0));
+    std::vector<std::size_t> next(n + 1, 0);
+    for_sides(face, [&](std::int32_t a, std::int32_t b) {
+      if (b >= on_curves_)
+        ++next[static_cast<std::size_t>(b - first) + 1];
       else
-        add(sides[i], static_cast<std::int64_t>(j - i));
+        ++of_curves_[{a, b}];
+    });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<std::int32_t> others(next.back());
+    for_sides(face, [&](std::int32_t a, std::int32_t b) {
+      if (b >= on_curves_) others[next[static_cast<std::size_t>(b - first)]++] = a;
+    });
+    auto begin = others.begin();  // each list ends where the next one began
+    for (std::size_t v = 0; v < n; ++v) {
+      const auto end = others.begin() + static_cast<std::ptrdiff_t>(next[v]);
+      std::sort(begin, end);
+      for (auto other = begin; other != end;) {
+        const auto same = std::upper_bound(other, end, *other);
+        add({*other, first + static_cast<std::int32_t>(v)}, same - other);
+        other = same;
+      }
+      begin = end;
     }
   }
 
