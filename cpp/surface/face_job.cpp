@@ -86,7 +86,7 @@ void FaceJob::step(Monitor& monitor) {
 
 std::unique_ptr<FaceJob> FaceJob::shared() const {
   auto job = std::make_unique<FaceJob>(given_, even_ ? *even_->host_cad : *cad_, even_ ? *even_->host_rules : *rules_, options_,
-                                       reentrant_, plane_);
+                                       reentrant_);
   job->team_ = options_.team;
   return job;
 }

@@ -22,15 +22,14 @@ namespace carreau {
 /// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
 class FaceJob final : public SteppedTask {
  public:
-  /// Keeps references to `cad` and `options`. `plane`: S(u, v) = (u, v, 0).
-  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant, bool plane)
+  /// Keeps references to `cad` and `options`.
+  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
       : given_(std::move(input)),
         input_(given_),
         cad_(&cad),
         rules_(&rules),
         options_(options),
         reentrant_(reentrant),
-        plane_(plane),
         given_slope_(input_.slope),
         squares_(has_quads(options.element) && !options.independent) {}
 
@@ -66,8 +65,8 @@ class FaceJob final : public SteppedTask {
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
   [[nodiscard]] ControlSpace sampled(Monitor& monitor, SampledFacts* facts) const;
-  [[nodiscard]] Team* asking_samples() const noexcept { return plane_ && rules_->constant() ? nullptr : team_; }
-  [[nodiscard]] Team* asking_positions() const noexcept { return plane_ ? nullptr : team_; }
+  [[nodiscard]] Team* asking_samples() const noexcept { return input_.is_plane && rules_->constant() ? nullptr : team_; }
+  [[nodiscard]] Team* asking_positions() const noexcept { return input_.is_plane ? nullptr : team_; }
   void even_out(const UnevenSpeed& speed, Monitor& monitor);
   [[nodiscard]] double most_uneven() const noexcept;
   void return_to_host(Monitor& monitor);
@@ -90,7 +89,6 @@ class FaceJob final : public SteppedTask {
   const SizeRules* rules_;
   const CompositeOptions& options_;
   bool reentrant_;
-  bool plane_;
   double given_slope_;
   EdgeSizes bounded_edges_;  // in place of those of input_, where these are too small
   std::optional<LimitError> beyond_limit_;

@@ -63,6 +63,7 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
           .domain = &domain,
           .curve_xyz = std::move(on_curves),
           .constant_size = bound.want_places() ? std::nullopt : run.rules.constant(),
+          .is_plane = run.model.plane,
           .isotropic = !run.rules.uses_metrics(),
           .limits = bound,
           .slope = run.slope(),
@@ -101,7 +102,7 @@ void make_jobs(PatchJobs& work) {
     PatchInput input = input_of(work, f, grow_from);
     if (keep_known(work, f, input, grow_from)) continue;
     run.known.keep(f, input, std::move(grow_from));
-    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.options, reentrant, run.model.plane));
+    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.options, reentrant));
     work.face_of.push_back(f);
   }
 }

@@ -27,10 +27,10 @@ class PositionedWriter {
   }
   template <typename T>
   void append(T value) {
+    if (block_.size() + sizeof value > block_size) flush();
     char raw[sizeof value];
     std::memcpy(raw, &value, sizeof value);
     block_.append(raw, sizeof value);
-    if (block_.size() + sizeof value > block_size) flush();
   }
   void flush() {
     if (!block_.empty()) sink_(begin_, block_);

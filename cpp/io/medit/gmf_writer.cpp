@@ -53,10 +53,10 @@ class GmfWriter {
 
   template <typename T>
   void append(T value) {
+    if (block_.size() + sizeof value > block_size) flush();
     char raw[sizeof value];
     std::memcpy(raw, &value, sizeof value);
     block_.append(raw, sizeof value);
-    if (block_.size() + sizeof value > block_size) flush();
   }
 
  private:
