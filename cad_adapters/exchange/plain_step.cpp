@@ -7,7 +7,9 @@
 #include <StepData_StepModel.hxx>
 #include <StepData_StepReaderData.hxx>
 #include <StepData_StepReaderTool.hxx>
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -45,7 +47,8 @@ bool is_of(char c, unsigned kind) { return (kinds[static_cast<unsigned char>(c)]
 
 /// The records of a file as OpenCASCADE's parser makes them: lists before what holds them, numbered within each entity.
 /// Accepted is what that parser takes in one way only; where its lexer has rules for more (numbers and names that run
-/// into each other, lower case, scopes, user's types, binary numbers), the file is not plain.
+/// into each other, lower case, scopes, user's types, binary numbers), the file is not plain; nor where two entities have one number or none has
+/// one that is referred to.
 class PlainStep {
  public:
   struct Argument {
@@ -73,6 +76,7 @@ class PlainStep {
   const char* keep(const char* first, const char* last);
   const char* list_name(std::size_t number);
 
+  [[nodiscard]] bool has_each_once() const;
   bool read_header();
   bool read_entities();
   bool read_entity();
@@ -108,7 +112,21 @@ class PlainStep {
 bool PlainStep::parse() {
   if (std::memchr(at_, 0, static_cast<std::size_t>(end_ - at_)) != nullptr) return false;
   return skip("ISO-10303-21;") && skip("HEADER;") && read_header() && skip("DATA;") && read_entities() &&
-         skip("END-ISO-10303-21;");
+         skip("END-ISO-10303-21;") && has_each_once();
+}
+
+/// Numbers that two entities have, or none that is referred to: how OpenCASCADE counts its complaints of these depends on more than one
+/// of them.
+bool PlainStep::has_each_once() const {
+  const auto number = [](const char* ident) { return std::atoi(ident + 1); };
+  std::vector<int> numbers;
+  for (const Record& record : records_)
+    if (record.ident[0] == '#' && record.ident != unnumbered) numbers.push_back(number(record.ident));
+  std::sort(numbers.begin(), numbers.end());
+  if (std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end()) return false;
+  return std::all_of(arguments_.begin(), arguments_.end(), [&](const Argument& argument) {
+    return argument.type != Interface_ParamIdent || std::binary_search(numbers.begin(), numbers.end(), number(argument.text));
+  });
 }
 
 /// And comments. One that does not end stays, and is no plain syntax anywhere.

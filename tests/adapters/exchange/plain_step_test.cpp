@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <regex>
 #include <sstream>
 
 namespace {
@@ -82,7 +83,7 @@ class PlainStep : public testing::Test {
     writer.Write(file_.c_str());
     std::ostringstream text;
     text << std::ifstream(file_, std::ios::binary).rdbuf();
-    return text.str();
+    return std::regex_replace(text.str(), std::regex("'20[0-9T:-]*'"), "'2000-01-01T00:00:00'");  // the same damages every day
   }
 
  private:
@@ -111,8 +112,7 @@ TEST_F(PlainStep, IsReadAsByOpenCascade) {
         "#7=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));",
         "#7=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),#8,'d','a');#8=(NAMED_UNIT(*)LENGTH_UNIT());",
         "#1=NESTED(((1),(2)),((3),(4)),((5),(6)),((7),(8)),((9),(10)),LENGTH_MEASURE((11.)));",
-        "#1=CARTESIAN_POINT('\\X2\\00E9\\X0\\',(0.,1.,2.));", "#1=CARTESIAN_POINT('',(0.,1.,2.,3.,4.));",
-        "#1=CARTESIAN_POINT('',(0.,1.,2.));#1=CARTESIAN_POINT('',(0.,1.,2.));", "#1=VERTEX_POINT('',#99);"})
+        "#1=CARTESIAN_POINT('\\X2\\00E9\\X0\\',(0.,1.,2.));", "#1=CARTESIAN_POINT('',(0.,1.,2.,3.,4.));"})
     EXPECT_TRUE(compare(with_entities(entities))) << entities;
 }
 
@@ -139,6 +139,8 @@ TEST_F(PlainStep, LeavesTheRestToOpenCascade) {
                                      "#1=A;",
                                      "#1=A()",
                                      "#1=ENDSCOPE();",
+                                     "#1=CARTESIAN_POINT('',(0.,1.,2.));#1=CARTESIAN_POINT('',(0.,1.,2.));",
+                                     "#1=VERTEX_POINT('',#99);",
                                      "",
                                      "x"})
     EXPECT_FALSE(compare(with_entities(entities))) << entities;
