@@ -55,7 +55,7 @@ def same_parts(folder):
         assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
         assert content(one) == content(many), options
         said = done.stdout + done.stderr
-        assert f"parts      {RANKS} processes" in said and "triangles cross" in said, said
+        assert f"parts      {RANKS} {'process' if RANKS == 1 else 'processes'};" in said and "triangles cross" in said, said
         # What is told of the whole mesh is what one process tells.
         for line in (first.stdout + first.stderr).splitlines():
             if line.startswith(("edges ", "faces ")) or "shape quality" in line or "triangles, " in line:
