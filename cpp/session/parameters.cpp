@@ -72,7 +72,7 @@ constexpr std::array kTable = {
                 "1 those that normals at their corners make suspect, 2 all"),
     integer_row("cracks", 0, 1, 0, "1: internal curves are cracks: their vertices are doubled, one for each side"),
     integer_row("crossing_rounds", 0, 20, 0,
-                "rounds in which triangles that cross, but need not, become smaller (0: none is looked for)"),
+                "most rounds in which triangles that cross, but need not, become smaller; together they cost at most as much as the first mesh (0: none)"),
     integer_row("curve_groups", 0, 1, 1, "1: .msh files have the curves and corners too, as groups; 0: faces only"),
     real_row("edge_gradation", 0, infinity, 0,
              "largest ratio of sizes one unit edge apart, inward from short edges of curves, greater than 1 (0: any)"),

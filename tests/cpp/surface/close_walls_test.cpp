@@ -113,5 +113,22 @@ TEST(CloseWalls, ThatCrossOrCoincideThemselvesStayAsTheyAre) {
   }
 }
 
+// Points that the host evaluates for a mesh count its work.
+TEST(CloseWalls, RoundsCostAtMostAsMuchAsTheFirstMesh) {
+  for (const double gap : {1e-2, 1e-3, 1e-4}) {
+    SCOPED_TRACE(gap);
+    Monitor monitor;
+    const auto points = [&](int rounds) {
+      auto session = testing::session_of_command(spheres(1 - gap, 0), 0.06, monitor);
+      session->set_model(model_of_spheres());
+      session->parameters().set("crossing_rounds", rounds);
+      session->make_mesh();
+      EXPECT_EQ(find_defects(session->mesh(), {.limit = 5}), std::vector<std::string>{});
+      return static_cast<double>(session->report().calls.surf0);
+    };
+    EXPECT_LE(points(20), 2 * points(0));
+  }
+}
+
 }  // namespace
 }  // namespace carreau
