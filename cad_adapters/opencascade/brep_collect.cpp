@@ -21,6 +21,7 @@
 #include "missing_curves.h"
 #include "torn_loops.h"
 #include "wire_periods.h"
+#include "wrong_turns.h"
 
 namespace carreau_occ {
 
@@ -153,9 +154,12 @@ void BrepHost::State::collect_face(int number) {
   // Wires are turned for the face taken forward.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
   const std::vector<std::vector<EdgeImage>> loops = complete_wires_of(forward);
+  std::vector<std::vector<EdgeImage>> sound;
+  for (const std::vector<EdgeImage>& loop : loops) sound.push_back(images_of(loop, forward));
+  turn_wrong_loops(sound, forward);
   std::vector<Handle(Geom2d_Curve)> images;
-  for (const std::vector<EdgeImage>& loop : loops)
-    for (const EdgeImage& image : images_of(loop, forward)) {
+  for (const std::vector<EdgeImage>& loop : sound)
+    for (const EdgeImage& image : loop) {
       HostCurve curve;
       curve.first = image.first, curve.last = image.last;
       curve.edge = edges.FindIndex(image.edge);

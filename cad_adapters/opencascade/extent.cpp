@@ -71,6 +71,7 @@ class FaceBox {
 
  private:
   static constexpr int least_cells = 24, most_cells = 200, points_on_edge = 32, halvings = 16;
+  static constexpr int max_moves = 1'000;  // real faces need up to 30
   struct Extreme {
     double value = -std::numeric_limits<double>::infinity();
     gp_Pnt2d uv = {};
@@ -87,8 +88,11 @@ class FaceBox {
   static int cells_of(int intervals) { return std::clamp(4 * intervals, least_cells, most_cells); }
   // Who is outside costs more than where it is.
   bool is_inside(gp_Pnt2d uv) {
-    if (!inside_) inside_.emplace(face_, Precision::PConfusion());
-    return inside_->Perform(uv) != TopAbs_OUT;
+    if (!inside_) {
+      inside_.emplace(face_, Precision::PConfusion());
+      outside_ = inside_->PerformInfinitePoint();
+    }
+    return inside_->Perform(uv) != outside_;
   }
   static double longest_step(const std::vector<Sample>& samples, std::size_t row) {
     double longest = 0;
@@ -143,7 +147,7 @@ class FaceBox {
     }
   }
   void climb(int side, double du, double dv) {
-    for (int halved = 0; halved < halvings;) {
+    for (int halved = 0, moves = 0; halved < halvings && moves < max_moves; ++moves) {
       const gp_Pnt2d from = highest_[side].uv;
       bool higher = false;
       for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}) {
@@ -159,6 +163,7 @@ class FaceBox {
   TopoDS_Face face_;
   BRepAdaptor_Surface surface_;
   std::optional<BRepTopAdaptor_FClass2d> inside_;  // once asked
+  TopAbs_State outside_ = TopAbs_OUT;              // IN when the loops are turned the wrong way
   BoxSides known_;
   Bnd_Box& box_;
   std::array<Extreme, 6> highest_;

@@ -84,7 +84,7 @@ TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p) {
     const double length = norm(trace[i] - trace[i - 1]);
     const double w = fraction_on_segment(p, trace[i - 1], trace[i]);
     const double distance = norm(p - lerp(trace[i - 1], trace[i], w));
-    if (distance < nearest.distance) nearest = {before + w * length, distance};
+    if (distance < nearest.distance) nearest = {before + w * length, distance, i - 1, w};
     before += length;
   }
   return nearest;

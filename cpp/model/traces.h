@@ -2,6 +2,7 @@
 // Measures on polylines.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ Vec3 trace_point(std::span<const Vec3> trace, double fraction);
 struct TracePlace {
   double arc = 0;  ///< usual length from its start
   double distance = infinity;
+  std::size_t segment = 0;  ///< from vertex `segment` to the next one
+  double share = 0;         ///< of the segment, from its start
 };
 TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p);
 /// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds

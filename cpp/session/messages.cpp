@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mesh/flat_mesh.h"
+#include "session/output/strips_note.h"
 #include "support/format.h"
 #include "support/short_number.h"
 
@@ -78,6 +79,7 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
            {static_cast<std::int64_t>(mesh.vertices.size()), static_cast<std::int64_t>(mesh.triangle_count()),
             static_cast<std::int64_t>(mesh.edge_count()), static_cast<std::int64_t>(mesh.loose_edge_count())},
            result.report, q, monitor);
+  if (const std::string strips = describe_strips(mesh); !strips.empty()) monitor.message(Level::summary, strips);
 }
 
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor) {

@@ -10,14 +10,18 @@
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GCE2d_MakeSegment.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Line.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <Geom_BezierSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_Surface.hxx>
@@ -25,12 +29,14 @@
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
+#include <TColgp_Array2OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
+#include <array>
 #include <cmath>
 #include <gp_Ax3.hxx>
 #include <gp_Pln.hxx>
@@ -193,6 +199,74 @@ TEST(TinyEdges, FirstInTheirWiresTearNoLoop) {
     EXPECT_EQ(mesh.trouble(true), "");
     EXPECT_NEAR(mesh.volume, 30, 20 * tiny);
   }
+}
+
+/// z = x^2 + y^2 over the unit square, as a Bezier surface that goes on beyond it.
+Handle(Geom_Surface) bowl() {
+  TColgp_Array2OfPnt poles(1, 3, 1, 3);
+  const double square[] = {0, 0, 1};  // Bezier coefficients of t^2
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) poles(i + 1, j + 1) = gp_Pnt(i / 2.0, j / 2.0, square[i] + square[j]);
+  return new Geom_BezierSurface(poles);
+}
+
+/// A wire along a square of the parameter plane.
+TopoDS_Wire square_on(const Handle(Geom_Surface) & surface, double low, double high, bool clockwise) {
+  const std::array<gp_Pnt2d, 4> corners{gp_Pnt2d(low, low), {high, low}, {high, high}, {low, high}};
+  std::array<TopoDS_Vertex, 4> vertices;
+  for (std::size_t i = 0; i < 4; ++i)
+    vertices[i] = BRepBuilderAPI_MakeVertex(surface->Value(corners[i].X(), corners[i].Y()));
+  const BRep_Builder builder;
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) % 4;
+    const Handle(Geom2d_TrimmedCurve) side = GCE2d_MakeSegment(corners[i], corners[j]).Value();
+    TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(side, surface, vertices[i], vertices[j]);
+    BRepLib::BuildCurve3d(edge);
+    builder.Add(wire, clockwise ? edge.Reversed() : edge);
+  }
+  return wire;
+}
+
+// A loop that runs clockwise is the border of all that lies outside: no face, and OpenCASCADE calls the whole plane
+// inside.
+TEST(WrongTurns, OuterLoopsAreTurnedRound) {
+  const Handle(Geom_Surface) surface = bowl();
+  const BRep_Builder builder;
+  const auto face_with = [&](bool outer_clockwise, bool inner_clockwise) {
+    TopoDS_Face face;
+    builder.MakeFace(face, surface, 1e-7);
+    builder.Add(face, square_on(surface, 0.1, 0.9, outer_clockwise));
+    builder.Add(face, square_on(surface, 0.3, 0.6, inner_clockwise));
+    return face;
+  };
+  carreau_occ::BrepHost sound(file_of(face_with(false, true)));
+  EXPECT_NEAR(sound.diagonal(), std::sqrt(2 * 0.8 * 0.8 + 1.6 * 1.6), 1e-9);
+  const adapters::MeasuredMesh expected = adapters::mesh_and_measure(sound, 0.1);
+  ASSERT_EQ(expected.trouble(false), "");
+  for (const bool inner_clockwise : {false, true})
+    for (const bool reversed : {false, true}) {
+      SCOPED_TRACE(::testing::Message() << "inner clockwise " << inner_clockwise << ", reversed " << reversed);
+      const TopoDS_Face face = face_with(true, inner_clockwise);
+      carreau_occ::BrepHost host(file_of(reversed ? face.Reversed() : TopoDS_Shape(face)));
+      EXPECT_NEAR(host.diagonal(), sound.diagonal(), 1e-9);
+      const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.1);
+      EXPECT_EQ(mesh.trouble(false), "");
+      EXPECT_NEAR(mesh.quality.area, expected.quality.area, 1e-3 * expected.quality.area);
+      EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 0);  // a ring
+    }
+}
+
+// Whether the outside of a loop on a closed surface is the face, the loop alone does not say.
+TEST(WrongTurns, LoopsOnClosedSurfacesStay) {
+  const Handle(Geom_Surface) sphere = new Geom_SphericalSurface(gp_Ax3(), 1);
+  const BRep_Builder builder;
+  TopoDS_Face face;
+  builder.MakeFace(face, sphere, 1e-7);
+  builder.Add(face, square_on(sphere, 0.3, 0.9, true));
+  carreau_occ::BrepHost host(file_of(face));
+  EXPECT_NE(adapters::mesh_and_measure(host, 0.1).trouble(false), "");
 }
 
 /// The round face of a cylinder of radius 1 and height 2, whose upper circle and one of whose seams lie a period before

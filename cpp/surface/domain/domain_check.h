@@ -67,7 +67,9 @@ std::vector<int> edges_to_split_for_crossings(const PlaneDomain& domain);
 /// The band is narrower where an acute corner explains the closeness, so that splitting in halves and checking again
 /// ends (README); what is nearer than narrowest_share (thresholds.h) is not looked at. Needs loops that are turned and
 /// do not cross. Never a degenerate edge. Increasing. coef: CoefRectangle; none when it is not positive.
-std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef);
+/// `up_to_corners`: corners explain nothing, and the caller ends the splitting.
+std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef,
+                                              bool up_to_corners = false);
 
 /// Edges more than `ratio` times longer, in the metric at the midpoints, than the next edge of their curve or loop (HDR
 /// sec. 3.3.3). Never a degenerate edge. Increasing. ratio >= 2, else InvalidArgument: below, halving need not end.

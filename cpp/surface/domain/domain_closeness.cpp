@@ -189,10 +189,11 @@ double Sides::band(int edge, int vertex, double d, double coef) const {
 
 class ClosenessCheck {
  public:
-  ClosenessCheck(const PlaneDomain& domain, const ControlSpace& metric, double coef)
+  ClosenessCheck(const PlaneDomain& domain, const ControlSpace& metric, double coef, bool up_to_corners)
       : domain_(domain),
         metric_(metric),
         coef_(coef),
+        up_to_corners_(up_to_corners),
         sides_(domain, metric),
         inside_(domain.vertices, bounding_edges(domain)),
         grid_(domain.vertices, points_of(domain)) {}
@@ -212,6 +213,7 @@ class ClosenessCheck {
   const PlaneDomain& domain_;
   const ControlSpace& metric_;
   double coef_;
+  bool up_to_corners_;
   Sides sides_;
   PolygonLocator inside_;
   EdgeGrid grid_;
@@ -235,8 +237,8 @@ bool ClosenessCheck::is_near(int edge, int vertex, Metric2 m) const {
   const double w = std::clamp(dot(m, p - a, b - a) / squared_length(m, b - a), 0.0, 1.0);
   const double d = length(m, p - lerp(a, b, w));
   const double coef = coefficient_of_width(coef_, d);
-  return coef > 0 && d <= coef * sides_.length_of(edge) && d <= sides_.band(edge, vertex, d, coef) &&
-         sees(e, vertex, w);
+  return coef > 0 && d <= coef * sides_.length_of(edge) &&
+         (up_to_corners_ || d <= sides_.band(edge, vertex, d, coef)) && sees(e, vertex, w);
 }
 
 bool ClosenessCheck::is_too_long(int edge) const {
@@ -267,11 +269,12 @@ double coefficient_of_width(double coef, double width) {
   return std::min(coef, std::max(least_coefficient, coef * width / thin_width));
 }
 
-std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef) {
+std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef,
+                                              bool up_to_corners) {
   require_sound(domain);
   std::vector<int> split;
   if (!(coef > 0)) return split;
-  const ClosenessCheck check(domain, metric, coef);
+  const ClosenessCheck check(domain, metric, coef, up_to_corners);
   for (int e = 0; e < static_cast<int>(domain.edges.size()); ++e)
     if (check.is_too_long(e)) split.push_back(e);
   return split;

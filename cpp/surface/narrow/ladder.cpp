@@ -105,7 +105,7 @@ class Ladder {
     const Chain last = closing_chain(1);
     Chain left = closing_chain(0);
     patch_.one.push_back(left);
-    const double near = same_place();
+    const double near = same_place_distance(narrow_, SideRuler(model_, narrow_.face, narrow_.side[1]));
     for (std::size_t i = 0, j = 0; i + 1 < a.size() || j + 1 < b.size();) {
       // The last step is for both sides.
       const bool a_ends = i + 2 >= a.size(), b_ends = j + 2 >= b.size();
@@ -125,7 +125,6 @@ class Ladder {
       patch_.one.back().push_back(apex);
     }
   }
-  [[nodiscard]] double same_place() const { return 3 * narrow_.width + 1e-9 * s_[1].back(); }
 
   // From side[0] to side[1] at its start or end.
   [[nodiscard]] Chain closing_chain(int end) const {

@@ -69,9 +69,6 @@ class SideMatcher {
     return all;
   }
 
-  static double tolerance(const NarrowFace& narrow, const SideRuler& side) {
-    return std::max(same_place * narrow.width, place_rounding * side.length());
-  }
   static bool is_near(const std::vector<Vertex>& vertices, double s, double tolerance, double period) {
     return std::any_of(vertices.begin(), vertices.end(), [&](const Vertex& v) {
       return std::abs(period > 0 ? std::remainder(v.s - s, period) : v.s - s) <= tolerance;
@@ -82,7 +79,7 @@ class SideMatcher {
   static Fractions missing(const NarrowFace& narrow, const std::vector<Vertex>& from, const SideRuler& to,
                            const std::vector<Vertex>& there) {
     Fractions fractions;
-    const double near = tolerance(narrow, to), period = narrow.ring ? to.length() : 0;
+    const double near = same_place_distance(narrow, to), period = narrow.ring ? to.length() : 0;
     for (const Vertex& vertex : from) {
       const SideRuler::Place place = to.place_of(vertex.xyz);
       const bool at_end = !narrow.ring && (place.s <= near || place.s >= to.length() - near);

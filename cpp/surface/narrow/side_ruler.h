@@ -9,7 +9,8 @@
 
 namespace carreau {
 
-/// The curves of a side end to end, by the supports of the face itself; s is the usual length from its start.
+/// The curves of a side end to end, by the supports of the face itself; s is the length of the curves from its start,
+/// which the fractions DiscreteCurve::r measure too. The chords of the supports are up to 5e-5 shorter, unevenly.
 class SideRuler {
  public:
   struct Place {
@@ -47,6 +48,10 @@ class SideRuler {
   std::vector<Part> parts_;
   std::vector<double> start_;  // of each part, and the end
   std::vector<Vec3> points_;   // of the supports, in the direction of the side
+  std::vector<double> arc_;    // length of the curves to each of them
 };
+
+/// Distance along a side below which two vertices are at one place of the strip.
+[[nodiscard]] double same_place_distance(const NarrowFace& narrow, const SideRuler& side);
 
 }  // namespace carreau

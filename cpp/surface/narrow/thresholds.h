@@ -27,8 +27,10 @@ inline constexpr double folded_share = 1e-9;
 /// between them would be the worse for it, and a collapse would move them more than it must.
 /// [Narrow.ChainOfSliversHasOneLayerEach]
 inline constexpr double same_place = 3;
-/// Share of the sides. And never farther than this, whatever the width. [rounding]
-inline constexpr double place_rounding = 1e-9;
+/// Share of the sides. Vertices as near as this are at one place too, whatever the width: lengths of supports are
+/// accurate to 1e-6, and each round of matching would take smaller differences for new places.
+/// [Narrow.RingNarrowerThanItsSupportsAreAccurateHasTheEdgesOfOneCircle]
+inline constexpr double place_accuracy = 1e-5;
 /// Cosine. Two neighbours lie back to back when the directions in which they leave the strip differ by less than 26
 /// degrees. [Narrow.ThinPlateKeepsItsRim]
 inline constexpr double back_to_back = 0.9;

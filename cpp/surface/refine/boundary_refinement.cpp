@@ -13,6 +13,7 @@
 #include "surface/domain/domain_check.h"
 #include "surface/domain/near_vertices.h"
 #include "surface/refine/bulging_edges.h"
+#include "surface/refine/face_closeness.h"
 #include "surface/refine/finest_lengths.h"
 #include "surface/refine/seam_loops.h"
 #include "surface/refine/staggering.h"
@@ -65,20 +66,26 @@ class Refiner {
 
   RefinedDomains run() {
     uncross();
+    rebuild_stale();
+    closeness_.emplace(curve_model_, curves_, result_.domain, options_);
     repeat(
         options_.check_close_edges, [this](int f) { return look_for_closeness(f); },
         [this](int f, Found& found, Monitor& monitor) {
           found.edges =
               edges_to_split_for_waists(curve_model_, curves_, f, result_.domain[f]->plane, options_.coef_rectangle);
           const std::vector<int> bulging =
-              edges_to_split_for_bulges(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle);
+              edges_to_split_for_bulges(curve_model_, curves_, f, *result_.domain[f], closeness_->coefficient(f));
           found.edges.insert(found.edges.end(), bulging.begin(), bulging.end());
           if (!found.ask_metric) return;
           for (const Strip& strip : found.strips)
             if (lies_between(curve_model_, f, *result_.domain[f], strip)) found.edges.push_back(strip.edge);
-          const std::vector<int> close =
-              edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f, monitor), options_.coef_rectangle);
+          const std::vector<int> close = edges_to_split_for_closeness(
+              result_.domain[f]->plane, space_of(f, monitor), closeness_->coefficient(f), closeness_->is_bounded(f));
           found.edges.insert(found.edges.end(), close.begin(), close.end());
+          std::erase_if(found.edges, [&](int e) {
+            const PlaneEdge& edge = result_.domain[f]->plane.edges[e];
+            return closeness_->is_fine(f, curves_[edge.curve], edge.segment);
+          });
         });
     if (rules_.uses_metrics()) finest_.emplace(topology_, curves_);
     repeat(
@@ -277,7 +284,7 @@ class Refiner {
 
   [[nodiscard]] Found look_for_closeness(int f) const {
     if (!may_be_narrow(f)) return {};
-    return {.strips = find_strips(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle),
+    return {.strips = find_strips(curve_model_, curves_, f, *result_.domain[f], closeness_->coefficient(f)),
             .ask_metric = true};
   }
 
@@ -292,7 +299,7 @@ class Refiner {
     for (const PlaneEdge& edge : domain.plane.edges) {
       if (edge.kind == PlaneEdgeKind::degenerate) continue;
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];
-      if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a))) return true;
+      if (near.any_beside(a, b, straight_reserve * closeness_->coefficient(f) * norm(b - a))) return true;
     }
     return false;
   }
@@ -382,6 +389,7 @@ class Refiner {
     int fruitless = 0;         // halvings in a row that left it as it was
   };
   std::map<int, Crossing> crossings_;
+  std::optional<FaceCloseness> closeness_;           // once boundaries do not cross
   std::optional<FinestLengths> finest_;              // before edges were balanced; none without metrics
   std::vector<std::optional<ControlSpace>> spaces_;  // by face
 };

@@ -2,6 +2,8 @@
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 
+#include <cstddef>
+
 namespace carreau::thresholds::refine {
 
 // In brackets: the tests that rest on it, of tests/cpp/surface/refine where nothing else is said.
@@ -25,6 +27,14 @@ inline constexpr double straight_reserve = 2;
 /// Ratio of lengths. From here on the balance of edges is looked at in the metric, whose chords are not the curves'
 /// lengths; there it may be 2. [Refinement.BalanceOfEdgesAtACornerEndsWhereverMetricsTurn]
 inline constexpr double balance_to_look_at = 1.6;
+
+// Strips without neighbours (face_closeness)
+/// CoefRectangle there: edges of 1.4 to 2.9 widths, whose triangles have a Q2 of .98 to .70. Strips have a smaller mean
+/// width, in sizes: wider faces are narrow in places alone, where short edges leave bad triangles beside them.
+/// [Refinement.StripsWithoutNeighboursAreCutToTheirWidth]
+inline constexpr double coefficient_alone = 0.35;
+/// Places of the boundary where the stretch of the surface is looked at. [time only]
+inline constexpr std::size_t stretch_samples = 16;
 
 // Tips and seams (strips, seam_loops)
 /// Slope. Curves that leave a corner at less are its tip. [Tongues.AreNotCutToTheirTips]

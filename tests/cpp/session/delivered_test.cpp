@@ -360,5 +360,25 @@ TEST_F(SessionDelivered, ErrorsAreToldAndLoseNothing) {
   EXPECT_EQ(session.mesh().triangle_count(), triangles);
 }
 
+// A box 2 x 2 whose sides are .05 high: edges of .5 leave their triangles a Q2 of .2 at most.
+TEST_F(SessionDelivered, StripsAreNamedWithTheirWidth) {
+  const auto rectangle = [](Vec3 o, Vec3 x, Vec3 y) {
+    const Vec3 u = (1 / norm(x)) * x, v = (1 / norm(y)) * y;
+    return testing::AnalyticFace{[=](Vec2 p) { return SurfaceJet{o + p.x() * u + p.y() * v, u, v, {}, {}, {}}; },
+                                 testing::rectangle({0, 0}, {norm(x), norm(y)})};
+  };
+  AnalyticCad cad_of_box;
+  cad_of_box.faces[1] = rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0});
+  cad_of_box.faces[2] = rectangle({0, 0, 0}, {2, 0, 0}, {0, 0, 0.05});
+  use(cad_of_box, 0.5);
+  session.make_mesh();
+  EXPECT_EQ(monitor.count(Level::summary, "a strip is so narrow"), 1);
+  EXPECT_EQ(monitor.count(Level::summary, "face 2 (0.04878 wide, "), 1);  // 2 x .05 over half of 4.1
+  monitor.all.clear();
+  use(cad_of_box, 0.05);
+  session.make_mesh();
+  EXPECT_EQ(monitor.count(Level::summary, "so narrow"), 0);
+}
+
 }  // namespace
 }  // namespace carreau

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "common/analytic_cad.h"
 #include "mesh/quality.h"
@@ -316,6 +317,34 @@ TEST(Narrow, RingBetweenCylindersHasOneLayer) {
       // As many edges as the circle has at this size, not as many as the ring is narrow.
       EXPECT_LT(static_cast<double>(run.face(3).triangles.size()), 2 * (2 * pi / size + 8));
     }
+}
+
+/// The same curve, slower or faster at its start by a share of its mean pace.
+AnalyticCurve paced(const AnalyticCurve& curve, double share) {
+  return {{0, 1}, [=](double t) {
+            const double w = 2 * pi, at = t + share * std::sin(w * t) / w, speed = 1 + share * std::cos(w * t);
+            const CurveJet j = curve.at(at);
+            return CurveJet{j.c, speed * j.ct, speed * speed * j.ctt - share * w * std::sin(w * t) * j.ct};
+          }};
+}
+
+// Places on supports of uneven samples, and the lengths of their chords, differ by more than these rings are wide:
+// vertices carried to and fro between the circles would be new ones each time.
+TEST(Narrow, RingNarrowerThanItsSupportsAreAccurateHasTheEdgesOfOneCircle) {
+  for (const double step : {1e-5, 1e-6, 1e-8})
+    for (const char* mode : {"collapse", "one_layer"})
+      for (const double size : {0.3, 0.05}) {
+        SCOPED_TRACE(::testing::Message() << "step " << step << ", size " << size << ", " << mode);
+        const bool collapses = std::string(mode) == "collapse";
+        if (!collapses && step < 1e-6) continue;  // the chords of the circles cross
+        AnalyticCad cad = stepped(step, 0);
+        for (AnalyticCurve& circle : cad.faces[3].curves) circle = paced(circle, 0.6);
+        const Meshed run(stepped_model(), cad, size, mode);
+        run.expect_closed(2);
+        if (collapses) run.expect_collapsed(3);
+        for (const CurveMesh& curve : run.mesh().curves)
+          EXPECT_LT(static_cast<double>(curve.vertices.size()), 2 * pi / size + 4);
+      }
 }
 
 // ---- a face whose edges are all tiny ----

@@ -68,6 +68,79 @@ TEST(Refinement, CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour) {
   EXPECT_NE(both->mesh().faces.at(1).why.find("meets itself"), std::string::npos) << both->mesh().faces.at(1).why;
 }
 
+/// As the command meshes CAD files, at a size of .1.
+std::unique_ptr<Session> meshed_like_files(const AnalyticCad& cad, const Model& model, const char* narrow_faces,
+                                           Monitor& monitor) {
+  auto session = std::make_unique<Session>(monitor);
+  session->set_cad(std::make_shared<AnalyticCad>(cad));
+  session->set_model(model);
+  session->parameters().set("hphydef", 0.1);
+  session->parameters().set("hphymin", 1e-9);
+  session->parameters().set("CheckCloseEdges", 20);
+  session->parameters().set("CoefRectangle", 0.06);
+  session->parameters().set("narrow_faces", narrow_faces);
+  session->parameters().set("narrow_ratio", 4e-4);
+  session->make_mesh();
+  return session;
+}
+
+AnalyticCad polygon(const std::vector<Vec2>& corners) {
+  AnalyticCad cad;
+  cad.faces[1].at = flat;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    cad.faces[1].curves.push_back(testing::segment(corners[i], corners[(i + 1) % corners.size()]));
+  return cad;
+}
+
+// A strip 40 sizes long that no collapse can remove. Edges of 2.9 widths have isosceles triangles of Q2 .70, right ones
+// of .54.
+TEST(Refinement, StripsWithoutNeighboursAreCutToTheirWidth) {
+  const double length = 4, n = length / 0.1;
+  for (const double width : {0.02, 0.005, 0.001, 0.0003}) {
+    SCOPED_TRACE(width);
+    Monitor monitor;
+    const AnalyticCad cad = polygon({{0, 0}, {length, 0}, {length, width}, {0, width}});
+    const auto run = meshed_like_files(cad, testing::unglued(cad), "collapse", monitor);
+    EXPECT_EQ(find_defects(run->mesh()), std::vector<std::string>{});
+    const QualitySummary quality = summarise_quality(run->exported());
+    EXPECT_LT(static_cast<double>(quality.triangles), 4.1 * n * n);
+    EXPECT_GT(quality.q2.mean, 2.9 * width > 0.1 / n ? 0.54 : 0.25);
+    const auto kept = meshed_like_files(cad, testing::unglued(cad), "keep", monitor);
+    EXPECT_LT(summarise_quality(kept->exported()).q2.mean, quality.q2.mean);
+  }
+}
+
+// Up to the tips, as far as the number of triangles allows.
+TEST(Refinement, NeedlesWithoutNeighboursAreCutToTheirWidth) {
+  const double length = 4, n = length / 0.1;
+  for (const double height : {0.04, 0.01, 0.004}) {
+    SCOPED_TRACE(height);
+    Monitor monitor;
+    const AnalyticCad cad = polygon({{0, 0}, {length, 0}, {1, height}});
+    const auto run = meshed_like_files(cad, testing::unglued(cad), "collapse", monitor);
+    EXPECT_EQ(find_defects(run->mesh()), std::vector<std::string>{});
+    const QualitySummary quality = summarise_quality(run->exported());
+    EXPECT_LT(static_cast<double>(quality.triangles), 4.1 * n * n);
+    EXPECT_GT(quality.q2.mean, 0.4);
+  }
+}
+
+// Short edges would spoil the face beside it.
+TEST(Refinement, StripsBesideOtherFacesAreNotCutToTheirWidth) {
+  const double length = 4, width = 0.01;
+  AnalyticCad cad;
+  cad.faces[1] = {flat, testing::rectangle({0, 0}, {length, width})};
+  cad.faces[2] = {flat, testing::rectangle({0, width}, {length, 2})};
+  Model model;
+  model.faces.push_back(face_of(1, {{{1, 1}, {2, 2}, {3, 3}, {4, 4}}}));
+  model.faces.push_back(face_of(2, {{{3, 4}, {5, 3}, {6, 5}, {7, 6}}}));
+  Monitor monitor;
+  const auto run = meshed_like_files(cad, model, "collapse", monitor),
+             kept = meshed_like_files(cad, model, "keep", monitor);
+  EXPECT_EQ(find_defects(run->mesh()), std::vector<std::string>{});
+  EXPECT_EQ(run->exported().triangles, kept->exported().triangles);
+}
+
 // Close in space, but nothing of the face lies between: the two borders of a slit in a tube, and of one in a plane.
 TEST(Refinement, BordersWithTheOutsideBetweenThemAreNoNarrowZone) {
   for (const double gap : {1e-3, 1e-5}) {
