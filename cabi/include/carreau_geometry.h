@@ -314,11 +314,12 @@ typedef struct carreau_triangles {
  * through their vertices, with tangent planes that agree but on lines: borders, edges with three triangles or more,
  * edges of triangles that differ by more than the sharp angle and those over which such a line goes on. Its faces are
  * the regions between lines, or the references of the triangles where they have several (moved up when one is not
- * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and
- * those with two corners at one place, and turns triangles that run against their neighbours; messages tell it.
+ * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place,
+ * drops repeated triangles and triangles without area (a corner on a longest side divides that side in the
+ * neighbours), and turns triangles that run against their neighbours; messages report it.
  * carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as
  * their least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
- * that is not finite, a triangle without area between three places, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
+ * that is not finite, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
  *
  * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are
  * one line, and the mesh conforms there; triangles of two surfaces stay those of the first one. Each has faces, lines and angles of its own, and

@@ -26,6 +26,12 @@ struct ElementSections {
   Section<6> triangles6;
   Section<9> quads9;
 
+  /// True when a section of elements has come.
+  [[nodiscard]] bool any() const noexcept {
+    const auto has = [](const auto& section) { return section.start != Place{}; };
+    return has(edges) || has(edges3) || has(triangles) || has(quads) || has(tetrahedra) || has(triangles6) || has(quads9);
+  }
+
   /// Reads `count` records of N vertices from one and a reference, by `vertex()` and `reference()`. Vertices below one
   /// become -1, for check_indices to refuse.
   template <std::size_t N, class Vertex, class Reference>

@@ -92,6 +92,7 @@ FlatMesh MeditReader::read() {
   while (read_section(in_.next_section({"Vertices", "Edges", "EdgesP2", "Triangles", "Quadrilaterals", "Tetrahedra",
                                         "TrianglesP2", "QuadrilateralsQ2"}))) {
   }
+  if (in_.lacks_end() && !elements_.any()) in_.fail_without_end();
   if (!has_vertices_) in_.fail(in_.position(), "the file has no Vertices");
   check_indices();
   elements_.give_to(mesh_, in_.position(),

@@ -64,6 +64,7 @@ class VtuReader {
 
  private:
   void collect(VtuArrays& numbers);
+  std::size_t text_size(const VtuArray& array);
   void add_array(const std::string& section, VtuArray array);
   const VtuArray& array(const std::string& section, const std::string& name) const;
   [[nodiscard]] std::size_t piece_count(const char* attribute) const;
@@ -100,6 +101,19 @@ void VtuReader::add_array(const std::string& section, VtuArray array) {
     tags_.fail(at, shown_name + " of " + section + " is given twice");
 }
 
+/// Bytes of the numbers between the tags of an array. Tags inside it (InformationKey of VTK) end the numbers, and are
+/// skipped up to the closing tag.
+std::size_t VtuReader::text_size(const VtuArray& array) {
+  const char* end = nullptr;
+  for (;;) {
+    const XmlTag tag = tags_.next();
+    if (end == nullptr) end = tag.at;
+    if (tag.name == array.tag.name && !tag.opens) return static_cast<std::size_t>(end - array.tag.after);
+    const bool outside = tag.name == "DataArray" || tag.name == "Array" || tag.name == "Piece" || tag.name == "VTKFile";
+    if (tag.name.empty() || outside) tags_.fail(array.tag.at, array.shown_name() + " is not closed");
+  }
+}
+
 /// Reads the tags: where the arrays are.
 void VtuReader::collect(VtuArrays& numbers) {
   std::string section;
@@ -114,11 +128,7 @@ void VtuReader::collect(VtuArrays& numbers) {
     if (tag.name == "DataArray" || tag.name == "Array") {
       if (!tag.opens) continue;
       VtuArray array{.tag = tag, .text = {tag.after, 0}};
-      if (!tag.closes) {
-        const XmlTag closing = tags_.next();
-        if (closing.opens || closing.name != tag.name) tags_.fail(tag.at, array.shown_name() + " is not closed");
-        array.text = {tag.after, static_cast<std::size_t>(closing.at - tag.after)};
-      }
+      if (!tag.closes) array.text = {tag.after, text_size(array)};
       add_array(section, std::move(array));
       continue;
     }

@@ -358,6 +358,24 @@ TEST(MeshReaders, VtuInBase64WithTheLengthApartOrNot) {
   }
 }
 
+TEST(MeshReaders, VtuArraysMayHoldTagsBehindTheirNumbers) {
+  // As VTK writes ranges of norms.
+  const std::string key = "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"2\">\n"
+                          "<Value index=\"0\">\n0\n</Value>\n<Value index=\"1\">4.24</Value></InformationKey>\n"
+                          "<InformationKey name='UNITS_LABEL' location='vtkDataArray'/>\n";
+  const FlatMesh plain = read_mesh_vtu(vtu_text, "x");
+  std::string text = vtu_text;
+  for (std::size_t at = text.find("</DataArray>"); at != std::string::npos; at = text.find("</DataArray>", at + key.size() + 1))
+    text.insert(at, key);
+  const FlatMesh mesh = read_mesh_vtu(text, "x");
+  EXPECT_EQ(mesh.vertices, plain.vertices);
+  EXPECT_EQ(mesh.triangles, plain.triangles);
+  EXPECT_EQ(mesh.edges, plain.edges);
+  EXPECT_EQ(mesh.fields[0].values[3], 4);
+  const std::string open = replaced(text, "</DataArray>", "");
+  EXPECT_NE(sentence_of<FileError>([&] { read_mesh_vtu(open, "x.vtu"); }).find("is not closed"), std::string::npos);
+}
+
 /// The one triangle of vtu_text, its corners in base64 of compressed blocks.
 std::string compressed_vtu(const std::string& corners) {
   std::string text = replaced(vtu_text, "'connectivity' format='ascii'>0 1 2 3 0 1 2 2 1 0",
