@@ -112,6 +112,7 @@ typedef struct carreau_molecule_options {
   int32_t surface;       /* CARREAU_VWS, CARREAU_SAS or CARREAU_SES */
   int32_t drop_cavities; /* 1: inner shells are left out of the model; areas and volumes have them */
   double probe;          /* radius of the probe; CARREAU_VWS does not use it */
+  const char* radii;     /* file of lines "symbol radius", in place of the table's radii; NULL: none */
 } carreau_molecule_options;
 
 /* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
@@ -123,8 +124,9 @@ typedef struct carreau_molecule_options {
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
-/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are those of Bondi;
- * waters and all but the first of alternate locations are left out, and messages tell it. References of faces are the
+/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are those of Bondi,
+ * for elements that he lacks those of Alvarez and others (cpp/io/molecule/elements.h);
+ * waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
  * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
  * Errors: those above, FILE. */
 CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,

@@ -230,6 +230,7 @@ void CommandLine::add_areas() {
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length)
       ->capture_default_str();
+  radii(areas, areas_.radii);
   areas->add_flag("--atoms", areas_.atoms, "Print a line for each atom");
   threads(areas, areas_.threads);
   areas->add_flag("--json", areas_.json, "Print JSON");
