@@ -234,7 +234,8 @@ contains
     character(kind=c_char), allocatable, target :: radii(:)
     c = c_options(options)
     if (allocated(options%radii)) then
-      radii = transfer(trim(options%radii)//c_null_char, radii, len_trim(options%radii) + 1)
+      allocate (radii(len_trim(options%radii) + 1))
+      radii = transfer(trim(options%radii)//c_null_char, [c_null_char], size(radii))
       c%radii = c_loc(radii)
     end if
     status = c_load_molecule(session%handle, c, trim(path)//c_null_char)
