@@ -284,9 +284,9 @@ TEST(MeshReaders, GmshErrorsNameTheLine) {
   EXPECT_EQ(sentence("20 0 1 0", "20 0 nan 0"), "x.msh, line 12: a coordinate of a node is not finite: 'nan'");
   EXPECT_EQ(sentence("99 0 0 1", "10 0 0 1"), "x.msh, line 9: node 10 is given twice");
   EXPECT_EQ(sentence("30 10 20\n", "30 11 20\n"), "x.msh, line 22: an element names node 11, which does not exist");
-  EXPECT_EQ(sentence("3 2 2 5 8 30 10 20", "3 10 2 5 8 30 10 20 99 1 2 3 4 5"),
-            "x.msh, line 22: an element has type 10; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, "
-            "3, 9, 16) are read only");
+  EXPECT_EQ(sentence("3 2 2 5 8 30 10 20", "3 21 2 5 8 30 10 20 99 1 2 3 4 5"),
+            "x.msh, line 22: an element has type 21; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, "
+            "3, 9, 10, 16) and solids are read only");
   EXPECT_EQ(sentence("$Elements\n4", "$Elements\n3"), "x.msh, line 23: $EndElements was expected, not '4'");
   EXPECT_EQ(sentence("\"the \"bore\" \"", "bore"),
             "x.msh, line 6: the name of a physical group should stand between quotation marks, not 'bore'");
@@ -424,9 +424,9 @@ TEST(MeshReaders, VtuErrorsNameTheLine) {
   EXPECT_EQ(sentence("0 1 0 0 0 1<", "0 1 0 0 0 x<"), "x.vtu, line 13: a number was expected, not 'x'");
   EXPECT_EQ(sentence("0 1 2 3", "0 1 2 4"), "x.vtu, line 16: a cell names point 4 of 4");
   EXPECT_EQ(sentence("3 7 10", "3 2 10"), "x.vtu, line 17: the offset of cell 1 (from 0) is 2, which cannot be");
-  EXPECT_EQ(sentence("5 10 4", "5 7 4"),
-            "x.vtu, line 18: cell 1 (from 0) has type 7 and 4 points; triangles and quadrilaterals of order 1 and 2 "
-            "(types 5, 9, 22, 23) are read only");
+  EXPECT_EQ(sentence("5 10 4", "5 35 4"),
+            "x.vtu, line 18: cell 1 (from 0) has type 35 and 4 points; triangles and quadrilaterals of order 1 and 2 "
+            "(types 5, 9, 22, 23, 28, 34, 69, 70), pixels, polygons, strips and solids are read only");
   EXPECT_EQ(sentence("'offsets' format='ascii'", "'offsets' format='appended' offset='0'"),
             "x.vtu, line 17: array 'offsets' lies in AppendedData, which the file does not have");
   EXPECT_EQ(sentence("Name='types'", "Name='kinds'"), "x.vtu, line 5: Cells has no array 'types'");

@@ -50,7 +50,7 @@ TEST(Medit, LayoutCommentsAndOtherSectionsDoNotMatter) {
   const FlatMesh mesh = read_mesh_text(
       "\xEF\xBB\xBF# made by hand\r\n MeshVersionFormatted\n2 Dimension 3 # space\n"
       "Triangles 1 1 2 3 5\nCorners 2\n1 2\nRequiredVertices 0\nNormals 1 0 0 1\n"
-      "Geometry \"a name End Vertices\"\nAngleOfCornerBound 30.5\nHexahedra 1 1 2 3 4 5 6 7 8 1\nIdentifier \"x\"\n"
+      "Geometry \"a name End Vertices\"\nAngleOfCornerBound 30.5\nHexahedra 1 1 2 3 1 1 2 3 1 1\nIdentifier \"x\"\n"
       "Vertices 3\n0 +1.5d0 -2.5E-1 1 1e300 .5 0. 2\n-0 1.D-3 7 -3#end\nEnd\n",
       "x.mesh");
   ASSERT_EQ(mesh.vertices.size(), 3u);
@@ -144,7 +144,8 @@ TEST(Medit, TetrahedraAreReadAndNeverWritten) {
   const FlatMesh mesh = read_mesh_text(
       "MeshVersionFormatted 2 Dimension 3 Vertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Tetrahedra 1 4 2 1 3 5 End", "x");
   EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::int32_t, 4>>{{3, 1, 0, 2}}));
-  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(mesh.triangles.size(), 4u);  // its outer faces
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>(4, 5)));
   EXPECT_EQ(mesh_bytes(mesh, MeshFormat::mesh).find("Tetra"), std::string::npos);
 }
 

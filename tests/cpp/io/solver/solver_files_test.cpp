@@ -286,7 +286,7 @@ TEST(SolverFiles, NameTheLineOfWhatIsWrong) {
   EXPECT_NE(sentence(read_mesh_inp, "*ELEMENT, TYPE=WHAT\n1, 1\n").find("'WHAT'"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_inp, "nothing\n").find("keyword"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_bdf, "GRID,1,,0.,x,0.\n").find("not 'x'"), std::string::npos);
-  EXPECT_NE(sentence(read_mesh_bdf, "GRID,1,4,0.,0.,0.\n").find("system '4'"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_bdf, "GRID,1,4,0.,0.,0.\n").find("x, line 1: system of coordinates 4 is named"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_bdf, "GRID,1\nCTRIA3,1,1,1,1\n").find("a node"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 4\n").find("instead of 2 or 3"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 2\n0 0 0\n1 0 1\n").find("vertex 2"), std::string::npos);
