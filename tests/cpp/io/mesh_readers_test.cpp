@@ -178,6 +178,53 @@ TEST(MeshReaders, StlOfOtherPrograms) {
   EXPECT_EQ(mesh.faces[0].name, "the  part");
 }
 
+TEST(MeshReaders, StlWithoutNormalsOrNamesOfEnds) {
+  const FlatMesh wanted = read_mesh_stl("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                                        "endloop\nendfacet\nendsolid a\n", "x");
+  for (const char* facet : {"facet\nouter loop\n", "facet normal\nouter loop\n", "facet normal 0 0\n outer loop\n"})
+    for (const char* ends : {"endloop\nendfacet\nendsolid\n", "end loop\nend facet\nend solid a\n", "end\nend\nend\n"}) {
+      const FlatMesh mesh = read_mesh_stl(
+          "solid a\n" + std::string(facet) + "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n" + ends, "x");
+      EXPECT_EQ(mesh.vertices, wanted.vertices) << facet << ends;
+      EXPECT_EQ(mesh.triangles, wanted.triangles) << facet << ends;
+      EXPECT_EQ(mesh.faces[0].name, "a");
+    }
+}
+
+TEST(MeshReaders, GmshQuadrilateralsOfNineNodesLoseTheirCentre) {
+  const FlatMesh mesh = read_mesh_msh(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 0 0\n6 2 1 0\n7 1 2 0\n"
+      "8 0 1 0\n9 1 1 0.1\n$EndNodes\n$Elements\n1\n1 10 2 4 4 1 2 3 4 5 6 7 8 9\n$EndElements\n", "x");
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::quad8);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{4, 4}));
+}
+
+TEST(MeshReaders, VtuPixelsPolygonsStripsAndBiquadraticCells) {
+  // Nine points of a square grid; each file covers the area 4.
+  const auto area = [](const std::string& connectivity, const std::string& offsets, const std::string& types, int cells) {
+    const FlatMesh mesh = read_mesh_vtu(
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='9' NumberOfCells='" + std::to_string(cells) +
+            "'><Points><DataArray type='Float32' NumberOfComponents='3' format='ascii'>0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0 0 2 0 "
+            "1 2 0 2 2 0</DataArray></Points><Cells><DataArray type='Int32' Name='connectivity' format='ascii'>" +
+            connectivity + "</DataArray><DataArray type='Int32' Name='offsets' format='ascii'>" + offsets +
+            "</DataArray><DataArray type='UInt8' Name='types' format='ascii'>" + types +
+            "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>", "x");
+    double sum = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      sum += cross(mesh.vertices[std::size_t(b)] - mesh.vertices[std::size_t(a)],
+                   mesh.vertices[std::size_t(c)] - mesh.vertices[std::size_t(a)]).z() / 2;
+    return sum;
+  };
+  EXPECT_DOUBLE_EQ(area("0 1 3 4 1 2 4 5 3 4 6 7 4 5 7 8", "4 8 12 16", "8 8 8 8", 4), 4);
+  EXPECT_DOUBLE_EQ(area("0 1 2 5 8 7 6 3", "8", "7", 1), 4);
+  EXPECT_DOUBLE_EQ(area("3 0 4 1 5 2 6 3 7 4 8 5", "6 12", "6 6", 2), 4);
+  EXPECT_DOUBLE_EQ(area("0 2 8 6 1 5 7 3 4", "9", "28", 1), 4);
+  EXPECT_DOUBLE_EQ(area("0 2 8 6 1 5 7 3 4", "9", "70", 1), 4);
+  EXPECT_DOUBLE_EQ(area("0 2 6 1 4 3 2 8 6 5 7 4", "6 12", "69 22", 2), 4);
+}
+
 constexpr const char* gmsh_22 =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"the \"bore\" \"\n$EndPhysicalNames\n"
     "$Nodes\n4\n30 0 0 0\n10 1 0 0\n20 0 1 0\n99 0 0 1\n$EndNodes\n$Periodic\n0\n$EndPeriodic\n"

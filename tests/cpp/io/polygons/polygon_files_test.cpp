@@ -117,6 +117,15 @@ TEST(Ply, ThreeFormsGiveOneMesh) {
     }
 }
 
+TEST(Ply, ListsMayHaveFloatCountsAndIndices) {
+  const FlatMesh mesh = read_mesh_ply(
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property list float float weights\nelement face 1\nproperty list float float vertex_indices\nend_header\n"
+      "0 0 0 2 .5 .5\n1 0 0 0\n1 1 0 1 1\n0 1 0 0\n4 0 1 2 3\n", "x");
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+}
+
 TEST(Ply, NamesWhatIsWrong) {
   const auto sentence = [&](const std::string& text) {
     return sentence_of<FileError>([&] { read_mesh_ply(text, "x.ply"); });
