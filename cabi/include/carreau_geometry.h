@@ -222,7 +222,7 @@ typedef struct carreau_plane_domain {
  * references for one subdomain; nothing enclosed). */
 CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
 
-/* The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
+/* The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
  * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
  * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
  * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between

@@ -110,7 +110,13 @@ class Triangles(unittest.TestCase):
         self.assertIn("beyond the limit of 100000000 (parameter max_triangles)", done.stderr)
         done = self.run_command("fields", self.path("a.off"), "-o", self.path("a.exr"), code=2)
         self.assertIn("has no fields over parameter domains", done.stderr)
-        self.assertIn("is no file of triangles", self.run_command("refine", "a.step", "-o", self.path("b.mesh"), code=2).stderr)
+        for command in ("refine", "mesh", "info"):
+            told = self.run_command(command, self.path("a.cml", "<molecule/>"), *([] if command == "info" else ["-o", self.path("b.mesh")]), code=2).stderr
+            self.assertIn("cannot be read: the suffix .cml is not known.", told)
+            self.assertIn(".vtu, .vtk, .msh", told)
+            self.assertEqual(".pdb" in told, command != "refine", told)
+        told = self.run_command("mesh", self.path("a.poly", "0"), "-o", self.path("b.mesh"), code=2).stderr
+        self.assertIn("The command plane reads .poly.", told)
 
     def test_size_maps_and_adaptation_work_as_on_other_geometries(self):
         source, target = self.path("a.off", off(*cylinder())), self.path("b.mesh")
