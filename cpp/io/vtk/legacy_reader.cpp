@@ -41,6 +41,7 @@ class LegacyReader : private Words {
     header();
     for (std::string_view key = word(); !key.empty(); key = word()) section(in_capitals(key), key.data());
     if (!has_points_) fail(end(), "the file has no POINTS");
+    if (sections_.empty()) fail(end(), "the file has no cells: it may be truncated");
     add_cells();
     add_data();
     return std::move(mesh_);

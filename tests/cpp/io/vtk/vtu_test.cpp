@@ -124,7 +124,7 @@ TEST(LegacyVtk, BothFormsGiveMeshReferencesAndFieldsBack) {
     EXPECT_EQ(read.fields[1].values, mesh.fields[1].values);
     EXPECT_EQ(read.fields[1].edge_values, mesh.fields[1].edge_values);
     // Cut off before the cells have their types, the file is an error.
-    for (std::size_t n = 0; n < content.find("POINT_DATA"); n += 3)
+    for (std::size_t n = 0; n < content.find("CELL_TYPES"); n += 3)
       EXPECT_THROW(read_mesh_vtk(content.substr(0, n), "x"), FileError) << n;
   }
 }
