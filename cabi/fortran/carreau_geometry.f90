@@ -4,7 +4,7 @@
 !! there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
 !! are optional.
 module carreau_geometry
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
   use carreau, only: carreau_session, carreau_mesh, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
     carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
     carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
@@ -44,6 +44,7 @@ module carreau_geometry
   type :: carreau_molecule_options
     integer(c_int32_t) :: surface = CARREAU_VWS, drop_cavities = 0
     real(c_double) :: probe = 1.4_c_double
+    character(len=:), allocatable :: radii !< file of lines "symbol radius"; not allocated: none
   end type carreau_molecule_options
 
   integer(c_int32_t), parameter, public :: CARREAU_MEASURED_POINTS = 0, CARREAU_MEASURED_HEIGHTS = 1, CARREAU_MEASURED_RADII = 2
@@ -229,7 +230,15 @@ contains
     type(carreau_molecule_options), intent(in) :: options
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
-    status = c_load_molecule(session%handle, c_options(options), trim(path)//c_null_char)
+    type(c_molecule_options) :: c
+    character(kind=c_char), allocatable, target :: radii(:)
+    c = c_options(options)
+    if (allocated(options%radii)) then
+      allocate (radii(len_trim(options%radii) + 1))
+      radii = transfer(trim(options%radii)//c_null_char, [c_null_char], size(radii))
+      c%radii = c_loc(radii)
+    end if
+    status = c_load_molecule(session%handle, c, trim(path)//c_null_char)
   end subroutine carreau_load_molecule
 
   subroutine carreau_molecule_measure(session, measures, status)

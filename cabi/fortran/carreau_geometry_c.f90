@@ -27,6 +27,7 @@ module carreau_geometry_c
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: surface = 0, drop_cavities = 0
     real(c_double) :: probe = 0
+    type(c_ptr) :: radii = c_null_ptr
   end type c_molecule_options
 
   !> Of the surface, exactly: no mesh is needed.

@@ -731,7 +731,8 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 /* Replaces the content by that of a file. The suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
  * compressed by zlib), .stl (text or binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and
  * binary), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2, .off (text), .obj, .ply (text and binary), whose
- * polygons become triangles. What carreau_mesh_write has written comes back: points, exactly but for binary .stl, and references and
+ * polygons become triangles, .vtk (VTK's legacy format, text and binary), .tri (Cart3D). Without a surface the outer
+ * faces of solids are read. What carreau_mesh_write has written comes back: points, exactly but for binary .stl, and references and
  * names where the format holds them. These are all of them, with status and colour of faces, in .vtu; references of
  * faces and curves, and of corners if positive, in .msh; solids as faces in .stl. On an error the old content stays.
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
@@ -760,7 +761,7 @@ CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const ca
 
 /* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2,
- * with named sets; .off, .obj, .ply. Elements of order 2 are an error in .su2, .off, .obj and .ply. The parameters option, refs and flag say how the mesh of a
+ * with named sets; .off, .obj, .ply, .vtk, .tri. Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters option, refs and flag say how the mesh of a
  * session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves in the parameter plane.
  * .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl. The
  * file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */

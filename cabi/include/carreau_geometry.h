@@ -112,6 +112,7 @@ typedef struct carreau_molecule_options {
   int32_t surface;       /* CARREAU_VWS, CARREAU_SAS or CARREAU_SES */
   int32_t drop_cavities; /* 1: inner shells are left out of the model; areas and volumes have them */
   double probe;          /* radius of the probe; CARREAU_VWS does not use it */
+  const char* radii;     /* file of lines "symbol radius", in place of the table's radii; NULL: none */
 } carreau_molecule_options;
 
 /* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
@@ -123,8 +124,9 @@ typedef struct carreau_molecule_options {
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
-/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are those of Bondi;
- * waters and all but the first of alternate locations are left out, and messages tell it. References of faces are the
+/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are those of Bondi,
+ * for elements that he lacks those of Alvarez and others (cpp/io/molecule/elements.h);
+ * waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
  * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
  * Errors: those above, FILE. */
 CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
@@ -220,7 +222,7 @@ typedef struct carreau_plane_domain {
  * references for one subdomain; nothing enclosed). */
 CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
 
-/* The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
+/* The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
  * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
  * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
  * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between
@@ -314,11 +316,12 @@ typedef struct carreau_triangles {
  * through their vertices, with tangent planes that agree but on lines: borders, edges with three triangles or more,
  * edges of triangles that differ by more than the sharp angle and those over which such a line goes on. Its faces are
  * the regions between lines, or the references of the triangles where they have several (moved up when one is not
- * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and
- * those with two corners at one place, and turns triangles that run against their neighbours; messages tell it.
+ * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place,
+ * drops repeated triangles and triangles without area (a corner on a longest side divides that side in the
+ * neighbours), and turns triangles that run against their neighbours; messages report it.
  * carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as
  * their least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
- * that is not finite, a triangle without area between three places, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
+ * that is not finite, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
  *
  * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are
  * one line, and the mesh conforms there; triangles of two surfaces stay those of the first one. Each has faces, lines and angles of its own, and

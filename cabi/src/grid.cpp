@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -7,6 +8,7 @@
 #include "carreau_geometry.h"
 #include "geometry/grid/grid.h"
 #include "guard.h"
+#include "io/files.h"
 #include "io/grid/grid_files.h"
 
 using carreau::GridFormat;
@@ -48,6 +50,18 @@ void add(carreau_session& session, const carreau::grid::Grid& grid, const carrea
   for (const std::string& warning : made.warnings)
     session.monitor.message(Level::warning, (grid.source.empty() ? "" : grid.source + ": ") + warning);
   session.add_geometry(CARREAU_GEOMETRY_GRID, std::move(made.built.cad), std::move(made.built.model));
+}
+
+/// Longitude and latitude in degrees beside heights in metres: the surface would be a wall of needles.
+bool may_be_in_degrees(const carreau::grid::Grid& grid) {
+  carreau::Vec3 low = carreau::Vec3::Constant(HUGE_VAL), high = -low;
+  for (const carreau::grid::Block& block : grid.blocks)
+    for (const carreau::Vec3& node : block.nodes)
+      if (carreau::is_finite(node)) low = low.cwiseMin(node), high = high.cwiseMax(node);
+  constexpr double half_turn = 180, quarter = 90, steep = 10;
+  const double extent = std::max(high.x() - low.x(), high.y() - low.y());
+  return low.x() >= -half_turn && high.x() <= 2 * half_turn && low.y() >= -quarter && high.y() <= quarter &&
+         high.z() - low.z() > steep * extent && extent > 0;
 }
 
 carreau::grid::Measured measured_of(std::int32_t given) {
@@ -113,6 +127,10 @@ carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_op
     session->refuse_begun();
     const double step = asked.step;
     if (!(step >= 0) || !std::isfinite(step)) throw InvalidArgument("the step of a grid must be finite and not negative");
-    add(*session, carreau::read_grid(required(path, "path"), format_of(format), step > 0 ? step : 1), asked.options);
+    const carreau::grid::Grid grid = carreau::read_grid(required(path, "path"), format_of(format), step > 0 ? step : 1);
+    if (carreau::suffix_of(path) == ".asc" && may_be_in_degrees(grid))
+      session->monitor.message(Level::warning, std::string(path) + ": its nodes lie where degrees of longitude and latitude do, and heights vary by "
+                                                                   "more than ten times their extent: project the grid to metres first");
+    add(*session, grid, asked.options);
   });
 }

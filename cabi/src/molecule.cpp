@@ -4,6 +4,7 @@
 #include "arguments.h"
 #include "carreau_geometry.h"
 #include "guard.h"
+#include "io/files.h"
 #include "io/molecule/molecule_files.h"
 
 using carreau::InvalidArgument;
@@ -66,7 +67,10 @@ carreau_status carreau_load_molecule(carreau_session* session, const carreau_mol
   return guarded(session, [&] {
     const SurfaceOptions known = options_of(options, *session);
     session->refuse_begun();
-    const carreau::MoleculeFile file = carreau::read_molecule(required(path, "path"));
+    const char* const radii_path = read_struct(options, "carreau_molecule_options").radii;
+    const carreau::Radii radii =
+        radii_path == nullptr ? carreau::Radii{} : carreau::read_radii(carreau::read_file(radii_path), radii_path);
+    const carreau::MoleculeFile file = carreau::read_molecule(required(path, "path"), radii);
     for (const std::string& remark : file.remarks)
       session->monitor.message(Level::warning, std::string(path) + ": " + remark);
     add(*session, file.molecule, known);

@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "carreau_geometry.h"
+#include "geometry/plane/arrangement.h"
 #include "geometry/plane/plane_geometry.h"
 #include "guard.h"
 #include "io/files.h"
@@ -128,6 +129,19 @@ void add(carreau_session& session, const PlaneDomainInput& input) {
   session.plane_has_sizes = plane.sizes != nullptr;
 }
 
+void arrange(carreau_session& session, PlaneDomainInput& input) {
+  const carreau::SegmentArrangement found = carreau::arrange_segments(input);
+  std::string text;
+  const auto tell = [&](std::size_t n, const char* what) {
+    if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + what;
+  };
+  tell(found.crossings, " crossings of segments became points");
+  tell(found.points_on_segments, " points on segments divide them");
+  tell(found.merged_points, " repeated points were merged");
+  tell(found.dropped_segments, " repeated segments were dropped");
+  if (!text.empty()) session.monitor.message(Level::warning, input.source + ": " + text);
+}
+
 bool is_bl2d(const std::string& path) {
   const std::string suffix = carreau::suffix_of(path);
   return suffix == ".h" || suffix == ".hc" || suffix == ".hg";
@@ -163,6 +177,7 @@ carreau_status carreau_load_plane_domain(carreau_session* session, const char* p
       background = carreau::read_background(path, sizes, true);
     else if (sizes != nullptr)
       set_point_sizes(input, sizes_of(sizes), sizes);
+    if (input.arrange) arrange(*session, input);
     if (corner_angle > 0)
       smooth_polygons(input, corner_angle);
     else if (input.is_mesh)

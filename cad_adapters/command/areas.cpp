@@ -24,7 +24,7 @@ struct Measured {
 Measured measure(carreau_session* session, const AreasOptions& options, const std::string& surface) {
   Measured m{.surface = surface, .refs = {}, .areas = {}, .names = {}};
   require(session, carreau_model_clear(session));
-  load_molecule(session, options.input, {.surface = surface, .probe = options.probe});
+  load_molecule(session, options.input, {.surface = surface, .probe = options.probe, .radii = options.radii});
   m.measures.struct_size = sizeof m.measures;
   require(session, carreau_molecule_measure(session, &m.measures));
   if (!options.atoms) return m;

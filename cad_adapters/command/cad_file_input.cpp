@@ -7,6 +7,7 @@
 #include "cad_file.h"
 #include "cad_library.h"
 #include "failure.h"
+#include "known_suffixes.h"
 #include "session_handle.h"
 
 namespace command {
@@ -30,6 +31,9 @@ CadFileHandle read_cad(const std::string& path, const ReadingProgress& progress)
   };
   const carreau_status status = cad_library().read(file.get(), path.c_str(), &options);
   if (status == CARREAU_ERR_MEMORY) throw Failure("'" + path + "': out of memory.");
+  // Files of CAD are known by suffix or content.
+  if (status != CARREAU_OK && std::string(cad_library().last_error(file.get())).find("is no STEP, IGES or BREP") != std::string::npos)
+    throw Failure(unknown_geometry(path));
   require(file.get(), status);
   return file;
 }

@@ -84,6 +84,7 @@ int refine(const RefineOptions& options);
 struct AreasOptions {
   std::string input;
   double probe = 1.4;
+  std::string radii;
   bool atoms = false;  ///< a line for each
   int threads = 0;     ///< 0: all cores
   bool json = false;

@@ -73,7 +73,7 @@ void refuse_elements(carreau_session* session, const std::vector<std::string>& o
   for (const std::string& path : outputs) {
     if (asked != "p1" && suffix_of(path) == ".bl2d")
       throw Failure("'" + path + "' cannot hold elements " + asked + ": .bl2d knows straight triangles (p1) only.");
-    if ((asked.starts_with("p2") || asked.starts_with("q2")) && is_one_of(suffix_of(path), {".su2", ".off", ".obj", ".ply"}))
+    if ((asked.starts_with("p2") || asked.starts_with("q2")) && is_one_of(suffix_of(path), {".su2", ".off", ".obj", ".ply", ".tri"}))
       throw Failure("'" + path + "' cannot hold elements " + asked + ": " + suffix_of(path) + " knows those of order 1 only.");
   }
 }

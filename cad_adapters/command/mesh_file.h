@@ -21,7 +21,8 @@ using MeshHandle = std::unique_ptr<carreau_mesh, FreeMesh>;
 
 /// Suffixes of the formats that the library writes.
 inline const std::vector<std::string> written_meshes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d",
-                                                     ".inp",  ".bdf",   ".unv", ".su2", ".off", ".obj",  ".ply"};
+                                                     ".inp",  ".bdf",   ".unv", ".su2", ".off", ".obj",  ".ply",
+                                                     ".vtk",  ".tri"};
 
 /// Reads a file of any format that the library reads. Throws Failure with the library's sentence.
 MeshHandle read_mesh(const std::string& path);

@@ -19,6 +19,7 @@ carreau_molecule_options options_of(const MoleculeChoice& choice) {
   options.surface = choice.surface == "vws" ? CARREAU_VWS : choice.surface == "sas" ? CARREAU_SAS : CARREAU_SES;
   options.drop_cavities = choice.drop_cavities ? 1 : 0;
   options.probe = choice.probe;
+  options.radii = choice.radii.empty() ? nullptr : choice.radii.c_str();
   return options;
 }
 

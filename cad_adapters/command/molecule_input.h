@@ -16,6 +16,7 @@ struct MoleculeChoice {
   std::string surface = "vws";  ///< one of molecule_surfaces
   double probe = 1.4;
   bool drop_cavities = false;
+  std::string radii = {};  ///< file of radii; empty: none
 };
 
 inline constexpr const char* molecule_suffixes[] = {".xyzr", ".xyz", ".pdb", ".ent", ".cif", ".mmcif"};

@@ -94,6 +94,12 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   threads(app, options.threads);
 }
 
+void radii(CLI::App* app, std::string& path) {
+  app->add_option("--radii", path, "Take radii of elements from lines \"symbol radius\" of this file")
+      ->check(CLI::ExistingFile)
+      ->type_name(kind::file);
+}
+
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
   app->add_option("--surface", choice.surface,
                   "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent; ses, excluding it. Of "
@@ -104,6 +110,7 @@ void add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length)
       ->capture_default_str();
+  radii(app, choice.radii);
   app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells of a molecule");
 }
 

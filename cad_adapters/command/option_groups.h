@@ -28,6 +28,7 @@ CLI::Option* repeated(CLI::Option* option);
 /// Of commands that mesh once.
 void add_parts_option(CLI::App* app, MeshOptions& options);
 CLI::Option* threads(CLI::App* app, int& value);
+void radii(CLI::App* app, std::string& path);
 
 /// What governs a mesh.
 void add_mesh_options(CLI::App* app, MeshOptions& options);

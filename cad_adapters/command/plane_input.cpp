@@ -45,7 +45,7 @@ class PlaneInput final : public BuiltInput {
 
 bool is_plane_file(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  return suffix == ".poly" || suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d" || suffix == ".data" ||
+  return suffix == ".poly" || suffix == ".node" || suffix == ".dat" || suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d" || suffix == ".data" ||
          suffix == ".g";
 }
 

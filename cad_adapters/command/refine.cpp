@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "json_output.h"
+#include "known_suffixes.h"
 #include "output_files.h"
 #include "signals.h"
 
@@ -13,7 +14,7 @@ namespace command {
 int refine(const RefineOptions& options) {
   catch_signals();
   OutputFiles outputs(options.outputs, written_meshes, {options.input});
-  if (!is_triangles(options.input)) throw Failure("'" + options.input + "' is no file of triangles.");
+  if (!is_triangles(options.input)) throw Failure(unknown_triangles(options.input));
   const MeshHandle mesh =
       refined_triangles(options.input, options.triangles, options.angle, options.depth, options.quiet);
   std::int64_t vertices = 0, triangles = 0, edges = 0, faces = 0;

@@ -122,8 +122,7 @@ bool locate_by(carreau_session* session, std::int32_t face, double u, double v, 
 
 bool is_triangles(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  const char* const known[] = {".stl", ".off", ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".msh", ".msh2", ".inp", ".bdf", ".unv", ".su2"};
-  return std::any_of(std::begin(known), std::end(known), [&](const char* each) { return suffix == each; });
+  return std::any_of(std::begin(triangles_suffixes), std::end(triangles_suffixes), [&](const char* each) { return suffix == each; });
 }
 
 carreau_triangles_report triangles_report(carreau_session* session) {

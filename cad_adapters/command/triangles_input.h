@@ -23,6 +23,8 @@ struct TrianglesChoice {
   bool ignore_references = false;
 };
 
+inline constexpr const char* triangles_suffixes[] = {".stl", ".off",  ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".vtk",
+                                                     ".msh", ".msh2", ".inp", ".bdf", ".unv",  ".su2",   ".tri"};
 /// Whether the suffix is that of a file of triangles.
 bool is_triangles(const std::string& path);
 

@@ -171,21 +171,19 @@ void remove_vertices(const std::vector<char>& gone, ElementLists& lists, FlatMes
   };
   renumber(lists.triangles), renumber(lists.triangles6), renumber(lists.quads), renumber(lists.quads8);
   renumber(lists.edges), renumber(lists.edges3);
+  for (auto& nodes : mesh.tetrahedra)
+    for (std::int32_t& v : nodes) v = rank[static_cast<std::size_t>(v)];
 }
 
 }  // namespace
 
-bool take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const std::vector<std::int32_t>& refs,
-                 ElementLists& lists, FlatMesh& mesh, std::size_t& bad) {
-  // Single precision of the coordinates.
-  constexpr double rounding = 1e-6;
+void take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const std::vector<std::int32_t>& refs,
+                 ElementLists& lists, FlatMesh& mesh) {
   std::vector<char> gone(mesh.vertices.size(), 0);
   for (std::size_t i = 0; i < quads.size(); ++i) {
     std::array<std::int32_t, 8> nodes;
     std::copy_n(quads[i].begin(), 8, nodes.begin());
-    const double size = norm(mesh.vertices[nodes[2]] - mesh.vertices[nodes[0]]);
-    if (!(norm(mesh.vertices[quads[i][8]] - centre_of(mesh, nodes)) <= rounding * size)) return bad = i, false;
-    gone[quads[i][8]] = 1;
+    gone[static_cast<std::size_t>(quads[i][8])] = 1;
     lists.quads8.nodes.push_back(nodes), lists.quads8.refs.push_back(refs[i]);
   }
   const auto keep = [&](const auto& list) {
@@ -194,8 +192,9 @@ bool take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const st
   };
   keep(lists.triangles), keep(lists.triangles6), keep(lists.quads), keep(lists.quads8), keep(lists.edges);
   keep(lists.edges3);
+  for (const auto& nodes : mesh.tetrahedra)
+    for (const std::int32_t v : nodes) gone[static_cast<std::size_t>(v)] = 0;
   if (!quads.empty()) remove_vertices(gone, lists, mesh);
-  return true;
 }
 
 }  // namespace carreau

@@ -53,9 +53,9 @@ struct MeditElements {
 /// with a sentence for the reader to place, when elements of both orders are mixed.
 void set_elements(const ElementLists& lists, FlatMesh& mesh);
 
-/// Nine-node elements as the format of Medit has them: those whose centre is that of their eight other nodes lose it,
-/// and so does the mesh. False when another one is found; `bad` tells which.
-bool take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const std::vector<std::int32_t>& refs,
-                 ElementLists& lists, FlatMesh& mesh, std::size_t& bad);
+/// Appends quadrilaterals of nine nodes without their ninth node, the centre. Centres that no other element has leave
+/// the mesh.
+void take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const std::vector<std::int32_t>& refs,
+                 ElementLists& lists, FlatMesh& mesh);
 
 }  // namespace carreau

@@ -28,7 +28,8 @@ constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".me
                               {".bl2d", MeshFormat::bl2d, read_mesh_bl2d}, {".inp", MeshFormat::inp, read_mesh_inp},
                               {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, read_mesh_unv},
                               {".su2", MeshFormat::su2, read_mesh_su2},    {".off", MeshFormat::off, read_mesh_off},
-                              {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply}};
+                              {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply},
+                              {".vtk", MeshFormat::vtk, read_mesh_vtk},    {".tri", MeshFormat::tri, read_mesh_tri}};
 
 /// That the suffix of a name tells. Throws InvalidArgument.
 const Format& known_format(const std::string& path) {
@@ -154,6 +155,10 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
       return obj_text(mesh);
     case MeshFormat::ply:
       return ply_bytes(mesh);
+    case MeshFormat::vtk:
+      return vtk_text(mesh, options.ascii_stl);
+    case MeshFormat::tri:
+      return tri_text(mesh);
   }
   throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
 }

@@ -15,11 +15,13 @@ namespace carreau {
 /// Gmsh ASCII (`.msh`, version 4.1; `.msh2`, version 2.2; both with physical names).
 /// BL2D (`.bl2d`, meshes of the plane z = 0).
 /// Solvers: Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`), SU2 (`.su2`), with named sets.
-/// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary).
-enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply };
+/// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary). VTK's legacy format (`.vtk`), Cart3D
+/// (`.tri`).
+enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply, vtk, tri };
 
 struct MeshFileOptions {
-  /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); otherwise binary.
+  /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); `.vtk` as text; otherwise
+  /// both are binary.
   bool ascii_stl = false;
   /// Gmsh's formats: edges of curves and corners are elements, each curve and corner a physical group; otherwise there
   /// are triangles only.
@@ -43,14 +45,14 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 /// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files and BL2D's only.
 FlatMesh read_mesh(const std::string& path);
 /// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() tells them apart by
-/// the content. Quadrilaterals and elements of second order are taken, quadrilaterals of nine nodes when the ninth is
-/// where the eight others put the centre, and straight tetrahedra; mixed orders are errors, as are a word that is no section of the format
-/// (ASCII), a section that comes twice, and a missing End. Other sections are skipped.
+/// the content. Quadrilaterals and elements of second order are taken (of nine nodes without the centre), and solids as
+/// their outer faces; mixed orders are errors, as are a word that is no section of the format (ASCII), and a section that
+/// comes twice. End may be missing from text that is whole. Other sections are skipped.
 FlatMesh read_mesh_text(std::string_view text, const std::string& name);
 FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
 /// Gmsh, versions 4.1 and 2.2, ASCII and binary (either byte order). References are the numbers of entities (not of
 /// physical groups, unless an element has no other), names those of physical groups. Vertices have the order of their
-/// numbers. Straight tetrahedra (type 4) are kept, other solids skipped; elements of surfaces are triangles and quadrilaterals of order 1 or 2 (types 2, 3, 9,
+/// numbers. Solids without a surface are their outer faces; elements of surfaces are triangles and quadrilaterals of order 1 or 2 (types 2, 3, 9,
 /// 16), others and mixed orders are errors.
 FlatMesh read_mesh_msh(std::string_view content, const std::string& name);
 /// STL, text or binary: corners of equal coordinates become one vertex. Solids of the text form are faces.
@@ -63,7 +65,7 @@ FlatMesh read_mesh_ply(std::string_view content, const std::string& name);
 /// Abaqus and CalculiX: *NODE, *ELEMENT of shells, membranes and plane elements, *ELSET; solids, beams and other keywords are
 /// skipped. Sets are faces ("face_7" has reference 7), edges are not in the format.
 FlatMesh read_mesh_inp(std::string_view text, const std::string& name);
-/// Nastran: GRID in the basic system, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL, CBAR, CBEAM, CROD; properties are references.
+/// Nastran: GRID in any system, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL, CBAR, CBEAM, CROD; properties are references.
 FlatMesh read_mesh_bdf(std::string_view text, const std::string& name);
 /// I-DEAS: datasets 2411 and 781 (nodes), 2412 (shells, plane elements, beams as edges), 2467 and its sisters (groups). Groups
 /// of shells are faces ("face_7" has reference 7), those of beams curves; without groups properties are the references.
@@ -72,8 +74,12 @@ FlatMesh read_mesh_unv(std::string_view text, const std::string& name);
 FlatMesh read_mesh_su2(std::string_view text, const std::string& name);
 /// BL2D: vertices, edges and triangles of the plane, with references.
 FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name);
+/// VTK's legacy format, ASCII or binary: POLYDATA and UNSTRUCTURED_GRID, cells as those of VTK XML.
+FlatMesh read_mesh_vtk(std::string_view content, const std::string& name);
+/// Cart3D's triangulations, ASCII: numbers of vertices and triangles, both, components of triangles as references.
+FlatMesh read_mesh_tri(std::string_view text, const std::string& name);
 /// VTK XML: one piece, arrays as text, base64 or raw bytes, not compressed. Cells are triangles and quadrilaterals of
-/// order 1 or 2 (5, 9, 22, 23), lines and straight tetrahedra (10); points and other solids are skipped, others and mixed orders are errors.
+/// order 1 or 2 (vtk_cells.h), lines and solids; points are skipped, others and mixed orders are errors.
 FlatMesh read_mesh_vtu(std::string_view content, const std::string& name);
 
 }  // namespace carreau

@@ -20,6 +20,8 @@ void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink);
 /// True when positions of the file need version 3.
 bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept;
 std::string vtu_bytes(const FlatMesh& mesh);
+/// VTK's legacy format, as text or in binary form.
+std::string vtk_text(const FlatMesh& mesh, bool ascii);
 void write_vtu(const FlatMesh& mesh, const ByteSink& sink);
 std::string stl_bytes(const FlatMesh& mesh);
 std::string stl_text(const FlatMesh& mesh);
@@ -37,6 +39,8 @@ std::string su2_text(const FlatMesh& mesh);
 std::string off_text(const FlatMesh& mesh);
 std::string obj_text(const FlatMesh& mesh);
 std::string ply_bytes(const FlatMesh& mesh);
+/// Cart3D: straight triangles alone.
+std::string tri_text(const FlatMesh& mesh);
 /// Name of a face: its own, or `prefix` and its reference. Control characters and quotation marks become '_'.
 std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix);
 

@@ -86,6 +86,16 @@ class TextReader {
     std::size_t end = 0;  // of its triangles
   };
 
+  /// "endfacet", "end facet" or "end".
+  void expect_end(std::string_view what) {
+    const std::string_view word = in_.word();
+    if (word.empty()) in_.fail(in_.end(), "the file ends where end" + std::string(what) + " was expected");
+    if (same_word(word, "end"))
+      in_.rest_of_line();
+    else if (!same_word(word.substr(0, 3), "end") || !same_word(word.substr(3), what))
+      in_.fail(word.data(), "end" + std::string(what) + " was expected, not " + shown(word));
+  }
+
   void expect(std::string_view wanted) {
     const std::string_view word = in_.word();
     if (word.empty()) in_.fail(in_.end(), "the file ends where " + std::string(wanted) + " was expected");
@@ -97,7 +107,8 @@ class TextReader {
     for (;;) {
       const std::string_view word = in_.word();
       if (word.empty()) in_.fail(in_.end(), "the file ends inside a solid: it may be truncated");
-      if (same_word(word, "endsolid")) break;
+      const bool cut_off = word.data() + word.size() == in_.end();  // perhaps inside endsolid
+      if (same_word(word, "endsolid") || (same_word(word, "end") && !cut_off)) break;
       if (!same_word(word, "facet")) in_.fail(word.data(), "facet or endsolid was expected, not " + shown(word));
       facet();
     }
@@ -106,9 +117,14 @@ class TextReader {
   }
 
   void facet() {
-    expect("normal");
-    for (int k = 0; k < 3; ++k) in_.word();  // of no use, and often not a number
-    expect("outer");
+    // Normals are of no use, often not numbers, and may be missing.
+    const char* const at = in_.position();
+    std::string_view word = in_.word();
+    if (same_word(word, "normal"))
+      for (int k = 0; k < 4 && !same_word(word = in_.word(), "outer");) ++k;
+    else if (!same_word(word, "outer"))
+      in_.go_back(at), expect("normal");
+    if (!same_word(word, "outer")) in_.go_back(word.empty() ? in_.end() : word.data()), expect("outer");
     expect("loop");
     std::array<std::int32_t, 3> corners{};
     for (std::int32_t& corner : corners) {
@@ -119,8 +135,8 @@ class TextReader {
       p.z() = in_.real("a coordinate of a vertex");
       corner = points_.add(mesh_.vertices, p);
     }
-    expect("endloop");
-    expect("endfacet");
+    expect_end("loop");
+    expect_end("facet");
     mesh_.triangles.push_back(corners);
   }
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """molecule_test.py CARREAU DATA: `carreau areas`, and `carreau mesh` on molecules. DATA: tests/data/molecule."""
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -42,6 +43,16 @@ class Molecules(unittest.TestCase):
             self.assertEqual(found[name]["euler_number"], 2)
             self.assertEqual([atom["atom"] for atom in found[name]["atom_list"]], [1, 2])
 
+    def test_every_element_has_a_radius_and_a_file_replaces_it(self):
+        iron, radii = self.write("iron.xyz", "1\n\nFe 0 0 0\n"), self.write("radii.txt", "Fe 2.0\n")
+        for options, radius in (([], 2.44), (["--radii", radii], 2.0)):
+            areas = json.loads(self.run_command("areas", iron, "--json", *options).stdout)
+            found = {surface["surface"]: surface["area"] for surface in areas["surfaces"]}
+            self.assertAlmostEqual(found["vws"], 4 * math.pi * radius ** 2, delta=1e-9)
+            self.assertAlmostEqual(found["sas"], 4 * math.pi * (radius + 1.4) ** 2, delta=1e-9)
+        self.run_command("mesh", iron, "--radii", radii, "--size", "0.5", "-q", "-o", "iron.mesh")
+        self.run_command("check", "iron.mesh", "--closed")
+
     def test_what_a_file_has_too_much_of_is_told_once(self):
         done = self.run_command("areas", os.path.join(DATA, "1bna.pdb"))
         self.assertEqual(done.stderr.count("80 atoms of waters are left out"), 1)
@@ -73,7 +84,7 @@ class Molecules(unittest.TestCase):
 
     def test_mistakes_are_told_with_the_line(self):
         for name, text, sentence in (("a.xyzr", "0 0 0 1\n0 0 0\n", "line 2: the radius is missing"),
-                                     ("b.xyz", "1\n\nFe 0 0 0\n", "line 3: the element 'Fe' has no van der Waals radius"),
+                                     ("b.xyz", "1\n\nQq 0 0 0\n", "line 3: 'Qq' is no element of the periodic table"),
                                      ("c.pdb", "", "the file holds no atom")):
             for command in (["areas"], ["mesh", "-o", "x.mesh"]):
                 done = self.run_command(command[0], self.write(name, text), *command[1:], code=2)

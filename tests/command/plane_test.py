@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """plane_test.py CARREAU BL2D: plane domains by files: areas and references, the loop of bl2d.env, a sentence for each mistake."""
 import math
+import json
 import os
 import re
 import shutil
@@ -221,6 +222,46 @@ class Plane(unittest.TestCase):
         self.write("short.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n1\n1 1\n1\nEnd\n")
         self.fails("one.mesh", "--sol", "short.sol", sentence="it has values at 1 vertices, but one.mesh has")
 
+    def test_segments_that_cross_are_arranged(self):
+        # Two segments cross the side 3 at (3, 8) and (2.6, 8); a point is given twice.
+        for name, text, note in (("cross.poly", SQUARES.replace("7 3 3 2", "7 3 9 2"), "2 crossings of segments became points"),
+                                 ("twice.poly", SQUARES.replace("12 4 6.5 4", "12 8 8 4"),
+                                  "1 repeated points were merged")):
+            self.write(name, text)
+            done = self.run_program(PROGRAM, "plane", name, "-o", "arranged.mesh", "--size", "1")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr.count(note), 1, done.stderr)
+            self.assertEqual(self.run_program(PROGRAM, "check", "arranged.mesh").returncode, 0)
+
+    def area(self, mesh):
+        done = self.run_program(PROGRAM, "check", mesh, "--json")
+        return json.loads(done.stdout)["quality"]["area"]
+
+    def test_nodes_are_meshed_in_their_convex_hull(self):
+        self.write("five.node", "5 2 0 1\n1 0 0 1\n2 2 0 1\n3 2 1 1\n4 0 1 1\n5 1 0 0\n6 .5 .5 0\n".replace("5 2 0 1", "6 2 0 1"))
+        self.assertEqual(self.run_program(PROGRAM, "plane", "five.node", "-o", "five.mesh", "--size", "0.4").returncode, 0)
+        self.assertAlmostEqual(self.area("five.mesh"), 2, delta=1e-12)
+        # A .poly without points has those of the .node beside it.
+        self.write("five.poly", "0 2 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n")
+        self.assertEqual(self.run_program(PROGRAM, "plane", "five.poly", "-o", "five.mesh", "--size", "0.4").returncode, 0)
+        self.assertAlmostEqual(self.area("five.mesh"), 1, delta=1e-12)
+
+    def test_airfoils_of_both_layouts(self):
+        # A kite as an airfoil: area .06; with a blunt trailing edge of .02, .065.
+        for half, area in ((0, 0.06), (0.01, 0.065)):
+            upper, lower = [(0, 0), (0.5, 0.06), (1, half)], [(0, 0), (0.5, -0.06), (1, -half)]
+            rows = lambda points: "".join(f"  {x:.6f}  {y:.6f}\n" for x, y in points)
+            selig = rows(upper[::-1] + lower[1:])
+            for text in ("KITE 12\n" + selig, selig, "KITE\n 3.  3.\n\n" + rows(upper) + "\n" + rows(lower)):
+                self.write("kite.dat", text)
+                done = self.run_program(PROGRAM, "plane", "kite.dat", "-o", "kite.mesh", "--size", "0.05")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertAlmostEqual(self.area("kite.mesh"), area, delta=1e-9)
+        self.write("short.dat", "KITE\n 3.  4.\n\n" + rows(upper) + "\n" + rows(lower))
+        self.fails("short.dat", sentence="short.dat, line 2: 3 and 4 points are announced, and there are 6")
+        self.write("word.dat", "KITE\n0 0\n1 x\n")
+        self.fails("word.dat", sentence="word.dat, line 3: two coordinates were expected, not '1 x'")
+
     def fails(self, *arguments, sentence):
         done = self.run_program(PROGRAM, "plane", *arguments, "-o", "no.mesh")
         self.assertEqual(done.returncode, 2, done.stdout)
@@ -230,11 +271,6 @@ class Plane(unittest.TestCase):
     def test_mistakes_are_told_with_the_line(self):
         self.write("open.poly", SQUARES.replace("13 1\n", "12 1\n").replace("4 4 1 1\n", "").split("5 5 6 2")[0].replace("12 1\n", "3 1\n") + "0\n")
         self.fails("open.poly", sentence="its boundary is open, since only one curve ends at point '1'")
-        self.write("cross.poly", SQUARES.replace("7 3 3 2", "7 3 9 2"))
-        self.fails("cross.poly", sentence="curve '3' and curve '6' cross or touch at (3, 8)")
-        self.fails("cross.poly", sentence="cross.poly, line 20")
-        self.write("twice.poly", SQUARES.replace("7 3 3 2", "7 3 1 2"))
-        self.fails("twice.poly", sentence="point '6' and point '7' are at the same place (3, 1)")
         self.write("wrong.data", PIECE.replace("AB +1 200", "AB -1 200"))
         self.fails("wrong.data", sentence="wrong.data, line 16: the domain lies on the right of curve 'AB', which is its outer side")
         self.write("name.data", PIECE.replace("NULL F G NULL", "NULL F Z NULL"))

@@ -101,7 +101,7 @@ class Triangles(unittest.TestCase):
     def test_mistakes_are_told(self):
         x, t = cylinder()
         flat = self.path("flat.off", off(x + [(0, 0, 3), (0, 0, 4)], t + [(73, 74, 75)]))
-        self.assertIn("has no area: it cannot be dropped without a hole", self.run_command("info", flat, code=2).stderr)
+        self.assertIn("1 triangles have no area, the first is triangle 144 (from 0): dropped", self.run_command("info", flat).stderr)
         twice = self.run_command("info", self.path("twice.off", off(x, t + [t[3]])))
         self.assertIn("has the vertices of triangle 3: dropped", twice.stderr)
         done = self.run_command("mesh", self.path("a.off", off(x, t)), "-o", self.path("b.mesh"), "--face-size", "1=2", code=2)
@@ -110,7 +110,13 @@ class Triangles(unittest.TestCase):
         self.assertIn("beyond the limit of 100000000 (parameter max_triangles)", done.stderr)
         done = self.run_command("fields", self.path("a.off"), "-o", self.path("a.exr"), code=2)
         self.assertIn("has no fields over parameter domains", done.stderr)
-        self.assertIn("is no file of triangles", self.run_command("refine", "a.step", "-o", self.path("b.mesh"), code=2).stderr)
+        for command in ("refine", "mesh", "info"):
+            told = self.run_command(command, self.path("a.cml", "<molecule/>"), *([] if command == "info" else ["-o", self.path("b.mesh")]), code=2).stderr
+            self.assertIn("cannot be read: the suffix .cml is not known.", told)
+            self.assertIn(".vtu, .vtk, .msh", told)
+            self.assertEqual(".pdb" in told, command != "refine", told)
+        told = self.run_command("mesh", self.path("a.poly", "0"), "-o", self.path("b.mesh"), code=2).stderr
+        self.assertIn("The command plane reads .poly.", told)
 
     def test_size_maps_and_adaptation_work_as_on_other_geometries(self):
         source, target = self.path("a.off", off(*cylinder())), self.path("b.mesh")
@@ -131,6 +137,8 @@ class Triangles(unittest.TestCase):
                  "triangle 8 (from 0) at (1, 0, 0) has the vertices of triangle 0: dropped"),
                 ("two_corners.off", {"flat_triangles": 1, "triangles": 8, "vertices": 6},
                  "triangle 8 (from 0) at (1, 0, 0) has two corners at one place: dropped"),
+                ("flat.off", {"flat_triangles": 1, "triangles": 8, "border_edges": 0},
+                 "1 triangles have no area, the first is triangle 8 (from 0): dropped, and their longest sides are divided"),
                 ("shells.off", {"shells": 2, "euler_number": 4, "border_edges": 0}, ""),
                 ("fin.off", {"manifold_breaks": 1, "border_edges": 2, "triangles": 9},
                  "1 edges have three triangles or more, the first from (1, 0, 0) to (0, 1, 0)"),
@@ -150,8 +158,7 @@ class Triangles(unittest.TestCase):
             self.run_command("mesh", path, "-o", made, "--size", "10%", "-q")
             self.run_command("check", made)
         # What is refused.
-        for name, words in (("flat.off", "triangle 8 (from 0) with corners at (0, 0, 1), (0, 0, 2) and (0, 0, 3) has no area"),
-                            ("out_of_range.off", "line 12: "), ("not_a_number.stl", "line 34: ")):
+        for name, words in (("out_of_range.off", "line 12: "), ("not_a_number.stl", "line 34: ")):
             told = self.run_command("info", os.path.join(DATA, name), code=2).stderr
             self.assertIn(words, told, name)
 

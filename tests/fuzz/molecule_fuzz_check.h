@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <unordered_set>
 
 #include "fuzz_check.h"
@@ -17,7 +18,11 @@ template <typename Read>
 int fuzz_molecule(const std::uint8_t* data, std::size_t size, Read&& read) {
   MoleculeFile file;
   try {
-    file = read(std::string_view(reinterpret_cast<const char*>(data), size), "x");
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    if constexpr (std::is_invocable_v<Read, std::string_view, const char*>)
+      file = read(text, "x");
+    else
+      file = read(text, "x", Radii{});
   } catch (const FileError& error) {
     FUZZ_CHECK(error.where().file == "x" && error.where().line > 0);
     return 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "fuzz_check.h"
+#include "geometry/plane/arrangement.h"
 #include "geometry/plane/plane_geometry.h"
 #include "io/plane/plane_files.h"
 #include "support/error.h"
@@ -48,6 +49,14 @@ int fuzz_plane(const std::uint8_t* data, std::size_t size, Read&& read) {
   }
   for (const PlaneSide& side : input.sides)
     FUZZ_CHECK(side.curve >= 0 && side.curve < static_cast<int>(input.curves.size()));
+  if (input.arrange && n <= most_built) {
+    try {
+      arrange_segments(input);
+    } catch (const InvalidModel& error) {
+      FUZZ_CHECK(error.what()[0] != '\0');
+      return 0;
+    }
+  }
   const auto segments = [&] {
     std::size_t all = 0;
     for (const PlaneCurve& curve : input.curves) all += curve.points.size() - 1;

@@ -88,6 +88,7 @@ struct MoleculeOptions {
   int surface = CARREAU_VWS;
   double probe = 0;
   bool drop_cavities = false;
+  std::string radii = {}; ///< file of lines "symbol radius"; empty: none
 };
 /// Of each atom.
 struct MoleculeAtoms {
@@ -102,6 +103,7 @@ inline carreau_molecule_options c_of(const MoleculeOptions& options) {
   out.surface = options.surface;
   out.drop_cavities = options.drop_cavities ? 1 : 0;
   out.probe = options.probe;
+  out.radii = options.radii.empty() ? nullptr : options.radii.c_str(); // lives as long as `options`
   return out;
 }
 

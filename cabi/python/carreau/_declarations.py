@@ -603,6 +603,7 @@ class carreau_molecule_options(Structure):
         ("surface", c_int32),
         ("drop_cavities", c_int32),
         ("probe", c_double),
+        ("radii", c_char_p),
     ]
 
 

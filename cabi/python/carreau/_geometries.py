@@ -31,8 +31,9 @@ def choice(words: dict[str, int], word: str, what: str) -> int:
     return words[word]
 
 
-def molecule_options(surface: str = "vws", probe: float = 1.4, drop_cavities: bool = False) -> Any:
-    return struct(c.carreau_molecule_options, surface=choice(SURFACES, surface, "surface"), probe=probe, drop_cavities=int(drop_cavities))
+def molecule_options(surface: str = "vws", probe: float = 1.4, drop_cavities: bool = False, radii: Optional[Path] = None) -> Any:
+    return struct(c.carreau_molecule_options, surface=choice(SURFACES, surface, "surface"), probe=probe, drop_cavities=int(drop_cavities),
+                  radii=None if radii is None else file_name(radii))
 
 
 def grid_options(*, measured: str = "points", smooth: Union[int, tuple[int, float, float]] = 0, lengths: bool = False,
@@ -104,7 +105,7 @@ class Geometries:
         self._long(lib().add_molecule, byref(molecule_options(**options)), len(xyz), xyz, doubles(radii, "radii", len(xyz)))
 
     def load_molecule(self, path: Path, **options: Any) -> None:
-        """The same of the atoms of a file .xyzr, .xyz, .pdb or .cif."""
+        """The same of the atoms of a file .xyzr, .xyz, .pdb or .cif; option radii: a file of lines "symbol radius"."""
         self._long(lib().load_molecule, byref(molecule_options(**options)), file_name(path))
 
     @property

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "geometry/discrete/thresholds.h"
+#include "geometry/discrete/flat_triangles.h"
 #include "model/bucket_sort.h"
 #include "model/union_find.h"
 #include "support/error.h"
@@ -39,10 +39,12 @@ Triangulation::Triangulation(const FlatMesh& input, bool join) {
   std::vector<std::int32_t> number;
   take_vertices(input, join, number);
   take_triangles(input, number);
-  if (triangles.empty()) throw InvalidArgument("the surface has no triangle");
+  drop_repeated();
   for (const auto& e : input.edges)
     if (const Edge known = edge_of(number[index(e[0])], number[index(e[1])]); known[0] != known[1])
       marked.push_back(known);
+  drop_flat();
+  if (triangles.empty()) throw InvalidArgument("the surface has no triangle");
   drop_unused(input);
   link();
   turn();
@@ -78,8 +80,6 @@ void Triangulation::take_vertices(const FlatMesh& input, bool join, std::vector<
 }
 
 void Triangulation::take_triangles(const FlatMesh& input, const std::vector<std::int32_t>& number) {
-  std::vector<Known> known;
-  std::vector<char> dropped(input.triangles.size(), 0);
   for (std::size_t t = 0; t < input.triangles.size(); ++t) {
     std::array<std::int32_t, 3> c{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -89,38 +89,57 @@ void Triangulation::take_triangles(const FlatMesh& input, const std::vector<std:
                               std::to_string(number.size()));
       c[k] = number[index(v)];
     }
-    std::ranges::sort(c);
-    if (c[0] == c[1] || c[1] == c[2]) {
-      dropped[t] = 1;
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
       if (findings.flat_triangles++ == 0)
-        findings.sentences.push_back("triangle " + std::to_string(t) + " (from 0) at " + place(c[0]) +
+        findings.sentences.push_back("triangle " + std::to_string(t) + " (from 0) at " + place(std::ranges::min(c)) +
                                      " has two corners at one place: dropped");
       continue;
     }
-    known.push_back({c, static_cast<std::int32_t>(t)});
-  }
-  bucket_sort(known, vertices.size(), [](const Known& k) { return k.sorted[0]; });
-  for (std::size_t k = 1; k < known.size(); ++k)
-    if (known[k].sorted == known[k - 1].sorted) {
-      dropped[index(known[k].triangle)] = 1;
-      if (findings.repeated_triangles++ == 0)
-        findings.sentences.push_back("triangle " + std::to_string(known[k].triangle) + " (from 0) at " +
-                                     place(known[k].sorted[0]) + " has the vertices of triangle " +
-                                     std::to_string(known[k - 1].triangle) + ": dropped");
-    }
-  for (std::size_t t = 0; t < input.triangles.size(); ++t) {
-    if (dropped[t] != 0) continue;
-    const auto& given = input.triangles[t];
-    triangles.push_back({number[index(given[0])], number[index(given[1])], number[index(given[2])]});
+    triangles.push_back(c);
     refs.push_back(input.triangle_refs.empty() ? 0 : input.triangle_refs[t]);
     origin.push_back(static_cast<std::int32_t>(t));
-    const auto& [a, b, c] = triangles.back();
-    const double longest = std::max({norm(at(b) - at(a)), norm(at(c) - at(b)), norm(at(a) - at(c))});
-    if (!(norm(cross(at(b) - at(a), at(c) - at(a))) > thresholds::flat_height * longest * longest))
-      throw InvalidArgument("triangle " + std::to_string(t) + " (from 0) with corners at " + place(a) + ", " +
+  }
+}
+
+void Triangulation::drop_repeated() {
+  std::vector<Known> known;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    known.push_back({triangles[t], static_cast<std::int32_t>(t)});
+    std::ranges::sort(known.back().sorted);
+  }
+  bucket_sort(known, vertices.size(), [](const Known& k) { return k.sorted[0]; });
+  std::vector<char> dropped(triangles.size(), 0);
+  for (std::size_t k = 1; k < known.size(); ++k)
+    if (known[k].sorted == known[k - 1].sorted) {
+      const auto [t, before] = std::pair(index(known[k].triangle), index(known[k - 1].triangle));
+      dropped[t] = 1;
+      if (findings.repeated_triangles++ == 0)
+        findings.sentences.push_back("triangle " + std::to_string(origin[t]) + " (from 0) at " +
+                                     place(known[k].sorted[0]) + " has the vertices of triangle " +
+                                     std::to_string(origin[before]) + ": dropped");
+    }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (dropped[t] != 0) continue;
+    triangles[kept] = triangles[t], refs[kept] = refs[t], origin[kept] = origin[t];
+    ++kept;
+  }
+  triangles.resize(kept), refs.resize(kept), origin.resize(kept);
+}
+
+void Triangulation::drop_flat() {
+  const std::vector<std::int32_t> dropped = drop_flat_triangles(vertices, {triangles, refs, origin}, marked);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (const auto& [a, b, c] = triangles[t]; is_flat(vertices, triangles[t]))
+      throw InvalidArgument("triangle " + std::to_string(origin[t]) + " (from 0) with corners at " + place(a) + ", " +
                             place(b) + " and " + place(c) +
                             " has no area: it cannot be dropped without a hole. Remove it first");
-  }
+  if (dropped.empty()) return;
+  findings.flat_triangles += static_cast<std::int64_t>(dropped.size());
+  const std::int32_t first = std::ranges::min(dropped);
+  findings.sentences.push_back(std::to_string(dropped.size()) + " triangles have no area, the first is triangle " +
+                               std::to_string(first) + " (from 0): dropped, and their longest sides are divided");
+  drop_repeated();
 }
 
 void Triangulation::drop_unused(const FlatMesh& input) {

@@ -19,7 +19,7 @@ inline Edge edge_of(std::int32_t v, std::int32_t w) noexcept { return v < w ? Ed
 struct Findings {
   std::int64_t joined_vertices = 0;     ///< had the coordinates of another one
   std::int64_t repeated_triangles = 0;  ///< of the same vertices as another one: dropped
-  std::int64_t flat_triangles = 0;      ///< without area: dropped, when they have two corners at one place
+  std::int64_t flat_triangles = 0;      ///< without area: dropped
   std::int64_t turned_triangles = 0;    ///< ran against most of their shell: turned
   std::int64_t border_edges = 0;        ///< with one triangle
   std::int64_t manifold_breaks = 0;     ///< edges with three triangles or more
@@ -41,9 +41,9 @@ struct Side {
 /// Triangles with neighbours. Vertices are those of the input that are in use, in order.
 class Triangulation {
  public:
-  /// Joins vertices of equal coordinates when `join`, drops repeated triangles, those with two corners at one place,
-  /// and turns triangles so that neighbours agree: each shell as most of its triangles are. Throws InvalidArgument,
-  /// with the place, for triangles without area whose corners are three places, and when no triangle is left.
+  /// Joins vertices of equal coordinates when `join`, drops repeated triangles and triangles without area
+  /// (flat_triangles.h), and turns triangles so that neighbours agree: each shell as most of its triangles are. Throws
+  /// InvalidArgument when no triangle is left.
   explicit Triangulation(const FlatMesh& input, bool join = true);
 
   std::vector<Vec3> vertices;
@@ -82,6 +82,8 @@ class Triangulation {
  private:
   void take_vertices(const FlatMesh& input, bool join, std::vector<std::int32_t>& number);
   void take_triangles(const FlatMesh& input, const std::vector<std::int32_t>& number);
+  void drop_repeated();
+  void drop_flat();
   void drop_unused(const FlatMesh& input);
   void link();
   void turn();

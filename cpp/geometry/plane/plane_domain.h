@@ -68,6 +68,7 @@ struct PlaneDomainInput {
   std::vector<PlaneSeed> seeds;
   PlaneRest rest = PlaneRest::parity;
   std::string source;    ///< name of the file; empty: from memory
+  bool arrange = false;  ///< segments may cross, and points repeat: arrange_segments() comes first
   bool is_mesh = false;  ///< a mesh whose triangles cover the domain: sizes at its points hold inside, too
 };
 

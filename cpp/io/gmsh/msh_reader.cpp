@@ -7,6 +7,7 @@
 #include "io/element_lists.h"
 #include "io/gmsh/msh_numbers.h"
 #include "io/mesh_files.h"
+#include "io/solid_skin.h"
 #include "io/text.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -16,14 +17,15 @@ namespace carreau {
 namespace {
 
 constexpr std::int32_t line_type = 1, triangle_type = 2, quad_type = 3, line_of_order_2_type = 8,
-                       triangle_of_order_2_type = 9, quad_of_eight_nodes_type = 16, point_type = 15, tetrahedron_type = 4;
+                       triangle_of_order_2_type = 9, quad_of_eight_nodes_type = 16, point_type = 15, tetrahedron_type = 4,
+                       quad_of_nine_nodes_type = 10;
 
 /// Number of vertices of the elements that are read (points, lines, triangles and quadrilaterals of first and second
-/// order, tetrahedra of the first) and of other solids, which are skipped; 0: of others, without which a surface would have holes.
+/// order, solids); 0: of others, without which a surface would have holes.
 std::size_t vertices_of_type(std::int32_t type) {
   static constexpr std::pair<std::int32_t, std::size_t> known[] = {
       {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {quad_type, 4}, {line_of_order_2_type, 3},
-      {triangle_of_order_2_type, 6}, {quad_of_eight_nodes_type, 8},
+      {triangle_of_order_2_type, 6}, {quad_of_eight_nodes_type, 8}, {quad_of_nine_nodes_type, 9},
       {tetrahedron_type, 4}, {5, 8},   {6, 6},   {7, 5},   {11, 10}, {12, 27},
       {13, 18},        {14, 14},       {17, 20},           {18, 15}, {19, 13}, {29, 20}, {30, 35}, {31, 56}};
   for (const auto& [each, vertices] : known)
@@ -33,11 +35,31 @@ std::size_t vertices_of_type(std::int32_t type) {
 
 bool is_surface(std::int32_t type) noexcept {
   return type == triangle_type || type == quad_type || type == triangle_of_order_2_type ||
-         type == quad_of_eight_nodes_type;
+         type == quad_of_eight_nodes_type || type == quad_of_nine_nodes_type;
 }
-bool is_read(std::int32_t type) noexcept {
-  return is_surface(type) || type == point_type || type == line_type || type == line_of_order_2_type ||
-         type == tetrahedron_type;
+
+/// A solid: its shape, and where SolidSkin's nodes are in Gmsh's order, or its corners alone.
+struct GmshSolid {
+  SolidShape shape;
+  std::vector<std::size_t> nodes;
+};
+const GmshSolid* solid_of(std::int32_t type) {
+  static const std::vector<std::size_t> corners{0, 1, 2, 3, 4, 5, 6, 7};
+  static const auto straight = [](SolidShape shape) {
+    return GmshSolid{shape, {corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(corner_count(shape))}};
+  };
+  static const GmshSolid tetrahedron10{SolidShape::tetrahedron, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+      pyramid13{SolidShape::pyramid, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
+      prism15{SolidShape::prism, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}},
+      hexahedron20{SolidShape::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}};
+  static const std::map<std::int32_t, GmshSolid> known{
+      {4, straight(SolidShape::tetrahedron)},   {5, straight(SolidShape::hexahedron)}, {6, straight(SolidShape::prism)},
+      {7, straight(SolidShape::pyramid)},       {11, tetrahedron10},                   {12, hexahedron20},
+      {13, prism15},                            {14, pyramid13},                       {17, hexahedron20},
+      {18, prism15},                            {19, pyramid13},                       {29, straight(SolidShape::tetrahedron)},
+      {30, straight(SolidShape::tetrahedron)},  {31, straight(SolidShape::tetrahedron)}};
+  const auto found = known.find(type);
+  return found == known.end() ? nullptr : &found->second;
 }
 
 using Key = std::pair<std::int32_t, std::int32_t>;  // dimension and tag, of an entity or a physical group
@@ -69,6 +91,8 @@ class MshReader {
   MshNumbers in_;
   FlatMesh mesh_;
   ElementLists lists_;
+  ElementList<9> quads9_;
+  SolidSkin skin_;
   bool version_2_ = false, has_format_ = false, has_nodes_ = false, has_elements_ = false;
   std::map<Key, std::string> names_;             // of physical groups
   std::map<Key, std::int32_t> group_of_entity_;  // the first one
@@ -202,17 +226,18 @@ std::size_t MshReader::check_type(std::int32_t type, const char* at) const {
   const std::size_t vertices = vertices_of_type(type);
   if (vertices == 0)
     in_.fail(at, "an element has type " + std::to_string(type) +
-                     "; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, 3, 9, 16) are read only");
+                     "; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, 3, 9, 10, 16) and solids are read only");
   return vertices;
 }
 
 /// The vertices of an element, behind all its other numbers.
 void MshReader::element(std::int32_t type, std::int32_t ref, std::size_t vertices) {
-  std::array<std::int32_t, 8> nodes{};
+  constexpr std::size_t most_nodes = 56;  // of vertices_of_type()
+  std::array<std::int32_t, most_nodes> nodes{};
   for (std::size_t k = 0; k < vertices; ++k) {
     const char* at = in_.here();
     const std::int64_t tag = version_2_ ? number_2("the number of a node") : in_.size("the number of a node");
-    if (is_read(type)) nodes[k] = vertex_of(tag, at);
+    nodes[k] = vertex_of(tag, at);
   }
   const auto add = [&](auto& list) {
     auto& own = list.nodes.emplace_back();
@@ -227,6 +252,12 @@ void MshReader::element(std::int32_t type, std::int32_t ref, std::size_t vertice
   if (type == triangle_of_order_2_type) add(lists_.triangles6);
   if (type == quad_type) add(lists_.quads);
   if (type == quad_of_eight_nodes_type) add(lists_.quads8);
+  if (type == quad_of_nine_nodes_type) add(quads9_);
+  if (const GmshSolid* const solid = solid_of(type)) {
+    std::vector<std::int32_t> own;
+    for (const std::size_t k : solid->nodes) own.push_back(nodes[k]);
+    skin_.add(solid->shape, own, ref);
+  }
 }
 
 void MshReader::elements_4() {
@@ -323,6 +354,8 @@ FlatMesh MshReader::read() {
   if (!has_format_) in_.fail(in_.end(), "the file is empty");
   if (!has_nodes_) in_.fail(in_.end(), "the file has no $Nodes");
   if (!has_elements_) in_.fail(in_.end(), "the file has no $Elements");
+  if (quads9_.nodes.empty()) skin_.give_to(lists_, mesh_.vertices);
+  take_quads9(quads9_.nodes, quads9_.refs, lists_, mesh_);
   try {
     set_elements(lists_, mesh_);
   } catch (const InvalidArgument& error) {

@@ -25,7 +25,7 @@ grid::Grid read_grid(const std::string& path, GridFormat format = GridFormat::by
 // The same of contents; `name` is for messages.
 
 /// PLOT3D in text or binary: one block (three counts) or several (their number, three counts each; one of the three is
-/// 1), then of each block all x, all y, all z, and where the numbers are so many an IBLANK for each node: 0 is a
+/// 1, or the block is a volume, and its sides are the blocks but for those that two volumes share), then of each block all x, all y, all z, and where the numbers are so many an IBLANK for each node: 0 is a
 /// missing one. Binary files are records of Fortran or plain ones, of either byte order and precision: what fits the
 /// size of the file.
 grid::Grid read_plot3d(std::string_view content, const std::string& name);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "io/grid/grid_files.h"
 #include "io/grid/grid_text.h"
@@ -36,21 +38,79 @@ std::string defect_of(const Counts& n) {
     if (k < 1) return "has " + shape_of(n) + " nodes; all three counts must be positive";
     if (k == 1) ++ones;
   }
-  if (ones == 0) return "is a volume of " + shape_of(n) + " nodes; one of the three counts of a surface is 1";
   if (ones > 1) return "has " + shape_of(n) + " nodes, one row only; a surface has two or more";
   if (nodes_of(n) > std::numeric_limits<std::int32_t>::max()) return "has more than 2^31 nodes";
   return "";
 }
 
+bool is_volume(const Counts& n) noexcept { return n[0] > 1 && n[1] > 1 && n[2] > 1; }
+
 Block empty_block(const Counts& n) {
   Block block;
   block.columns = n[0] == 1 ? n[1] : n[0];
   block.rows = n[2] == 1 ? n[1] : n[2];
+  if (is_volume(n)) block.rows = n[1] * n[2];  // until with_outer_faces() takes the nodes
   block.nodes.resize(static_cast<std::size_t>(nodes_of(n)));
   return block;
 }
 
 void leave_out(Vec3& node) { node = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
+/// Side `last` (0: the first nodes, 1: the last ones) across the axis of a volume.
+Block face_of(const Block& volume, const Counts& n, std::size_t axis, int last) {
+  const std::size_t across = (axis + 1) % 3, up = (axis + 2) % 3;
+  Block face;
+  face.line = volume.line, face.measured = volume.measured;
+  face.columns = n[across], face.rows = n[up];
+  std::array<std::int32_t, 3> at{};
+  at[axis] = last == 0 ? 0 : n[axis] - 1;
+  for (at[up] = 0; at[up] < n[up]; ++at[up])
+    for (at[across] = 0; at[across] < n[across]; ++at[across])
+      face.nodes.push_back(volume.nodes[static_cast<std::size_t>(at[0]) +
+                                        static_cast<std::size_t>(n[0]) * (static_cast<std::size_t>(at[1]) +
+                                                                          static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(at[2]))]);
+  return face;
+}
+
+/// The corners of a block and its counts, whatever way it runs.
+std::vector<double> signature_of(const Block& block) {
+  const auto columns = static_cast<std::size_t>(block.columns), rows = static_cast<std::size_t>(block.rows);
+  std::array<std::array<double, 3>, 4> corners{};
+  const std::size_t ranks[] = {0, columns - 1, columns * (rows - 1), columns * rows - 1};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double x = block.nodes[ranks[k]][static_cast<Eigen::Index>(c)];
+      corners[k][c] = std::isnan(x) ? 0 : x;
+    }
+  std::ranges::sort(corners);
+  std::vector<double> signature;
+  for (const auto& corner : corners) signature.insert(signature.end(), corner.begin(), corner.end());
+  signature.push_back(std::min(block.columns, block.rows)), signature.push_back(std::max(block.columns, block.rows));
+  return signature;
+}
+
+/// In the place of volumes their six sides, but for sides that two volumes share.
+std::vector<Block> with_outer_faces(std::vector<Block> blocks, const std::vector<Counts>& counts) {
+  std::vector<Block> made;
+  std::map<std::vector<double>, std::size_t> of_volumes;
+  std::vector<char> shared;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!is_volume(counts[b])) {
+      made.push_back(std::move(blocks[b])), shared.push_back(0);
+      continue;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const int last : {0, 1}) {
+        made.push_back(face_of(blocks[b], counts[b], axis, last)), shared.push_back(0);
+        const auto [known, added] = of_volumes.emplace(signature_of(made.back()), made.size() - 1);
+        if (!added) shared[known->second] = shared.back() = 1;
+      }
+  }
+  std::vector<Block> outer;
+  for (std::size_t b = 0; b < made.size(); ++b)
+    if (shared[b] == 0) outer.push_back(std::move(made[b]));
+  return outer;
+}
 
 /// Numbers of a text, `5*0.25` standing for five of them.
 class Numbers {
@@ -243,9 +303,12 @@ Grid read_plot3d_text(std::string_view text, const std::string& name) {
   check_room(words, counts, name);
   const char* const start = words.position();
   Grid made{.blocks = read_blocks(words, counts, false, text), .source = name};
-  if (words.word().empty()) return made;
+  if (words.word().empty()) {
+    made.blocks = with_outer_faces(std::move(made.blocks), counts);
+    return made;
+  }
   words.go_back(start);
-  made.blocks = read_blocks(words, counts, true, text);
+  made.blocks = with_outer_faces(read_blocks(words, counts, true, text), counts);
   if (const std::string_view more = words.word(); !more.empty())
     words.fail(more.data(), "the file goes on behind the last block: " + shown(more));
   return made;
@@ -259,6 +322,7 @@ Grid read_plot3d_binary(std::string_view bytes, const std::string& name) {
       if (const std::string defect = defect_of(file.counts()[b]); !defect.empty())
         throw FileError({.file = name}, block_name(b) + " " + defect);
     Grid made = file.grid();
+    made.blocks = with_outer_faces(std::move(made.blocks), file.counts());
     made.source = name;
     return made;
   }

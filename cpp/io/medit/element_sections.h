@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/element_lists.h"
+#include "io/solid_skin.h"
 #include "support/error.h"
 
 namespace carreau {
@@ -23,8 +24,18 @@ struct ElementSections {
   Section<2> edges;
   Section<3> edges3, triangles;
   Section<4> quads, tetrahedra;
-  Section<6> triangles6;
+  Section<5> pyramids;
+  Section<6> triangles6, prisms;
+  Section<8> hexahedra;
   Section<9> quads9;
+  Section<10> tetrahedra10;
+
+  /// True when a section of elements has come.
+  [[nodiscard]] bool any() const noexcept {
+    const auto has = [](const auto& section) { return section.start != Place{}; };
+    return has(edges) || has(edges3) || has(triangles) || has(quads) || has(triangles6) || has(quads9) ||
+           has(tetrahedra) || has(tetrahedra10) || has(pyramids) || has(prisms) || has(hexahedra);
+  }
 
   /// Reads `count` records of N vertices from one and a reference, by `vertex()` and `reference()`. Vertices below one
   /// become -1, for check_indices to refuse.
@@ -51,9 +62,13 @@ struct ElementSections {
     check("triangle of order 2", triangles6, vertices, refuse);
     check("quadrilateral of order 2", quads9, vertices, refuse);
     check("tetrahedron", tetrahedra, vertices, refuse);
+    check("tetrahedron of order 2", tetrahedra10, vertices, refuse);
+    check("pyramid", pyramids, vertices, refuse);
+    check("prism", prisms, vertices, refuse);
+    check("hexahedron", hexahedra, vertices, refuse);
   }
 
-  /// Moves all elements into the mesh. `fail(place, sentence)` throws; `end`: the place of what is about no one section.
+  /// Moves all elements into the mesh; of solids without a surface their outer faces. `fail(place, sentence)` throws; `end`: the place of what is about no one section.
   template <class Fail>
   void give_to(FlatMesh& mesh, Place end, Fail&& fail) {
     ElementLists lists{.triangles = std::move(triangles.list),
@@ -62,11 +77,13 @@ struct ElementSections {
                        .quads8 = {},
                        .edges = std::move(edges.list),
                        .edges3 = std::move(edges3.list)};
+    SolidSkin skin;
+    add_solids(SolidShape::tetrahedron, tetrahedra, skin), add_solids(SolidShape::tetrahedron, tetrahedra10, skin);
+    add_solids(SolidShape::pyramid, pyramids, skin), add_solids(SolidShape::prism, prisms, skin);
+    add_solids(SolidShape::hexahedron, hexahedra, skin);
+    if (quads9.list.nodes.empty()) skin.give_to(lists, mesh.vertices);
     mesh.tetrahedra = std::move(tetrahedra.list.nodes);
-    std::size_t bad = 0;
-    if (!take_quads9(quads9.list.nodes, quads9.list.refs, lists, mesh, bad))
-      fail(quads9.start, "quadrilateral of order 2 " + std::to_string(bad + 1) +
-                             " has a ninth node that is not where its eight others put the centre");
+    take_quads9(quads9.list.nodes, quads9.list.refs, lists, mesh);
     try {
       set_elements(lists, mesh);
     } catch (const InvalidArgument& error) {
@@ -75,6 +92,10 @@ struct ElementSections {
   }
 
  private:
+  template <std::size_t N>
+  static void add_solids(SolidShape shape, const Section<N>& section, SolidSkin& skin) {
+    for (std::size_t i = 0; i < section.list.nodes.size(); ++i) skin.add(shape, section.list.nodes[i], section.list.refs[i]);
+  }
   template <std::size_t N, class Refuse>
   static void check(const char* what, const Section<N>& section, std::size_t vertices, Refuse& refuse) {
     for (std::size_t i = 0; i < section.list.nodes.size(); ++i)

@@ -22,9 +22,13 @@ enum class GmfCode : std::int32_t {
   triangles = 6,
   quadrilaterals = 7,
   tetrahedra = 8,
+  prisms = 9,
+  hexahedra = 10,
   triangles_of_order_2 = 24,
   edges_of_order_2 = 25,
   quadrilaterals_of_order_2 = 27,
+  tetrahedra_of_order_2 = 30,
+  pyramids = 49,
   end = 54,
   sol_at_vertices = 62
 };

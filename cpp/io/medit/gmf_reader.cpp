@@ -71,6 +71,14 @@ void GmfReader::section(std::int32_t code) {
       return entities("quadrilaterals", elements_.quads);
     case GmfCode::tetrahedra:
       return entities("tetrahedra", elements_.tetrahedra);
+    case GmfCode::tetrahedra_of_order_2:
+      return entities("tetrahedra of order 2", elements_.tetrahedra10);
+    case GmfCode::pyramids:
+      return entities("pyramids", elements_.pyramids);
+    case GmfCode::prisms:
+      return entities("prisms", elements_.prisms);
+    case GmfCode::hexahedra:
+      return entities("hexahedra", elements_.hexahedra);
     case GmfCode::triangles_of_order_2:
       return entities("triangles of order 2", elements_.triangles6);
     case GmfCode::quadrilaterals_of_order_2:

@@ -67,6 +67,14 @@ bool MeditReader::read_section(std::string_view name) {
     entities("quadrilaterals", elements_.quads);
   else if (name == "Tetrahedra")
     entities("tetrahedra", elements_.tetrahedra);
+  else if (name == "TetrahedraP2")
+    entities("tetrahedra of order 2", elements_.tetrahedra10);
+  else if (name == "Pyramids")
+    entities("pyramids", elements_.pyramids);
+  else if (name == "Prisms" || name == "Pentahedra")
+    entities("prisms", elements_.prisms);
+  else if (name == "Hexahedra" || name == "Hexaedra")
+    entities("hexahedra", elements_.hexahedra);
   else if (name == "TrianglesP2")
     entities("triangles of order 2", elements_.triangles6);
   else if (name == "QuadrilateralsQ2")
@@ -90,8 +98,10 @@ void MeditReader::check_indices() {
 FlatMesh MeditReader::read() {
   in_.header("a mesh file");
   while (read_section(in_.next_section({"Vertices", "Edges", "EdgesP2", "Triangles", "Quadrilaterals", "Tetrahedra",
+                                        "TetrahedraP2", "Pyramids", "Prisms", "Pentahedra", "Hexahedra", "Hexaedra",
                                         "TrianglesP2", "QuadrilateralsQ2"}))) {
   }
+  if (in_.lacks_end() && !elements_.any()) in_.fail_without_end();
   if (!has_vertices_) in_.fail(in_.position(), "the file has no Vertices");
   check_indices();
   elements_.give_to(mesh_, in_.position(),

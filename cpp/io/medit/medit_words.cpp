@@ -10,6 +10,7 @@ namespace carreau {
 
 namespace {
 
+constexpr bool is_blank(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
 constexpr bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Beginnings of the names.
@@ -83,6 +84,10 @@ void MeditWords::header(const char* kind) {
     fail(position(), "version " + std::to_string(version) + " is not one of 0, 1, 2, 3, 4");
 }
 
+void MeditWords::fail_without_end() const {
+  fail(end(), "the file ends without the word End: it may be truncated");
+}
+
 void MeditWords::skip_section() {
   for (;;) {
     skip_blanks();
@@ -105,6 +110,13 @@ void MeditWords::skip_section() {
   }
 }
 
+/// A name that nothing follows may be the beginning of the word End.
+void MeditWords::skip_unknown() {
+  const char* const before = position();
+  skip_section();
+  if (position() == end() && trimmed({before, static_cast<std::size_t>(end() - before)}).empty()) fail_without_end();
+}
+
 void MeditWords::read_dimension(const char* at) {
   if (dimension_) fail(at, "Dimension comes twice");
   const std::int32_t found = integer("the dimension");
@@ -115,13 +127,19 @@ void MeditWords::read_dimension(const char* at) {
 std::string_view MeditWords::next_section(std::initializer_list<std::string_view> wanted) {
   for (;;) {
     const std::string_view name = word();
-    if (name.empty()) fail(end(), "the file ends without the word End: it may be truncated");
-    if (name == "End") return {};
+    if (name.empty()) {
+      // Programs that leave End out end the last line: any other end lies inside a word.
+      if (!is_blank(end()[-1])) fail_without_end();
+      ended_ = true;
+    }
+    if (name.empty() || name == "End") return {};
     if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) return name;
     if (name == "Dimension")
       read_dimension(name.data());
     else if (is_known_section(name))
       skip_section();
+    else if (takes_any_ && is_letter(name.front()))
+      skip_unknown();
     else
       fail(name.data(), "the name of a section or End was expected, not " + shown(name));
   }

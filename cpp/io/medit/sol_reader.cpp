@@ -77,6 +77,7 @@ class TextReader {
 
   Solution read() {
     in_.header("a solution file");
+    in_.skip_any_section();  // only SolAtVertices counts, and programs add sections of their own
     for (;;) {
       const std::string_view name = in_.next_section({"SolAtVertices"});
       if (name.empty()) break;

@@ -38,8 +38,9 @@ double AtomList::number(std::string_view word, const char* what, int line) const
 }
 
 void AtomList::add(const Vec3& centre, const std::string& element, int line) {
-  const auto radius = bondi_radius(element);
-  if (!radius) fail(line, "the element " + shown(element) + " has no van der Waals radius in the table of Bondi");
+  const auto given = radii_.find(element);
+  const auto radius = given != radii_.end() ? given->second : van_der_waals_radius(element);
+  if (!radius) fail(line, shown(element) + " is no element of the periodic table: it has no van der Waals radius");
   add(centre, *radius);
   file_.molecule.elements.push_back(element);
 }

@@ -21,7 +21,8 @@ struct BankAtom {
 /// Gathers atoms in the order of a file.
 class AtomList {
  public:
-  explicit AtomList(const std::string& name) : name_(name) {}
+  /// Keeps a reference to `name`. `radii` replace radii of the table.
+  explicit AtomList(const std::string& name, Radii radii = {}) : name_(name), radii_(std::move(radii)) {}
 
   [[noreturn]] void fail(int line, const std::string& sentence) const;
   /// A finite number.
@@ -40,6 +41,7 @@ class AtomList {
   void keep_numbers();
 
   const std::string& name_;
+  Radii radii_;
   MoleculeFile file_;
   std::vector<long long> serials_;
   std::string residue_, location_;  // of the last atom that has alternate ones

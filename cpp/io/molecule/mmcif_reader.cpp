@@ -170,8 +170,8 @@ Token read_loop(Tokens& tokens, AtomList& atoms) {
 
 }  // namespace
 
-MoleculeFile read_mmcif(std::string_view text, const std::string& name) {
-  AtomList atoms(name);
+MoleculeFile read_mmcif(std::string_view text, const std::string& name, const Radii& radii) {
+  AtomList atoms(name, radii);
   Tokens tokens(text, atoms);
   int line = 1;
   for (Token token = tokens.next(); !token.end;) {

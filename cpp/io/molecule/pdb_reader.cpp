@@ -22,7 +22,7 @@ std::string element_of(std::string_view line) {
   const bool left = line.size() > 13 && line[12] != ' ' && two.size() == 2;
   const std::string name = element_symbol(columns(line, 13, 16));
   // Names of four letters such as HG11 begin there too.
-  if (left && columns(line, 13, 16).size() < 4 && bondi_radius(two) && line.starts_with("HETATM")) return two;
+  if (left && columns(line, 13, 16).size() < 4 && van_der_waals_radius(two) && line.starts_with("HETATM")) return two;
   return name.substr(0, 1);
 }
 
@@ -43,8 +43,8 @@ BankAtom atom_of(std::string_view line, int number, const AtomList& atoms) {
 
 }  // namespace
 
-MoleculeFile read_pdb(std::string_view text, const std::string& name) {
-  AtomList atoms(name);
+MoleculeFile read_pdb(std::string_view text, const std::string& name, const Radii& radii) {
+  AtomList atoms(name, radii);
   Lines lines(text);
   for (std::string_view line; lines.next(line);) {
     if (line.starts_with("ENDMDL") && atoms.size() > 0) {

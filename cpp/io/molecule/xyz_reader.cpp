@@ -44,8 +44,8 @@ MoleculeFile read_xyzr(std::string_view text, const std::string& name) {
   return std::move(atoms).finished(lines.number());
 }
 
-MoleculeFile read_xyz(std::string_view text, const std::string& name) {
-  AtomList atoms(name);
+MoleculeFile read_xyz(std::string_view text, const std::string& name, const Radii& radii) {
+  AtomList atoms(name, radii);
   Lines lines(text);
   std::string_view line;
   long long count = 0;
@@ -70,17 +70,16 @@ MoleculeFile read_xyz(std::string_view text, const std::string& name) {
   return std::move(atoms).finished(lines.number());
 }
 
-MoleculeFile read_molecule(const std::string& path) {
+MoleculeFile read_molecule(const std::string& path, const Radii& radii) {
   const std::string suffix = suffix_of(path);
-  const auto reader = suffix == ".xyzr"                        ? read_xyzr
-                      : suffix == ".xyz"                       ? read_xyz
+  if (suffix == ".xyzr") return read_xyzr(read_file(path), path);
+  const auto reader = suffix == ".xyz"                         ? read_xyz
                       : suffix == ".pdb" || suffix == ".ent"   ? read_pdb
                       : suffix == ".cif" || suffix == ".mmcif" ? read_mmcif
                                                                : nullptr;
   if (reader == nullptr)
     throw FileError(Where{.file = path}, "a molecule is read from .xyzr, .xyz, .pdb, .ent, .cif or .mmcif");
-  const std::string text = read_file(path);
-  return reader(text, path);
+  return reader(read_file(path), path, radii);
 }
 
 }  // namespace carreau

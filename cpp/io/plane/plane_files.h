@@ -15,14 +15,23 @@ namespace carreau {
 /// than this many degrees.
 inline constexpr double usual_corner_angle = 50;
 
-/// Reads by suffix: .poly, .mesh or .meshb, .bl2d, .data, .g (with the sizes of a .hg beside it when there is one).
+/// Reads by suffix: .poly (with the points of a .node beside it when it has none), .node, .dat (airfoils), .mesh or
+/// .meshb, .bl2d, .data, .g (with the sizes of a .hg beside it when there is one).
 /// Throws InvalidArgument for another suffix, FileError with file and line.
 PlaneDomainInput read_plane_domain(const std::string& path);
 
-/// Triangle's format with its points in the same file. Markers are references. Those of regions are
+/// Triangle's format with its points in the same file, or in `nodes`. Segments may cross (PlaneDomainInput::arrange). Markers are references. Those of regions are
 /// their attributes when all are positive whole numbers, else their numbers. Inside all edges is the domain, but for
 /// holes.
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name);
+PlaneDomainInput read_poly_text(std::string_view text, const std::string& name, std::string_view nodes,
+                                const std::string& nodes_name);
+/// Triangle's points: the domain is their convex hull, and they are vertices.
+PlaneDomainInput read_node_text(std::string_view text, const std::string& name);
+
+/// Airfoils in the layouts of Selig and of Lednicer, with or without a first line. The domain is inside; a blunt trailing
+/// edge is closed by a segment. References: 1 of the surface, 2 of that segment.
+PlaneDomainInput read_airfoil_text(std::string_view text, const std::string& name);
 
 /// Its edges, and the sides of triangles that have no neighbour or one of another reference. Triangles say where the
 /// domain is; without any it is what edges enclose by parity, and vertices inside are imposed. `name` is for messages.

@@ -192,12 +192,17 @@ void join_straight_edges(PlaneDomainInput& input) {
 
 PlaneDomainInput read_plane_domain(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  if (suffix == ".poly") return read_poly_text(read_file(path), path);
+  if (suffix == ".poly") {
+    const std::string nodes = std::filesystem::path(path).replace_extension(".node").string();
+    return read_poly_text(read_file(path), path, std::filesystem::exists(nodes) ? read_file(nodes) : "", nodes);
+  }
+  if (suffix == ".node") return read_node_text(read_file(path), path);
+  if (suffix == ".dat") return read_airfoil_text(read_file(path), path);
   if (suffix == ".data") return read_bl2d_data_text(read_file(path), path);
   if (suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d") return plane_domain_of(read_mesh(path), path);
   if (suffix != ".g")
     throw InvalidArgument("'" + path +
-                          "' has none of the suffixes of a plane domain: .poly, .mesh, .meshb, .bl2d, .data, .g");
+                          "' has none of the suffixes of a plane domain: .poly, .node, .dat, .mesh, .meshb, .bl2d, .data, .g");
   PlaneDomainInput input = read_bl2d_g_text(read_file(path), path);
   const std::string sizes = std::filesystem::path(path).replace_extension(".hg").string();
   if (std::filesystem::exists(sizes)) set_point_sizes(input, read_bl2d_sizes_text(read_file(sizes), sizes), sizes);

@@ -167,8 +167,6 @@ class PlyReader : private Words {
     const char* const before = position();
     if (word() == "list") {
       property.count = read_type();
-      if (*property.count == Number::float32 || *property.count == Number::float64)
-        fail(position(), "the length of a list should be an integer");
     } else {
       go_back(before);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/mesh_files.h"
+#include "io/solver/local_systems.h"
 #include "io/solver/solver_names.h"
 #include "io/text.h"
 #include "io/words.h"
@@ -45,6 +46,7 @@ class BdfReader {
     while (in_.position() != in_.end() && !ended_) add_line();
     use();
     FlatMesh mesh;
+    for (const auto& [number, point] : points_) nodes_.add(number, systems_.in_basic(number), point.at);
     nodes_.give_to(mesh);
     groups_.give_to(mesh, nodes_);
     for (const Line& line : lines_) {
@@ -131,28 +133,84 @@ class BdfReader {
 
   void use() {
     if (card_.name == "GRID") grid();
-    if (card_.name == "CTRIA3" || card_.name == "CTRIAR") shell(3);
-    if (card_.name == "CTRIA6") shell(6);
-    if (card_.name == "CQUAD4" || card_.name == "CQUADR") shell(4);
-    if (card_.name == "CQUAD8") shell(8);
+    if (card_.name == "CTRIA3" || card_.name == "CTRIAR") shell(3, 3);
+    if (card_.name == "CTRIA6") shell(3, 6);
+    if (card_.name == "CQUAD4" || card_.name == "CQUADR") shell(4, 4);
+    if (card_.name == "CQUAD8" || card_.name == "CQUAD") shell(4, 8);  // a ninth node is the centre
+    if (card_.name == "CTETRA") solid(SolidShape::tetrahedron);
+    if (card_.name == "CPYRAM" || card_.name == "CPYRA") solid(SolidShape::pyramid);
+    if (card_.name == "CPENTA") solid(SolidShape::prism);
+    if (card_.name == "CHEXA") solid(SolidShape::hexahedron);
+    if (card_.name == "GRDSET" && !field(1).empty()) default_system_ = number(1, "a system of coordinates");
+    if (card_.name.starts_with("CORD")) system();
     if (card_.name == "PLOTEL") lines_.push_back({{integer(1, "a node"), integer(2, "a node")}, 0, card_.at});
     if (card_.name == "CBAR" || card_.name == "CROD" || card_.name == "CBEAM")
       lines_.push_back({{integer(2, "a node"), integer(3, "a node")}, static_cast<std::int32_t>(integer(1, "a property")), card_.at});
     card_ = {};
   }
 
-  void grid() {
-    if (const std::string_view system = field(1); !system.empty() && system != "0")
-      in_.fail(card_.at, "a node has coordinates of system " + shown(system) + ", and only those of the basic system are known");
+  /// Three coordinates; those left out are 0.
+  Vec3 point(std::size_t first) const {
     Vec3 p;
     for (int x = 0; x < 3; ++x) {
-      const std::string_view word = field(static_cast<std::size_t>(2 + x));
-      if (!word.empty() && !parse_real(word, p[x])) in_.fail(card_.at, "a coordinate should be a finite number, not " + shown(word));
+      const std::string_view word = field(first + static_cast<std::size_t>(x));
+      if (!word.empty() && !parse_real(word, p[x]))
+        in_.fail(card_.at, "a coordinate should be a finite number, not " + shown(word));
     }
-    nodes_.add(integer(0, "the number of a node"), p, card_.at);
+    return p;
   }
 
-  void shell(std::size_t count) {
+  void grid() {
+    const std::int64_t node = integer(0, "the number of a node");
+    const bool basic = field(1).empty();
+    if (!points_.emplace(node, LocalPoint{point(2), basic ? -1 : number(1, "a system of coordinates"), card_.at}).second)
+      in_.fail(card_.at, "node " + std::to_string(node) + " comes twice");
+  }
+
+  /// CORD1R, CORD1C, CORD1S: by three nodes, two systems a card; CORD2R, CORD2C, CORD2S: by three points.
+  void system() {
+    if (card_.name.size() != 6) return;
+    const char by = card_.name[4], kind = card_.name[5];
+    if ((by != '1' && by != '2') || (kind != 'R' && kind != 'C' && kind != 'S')) return;
+    LocalSystem system{.kind = kind, .at = card_.at};
+    if (by == '2') {
+      system.reference = field(1).empty() ? 0 : number(1, "a system of coordinates");
+      for (std::size_t k = 0; k < 3; ++k) system.points[k] = point(2 + 3 * k);
+      systems_.add(integer(0, "the number of a system of coordinates"), system);
+      return;
+    }
+    system.by_nodes = true;
+    for (std::size_t first = 0; first == 0 || (first == 4 && !field(4).empty()); first += 4) {
+      for (std::size_t k = 0; k < 3; ++k) system.nodes[k] = integer(first + 1 + k, "a node");
+      systems_.add(integer(first, "the number of a system of coordinates"), system);
+    }
+  }
+
+  /// Nodes on edges may be left out: then corners count alone. Nastran lists edges of the bottom, upright edges, edges
+  /// of the top; SolidSkin has upright ones last.
+  void solid(SolidShape shape) {
+    const std::int64_t property = field(1).empty() ? 0 : number(1, "a property");
+    SolverElement element{integer(0, "the number of an element"), {}, "P" + std::to_string(property), card_.at, shape};
+    for (std::size_t k = 0; k < corner_count(shape); ++k) element.nodes.push_back(integer(2 + k, "a node"));
+    std::vector<std::int64_t> between;
+    for (std::size_t k = corner_count(shape); k < quadratic_count(shape); ++k)
+      if (!field(2 + k).empty() && field(2 + k) != "0") between.push_back(integer(2 + k, "a node"));
+    if (corner_count(shape) + between.size() == quadratic_count(shape)) {
+      const auto third = static_cast<std::ptrdiff_t>(between.size() / 3);
+      if (shape == SolidShape::prism || shape == SolidShape::hexahedron)
+        std::rotate(between.begin() + third, between.begin() + 2 * third, between.end());
+      element.nodes.insert(element.nodes.end(), between.begin(), between.end());
+    }
+    groups_.set_ref(element.set, static_cast<std::int32_t>(property));
+    groups_.add(element);
+  }
+
+  std::int64_t number(std::size_t i, const char* what) const { return field(i) == "0" ? 0 : integer(i, what); }
+
+  /// Without a node on a side the corners count alone.
+  void shell(std::size_t corners, std::size_t count) {
+    for (std::size_t k = corners; k < count; ++k)
+      if (field(2 + k).empty() || field(2 + k) == "0") count = corners;
     const std::int64_t property = field(1).empty() ? integer(0, "the number of an element") : integer(1, "a property");
     SolverElement element{integer(0, "the number of an element"), {}, "P" + std::to_string(property), card_.at};
     for (std::size_t k = 0; k < count; ++k) element.nodes.push_back(integer(2 + k, "a node"));
@@ -164,6 +222,9 @@ class BdfReader {
   SolverNodes nodes_;
   SolverGroups groups_;
   std::vector<Line> lines_;
+  std::map<std::int64_t, LocalPoint> points_;
+  std::int64_t default_system_ = 0;  ///< of GRDSET
+  LocalSystems systems_{in_, points_, default_system_};
   Card card_;
   std::size_t full_ = 0;  ///< fields that the lines of the card have room for
   bool ended_ = false;

@@ -87,17 +87,39 @@ class InpReader {
     return n;
   }
 
-  /// Shells and plane elements of three to eight nodes; 0: solids, beams and others, which are skipped.
-  std::size_t nodes_of(const Keyword& keyword) const {
+  /// "C3D10M", "DC3D8", "AC3D20R": the number of nodes behind "C3D"; 0: no such solid.
+  static std::size_t nodes_of_solid(std::string_view type) {
+    const std::size_t at = type.find("C3D");
+    if (at == std::string_view::npos || at > 1) return 0;
+    std::string_view digits = type.substr(at + 3);
+    digits = digits.substr(0, digits.find_first_not_of("0123456789"));
+    int n = 0;
+    const bool known = parse_number(digits, n) && (n == 27 || n == 18 || solid_of(static_cast<std::size_t>(n)));
+    return known ? static_cast<std::size_t>(n) : 0;
+  }
+  /// By the number of nodes.
+  static std::optional<SolidShape> solid_of(std::size_t nodes) {
+    if (nodes == 27) return SolidShape::hexahedron;  // nodes of faces and of the centre come last
+    if (nodes == 18) return SolidShape::prism;
+    for (const SolidShape shape : {SolidShape::tetrahedron, SolidShape::pyramid, SolidShape::prism, SolidShape::hexahedron})
+      if (nodes == corner_count(shape) || nodes == quadratic_count(shape)) return shape;
+    return std::nullopt;
+  }
+
+  /// Nodes of shells, plane elements and solids; 0: beams and others, which are skipped.
+  std::size_t nodes_of(const Keyword& keyword) {
     static const std::map<std::string, std::size_t> known{
         {"S3", 3},   {"S3R", 3},   {"STRI3", 3}, {"CPS3", 3}, {"CPE3", 3},   {"CAX3", 3},  {"M3D3", 3},  {"R3D3", 3},
         {"STRI65", 6}, {"S6", 6},  {"CPS6", 6},  {"CPE6", 6}, {"CAX6", 6},   {"M3D6", 6},  {"S4", 4},    {"S4R", 4},
         {"S4R5", 4}, {"CPS4", 4},  {"CPS4R", 4}, {"CPE4", 4}, {"CPE4R", 4},  {"CAX4", 4},  {"M3D4", 4},  {"R3D4", 4},
+        {"M3D9", 9}, {"M3D9R", 9}, {"S9R5", 9},
         {"S8", 8},   {"S8R", 8},   {"S8R5", 8},  {"CPS8", 8}, {"CPS8R", 8},  {"CPE8", 8},  {"CPE8R", 8}, {"M3D8", 8}};
     const std::string type = in_capitals(keyword.value("TYPE"));
     if (type.empty()) in_.fail(keyword.at, "*ELEMENT has no TYPE");
     const auto found = known.find(type);
+    is_solid_ = false;
     if (found != known.end()) return found->second;
+    if (const std::size_t solid = nodes_of_solid(type); solid > 0) return is_solid_ = true, solid;
     static constexpr const char* skipped[] = {"C3D", "B3", "T3D", "T2D", "B2", "MASS", "SPRING", "DASHPOT", "CONN", "D", "GAP", "U"};
     for (const char* prefix : skipped)
       if (type.starts_with(prefix)) return 0;
@@ -117,6 +139,8 @@ class InpReader {
     if (element_.nodes.size() > expected_)
       in_.fail(at, "an element has " + std::to_string(element_.nodes.size()) + " nodes instead of " + std::to_string(expected_));
     open_ = false;
+    if (is_solid_) element_.solid = solid_of(expected_);
+    if (!is_solid_ && expected_ == 9) element_.nodes.pop_back();  // the centre
     groups_.add(element_);
   }
 
@@ -156,6 +180,7 @@ class InpReader {
   SolverGroups groups_;
   const char* element_keyword_ = nullptr;
   std::size_t expected_ = 0;  ///< nodes of an element of the keyword; 0: it is skipped
+  bool is_solid_ = false;
   bool open_ = false;         ///< its nodes go on in the next line
   SolverElement element_;
 };

@@ -110,17 +110,28 @@ void SolverGroups::name_faces(FlatMesh& mesh) const {
 }
 
 void SolverGroups::give_to(FlatMesh& mesh, const SolverNodes& nodes) {
+  if (std::ranges::any_of(elements_, [](const SolverElement& each) { return !each.solid; }))
+    std::erase_if(elements_, [](const SolverElement& each) { return each.solid.has_value(); });
   take_ranges();
   number_sets();
   ElementLists lists;
+  SolidSkin skin;
   for (const SolverElement& element : elements_) {
     const auto found = refs_.find(in_capitals(element.set));
     const std::int32_t ref = found == refs_.end() ? 0 : found->second;
+    if (element.solid) {
+      std::vector<std::int32_t> own;
+      for (const std::int64_t number : element.nodes) own.push_back(nodes.vertex(number, element.at));
+      if (own.size() == 4) mesh.tetrahedra.push_back({own[0], own[1], own[2], own[3]});
+      skin.add(*element.solid, own, ref);
+      continue;
+    }
     if (element.nodes.size() == 3) append(element, ref, nodes, lists.triangles);
     if (element.nodes.size() == 4) append(element, ref, nodes, lists.quads);
     if (element.nodes.size() == 6) append(element, ref, nodes, lists.triangles6);
     if (element.nodes.size() == 8) append(element, ref, nodes, lists.quads8);
   }
+  if (!skin.empty()) skin.give_to(lists, mesh.vertices);
   try {
     set_elements(lists, mesh);
   } catch (const InvalidArgument& error) {

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "io/solid_skin.h"
 #include "io/text.h"
 #include "io/words.h"
 #include "mesh/flat_mesh.h"
@@ -44,14 +45,15 @@ class SolverNodes {
 
 struct SolverElement {
   std::int64_t number = 0;
-  std::vector<std::int64_t> nodes;  ///< 3, 4, 6 or 8: corners, then nodes on sides
+  std::vector<std::int64_t> nodes;  ///< 3, 4, 6 or 8: corners, then nodes on sides; of a solid as SolidSkin has them
   std::string set;                  ///< that it names itself; "": none
   const char* at = nullptr;         ///< where it stands
+  std::optional<SolidShape> solid = {};  ///< nothing: an element of a surface
 };
 
 /// Elements, and the sets that they are in. Sets become faces: "face_7" has reference 7 ("face_m7": -7), others get the
 /// numbers behind the largest one in the order in which they come; a set of sets names their faces. Names differ in
-/// more than capitals. Keeps a reference to `in`.
+/// more than capitals. Solids count when there is no other element: their outer faces are the surface. Keeps a reference to `in`.
 class SolverGroups {
  public:
   explicit SolverGroups(const Words& in) : in_(in) {}

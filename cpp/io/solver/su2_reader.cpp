@@ -6,6 +6,7 @@
 
 #include "io/element_lists.h"
 #include "io/mesh_files.h"
+#include "io/solid_skin.h"
 #include "io/solver/solver_names.h"
 #include "io/text.h"
 #include "io/words.h"
@@ -16,7 +17,7 @@ namespace carreau {
 
 namespace {
 
-constexpr int line_type = 3, triangle_type = 5, quad_type = 9;
+constexpr int line_type = 3, triangle_type = 5, quad_type = 9, tetrahedron_type = 10;
 
 class Su2Reader {
  public:
@@ -86,6 +87,11 @@ class Su2Reader {
     return 0;
   }
 
+  static std::optional<SolidShape> solid_of(std::int32_t type) noexcept {
+    if (type < tetrahedron_type) return std::nullopt;
+    return shape_of_corners(vertices_of(type));
+  }
+
   void elements(std::size_t n, bool of_marker) {
     in_.rest_of_line();
     const std::int32_t ref = of_marker ? marker() : -1;
@@ -102,12 +108,16 @@ class Su2Reader {
   }
 
   void add(std::int32_t type, const std::array<std::int32_t, 8>& n, std::int32_t ref, const char* at) {
-    const std::size_t count = type == line_type ? 2 : type == triangle_type ? 3 : type == quad_type ? 4 : 0;
+    const std::size_t count = type == 1 ? 0 : vertices_of(type);
     for (std::size_t k = 0; k < count; ++k)
       if (n[k] < 0) in_.fail(at, "vertex " + std::to_string(n[k]) + " is named");
       else if (n[k] > largest_) largest_ = n[k], largest_at_ = at;
     if (type == line_type) lists_.edges.nodes.push_back({n[0], n[1]}), lists_.edges.refs.push_back(ref);
     if (type == triangle_type) lists_.triangles.nodes.push_back({n[0], n[1], n[2]}), lists_.triangles.refs.push_back(ref);
+    if (const auto solid = solid_of(type)) {
+      skin_.add(*solid, std::span(n).first(count), std::max(ref, 0));
+      if (type == tetrahedron_type) mesh_.tetrahedra.push_back({n[0], n[1], n[2], n[3]});
+    }
     if (type == quad_type) lists_.quads.nodes.push_back({n[0], n[1], n[2], n[3]}), lists_.quads.refs.push_back(ref);
   }
 
@@ -145,6 +155,7 @@ class Su2Reader {
     const std::vector<std::int32_t> refs = references();
     for (std::vector<std::int32_t>* list : {&lists_.edges.refs, &lists_.triangles.refs, &lists_.quads.refs})
       for (std::int32_t& ref : *list) ref = ref < 0 ? 0 : refs[static_cast<std::size_t>(ref)];
+    skin_.give_to(lists_, mesh_.vertices);
     mesh_.dimension = dimension_;
     mesh_.vertex_refs.assign(mesh_.vertices.size(), 0);
     set_elements(lists_, mesh_);
@@ -157,6 +168,7 @@ class Su2Reader {
   Words in_;
   FlatMesh mesh_;
   ElementLists lists_;
+  SolidSkin skin_;
   std::int32_t dimension_ = 0;
   std::string tag_;
   std::vector<std::string> tags_;

@@ -19,7 +19,14 @@ namespace {
 
 constexpr std::string_view delimiter = "-1";
 
-enum class Family { line, surface, skipped, unknown };
+enum class Family { line, surface, solid, skipped, unknown };
+
+std::optional<SolidShape> solid_of(std::int32_t descriptor) noexcept {
+  if (descriptor == 111 || descriptor == 118) return SolidShape::tetrahedron;
+  if (descriptor == 112 || descriptor == 113) return SolidShape::prism;
+  if (descriptor == 115 || descriptor == 116) return SolidShape::hexahedron;
+  return std::nullopt;
+}
 
 /// By the descriptor of an element: its tens are the family, its units the shape.
 Family family_of(std::int32_t descriptor) noexcept {
@@ -37,7 +44,8 @@ Family family_of(std::int32_t descriptor) noexcept {
     default:
       break;
   }
-  // Thick shells, solids, rigid bodies, springs, dampers, gaps, masses.
+  if (solid_of(descriptor)) return Family::solid;
+  // Thick shells, other solids, rigid bodies, springs, dampers, gaps, masses.
   return descriptor >= 101 && descriptor <= 184 ? Family::skipped : Family::unknown;
 }
 
@@ -45,6 +53,7 @@ struct Element {
   Family family = Family::skipped;
   std::int64_t number = 0;
   std::int32_t property = 0;
+  std::optional<SolidShape> solid = {};
   std::vector<std::int64_t> nodes;  ///< around it
   std::size_t group = 0;            ///< the first that has it, from 1; 0: none
   const char* at = nullptr;
@@ -116,7 +125,7 @@ class UnvReader {
 
   std::int64_t number_of(const char* what) {
     const std::int32_t n = in_.integer(what);
-    if (n < 1) in_.fail(in_.position(), std::string(what) + " is " + std::to_string(n));
+    if (n < 0) in_.fail(in_.position(), std::string(what) + " is " + std::to_string(n));
     return n;
   }
 
@@ -146,8 +155,12 @@ class UnvReader {
     if (element.family == Family::line) in_.rest_of_line();  // orientation and cross sections
     for (std::size_t k = 0; k < count; ++k) element.nodes.push_back(number_of("a node of an element"));
     in_.rest_of_line();
+    element.solid = solid_of(descriptor);
+    if (element.solid && count != corner_count(*element.solid) && count != quadratic_count(*element.solid))
+      in_.fail(element.at, "a solid of descriptor " + std::to_string(descriptor) + " has " + std::to_string(count) + " nodes");
+    const bool skipped = element.family == Family::skipped || element.family == Family::solid;
     const bool fits = element.family == Family::line ? count == 2 || count == 3 : count == 3 || count == 4 || count == 6 || count == 8;
-    if (element.family != Family::skipped && !fits)
+    if (!skipped && !fits)
       in_.fail(element.at, "an element of descriptor " + std::to_string(descriptor) + " has " + std::to_string(count) + " nodes");
     if (!element_of_.emplace(element.number, elements_.size()).second)
       in_.fail(element.at, "element " + std::to_string(element.number) + " comes twice");
@@ -200,16 +213,37 @@ class UnvReader {
 
   /// Groups are faces; where there is none of faces, properties are their references.
   void give_faces(FlatMesh& mesh) {
-    const bool grouped = has_groups(Family::surface);
+    const bool surface = std::ranges::any_of(elements_, [](const Element& each) { return each.family == Family::surface; });
+    const Family family = surface ? Family::surface : Family::solid;  // whose outer faces are the surface then
+    const bool grouped = has_groups(family);
     for (const Element& element : elements_) {
-      if (element.family != Family::surface) continue;
+      if (element.family != family) continue;
       SolverElement own{element.number, element.nodes, "", element.at};
-      if (own.nodes.size() > 4) corners_first(own.nodes);
+      own.solid = element.solid;
+      if (own.solid)
+        around_first(*own.solid, own.nodes);
+      else if (own.nodes.size() > 4)
+        corners_first(own.nodes);
       if (element.group > 0) own.set = name_of(element.group);
       if (!grouped) own.set = "P" + std::to_string(element.property), groups_.set_ref(own.set, element.property);
       groups_.add(own);
     }
     groups_.give_to(mesh, nodes_);
+  }
+
+  /// Of a solid of order 2 the file lists the nodes around the bottom, upright edges, the nodes around the top.
+  static void around_first(SolidShape shape, std::vector<std::int64_t>& nodes) {
+    if (nodes.size() != quadratic_count(shape)) return;
+    if (shape == SolidShape::tetrahedron) {  // 0 01 1 12 2 20, 03 13 23, 3
+      nodes = {nodes[0], nodes[2], nodes[4], nodes[9], nodes[1], nodes[3], nodes[5], nodes[6], nodes[7], nodes[8]};
+      return;
+    }
+    const std::size_t side = corner_count(shape) / 2, top = 3 * side;
+    std::vector<std::int64_t> own;
+    for (const std::size_t first : {std::size_t{0}, top, std::size_t{1}, top + 1})
+      for (std::size_t k = 0; k < side; ++k) own.push_back(nodes[first + 2 * k]);
+    own.insert(own.end(), nodes.begin() + static_cast<std::ptrdiff_t>(2 * side), nodes.begin() + static_cast<std::ptrdiff_t>(top));
+    nodes = std::move(own);
   }
 
   static void corners_first(std::vector<std::int64_t>& nodes) {

@@ -8,38 +8,13 @@
 
 #include "io/mesh_files.h"
 #include "io/text.h"
+#include "io/vtk/vtk_cells.h"
 #include "io/vtk/vtu_arrays.h"
 #include "support/format.h"
 
 namespace carreau {
 
 namespace {
-
-constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_tetrahedron = 10,
-                       vtk_quadratic_edge = 21;
-
-/// Kinds of elements by their types.
-std::optional<CellKind> kind_of(std::int64_t type) noexcept {
-  switch (type) {
-    case 5:
-      return CellKind::triangle3;
-    case 9:
-      return CellKind::quad4;
-    case 22:
-      return CellKind::triangle6;
-    case 23:
-      return CellKind::quad8;
-    default:
-      return std::nullopt;
-  }
-}
-
-/// Solids, of any order: straight tetrahedra are kept, others skipped. Other cells are pieces of surfaces that are not
-/// triangles.
-bool is_solid(std::int64_t type) noexcept {
-  constexpr std::int64_t solids[] = {10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 42, 71, 72, 73, 74};
-  return std::find(std::begin(solids), std::end(solids), type) != std::end(solids);
-}
 
 /// Arrays of one kind, by name.
 using Arrays = std::map<std::string, VtuArray>;
@@ -64,15 +39,13 @@ class VtuReader {
 
  private:
   void collect(VtuArrays& numbers);
+  std::size_t text_size(const VtuArray& array);
   void add_array(const std::string& section, VtuArray array);
   const VtuArray& array(const std::string& section, const std::string& name) const;
   [[nodiscard]] std::size_t piece_count(const char* attribute) const;
   std::int32_t index(const VtuArray& array, std::int64_t value) const;
   void add_points(VtuArrays& numbers);
   void add_cells(VtuArrays& numbers);
-  void add_cell(std::int64_t type, const std::vector<std::int32_t>& corners, std::size_t cell);
-  void take_elements();
-  void add_cell_to_mesh(const Cell& cell, bool plain);
   void add_fields(VtuArrays& numbers);
   void add_cell_field(const VtuArray& array, int components, const std::vector<double>& values);
   std::vector<std::int32_t> refs(const VtuArray& array, const std::vector<std::int64_t>& values) const;
@@ -86,8 +59,7 @@ class VtuReader {
   std::map<std::string, Arrays> sections_;
   FlatMesh mesh_;
   std::size_t cells_ = 0;
-  std::vector<std::size_t> cell_of_triangle_, cell_of_edge_;
-  std::vector<Cell> elements_;
+  VtkCells elements_;
 };
 
 void VtuReader::add_array(const std::string& section, VtuArray array) {
@@ -98,6 +70,19 @@ void VtuReader::add_array(const std::string& section, VtuArray array) {
   const std::string shown_name = array.shown_name();
   if (!sections_[section].emplace(name, std::move(array)).second)
     tags_.fail(at, shown_name + " of " + section + " is given twice");
+}
+
+/// Bytes of the numbers between the tags of an array. Tags inside it (InformationKey of VTK) end the numbers, and are
+/// skipped up to the closing tag.
+std::size_t VtuReader::text_size(const VtuArray& array) {
+  const char* end = nullptr;
+  for (;;) {
+    const XmlTag tag = tags_.next();
+    if (end == nullptr) end = tag.at;
+    if (tag.name == array.tag.name && !tag.opens) return static_cast<std::size_t>(end - array.tag.after);
+    const bool outside = tag.name == "DataArray" || tag.name == "Array" || tag.name == "Piece" || tag.name == "VTKFile";
+    if (tag.name.empty() || outside) tags_.fail(array.tag.at, array.shown_name() + " is not closed");
+  }
 }
 
 /// Reads the tags: where the arrays are.
@@ -114,11 +99,7 @@ void VtuReader::collect(VtuArrays& numbers) {
     if (tag.name == "DataArray" || tag.name == "Array") {
       if (!tag.opens) continue;
       VtuArray array{.tag = tag, .text = {tag.after, 0}};
-      if (!tag.closes) {
-        const XmlTag closing = tags_.next();
-        if (closing.opens || closing.name != tag.name) tags_.fail(tag.at, array.shown_name() + " is not closed");
-        array.text = {tag.after, static_cast<std::size_t>(closing.at - tag.after)};
-      }
+      if (!tag.closes) array.text = {tag.after, text_size(array)};
       add_array(section, std::move(array));
       continue;
     }
@@ -157,48 +138,6 @@ std::int32_t VtuReader::index(const VtuArray& array, std::int64_t value) const {
   return static_cast<std::int32_t>(value);
 }
 
-void VtuReader::add_cell(std::int64_t type, const std::vector<std::int32_t>& corners, std::size_t cell) {
-  const bool of_points = type == vtk_vertex || type == vtk_points, chain = type == vtk_line || type == vtk_polyline;
-  const std::size_t n = corners.size();
-  if (type == vtk_tetrahedron && n == 4) mesh_.tetrahedra.push_back({corners[0], corners[1], corners[2], corners[3]});
-  if (of_points || is_solid(type)) return;
-  const std::optional<CellKind> kind = kind_of(type);
-  if (kind && n == static_cast<std::size_t>(node_count(*kind))) {
-    Cell element{.kind = *kind, .nodes = {-1, -1, -1, -1, -1, -1, -1, -1}};
-    std::copy(corners.begin(), corners.end(), element.nodes.begin());
-    if (!elements_.empty() && is_quadratic(*kind) != is_quadratic(elements_.front().kind))
-      tags_.fail(array("Cells", "types").tag.at, "elements of first and of second order are mixed");
-    elements_.push_back(element);
-    cell_of_triangle_.resize(cell_of_triangle_.size() + (corner_count(*kind) == 4 ? 2 : 1), cell);
-  } else if (type == vtk_quadratic_edge && n == 3) {
-    mesh_.edges.push_back({corners[0], corners[1]}), cell_of_edge_.push_back(cell);
-    mesh_.edge_mids.push_back(corners[2]);
-  } else if (chain && n >= 2) {
-    for (std::size_t k = 1; k < n; ++k)
-      mesh_.edges.push_back({corners[k - 1], corners[k]}), cell_of_edge_.push_back(cell);
-  } else {
-    tags_.fail(array("Cells", "types").tag.at,
-               "cell " + std::to_string(cell) + " (from 0) has type " + std::to_string(type) + " and " +
-                   std::to_string(n) +
-                   " points; triangles and quadrilaterals of order 1 and 2 (types 5, 9, 22, 23) are read only");
-  }
-}
-
-/// Straight triangles alone are a mesh without elements of other kinds.
-void VtuReader::take_elements() {
-  const bool plain = std::all_of(elements_.begin(), elements_.end(),
-                                 [](const Cell& cell) { return cell.kind == CellKind::triangle3; });
-  for (const Cell& cell : elements_) add_cell_to_mesh(cell, plain);
-  if (mesh_.edge_mids.size() != mesh_.edges.size()) mesh_.edge_mids.clear();
-}
-
-void VtuReader::add_cell_to_mesh(const Cell& cell, bool plain) {
-  if (plain)
-    mesh_.triangles.push_back({cell.nodes[0], cell.nodes[1], cell.nodes[2]});
-  else
-    carreau::add_cell(mesh_, cell, 0);
-}
-
 void VtuReader::add_cells(VtuArrays& numbers) {
   cells_ = piece_count("NumberOfCells");
   if (cells_ == 0) return;
@@ -215,10 +154,10 @@ void VtuReader::add_cells(VtuArrays& numbers) {
                                                        std::to_string(end) + ", which cannot be");
     corners.clear();
     for (; begin < end; ++begin) corners.push_back(index(corners_array, all[static_cast<std::size_t>(begin)]));
-    add_cell(types[c], corners, c);
+    if (const std::string wrong = elements_.add(types[c], corners, c, mesh_.vertices); !wrong.empty())
+      tags_.fail(array("Cells", "types").tag.at, wrong);
   }
-  take_elements();
-  mesh_.triangle_refs.clear();  // add_fields() has them
+  elements_.give_to(mesh_);  // add_fields() has references
 }
 
 std::vector<std::int32_t> VtuReader::refs(const VtuArray& array, const std::vector<std::int64_t>& values) const {
@@ -240,7 +179,7 @@ void VtuReader::add_cell_field(const VtuArray& array, int components, const std:
       for (std::size_t k = 0; k < n; ++k) list.push_back(values[cell * n + k]);
     return std::all_of(list.begin(), list.end(), [](double value) { return std::isnan(value); });
   };
-  const bool no_triangle = take(cell_of_triangle_, field.values), no_edge = take(cell_of_edge_, field.edge_values);
+  const bool no_triangle = take(elements_.cell_of_triangle(), field.values), no_edge = take(elements_.cell_of_edge(), field.edge_values);
   if (no_edge)
     field.edge_values.clear();
   else if (no_triangle)
@@ -257,9 +196,9 @@ void VtuReader::add_fields(VtuArrays& numbers) {
       if (name == "reference") {
         const std::vector<std::int32_t> found = refs(each, numbers.integers(each, count));
         if (on_vertices) mesh_.vertex_refs = found;
-        for (const std::size_t cell : cell_of_triangle_)
+        for (const std::size_t cell : elements_.cell_of_triangle())
           if (!on_vertices) mesh_.triangle_refs.push_back(found[cell]);
-        for (const std::size_t cell : cell_of_edge_)
+        for (const std::size_t cell : elements_.cell_of_edge())
           if (!on_vertices) mesh_.edge_refs.push_back(found[cell]);
         continue;
       }

@@ -178,6 +178,53 @@ TEST(MeshReaders, StlOfOtherPrograms) {
   EXPECT_EQ(mesh.faces[0].name, "the  part");
 }
 
+TEST(MeshReaders, StlWithoutNormalsOrNamesOfEnds) {
+  const FlatMesh wanted = read_mesh_stl("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                                        "endloop\nendfacet\nendsolid a\n", "x");
+  for (const char* facet : {"facet\nouter loop\n", "facet normal\nouter loop\n", "facet normal 0 0\n outer loop\n"})
+    for (const char* ends : {"endloop\nendfacet\nendsolid\n", "end loop\nend facet\nend solid a\n", "end\nend\nend\n"}) {
+      const FlatMesh mesh = read_mesh_stl(
+          "solid a\n" + std::string(facet) + "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n" + ends, "x");
+      EXPECT_EQ(mesh.vertices, wanted.vertices) << facet << ends;
+      EXPECT_EQ(mesh.triangles, wanted.triangles) << facet << ends;
+      EXPECT_EQ(mesh.faces[0].name, "a");
+    }
+}
+
+TEST(MeshReaders, GmshQuadrilateralsOfNineNodesLoseTheirCentre) {
+  const FlatMesh mesh = read_mesh_msh(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 0 0\n6 2 1 0\n7 1 2 0\n"
+      "8 0 1 0\n9 1 1 0.1\n$EndNodes\n$Elements\n1\n1 10 2 4 4 1 2 3 4 5 6 7 8 9\n$EndElements\n", "x");
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::quad8);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{4, 4}));
+}
+
+TEST(MeshReaders, VtuPixelsPolygonsStripsAndBiquadraticCells) {
+  // Nine points of a square grid; each file covers the area 4.
+  const auto area = [](const std::string& connectivity, const std::string& offsets, const std::string& types, int cells) {
+    const FlatMesh mesh = read_mesh_vtu(
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='9' NumberOfCells='" + std::to_string(cells) +
+            "'><Points><DataArray type='Float32' NumberOfComponents='3' format='ascii'>0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0 0 2 0 "
+            "1 2 0 2 2 0</DataArray></Points><Cells><DataArray type='Int32' Name='connectivity' format='ascii'>" +
+            connectivity + "</DataArray><DataArray type='Int32' Name='offsets' format='ascii'>" + offsets +
+            "</DataArray><DataArray type='UInt8' Name='types' format='ascii'>" + types +
+            "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>", "x");
+    double sum = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      sum += cross(mesh.vertices[std::size_t(b)] - mesh.vertices[std::size_t(a)],
+                   mesh.vertices[std::size_t(c)] - mesh.vertices[std::size_t(a)]).z() / 2;
+    return sum;
+  };
+  EXPECT_DOUBLE_EQ(area("0 1 3 4 1 2 4 5 3 4 6 7 4 5 7 8", "4 8 12 16", "8 8 8 8", 4), 4);
+  EXPECT_DOUBLE_EQ(area("0 1 2 5 8 7 6 3", "8", "7", 1), 4);
+  EXPECT_DOUBLE_EQ(area("3 0 4 1 5 2 6 3 7 4 8 5", "6 12", "6 6", 2), 4);
+  EXPECT_DOUBLE_EQ(area("0 2 8 6 1 5 7 3 4", "9", "28", 1), 4);
+  EXPECT_DOUBLE_EQ(area("0 2 8 6 1 5 7 3 4", "9", "70", 1), 4);
+  EXPECT_DOUBLE_EQ(area("0 2 6 1 4 3 2 8 6 5 7 4", "6 12", "69 22", 2), 4);
+}
+
 constexpr const char* gmsh_22 =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"the \"bore\" \"\n$EndPhysicalNames\n"
     "$Nodes\n4\n30 0 0 0\n10 1 0 0\n20 0 1 0\n99 0 0 1\n$EndNodes\n$Periodic\n0\n$EndPeriodic\n"
@@ -284,9 +331,9 @@ TEST(MeshReaders, GmshErrorsNameTheLine) {
   EXPECT_EQ(sentence("20 0 1 0", "20 0 nan 0"), "x.msh, line 12: a coordinate of a node is not finite: 'nan'");
   EXPECT_EQ(sentence("99 0 0 1", "10 0 0 1"), "x.msh, line 9: node 10 is given twice");
   EXPECT_EQ(sentence("30 10 20\n", "30 11 20\n"), "x.msh, line 22: an element names node 11, which does not exist");
-  EXPECT_EQ(sentence("3 2 2 5 8 30 10 20", "3 10 2 5 8 30 10 20 99 1 2 3 4 5"),
-            "x.msh, line 22: an element has type 10; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, "
-            "3, 9, 16) are read only");
+  EXPECT_EQ(sentence("3 2 2 5 8 30 10 20", "3 21 2 5 8 30 10 20 99 1 2 3 4 5"),
+            "x.msh, line 22: an element has type 21; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, "
+            "3, 9, 10, 16) and solids are read only");
   EXPECT_EQ(sentence("$Elements\n4", "$Elements\n3"), "x.msh, line 23: $EndElements was expected, not '4'");
   EXPECT_EQ(sentence("\"the \"bore\" \"", "bore"),
             "x.msh, line 6: the name of a physical group should stand between quotation marks, not 'bore'");
@@ -358,6 +405,24 @@ TEST(MeshReaders, VtuInBase64WithTheLengthApartOrNot) {
   }
 }
 
+TEST(MeshReaders, VtuArraysMayHoldTagsBehindTheirNumbers) {
+  // As VTK writes ranges of norms.
+  const std::string key = "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"2\">\n"
+                          "<Value index=\"0\">\n0\n</Value>\n<Value index=\"1\">4.24</Value></InformationKey>\n"
+                          "<InformationKey name='UNITS_LABEL' location='vtkDataArray'/>\n";
+  const FlatMesh plain = read_mesh_vtu(vtu_text, "x");
+  std::string text = vtu_text;
+  for (std::size_t at = text.find("</DataArray>"); at != std::string::npos; at = text.find("</DataArray>", at + key.size() + 1))
+    text.insert(at, key);
+  const FlatMesh mesh = read_mesh_vtu(text, "x");
+  EXPECT_EQ(mesh.vertices, plain.vertices);
+  EXPECT_EQ(mesh.triangles, plain.triangles);
+  EXPECT_EQ(mesh.edges, plain.edges);
+  EXPECT_EQ(mesh.fields[0].values[3], 4);
+  const std::string open = replaced(text, "</DataArray>", "");
+  EXPECT_NE(sentence_of<FileError>([&] { read_mesh_vtu(open, "x.vtu"); }).find("is not closed"), std::string::npos);
+}
+
 /// The one triangle of vtu_text, its corners in base64 of compressed blocks.
 std::string compressed_vtu(const std::string& corners) {
   std::string text = replaced(vtu_text, "'connectivity' format='ascii'>0 1 2 3 0 1 2 2 1 0",
@@ -406,9 +471,9 @@ TEST(MeshReaders, VtuErrorsNameTheLine) {
   EXPECT_EQ(sentence("0 1 0 0 0 1<", "0 1 0 0 0 x<"), "x.vtu, line 13: a number was expected, not 'x'");
   EXPECT_EQ(sentence("0 1 2 3", "0 1 2 4"), "x.vtu, line 16: a cell names point 4 of 4");
   EXPECT_EQ(sentence("3 7 10", "3 2 10"), "x.vtu, line 17: the offset of cell 1 (from 0) is 2, which cannot be");
-  EXPECT_EQ(sentence("5 10 4", "5 7 4"),
-            "x.vtu, line 18: cell 1 (from 0) has type 7 and 4 points; triangles and quadrilaterals of order 1 and 2 "
-            "(types 5, 9, 22, 23) are read only");
+  EXPECT_EQ(sentence("5 10 4", "5 35 4"),
+            "x.vtu, line 18: cell 1 (from 0) has type 35 and 4 points; triangles and quadrilaterals of order 1 and 2 "
+            "(types 5, 9, 22, 23, 28, 34, 69, 70), pixels, polygons, strips and solids are read only");
   EXPECT_EQ(sentence("'offsets' format='ascii'", "'offsets' format='appended' offset='0'"),
             "x.vtu, line 17: array 'offsets' lies in AppendedData, which the file does not have");
   EXPECT_EQ(sentence("Name='types'", "Name='kinds'"), "x.vtu, line 5: Cells has no array 'types'");

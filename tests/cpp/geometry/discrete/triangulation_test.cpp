@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "geometry/discrete/sharp_lines.h"
 #include "support/error.h"
 #include "surfaces.h"
@@ -62,13 +64,83 @@ TEST(Triangulation, DropsRepeatedTrianglesAndThoseWithTwoCornersAtOnePlace) {
   EXPECT_NE(mended.findings.sentences[1].find("has the vertices of triangle 3: dropped"), std::string::npos);
 }
 
-TEST(Triangulation, RefusesWithAPlaceWhatItCannotMend) {
+double area_of(const Triangulation& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += norm(cross(mesh.at(b) - mesh.at(a), mesh.at(c) - mesh.at(a))) / 2;
+  return area;
+}
+
+/// A square of two triangles whose diagonal from 0 to 2 carries points, closed by flat triangles in two fans.
+FlatMesh square_with_seam(int points, std::mt19937& random) {
+  FlatMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  std::vector<std::int32_t> chain{0};
+  for (int k = 1; k <= points; ++k) {
+    const double s = static_cast<double>(k) / (points + 1);
+    chain.push_back(static_cast<std::int32_t>(mesh.vertices.size()));
+    mesh.vertices.emplace_back(s, s, 0);
+  }
+  chain.push_back(2);
+  // Ears of the flat polygon are cut off by chance, once on each side: together they close the seam.
+  for (const bool back : {false, true}) {
+    std::vector<std::int32_t> left = chain;
+    while (left.size() > 2) {
+      const std::size_t k = 1 + random() % (left.size() - 2);
+      if (back)
+        mesh.triangles.push_back({left[k + 1], left[k], left[k - 1]});
+      else
+        mesh.triangles.push_back({left[k - 1], left[k], left[k + 1]});
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+  return mesh;
+}
+
+TEST(Triangulation, DropsTrianglesWithoutAreaAndDividesTheirNeighbours) {
+  // A corner of a tetrahedron lies on an edge of another triangle: the flat triangle between them closes the surface.
+  FlatMesh solid;
+  solid.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  solid.triangles = {{1, 0, 2}, {0, 4, 3}, {4, 1, 3}, {1, 4, 0}, {0, 3, 2}, {2, 3, 1}};
+  solid.edges = {{1, 0}};
+  solid.triangle_refs = {1, 2, 2, 3, 4, 5};
+  const Triangulation closed(solid);
+  EXPECT_EQ(closed.findings.flat_triangles, 1);
+  EXPECT_EQ(closed.findings.border_edges, 0);
+  EXPECT_EQ(closed.findings.euler_number, 2);
+  EXPECT_EQ(closed.triangles.size(), 6u);
+  EXPECT_EQ(closed.refs, (std::vector<std::int32_t>{2, 2, 4, 5, 1, 1}));
+  EXPECT_EQ(closed.marked, (std::vector<Edge>{{0, 4}, {1, 4}}));
+  EXPECT_NEAR(area_of(closed), 4, 1e-12);
+
+  // Corners nearer to each other than rounding become one.
+  FlatMesh needle = solid;
+  needle.vertices[4] = {1e-14, 0, 0};
+  needle.triangles.erase(needle.triangles.begin() + 3);
+  needle.triangles.push_back({1, 4, 0});
+  const Triangulation joined(needle);
+  EXPECT_EQ(joined.findings.flat_triangles, 2);
+  EXPECT_EQ(joined.findings.border_edges, 0);
+  EXPECT_EQ(joined.triangles.size(), 4u);
+
+  std::mt19937 random(7);
+  for (int run = 0; run < 200; ++run) {
+    FlatMesh seam = square_with_seam(1 + run % 9, random);
+    std::ranges::shuffle(seam.triangles, random);
+    const Triangulation mended(seam);
+    EXPECT_EQ(mended.findings.border_edges, 4) << run;
+    EXPECT_EQ(mended.findings.manifold_breaks, 0) << run;
+    EXPECT_EQ(mended.findings.euler_number, 1) << run;
+    EXPECT_NEAR(area_of(mended), 1, 1e-12) << run;
+  }
+}
+
+TEST(Triangulation, RejectsWithAPlaceWhatItCannotMend) {
   FlatMesh flat;
   flat.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
-  flat.triangles = {{0, 1, 3}, {0, 1, 2}};
-  EXPECT_EQ(refusal(flat),
-            "triangle 1 (from 0) with corners at (0, 0, 0), (1, 0, 0) and (2, 0, 0) has no area: it cannot be dropped "
-            "without a hole. Remove it first");
+  flat.triangles = {{0, 1, 2}};
+  EXPECT_EQ(refusal(flat), "the surface has no triangle");
   flat.triangles = {{0, 1, 7}};
   EXPECT_EQ(refusal(flat), "triangle 0 (from 0) names vertex 7 of 4");
   flat.triangles = {{0, 0, 1}};

@@ -135,9 +135,35 @@ TEST(GridFiles, Plot3dHasOneBlockRepeatedNumbersAndFortransExponents) {
   EXPECT_EQ(grid.blocks[0].measured, Measured::points);
 }
 
+TEST(GridFiles, Plot3dVolumesAreTheirOuterFaces) {
+  // Boxes [0, 2] x [0, 1] x [0, 3] side by side along x: the side between them is inside.
+  const auto box = [](double shift) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < 4; ++k)
+        for (int j = 0; j < 2; ++j)
+          for (int i = 0; i < 3; ++i)
+            text += std::to_string(axis == 0 ? i + shift : axis == 1 ? j : k) + " ";
+    return text;
+  };
+  for (const int boxes : {1, 2}) {
+    std::string text = std::to_string(boxes) + "\n";
+    for (int b = 0; b < boxes; ++b) text += "3 2 4\n";
+    for (int b = 0; b < boxes; ++b) text += box(2.0 * b) + "\n";
+    const Grid grid = read_plot3d(text, "g");
+    EXPECT_EQ(grid.blocks.size(), boxes == 1 ? 6U : 10U);
+    double area = 0;
+    for (const auto& block : grid.blocks) {
+      const auto columns = static_cast<std::size_t>(block.columns);
+      ASSERT_EQ(block.nodes.size(), columns * static_cast<std::size_t>(block.rows));
+      const Vec3 across = block.nodes[columns - 1] - block.nodes[0], up = block.nodes[block.nodes.size() - columns] - block.nodes[0];
+      area += norm(cross(across, up));
+    }
+    EXPECT_NEAR(area, boxes == 1 ? 22 : 38, 1e-9);
+  }
+}
+
 TEST(GridFiles, WrongPlot3dIsRefusedWithBlockAndLine) {
-  EXPECT_EQ(refusal(read_plot3d, "2\n3 3 1\n4 4 3\n"),
-            "g, line 3: block 2 is a volume of 4 x 4 x 3 nodes; one of the three counts of a surface is 1");
   EXPECT_EQ(refusal(read_plot3d, "3 1 1\n"), "g, line 1: block 1 has 3 x 1 x 1 nodes, one row only; a surface has two or more");
   EXPECT_EQ(refusal(read_plot3d, "2 2 0\n"), "g, line 1: block 1 has 2 x 2 x 0 nodes; all three counts must be positive");
   EXPECT_EQ(refusal(read_plot3d, "2 2 1\n0 1 0 1\n0 0 1 1\n0 0 0"), "g, line 4: the file ends where z of block 1 was expected");

@@ -50,7 +50,7 @@ TEST(Medit, LayoutCommentsAndOtherSectionsDoNotMatter) {
   const FlatMesh mesh = read_mesh_text(
       "\xEF\xBB\xBF# made by hand\r\n MeshVersionFormatted\n2 Dimension 3 # space\n"
       "Triangles 1 1 2 3 5\nCorners 2\n1 2\nRequiredVertices 0\nNormals 1 0 0 1\n"
-      "Geometry \"a name End Vertices\"\nAngleOfCornerBound 30.5\nHexahedra 1 1 2 3 4 5 6 7 8 1\nIdentifier \"x\"\n"
+      "Geometry \"a name End Vertices\"\nAngleOfCornerBound 30.5\nHexahedra 1 1 2 3 1 1 2 3 1 1\nIdentifier \"x\"\n"
       "Vertices 3\n0 +1.5d0 -2.5E-1 1 1e300 .5 0. 2\n-0 1.D-3 7 -3#end\nEnd\n",
       "x.mesh");
   ASSERT_EQ(mesh.vertices.size(), 3u);
@@ -72,9 +72,24 @@ TEST(Medit, ReadsVersions0To4) {
   EXPECT_EQ(error_of("MeshVersionFormatted 5\n"), "x.mesh, line 1: version 5 is not one of 0, 1, 2, 3, 4");
 }
 
-TEST(Medit, EveryTruncationIsAnError) {
+TEST(Medit, EveryTruncationIsAnErrorButOfEnd) {
   const std::string_view text = manual_square;
-  for (std::size_t n = 0; n < text.size() - 1; ++n) EXPECT_NE(error_of(text.substr(0, n)), "") << n;
+  const std::size_t end = text.find("End");
+  for (std::size_t n = 0; n < text.size() - 1; ++n)
+    EXPECT_EQ(error_of(text.substr(0, n)) == "", n == end || n == end + 3) << n;
+}
+
+TEST(Medit, ReadsFilesOfCommentsWithoutEnd) {
+  const FlatMesh mesh = read_mesh_text(
+      "MeshVersionFormatted 1\n\nDimension\n3\n#Mesh made elsewhere (x)\n\nVertices # corners\n3\n0 0 0 6\n1 0 0 4 # one\n"
+      "0 1 0.5  3\n\nTriangles\n1\n1 2  3 7\n",
+      "x.mesh");
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(mesh.vertex_refs, (std::vector<std::int32_t>{6, 4, 3}));
+  EXPECT_EQ(mesh.triangle_refs[0], 7);
+  // Vertices alone may be a part of a file.
+  EXPECT_EQ(error_of("MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0 0\n"),
+            "x.mesh, line 5: the file ends without the word End: it may be truncated");
 }
 
 TEST(Medit, NamesTheLineOfEveryViolation) {
@@ -115,7 +130,7 @@ TEST(Medit, NamesTheLineOfEveryViolation) {
   EXPECT_EQ(with("End", "TrianglesP2 1\n1 2 9 8 5 6 1\nEnd"),
             "x.mesh, line 27: elements of first and of second order are mixed");
   EXPECT_EQ(with("End", "Quadrilaterals 0\nEnd"), "");
-  EXPECT_EQ(with("End\n", ""), "x.mesh, line 25: the file ends without the word End: it may be truncated");
+  EXPECT_EQ(with("\nEnd\n", ""), "x.mesh, line 24: the file ends without the word End: it may be truncated");
   EXPECT_EQ(with("End", "Ridges ;"), "x.mesh, line 25: a number or the name of a section was expected, not ';'");
   EXPECT_EQ(with("End", "Geometry \"x\n"), "x.mesh, line 25: a quote is not closed on its line");
   EXPECT_EQ(error_of("MeshVersionFormatted 2 Dimension 3 End"), "x.mesh, line 1: the file has no Vertices");
@@ -129,7 +144,8 @@ TEST(Medit, TetrahedraAreReadAndNeverWritten) {
   const FlatMesh mesh = read_mesh_text(
       "MeshVersionFormatted 2 Dimension 3 Vertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Tetrahedra 1 4 2 1 3 5 End", "x");
   EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::int32_t, 4>>{{3, 1, 0, 2}}));
-  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(mesh.triangles.size(), 4u);  // its outer faces
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>(4, 5)));
   EXPECT_EQ(mesh_bytes(mesh, MeshFormat::mesh).find("Tetra"), std::string::npos);
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <type_traits>
+
 #include "io/molecule/elements.h"
 #include "support/error.h"
 
@@ -14,7 +17,10 @@ std::string data(const std::string& name) { return std::string(CARREAU_SOURCE_DI
 template <typename Read>
 std::string refusal(Read&& read, const std::string& text) {
   try {
-    read(text, "m");
+    if constexpr (std::is_invocable_v<Read, const std::string&, const char*>)
+      read(text, "m");
+    else
+      read(text, "m", Radii{});
   } catch (const FileError& error) {
     EXPECT_GT(error.where().line, 0);
     return error.what();
@@ -94,7 +100,7 @@ TEST(MoleculeFiles, EachMistakeHasASentenceWithItsLine) {
   EXPECT_EQ(refusal(read_xyz, "x\n"), "m, line 1: the first line is 'x'; it must be a positive number of atoms");
   EXPECT_EQ(refusal(read_xyz, "2\n\nC 0 0 0\n"), "m, line 3: the file ends after 1 of 2 atoms");
   EXPECT_EQ(refusal(read_xyz, "1\n\nQq 0 0 0\n"),
-            "m, line 3: the element 'Qq' has no van der Waals radius in the table of Bondi");
+            "m, line 3: 'Qq' is no element of the periodic table: it has no van der Waals radius");
   EXPECT_EQ(refusal(read_pdb, "HEADER\nATOM      7  CA  ALA B  12      18.9\n"), "m, line 2: y is missing");
   EXPECT_EQ(refusal(read_pdb, "HETATM    3  O   HOH A   3      19.736  30.706  18.656\n"),
             "m, line 1: the file holds no atom but of waters");
@@ -106,13 +112,52 @@ TEST(MoleculeFiles, EachMistakeHasASentenceWithItsLine) {
   EXPECT_THROW(read_molecule("m.sdf"), FileError);
 }
 
-TEST(MoleculeFiles, ElementsHaveTheRadiiOfBondi) {
-  EXPECT_EQ(bondi_radius("C"), 1.70);
-  EXPECT_EQ(bondi_radius(element_symbol("ZN")), 1.39);
-  EXPECT_EQ(bondi_radius("Ag"), 1.72);
-  EXPECT_EQ(bondi_radius("Xe"), 2.16);
-  EXPECT_FALSE(bondi_radius("Fe"));
-  EXPECT_FALSE(bondi_radius(""));
+TEST(MoleculeFiles, ElementsHaveTheRadiiOfBondiElseOfAlvarez) {
+  EXPECT_EQ(van_der_waals_radius("C"), 1.70);
+  EXPECT_EQ(van_der_waals_radius(element_symbol("ZN")), 1.39);
+  EXPECT_EQ(van_der_waals_radius("Ag"), 1.72);
+  EXPECT_EQ(van_der_waals_radius("Xe"), 2.16);
+  EXPECT_EQ(van_der_waals_radius("Fe"), 2.44);
+  EXPECT_EQ(van_der_waals_radius("Ca"), 2.62);
+  EXPECT_EQ(van_der_waals_radius("Po"), 1.97);
+  EXPECT_FALSE(van_der_waals_radius(""));
+  EXPECT_FALSE(van_der_waals_radius("Qq"));
+}
+
+TEST(MoleculeFiles, EveryElementHasARadius) {
+  std::istringstream symbols(
+      "H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb Mo "
+      "Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au Hg Tl "
+      "Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh Fl Mc Lv Ts Og");
+  int count = 0;
+  for (std::string symbol; symbols >> symbol; ++count) {
+    const auto radius = van_der_waals_radius(symbol);
+    ASSERT_TRUE(radius) << symbol;
+    EXPECT_TRUE(*radius >= 1.2 && *radius <= 3.5) << symbol;
+  }
+  EXPECT_EQ(count, 118);
+}
+
+TEST(MoleculeFiles, AFileOfRadiiReplacesTheTable) {
+  const Radii radii = read_radii("# own\nFE 2.05 # haem\n\nc 1.9\nQq 3\n", "r");
+  EXPECT_EQ(radii, (Radii{{"Fe", 2.05}, {"C", 1.9}, {"Qq", 3}}));
+  const MoleculeFile file = read_xyz("4\n\nFe 0 0 0\nC 1 0 0\nQq 2 0 0\nN 3 0 0\n", "m", radii);
+  EXPECT_EQ(file.molecule.balls[0].radius, 2.05);
+  EXPECT_EQ(file.molecule.balls[1].radius, 1.9);
+  EXPECT_EQ(file.molecule.balls[2].radius, 3);
+  EXPECT_EQ(file.molecule.balls[3].radius, 1.55);
+  const auto of = [](const char* text) {
+    try {
+      read_radii(text, "r");
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(of("Fe\n"), "r, line 1: the radius is missing");
+  EXPECT_EQ(of("Fe 1\nC -1\n"), "r, line 2: the radius is -1; it must be positive");
+  EXPECT_EQ(of("Fe 1\nFE 1\n"), "r, line 2: the radius of Fe is given twice");
+  EXPECT_EQ(of("1.5 Fe\n"), "r, line 1: the symbol of an element was expected, not '1.5'");
 }
 
 }  // namespace

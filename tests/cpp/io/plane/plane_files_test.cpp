@@ -102,7 +102,7 @@ TEST(PolyFile, MistakesHaveTheirLines) {
   EXPECT_NE(of("8 2 1 1", "800 2 1 1").find("line 2: the number of points is 800, more than the rest of the file"),
             std::string::npos);
   EXPECT_NE(of("8 2 1 1", "8 3 1 1").find("the dimension is 3"), std::string::npos);
-  EXPECT_NE(of("8 2 1 1", "0 2 1 1").find("those of a .node file are not read"), std::string::npos);
+  EXPECT_NE(of("8 2 1 1", "0 2 1 1").find("there is no .node file beside it"), std::string::npos);
   EXPECT_NE(of("2 4 0 .5 1", "1 4 0 .5 1").find("point 1 comes twice"), std::string::npos);
   EXPECT_NE(of("3 4 4 .5 1", "3 4 nan .5 1").find("a coordinate was expected, not 'nan'"), std::string::npos);
 }

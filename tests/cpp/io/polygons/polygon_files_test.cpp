@@ -102,6 +102,21 @@ std::string ply_bytes(bool big) {
   return bytes + Bytes(big).i32(1).f32(0.5F).text();
 }
 
+TEST(Tri, ComponentsAreReferences) {
+  const std::string text = "4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 .5\n1 2 3\n1 3 4\n7\n9\n";
+  const FlatMesh mesh = read_mesh_tri(text, "x");
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{7, 9}));
+  const FlatMesh again = read_mesh_tri(mesh_bytes(mesh, MeshFormat::tri), "x");
+  EXPECT_EQ(again.vertices, mesh.vertices);
+  EXPECT_EQ(again.triangles, mesh.triangles);
+  EXPECT_EQ(again.triangle_refs, mesh.triangle_refs);
+  EXPECT_EQ(read_mesh_tri(text.substr(0, text.find("7\n")), "x").triangle_refs, (std::vector<std::int32_t>{0, 0}));
+  const auto sentence = [](const std::string& broken) { return sentence_of<FileError>([&] { read_mesh_tri(broken, "x.tri"); }); };
+  EXPECT_EQ(sentence("3 1\n0 0 0\n1 0 0\n0 1 0\n1 2 4\n"), "x.tri, line 5: triangle 1 names vertex 4 of 3");
+  EXPECT_NE(sentence("3 9000\n0 0 0\n").find("x.tri, line 1"), std::string::npos);
+}
+
 TEST(Ply, ThreeFormsGiveOneMesh) {
   const std::string text = ply_header("ascii") + "0 7 0 0\n1 7 0 0\n1 7 1 0\n0 7 1 0\n0 1\n4 0 1 2 3 1 0.5\n";
   for (const std::string& content : {text, ply_bytes(false), ply_bytes(true)}) {
@@ -115,6 +130,15 @@ TEST(Ply, ThreeFormsGiveOneMesh) {
       if (content.substr(0, n).ends_with("1 0.") || content.substr(0, n).ends_with("1 0")) continue;  // a number still
       EXPECT_NE(sentence_of<FileError>([&] { read_mesh_ply(content.substr(0, n), "x.ply"); }), "") << n;
     }
+}
+
+TEST(Ply, ListsMayHaveFloatCountsAndIndices) {
+  const FlatMesh mesh = read_mesh_ply(
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property list float float weights\nelement face 1\nproperty list float float vertex_indices\nend_header\n"
+      "0 0 0 2 .5 .5\n1 0 0 0\n1 1 0 1 1\n0 1 0 0\n4 0 1 2 3\n", "x");
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 2u);
 }
 
 TEST(Ply, NamesWhatIsWrong) {

@@ -245,6 +245,27 @@ const std::string unv_square =
     "        40         1         1        11\n   0.0000000000000000D+00   1.0000000000000000D+00   0.0000000000000000D+00\n"
     "        30         1         1        11\n   1.0000000000000000E+00   1.0000000000000000E+00   0.0000000000000000E+00\n    -1\n";
 
+TEST(SolverFiles, NastranNodesInLocalSystems) {
+  // The same three points of z = 0 in each system. System 1 is the basic one turned by a quarter about z and moved by (1, 2, 3);
+  // 2 is cylindrical and 3 spherical in it; 4 and 5 are given by nodes.
+  const FlatMesh mesh = read_mesh_bdf(
+      "CORD2R,1,0,1.,2.,3.,1.,2.,4.\n,1.,3.,3.\n"
+      "CORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2S,3,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+      "CORD1R,4,101,102,103,5,101,102,103\n"
+      "GRDSET,,1\n"
+      "GRID,101,0,1.,2.,3.\nGRID,102,0,1.,2.,4.\nGRID,103,0,1.,3.,3.\n"
+      "GRID,1,,2.,0.,0.\nGRID,2,2,2.,90.,1.\nGRID,3,3,2.,90.,180.\nGRID,4,4,0.,0.,2.\nGRID,5,5,1.,1.,1.\n"
+      "CTRIA3,1,1,1,2,3\nCTRIA3,2,1,1,4,5\nENDDATA\n", "x");
+  const std::vector<Vec3> wanted{{1, 4, 3}, {-1, 2, 4}, {1, 0, 3}, {1, 2, 5}, {0, 3, 4}};
+  for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_LT(norm(mesh.vertices[k] - wanted[k]), 1e-14) << k;
+  const auto sentence = [](const std::string& text) { return sentence_of<FileError>([&] { read_mesh_bdf(text, "x"); }); };
+  EXPECT_EQ(sentence("CORD2R,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2R,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,1,0.,0.,0.\n"),
+            "x, line 1: system of coordinates 1 is given in terms of itself");
+  EXPECT_EQ(sentence("CORD2R,1,0,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,1,1,0.,0.,0.\n"),
+            "x, line 1: system of coordinates 1 has no axes: its three points lie on a line");
+  EXPECT_EQ(sentence("CORD1R,1,7,8,9\nGRID,1,1,0.,0.,0.\n"), "x, line 1: node 7 is named, and the file does not have it");
+}
+
 TEST(SolverFiles, UnvOfOtherProgramsWithoutGroups) {
   const FlatMesh mesh = read_mesh_unv(unv_square +
       "    -1\n  2412\n         1        11         4         1         7         2\n         0         0         0\n        10        20\n"
@@ -286,7 +307,7 @@ TEST(SolverFiles, NameTheLineOfWhatIsWrong) {
   EXPECT_NE(sentence(read_mesh_inp, "*ELEMENT, TYPE=WHAT\n1, 1\n").find("'WHAT'"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_inp, "nothing\n").find("keyword"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_bdf, "GRID,1,,0.,x,0.\n").find("not 'x'"), std::string::npos);
-  EXPECT_NE(sentence(read_mesh_bdf, "GRID,1,4,0.,0.,0.\n").find("system '4'"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_bdf, "GRID,1,4,0.,0.,0.\n").find("x, line 1: system of coordinates 4 is named"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_bdf, "GRID,1\nCTRIA3,1,1,1,1\n").find("a node"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 4\n").find("instead of 2 or 3"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 2\n0 0 0\n1 0 1\n").find("vertex 2"), std::string::npos);

@@ -102,5 +102,54 @@ TEST(Vtu, FieldsOfCellsMayBeOfTrianglesOfEdgesOrOfBoth) {
   refused({.name = "f", .on_vertices = false, .components = 1, .values = {}}, "field 'f' has 0 entries instead of 2");
 }
 
+FlatMesh with_fields() {
+  FlatMesh mesh = square();
+  mesh.fields = {{.name = "heat flow", .on_vertices = true, .components = 1, .values = {1, 2.5, -3, 1e-300}},
+                 {.name = "both", .on_vertices = false, .components = 2, .values = {1, 2, 3, 4}, .edge_values = {5, 6, 7, 8, 9, 10, 11, 12}}};
+  return mesh;
+}
+
+TEST(LegacyVtk, BothFormsGiveMeshReferencesAndFieldsBack) {
+  const FlatMesh mesh = with_fields();
+  for (const bool ascii : {false, true}) {
+    const std::string content = mesh_bytes(mesh, MeshFormat::vtk, {.ascii_stl = ascii});
+    const FlatMesh read = read_mesh_vtk(content, "x");
+    expect_same_geometry(read, mesh);
+    EXPECT_EQ(read.vertex_refs, mesh.vertex_refs);
+    EXPECT_EQ(read.triangle_refs, mesh.triangle_refs);
+    EXPECT_EQ(read.edge_refs, mesh.edge_refs);
+    ASSERT_EQ(read.fields.size(), 2u);
+    EXPECT_EQ(read.fields[0].name, "heat_flow");
+    EXPECT_EQ(read.fields[0].values, mesh.fields[0].values);
+    EXPECT_EQ(read.fields[1].values, mesh.fields[1].values);
+    EXPECT_EQ(read.fields[1].edge_values, mesh.fields[1].edge_values);
+    // Cut off before the cells have their types, the file is an error.
+    for (std::size_t n = 0; n < content.find("CELL_TYPES"); n += 3)
+      EXPECT_THROW(read_mesh_vtk(content.substr(0, n), "x"), FileError) << n;
+  }
+}
+
+TEST(LegacyVtk, PolyDataOfOtherPrograms) {
+  const std::string head = "# vtk DataFile Version 4.2\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n0 0 0 1 0 0 1 1 0\n0 1 0 2 0 0\n"
+                           "METADATA\nINFORMATION 1\nNAME L2 LOCATION x\nDATA 2 0 1\n\n";
+  const FlatMesh mesh = read_mesh_vtk(
+      head + "POLYGONS 2 9\n4 0 1 2 3\n3 1 4 2\nLINES 1 3\n2 0 1\nCELL_DATA 3\nSCALARS a double\nLOOKUP_TABLE default\n"
+             "7 8 9\nFIELD FieldData 1\nreference 1 3 int\n1 2 3\nPOINT_DATA 5\nVECTORS v float\n1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n", "x");
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{2, 2, 3}));
+  EXPECT_EQ(mesh.edge_refs, (std::vector<std::int32_t>{1}));
+  ASSERT_EQ(mesh.fields.size(), 2u);
+  EXPECT_EQ(mesh.fields[0].values, (std::vector<double>{8, 8, 9}));
+  EXPECT_EQ(mesh.fields[1].components, 3);
+  // Version 5.1 has offsets.
+  const FlatMesh offsets = read_mesh_vtk(head + "POLYGONS 3 7\nOFFSETS vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3 1 4 2\n", "x");
+  EXPECT_EQ(offsets.triangles.size(), 3u);
+  const auto sentence = [&](const std::string& rest) { return sentence_of<FileError>([&] { read_mesh_vtk(head + rest, "x.vtk"); }); };
+  EXPECT_EQ(sentence("POLYGONS 1 4\n3 0 1 5\n"), "x.vtk, line 13: a cell names point 5 of 5");
+  EXPECT_EQ(sentence("POLYGONS 1 4\n4 0 1 2\n"), "x.vtk, line 13: cell 0 (from 0) has more points than are announced");
+  EXPECT_EQ(sentence("NONSENSE 1\n"), "x.vtk, line 13: the name of a section was expected, not 'NONSENSE'");
+  EXPECT_EQ(sentence_of<FileError>([] { read_mesh_vtk("solid", "x.vtk"); }), "x.vtk, line 1: a .vtk file starts with '# vtk DataFile Version'");
+}
+
 }  // namespace
 }  // namespace carreau
