@@ -239,7 +239,8 @@ void CommandLine::add_check() {
   CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
   check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
   check->add_flag("--closed", check_.closed, "An edge with one triangle is a defect too");
-  check->add_flag("--no-crossings", check_.no_crossings, "Triangles that cross are a defect too");
+  check->add_flag("--allow-crossings", check_.allow_crossings, "Triangles that cross are no defect");
+  check->add_flag_callback("--no-crossings", [] {}, "The default")->group("");  // earlier scripts have it
   check->add_option("--limit", check_.limit, "Defects to look for")
       ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)

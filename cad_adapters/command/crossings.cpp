@@ -80,6 +80,11 @@ std::vector<std::string> sentences_of(const Crossings& crossings, std::size_t mo
   return sentences;
 }
 
+std::string crossings_count(std::int64_t pairs) {
+  if (pairs <= 0) return "";
+  return std::to_string(pairs) + (pairs == 1 ? " pair of triangles crosses" : " pairs of triangles cross");
+}
+
 nlohmann::ordered_json crossings_json(const Crossings& crossings) {
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
   for (const FaceCrossing& each : crossings.faces)

@@ -34,6 +34,9 @@ Crossings crossings_of(carreau_mesh* mesh, int threads);
 /// a last one that counts the others.
 std::vector<std::string> sentences_of(const Crossings& crossings, std::size_t most);
 
+/// "28 pairs of triangles cross"; "": none does.
+std::string crossings_count(std::int64_t pairs);
+
 nlohmann::ordered_json crossings_json(const Crossings& crossings);
 
 }  // namespace command

@@ -239,8 +239,7 @@ std::string free_edges_of_parts(const MeshRun& run) {
 std::string crossings_of_parts(const MeshRun& run) {
   const std::int64_t pairs = counts_of(run.mesh).crossings;
   if (pairs <= 0) return "";
-  return std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-         " of triangles cross, and smaller ones do, too: faces cross in the geometry itself, or lie at one place";
+  return crossings_count(pairs) + ", and smaller ones do, too: faces cross in the geometry itself, or lie at one place";
 }
 
 std::vector<std::string> part_lines(const MeshRun& run, int processes) {
