@@ -717,6 +717,7 @@ class carreau_triangles_report(Structure):
         ("folded", c_int64),
         ("diagonal", c_double),
         ("deviation", c_double),
+        ("sharp_angle", c_double),
     ]
 
 

@@ -281,6 +281,7 @@ class TrianglesReport(NamedTuple):
     folded: int
     diagonal: float
     deviation: float
+    sharp_angle: float
 
 
 class RemeshSummary(NamedTuple):
