@@ -12,7 +12,9 @@
 #include "json_output.h"
 #include "lengths.h"
 #include "option_groups.h"
+#include "option_scope.h"
 #include "parse_errors.h"
+#include "text_file.h"
 
 namespace command {
 namespace {
@@ -394,15 +396,20 @@ int CommandLine::run(int argc, char** argv) {
 int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) {
     mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
+    check_scope(*app_.get_subcommand("mesh"), inputs_, mesh_, false);
     return mesh(mesh_);
   }
   if (app_.got_subcommand("plane")) return mesh(plane_);
   if (app_.got_subcommand("adapt")) {
     adapt_.plane.is_plane = is_plane_file(adapt_.input);
+    check_scope(*app_.get_subcommand("adapt"), {adapt_.input}, adapt_, adapt_.plane.is_plane);
     return mesh(adapt_);
   }
   if (app_.got_subcommand("refine")) return refine(refine_);
-  if (app_.got_subcommand("info")) return info(info_);
+  if (app_.got_subcommand("info")) {
+    check_scope(*app_.get_subcommand("info"), {info_.input}, info_, false);
+    return info(info_);
+  }
   if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("check")) return check(check_);
   if (app_.got_subcommand("picture")) {
@@ -420,6 +427,8 @@ int CommandLine::run_command() {
   if (app_.got_subcommand("report")) return report(report_);
   if (app_.got_subcommand("fields")) {
     parse_field_size(field_size_, fields_);
+    if (suffix_of(fields_.mesh.input) != ".env")
+      check_scope(*app_.get_subcommand("fields"), {fields_.mesh.input}, fields_.mesh, false);
     return fields(fields_);
   }
   if (app_.got_subcommand("completion")) return print_completion(app_, shell_);

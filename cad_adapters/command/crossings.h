@@ -23,6 +23,7 @@ struct FaceCrossing {
 
 struct Crossings {
   std::int64_t pairs = 0;           ///< of triangles, all
+  std::int64_t triangles = 0;       ///< that cross others, of the first million of pairs
   std::vector<FaceCrossing> faces;  ///< of the first million of pairs; most pairs first
 };
 

@@ -9,6 +9,7 @@
 
 #include "delivered_json.h"
 #include "json_output.h"
+#include "part_crossings.h"
 #include "quality_json.h"
 #include "session_handle.h"
 
@@ -298,6 +299,7 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                                       {"faces", short_edges.faces}}},
                                     {"faces", faces},
                                     {"intersections", crossings_json(run.crossings)},
+                                    {"crossing_parts", part_crossings_json(run.crossings, run.input)},
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
                                     {"interfaces", interfaces_json(run.input, interfaces_of(run.session))},

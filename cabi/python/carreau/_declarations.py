@@ -822,6 +822,9 @@ class carreau_cad_face(Structure):
         ("rgb", c_int32),
         ("name", c_char_p),
         ("why", c_char_p),
+        ("solid", c_int32),
+        ("reserved", c_int32),
+        ("solid_name", c_char_p),
     ]
 
 
@@ -870,6 +873,7 @@ class carreau_cad_danger(Structure):
         ("cut", c_int32),
         ("reserved", c_int32),
         ("sentence", c_char_p),
+        ("solids", c_int32 * 2),
     ]
 
 
