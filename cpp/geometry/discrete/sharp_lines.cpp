@@ -168,7 +168,10 @@ class LineFinder {
         if (is_sharp(e)) last = e;
       const std::vector<std::int32_t> line = line_to(v, last);
       const bool certain = std::ranges::any_of(line, [&](std::int32_t e) { return certain_[index(e)] != 0; });
-      if (certain || static_cast<int>(line.size()) >= thresholds::least_faded) continue;
+      // Where the angle was found, flatter edges that fade out are those of a tessellation.
+      const bool clear = options_.sharp_angle ||
+                         std::ranges::any_of(line, [&](std::int32_t e) { return bends_[index(e)] > thresholds::usual_sharp; });
+      if (certain || (clear && static_cast<int>(line.size()) >= thresholds::least_faded)) continue;
       for (const std::int32_t e : line) found_.sharp[index(e)] = 0;
       found_.dropped += static_cast<std::int64_t>(line.size());
     }
