@@ -6,8 +6,8 @@
 #include <new>
 
 #include "handles.h"
+#include "place_in_sentence.h"
 #include "support/error.h"
-#include "support/place_in_sentence.h"
 
 namespace carreau::abi {
 

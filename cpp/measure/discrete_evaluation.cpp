@@ -111,7 +111,7 @@ void warn_of_distance(const FarPlace& place, Monitor& monitor) {
   char text[160];
   std::snprintf(text, sizeof text, "the mesh is %.3g away from the triangles at (%.6g, %.6g, %.6g), %.2g of the size there",
                 place.distance, place.at.x(), place.at.y(), place.at.z(), place.distance / place.size);
-  monitor.message(Level::warning, std::string(text) + ": smaller sizes follow the triangles; a smaller sharp angle keeps features");
+  monitor.message(Level::warning, std::string(text) + ": the size does not resolve the surface, or edges below the sharp angle are rounded");
 }
 
 }  // namespace carreau

@@ -112,7 +112,9 @@ double gap_of(const Triangulation& mesh, const std::vector<double>& bends, const
     return beyond[static_cast<std::size_t>(from - edges.begin())];
   };
   constexpr double step = 0.5, half = thresholds::gap_width / 2;
+  const double clear = longer(thresholds::usual_sharp);
   for (double angle = thresholds::min_sharp; angle < thresholds::usual_sharp; angle += step) {
+    if (longer(angle) > 2 * clear) continue;  // most of what bends is flatter: a coarse curved surface
     const double above = longer(angle + half);
     if (longer(angle - half) - above <= thresholds::gap_share * above) return angle;
   }

@@ -252,6 +252,21 @@ TEST(SharpLines, StayOutOfCoarseCurvedSurfaces) {
     EXPECT_EQ(lines.regions, 3);
   }
   EXPECT_EQ(find_sharp_lines(Triangulation(torus(48, 12))).edges, 0);
+  // Rows that are shifted by half a step: no edges are parallel.
+  FlatMesh shifted = torus(100, 12, 2, 0.8);
+  for (std::int32_t i = 0; i < 100; ++i)
+    for (std::int32_t j = 0; j < 12; ++j) {
+      const double a = 2 * std::numbers::pi * i / 100, b = 2 * std::numbers::pi * (j + 0.5 * (i % 2)) / 12, r = 2 + 0.8 * std::cos(b);
+      shifted.vertices[static_cast<std::size_t>(12 * i + j)] = {r * std::cos(a), r * std::sin(a), 0.8 * std::sin(b)};
+    }
+  shifted.triangles.clear();
+  const auto at = [](std::int32_t i, std::int32_t j) { return i % 100 * 12 + (j + 12) % 12; };
+  for (std::int32_t i = 0; i < 100; ++i)
+    for (std::int32_t j = 0; j < 12; ++j) {
+      shifted.triangles.push_back({at(i, j), at(i + 1, j + i % 2), at(i, j + 1)});
+      shifted.triangles.push_back({at(i, j), at(i + 1, j + i % 2 - 1), at(i + 1, j + i % 2)});
+    }
+  EXPECT_EQ(find_sharp_lines(Triangulation(shifted)).edges, 0);
 }
 
 TEST(SharpLines, OfNoiseAreThoseOf45Degrees) {

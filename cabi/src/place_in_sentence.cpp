@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/place_in_sentence.h"
+#include "place_in_sentence.h"
 
 #include "support/format.h"
 
-namespace carreau {
+namespace carreau::abi {
 
 Where place_in_sentence(std::string_view sentence) {
   Where where;
@@ -37,4 +37,4 @@ Where place_in_sentence(std::string_view sentence) {
   return where;
 }
 
-}  // namespace carreau
+}  // namespace carreau::abi
