@@ -58,7 +58,7 @@ module carreau_geometry
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
   end type carreau_grid_options
 
-  !> Angles in degrees; 0: 45
+  !> Angles in degrees; 0: sharp_angle is found between 20 and 45, corner_angle is 45
   type :: carreau_triangles_options
     real(c_double) :: sharp_angle = 0, corner_angle = 0
     logical :: given_edges_only = .false., ignore_references = .false., keep_double_vertices = .false.
@@ -70,7 +70,7 @@ module carreau_geometry
     integer(c_int64_t) :: turned_triangles, repeated_triangles, flat_triangles
     integer(c_int64_t) :: sharp_edges, lines, corners, regions, dropped_edges, prolonged_edges, faded_ends
     integer(c_int64_t) :: unfolded, folded
-    real(c_double) :: diagonal, deviation
+    real(c_double) :: diagonal, deviation, sharp_angle
   end type carreau_triangles_report
 
   type :: carreau_molecule_measures
@@ -406,7 +406,7 @@ contains
     report = carreau_triangles_report(c%vertices, c%triangles, c%edges, c%shells, c%euler_number, c%border_edges, &
       c%manifold_breaks, c%one_sided_edges, c%pinched_vertices, c%turned_triangles, c%repeated_triangles, &
       c%flat_triangles, c%sharp_edges, c%lines, c%corners, c%regions, c%dropped_edges, c%prolonged_edges, &
-      c%faded_ends, c%unfolded, c%folded, c%diagonal, c%deviation)
+      c%faded_ends, c%unfolded, c%folded, c%diagonal, c%deviation, c%sharp_angle)
   end subroutine carreau_triangles_measure
 
   !> angle in degrees; mesh: of carreau_mesh_create

@@ -80,7 +80,7 @@ module carreau_geometry_c
       manifold_breaks = 0, one_sided_edges = 0, pinched_vertices = 0, turned_triangles = 0, repeated_triangles = 0, &
       flat_triangles = 0, sharp_edges = 0, lines = 0, corners = 0, regions = 0, dropped_edges = 0, &
       prolonged_edges = 0, faded_ends = 0, unfolded = 0, folded = 0
-    real(c_double) :: diagonal = 0, deviation = 0
+    real(c_double) :: diagonal = 0, deviation = 0, sharp_angle = 0
   end type c_triangles_report
 
   interface

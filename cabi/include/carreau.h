@@ -201,7 +201,8 @@ typedef int32_t (*carreau_interval_fn)(int32_t face, int32_t ic, double* a, doub
 /* Gives C(t) in the parameter plane and its derivatives, [2] each. No pointer is NULL. */
 typedef int32_t (*carreau_curve_fn)(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct,
                                     double* Ctt, void* user);
-/* Give the wanted size (hphy_flag = 2) or the radius of curvature (hgeo_flag = 2), a model length > 0. */
+/* Give the wanted size (hphy_flag = 2) or the radius of curvature (hgeo_flag = 2), a model length > 0. A size that is not
+ * positive and finite is an error of the callback. */
 typedef int32_t (*carreau_surface_value_fn)(int32_t face, double u, double v, double* value, void* user);
 typedef int32_t (*carreau_curve_value_fn)(int32_t face, int32_t ic, double t, double* value, void* user);
 typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* user);

@@ -293,7 +293,9 @@ CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const car
 /* What of a surface given as triangles is a line. NULL stands for all members 0. */
 typedef struct carreau_triangles_options {
   size_t struct_size;
-  double sharp_angle;        /* degrees: edges whose two triangles differ by more start a line; 0: 45 */
+  double sharp_angle;        /* degrees: edges whose two triangles differ by more start a line; 0: found between 20 and 45,
+                                where a gap in the angles of the triangles separates tessellated curved surfaces from
+                                features */
   double corner_angle;       /* degrees: where a line turns by more it has a corner; 0: 45 */
   int32_t given_edges_only;  /* 1: no other lines are sought than the edges that are given, borders, and edges with
                                 three triangles or more */
@@ -354,6 +356,7 @@ typedef struct carreau_triangles_report {
   int64_t folded;          /* those that still do */
   double diagonal;         /* of the box of the vertices */
   double deviation;        /* no point of the smooth surface is farther from the triangles, nor the other way round */
+  double sharp_angle;      /* degrees: the angle given, or found */
 } carreau_triangles_report;
 
 /* Tells of the triangles that the session was given. Errors: SEQUENCE (none were), ARGUMENT. */
@@ -374,7 +377,8 @@ CARREAU_API carreau_status carreau_triangles_distances(carreau_session* session,
 /* The same over all points of both: the largest distance from the mesh to the triangles lies between out_bounds[0] and out_bounds[1], rounding included,
  * that from the triangles to the mesh between out_bounds[2] and out_bounds[3]. The upper ones are larger than the lower ones by no more than the share and
  * a millionth of the diagonal, unless that takes too long. `share`: 0 stands for .01. The mesh has straight triangles.
- * carreau_session_delivered tells the same with those of each triangle. Errors: SEQUENCE (no triangles, no mesh), ARGUMENT (a share
+ * carreau_session_delivered tells the same with those of each triangle. A message warns, with the place, when the mesh is farther from the triangles than a
+ * tenth of its edges there. Errors: SEQUENCE (no triangles, no mesh), ARGUMENT (a share
  * that is negative or not finite, other elements), CANCELLED. */
 CARREAU_API carreau_status carreau_triangles_bounds(carreau_session* session, double share, double out_bounds[4]);
 

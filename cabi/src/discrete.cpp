@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "arguments.h"
 #include "carreau_geometry.h"
@@ -11,6 +12,7 @@
 #include "geometry/discrete/refinement.h"
 #include "guard.h"
 #include "io/mesh_files.h"
+#include "measure/discrete_evaluation.h"
 #include "mesh/surface_distance.h"
 #include "model/geometries.h"
 #include "session/options.h"
@@ -165,6 +167,7 @@ carreau_status carreau_triangles_measure(carreau_session* session, carreau_trian
     report.dropped_edges = lines.dropped, report.prolonged_edges = lines.prolonged, report.faded_ends = lines.faded;
     report.unfolded = surface.unfolded(), report.folded = surface.folded();
     report.diagonal = mesh.diagonal(), report.deviation = surface.deviation();
+    report.sharp_angle = lines.sharp_angle;
     write_struct(report, out_report, "out_report");
   });
 }
@@ -221,8 +224,11 @@ carreau_status carreau_triangles_bounds(carreau_session* session, double share, 
     if (share > 0) tolerance.share = share;
     const carreau::TrianglesOfSpace made{flat.vertices, flat.triangles}, given{input.vertices, input.triangles};
     session->session.together([&](const carreau::Crew& crew) {
-      const carreau::DistanceBounds there = bound_distance(made, given, tolerance, crew, session->monitor),
-                                    back = bound_distance(given, made, tolerance, crew, session->monitor);
+      std::vector<carreau::FarPoint> of_made, of_given;
+      const carreau::DistanceBounds there =
+                                        bound_distance(made, given, tolerance, crew, session->monitor, nullptr, &of_made),
+                                    back = bound_distance(given, made, tolerance, crew, session->monitor, nullptr, &of_given);
+      warn_of_distance(farthest_by_size(made, of_made, of_given), session->monitor);
       out_bounds[0] = there.lower, out_bounds[1] = there.upper, out_bounds[2] = back.lower, out_bounds[3] = back.upper;
     });
   });

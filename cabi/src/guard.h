@@ -6,6 +6,7 @@
 #include <new>
 
 #include "handles.h"
+#include "place_in_sentence.h"
 #include "support/error.h"
 
 namespace carreau::abi {
@@ -74,7 +75,9 @@ carreau_status status_of(Body&& body, OnError&& on_error) noexcept {
   } catch (const CallbackError& error) {
     return fail(CARREAU_ERR_CALLBACK, error.what(), error.where());
   } catch (const DomainError& error) {
-    return fail(CARREAU_ERR_DOMAIN, error.what(), error.where());
+    // When no face could be meshed, the sentence quotes the reason of the first one.
+    return fail(CARREAU_ERR_DOMAIN, error.what(),
+                error.where().face != 0 ? error.where() : place_in_sentence(error.what()));
   } catch (const LimitError& error) {
     return fail(CARREAU_ERR_LIMIT, error.what(), error.where());
   } catch (const Cancelled& error) {

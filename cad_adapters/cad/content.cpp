@@ -49,7 +49,10 @@ carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number, car
     face.number = number;
     face.rgb = host.face_colour(number);
     face.name = host.face_name(number).c_str();
-    face.why = "";
+    face.why = "", face.solid_name = "";
+    if (!file->solids) file->solids = solids_of(file->shape);
+    face.solid = file->solids->of_face[static_cast<std::size_t>(number - 1)];
+    if (face.solid > 0) face.solid_name = file->solids->names[static_cast<std::size_t>(face.solid - 1)].c_str();
     for (const auto& [left_out, why] : file->left_out)
       if (left_out == number) face.why = why.c_str();
     write_struct(face, out_face, "out_face");

@@ -7,6 +7,7 @@
 #include <faults.h>
 #include <shape_file.h>
 #include <shape_report.h>
+#include <solids.h>
 
 #include <algorithm>
 #include <cstring>
@@ -29,6 +30,7 @@ struct carreau_cad_file {
   std::optional<std::vector<carreau_occ::FaceFigures>> figures;  // once asked for
   std::optional<carreau_occ::ShapeReport> report;                // the last one
   std::vector<std::string> sentences;                            // of its dangers
+  std::optional<carreau_occ::Solids> solids;
   std::string error;
 };
 

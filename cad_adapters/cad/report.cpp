@@ -21,6 +21,7 @@ bool is_cut(const Danger& danger, const BrepHost& host) {
 }
 
 std::string sentence(const Danger& danger, const BrepHost& host) {
+  if (danger.solids[0] > 0 || danger.kind == "untested solids") return danger.text;
   std::string text;
   if (danger.edge > 0) text += "edge " + std::to_string(danger.edge);
   if (danger.face > 0) {
@@ -32,6 +33,31 @@ std::string sentence(const Danger& danger, const BrepHost& host) {
   if (danger.kind != "kink") return text;
   return text + (is_cut(danger, host) ? ", where it is cut: edges of meshes follow it"
                                       : "; it cannot be cut there, and sizes by an angle or a chord do not see it");
+}
+
+/// Solids that touch or overlap become dangers.
+void add_contacts(const ShapeFile& shape, ShapeReport& report) {
+  if (report.solids < 2) return;
+  const Solids solids = solids_of(shape);
+  const auto name = [&](int s) {
+    const std::string& known = solids.names[static_cast<std::size_t>(s - 1)];
+    return std::to_string(s) + (known.empty() ? "" : " (" + known + ")");
+  };
+  const SolidContacts found = find_contacts(shape);
+  for (const SolidContact& contact : found.contacts) {
+    const auto& [a, b] = contact.solids;
+    const auto& p = contact.place;
+    report.dangers.push_back({.kind = contact.overlap ? "overlapping solids" : "touching solids",
+                              .text = "solids " + name(a) + " and " + name(b) + (contact.overlap ? " overlap" : " touch") +
+                                      " at (" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")",
+                              .solids = contact.solids});
+  }
+  if (found.untested > 0)
+    report.dangers.push_back({.kind = "untested solids",
+                              .text = std::to_string(found.untested) + " more pairs of solids have boxes that meet, and were not tested",
+                              .solids = {}});
+  std::stable_sort(report.dangers.begin(), report.dangers.end(),
+                   [](const Danger& p, const Danger& q) { return p.kind < q.kind; });
 }
 
 const ShapeReport& report_of(const carreau_cad_file& file) {
@@ -84,6 +110,7 @@ carreau_status carreau_cad_inspect(carreau_cad_file* file, double tiny, carreau_
     if (out_report != nullptr) write_struct(carreau_cad_report{}, out_report, "out_report");  // a wrong size is told first
     constexpr double usual = 1e-3;
     ShapeReport report = inspect(file->shape, tiny > 0 ? tiny : usual);
+    add_contacts(file->shape, report);
     std::vector<std::string> sentences;
     for (const Danger& danger : report.dangers) sentences.push_back(sentence(danger, host));
     file->report = std::move(report), file->sentences = std::move(sentences);
@@ -107,6 +134,7 @@ carreau_status carreau_cad_danger_at(carreau_cad_file* file, int64_t index, carr
     danger.face = found.face, danger.edge = found.edge, danger.value = found.value;
     danger.cut = is_cut(found, *file->host) ? 1 : 0;
     danger.sentence = file->sentences[static_cast<std::size_t>(index)].c_str();
+    std::copy(found.solids.begin(), found.solids.end(), danger.solids);
     write_struct(danger, out_danger, "out_danger");
   });
 }

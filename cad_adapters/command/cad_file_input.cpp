@@ -126,6 +126,12 @@ class CadFileInput final : public CadInput {
     face.struct_size = sizeof face;
     return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.name : "";
   }
+  [[nodiscard]] Part part_of_face(std::int32_t number) const override {
+    carreau_cad_face face{};
+    face.struct_size = sizeof face;
+    if (cad_library().file_face(file_.get(), number, &face) != CARREAU_OK) return {};
+    return {face.solid, face.solid_name};
+  }
   [[nodiscard]] std::int32_t whole_face(std::int32_t face) const override {
     return cad_library().whole_face(file_.get(), face);
   }

@@ -71,13 +71,17 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
 nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report& r, const InfoOptions& options) {
   nlohmann::ordered_json surfaces = nlohmann::ordered_json::object(), dangers = nlohmann::ordered_json::array();
   for (const auto& [name, n] : surfaces_of(file, r)) surfaces[name] = n;
-  for (const carreau_cad_danger& d : dangers_of(file, r))
+  nlohmann::ordered_json contacts = nlohmann::ordered_json::array();
+  for (const carreau_cad_danger& d : dangers_of(file, r)) {
+    if (d.solids[0] > 0)
+      contacts.push_back({{"solids", {d.solids[0], d.solids[1]}}, {"overlap", std::string("overlapping solids") == d.kind}});
     dangers.push_back({{"kind", d.kind},
                        {"face", d.face},
                        {"edge", d.edge},
                        {"name", d.face > 0 ? name_of(file, d.face) : ""},
                        {"value", d.value},
                        {"text", d.sentence}});
+  }
   return {{"input", options.input},
           {"solids", r.solids},
           {"shells", r.shells},
@@ -98,6 +102,7 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
           {"largest_tolerance", r.largest_tolerance},
           {"largest_gap", r.largest_gap},
           {"not_read", losses_of(file)},
+          {"contacts", contacts},
           {"dangers", dangers}};
 }
 

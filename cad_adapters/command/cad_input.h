@@ -57,6 +57,14 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::int32_t> face_numbers() const = 0;
   /// "" when it has none.
   [[nodiscard]] virtual std::string face_name(std::int32_t) const { return ""; }
+  /// The part that a face of the file is of: a solid, or a file of several. Number 0: no part.
+  struct Part {
+    std::int32_t number = 0;
+    std::string name;  ///< "" when it has none
+  };
+  [[nodiscard]] virtual Part part_of_face(std::int32_t) const { return {}; }
+  /// "solid", "file": the kind of those parts.
+  [[nodiscard]] virtual const char* part_word() const { return "solid"; }
   /// References of the curves of a face, as far as they are known.
   [[nodiscard]] virtual std::vector<std::int32_t> curves(std::int32_t face) const = 0;
   /// (u, v), as callbacks of the session get them, at a share of curve number ic, from 1. False: the geometry fails.

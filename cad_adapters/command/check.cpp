@@ -11,9 +11,9 @@
 namespace command {
 namespace {
 
-/// Models may cross themselves: that is a defect for those who say so.
+/// Some models cross themselves: --allow-crossings is for them.
 bool is_sound(const MeshCheck& c, const CheckOptions& options) {
-  return c.defects == 0 && (c.crossings.pairs == 0 || !options.no_crossings);
+  return c.defects == 0 && (c.crossings.pairs == 0 || options.allow_crossings);
 }
 
 std::string place_text(const Point& p) {
@@ -95,13 +95,24 @@ void print_report(const MeshReport& r, bool faces) {
                 f.name.empty() ? "" : "  ", f.name.c_str());
 }
 
+void print_defects(const MeshCheck& c, const CheckOptions& options) {
+  const std::string crossing = crossings_count(c.crossings.pairs);
+  if (c.defects == 0 && !crossing.empty())
+    std::printf("defects     %s%s\n", options.allow_crossings ? "none; allowed: " : "", crossing.c_str());
+  else if (c.defects == 0)
+    std::puts("defects     none");
+  else
+    std::printf("defects     %" PRId64 "%s%s\n%s\n", c.defects, c.defects >= options.limit ? " or more" : "",
+                crossing.empty() || options.allow_crossings ? "" : (", and " + crossing).c_str(), c.sentences.c_str());
+}
+
 }  // namespace
 
 int check(const CheckOptions& options) {
   const MeshHandle mesh = read_mesh(options.mesh);
   const MeshCheck c = check_of(mesh.get(), {options.closed, options.limit, options.worst});
   if (options.json) {
-    print_json("check", check_json(c, options.mesh, options.limit));
+    print_json("check", check_json(c, options.mesh, options.limit, options.allow_crossings));
     return is_sound(c, options) ? 0 : 1;
   }
   std::printf("vertices    %" PRId64 "\ntriangles   %" PRId64 "\nfaces       %" PRId64 "\ncurve edges %" PRId64 "\n",
@@ -117,13 +128,8 @@ int check(const CheckOptions& options) {
     for (const std::string& sentence : sentences_of(c.crossings, static_cast<std::size_t>(options.limit)))
       std::printf("  %s\n", sentence.c_str());
   }
-  if (c.defects == 0) {
-    std::puts(is_sound(c, options) ? "defects     none" : "defects     none but triangles that cross");
-    return is_sound(c, options) ? 0 : 1;
-  }
-  std::printf("defects     %" PRId64 "%s\n%s\n", c.defects, c.defects >= options.limit ? " or more" : "",
-              c.sentences.c_str());
-  return 1;
+  print_defects(c, options);
+  return is_sound(c, options) ? 0 : 1;
 }
 
 }  // namespace command

@@ -12,7 +12,9 @@
 #include "json_output.h"
 #include "lengths.h"
 #include "option_groups.h"
+#include "option_scope.h"
 #include "parse_errors.h"
+#include "text_file.h"
 
 namespace command {
 namespace {
@@ -240,7 +242,8 @@ void CommandLine::add_check() {
   CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
   check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
   check->add_flag("--closed", check_.closed, "An edge with one triangle is a defect too");
-  check->add_flag("--no-crossings", check_.no_crossings, "Triangles that cross are a defect too");
+  check->add_flag("--allow-crossings", check_.allow_crossings, "Triangles that cross are no defect");
+  check->add_flag_callback("--no-crossings", [] {}, "The default")->group("");  // earlier scripts have it
   check->add_option("--limit", check_.limit, "Defects to look for")
       ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)
@@ -394,15 +397,20 @@ int CommandLine::run(int argc, char** argv) {
 int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) {
     mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
+    check_scope(*app_.get_subcommand("mesh"), inputs_, mesh_, false);
     return mesh(mesh_);
   }
   if (app_.got_subcommand("plane")) return mesh(plane_);
   if (app_.got_subcommand("adapt")) {
     adapt_.plane.is_plane = is_plane_file(adapt_.input);
+    check_scope(*app_.get_subcommand("adapt"), {adapt_.input}, adapt_, adapt_.plane.is_plane);
     return mesh(adapt_);
   }
   if (app_.got_subcommand("refine")) return refine(refine_);
-  if (app_.got_subcommand("info")) return info(info_);
+  if (app_.got_subcommand("info")) {
+    check_scope(*app_.get_subcommand("info"), {info_.input}, info_, false);
+    return info(info_);
+  }
   if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("check")) return check(check_);
   if (app_.got_subcommand("picture")) {
@@ -420,6 +428,8 @@ int CommandLine::run_command() {
   if (app_.got_subcommand("report")) return report(report_);
   if (app_.got_subcommand("fields")) {
     parse_field_size(field_size_, fields_);
+    if (suffix_of(fields_.mesh.input) != ".env")
+      check_scope(*app_.get_subcommand("fields"), {fields_.mesh.input}, fields_.mesh, false);
     return fields(fields_);
   }
   if (app_.got_subcommand("completion")) return print_completion(app_, shell_);

@@ -95,7 +95,7 @@ int areas(const AreasOptions& options);
 
 struct CheckOptions {
   std::string mesh;
-  bool closed = false, no_crossings = false, faces = false, json = false;
+  bool closed = false, allow_crossings = false, faces = false, json = false;
   int limit = 20, worst = 3;
 };
 

@@ -59,7 +59,8 @@ Completed completed(const CLI::Option& option) {
 
 std::vector<Completed> options_of(const CLI::App& app) {
   std::vector<Completed> options;
-  for (const CLI::Option* option : app.get_options()) options.push_back(completed(*option));
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) options.push_back(completed(*option));  // the others are hidden
   return options;
 }
 

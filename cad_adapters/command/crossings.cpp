@@ -43,17 +43,20 @@ Crossings crossings_of(carreau_mesh* mesh, const std::vector<std::int32_t>& refs
   };
   std::int64_t n = ask(usual);
   if (n < crossings.pairs) n = ask(std::min(crossings.pairs, most_pairs));
+  std::vector<std::int32_t> crossing(triangles.begin(), triangles.begin() + 2 * static_cast<std::ptrdiff_t>(n));
+  std::sort(crossing.begin(), crossing.end());
+  crossings.triangles = std::unique(crossing.begin(), crossing.end()) - crossing.begin();
   std::map<std::array<std::int32_t, 2>, FaceCrossing> by_faces;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
     const std::array pair{triangles[2 * i], triangles[2 * i + 1]};
     const auto [low, high] =
         std::minmax(refs[static_cast<std::size_t>(pair[0])], refs[static_cast<std::size_t>(pair[1])]);
-    FaceCrossing& crossing = by_faces[{low, high}];
-    if (crossing.pairs++ > 0) continue;
-    crossing.faces = {low, high}, crossing.triangles = pair;
-    crossing.place = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    FaceCrossing& of_faces = by_faces[{low, high}];
+    if (of_faces.pairs++ > 0) continue;
+    of_faces.faces = {low, high}, of_faces.triangles = pair;
+    of_faces.place = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
   }
-  for (const auto& [faces, crossing] : by_faces) crossings.faces.push_back(crossing);
+  for (const auto& [faces, of_faces] : by_faces) crossings.faces.push_back(of_faces);
   std::stable_sort(crossings.faces.begin(), crossings.faces.end(),
                    [](const FaceCrossing& p, const FaceCrossing& q) { return p.pairs > q.pairs; });
   return crossings;
@@ -78,6 +81,11 @@ std::vector<std::string> sentences_of(const Crossings& crossings, std::size_t mo
   if (const std::int64_t others = crossings.pairs - told; others > 0)
     sentences.push_back("and " + std::to_string(others) + (others == 1 ? " pair" : " pairs") + " of other faces");
   return sentences;
+}
+
+std::string crossings_count(std::int64_t pairs) {
+  if (pairs <= 0) return "";
+  return std::to_string(pairs) + (pairs == 1 ? " pair of triangles crosses" : " pairs of triangles cross");
 }
 
 nlohmann::ordered_json crossings_json(const Crossings& crossings) {

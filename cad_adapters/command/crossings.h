@@ -23,6 +23,7 @@ struct FaceCrossing {
 
 struct Crossings {
   std::int64_t pairs = 0;           ///< of triangles, all
+  std::int64_t triangles = 0;       ///< that cross others, of the first million of pairs
   std::vector<FaceCrossing> faces;  ///< of the first million of pairs; most pairs first
 };
 
@@ -33,6 +34,9 @@ Crossings crossings_of(carreau_mesh* mesh, int threads);
 /// "faces 27 and 59: 66 pairs of triangles cross, first triangles 12 and 40 at (1, 2, 3)", at most `most` of them and
 /// a last one that counts the others.
 std::vector<std::string> sentences_of(const Crossings& crossings, std::size_t most);
+
+/// "28 pairs of triangles cross"; "": none does.
+std::string crossings_count(std::int64_t pairs);
 
 nlohmann::ordered_json crossings_json(const Crossings& crossings);
 

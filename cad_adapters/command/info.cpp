@@ -40,7 +40,6 @@ int info(const InfoOptions& options) {
   const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" ||
                          is_molecule(options.input) || is_grid(options.input, options.grid) || is_formula(options.input);
   if (!in_memory) {
-    if (!options.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + options.input + "'.");
     return print_cad_info(options);
   }
   const auto input = open_input(options.input, options);

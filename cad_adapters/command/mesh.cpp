@@ -13,6 +13,7 @@
 #include "mesh_parameters.h"
 #include "mesh_summary.h"
 #include "output_files.h"
+#include "part_crossings.h"
 #include "progress.h"
 #include "ranks.h"
 #include "report/report_content.h"
@@ -124,6 +125,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   set_parameters(run.session, options, input, map);
   refuse_elements(run.session, options.outputs);
   for (const std::string& sentence : sizes_beyond_bounds(options, input.diagonal())) progress.warning(sentence);
+  for (const std::string& sentence : contradicting_face_sizes(options, input)) progress.warning(sentence);
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
   for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
@@ -289,6 +291,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     const std::string line = part != nullptr ? "" : input->of_mesh(run.session);
     for (const std::string& before : part != nullptr ? part_lines(run, ranks->size()) : summary_lines(run)) progress.line(before);
     if (!line.empty()) progress.line(line);
+    progress.attention("crossing", crossing_lines(run.crossings, *input));  // last: nobody is to miss it
   }
   run.warnings = progress.warnings();
   if (options.json) print_json(run);

@@ -112,13 +112,14 @@ MeshCheck check_of(carreau_mesh* mesh, const CheckLimits& limits) {
 
 bool has_elements(const carreau_cell_quality& q) { return q.triangles6 + q.quads4 + q.quads8 > 0; }
 
-Json check_json(const MeshCheck& c, const std::string& name, int limit) {
+Json check_json(const MeshCheck& c, const std::string& name, int limit, bool allow_crossings) {
   Json defects = Json::array();
   for (std::size_t from = 0; from < c.sentences.size();) {
     const std::size_t to = std::min(c.sentences.find('\n', from), c.sentences.size());
     defects.push_back(c.sentences.substr(from, to - from));
     from = to + 1;
   }
+  if (c.crossings.pairs > 0 && !allow_crossings) defects.push_back(crossings_count(c.crossings.pairs));
   Json result = {
       {"mesh", name},           {"vertices", c.vertices}, {"triangles", c.triangles},        {"faces", c.faces},
       {"curve_edges", c.edges}, {"defects", defects},     {"all_defects", c.defects < limit}};

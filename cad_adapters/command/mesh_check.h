@@ -41,7 +41,7 @@ MeshCheck check_of(carreau_mesh* mesh, const CheckLimits& limits);
 /// Whether the mesh has elements that are not straight triangles.
 bool has_elements(const carreau_cell_quality& quality);
 
-/// The object that `carreau check --json` prints, without its format.
-nlohmann::ordered_json check_json(const MeshCheck& check, const std::string& name, int limit);
+/// The object that `carreau check --json` prints, without its format. Crossings count as a defect unless they are allowed.
+nlohmann::ordered_json check_json(const MeshCheck& check, const std::string& name, int limit, bool allow_crossings = false);
 
 }  // namespace command

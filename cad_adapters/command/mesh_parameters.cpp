@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <set>
 #include <thread>
@@ -158,16 +159,25 @@ std::vector<std::string> words_for_faces(const CadInput& input) {
   return {words.begin(), words.end()};
 }
 
+/// The faces that a rule of --face-size names. A name may hold a star: itself first.
+std::vector<std::int32_t> faces_of_rule(const CadInput& input, const std::string& face) {
+  std::vector<std::int32_t> named, fitting;
+  for (const std::int32_t number : input.face_numbers()) {
+    const std::string name = input.face_name(number);
+    if (std::to_string(number) == face || name == face) named.push_back(number);
+    if (face.find_first_of("*?") != std::string::npos && fits(name, face)) fitting.push_back(number);
+  }
+  return named.empty() ? fitting : named;
+}
+
 void set_face_sizes(const MeshOptions& options, CadInput& input) {
   for (const std::string& each : options.face_sizes) {
     const auto [face, text] = parse_assignment(each, "--face-size");
     const double size = parse_length(text, "--face-size").of(input.diagonal());
-    // A name may hold a star: itself first.
     if (input.set_face_size(face, size)) continue;
     bool any = false;
-    if (face.find_first_of("*?") != std::string::npos)
-      for (const std::int32_t number : input.face_numbers())
-        if (fits(input.face_name(number), face)) any = input.set_face_size(std::to_string(number), size) || any;
+    for (const std::int32_t number : faces_of_rule(input, face))
+      any = input.set_face_size(std::to_string(number), size) || any;
     if (!any)
       throw Failure("--face-size: there is no face '" + face + "'" + did_you_mean(face, words_for_faces(input)) +
                     " Faces are listed by: carreau info --faces");
@@ -220,6 +230,34 @@ std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double 
   for (const std::string& each : options.face_sizes)
     compare("--face-size " + each,
             parse_length(parse_assignment(each, "--face-size").second, "--face-size").of(diagonal));
+  return sentences;
+}
+
+std::vector<std::string> contradicting_face_sizes(const MeshOptions& options, const CadInput& input) {
+  std::map<std::int32_t, std::pair<std::string, double>> latest;  // by face: rule and size
+  std::map<std::pair<std::string, std::string>, std::vector<std::int32_t>> both;
+  std::vector<std::pair<std::string, std::string>> order;
+  for (const std::string& rule : options.face_sizes) {
+    const auto [face, text] = parse_assignment(rule, "--face-size");
+    const double size = parse_length(text, "--face-size").of(input.diagonal());
+    for (const std::int32_t number : faces_of_rule(input, face)) {
+      const auto [known, is_new] = latest.try_emplace(number, rule, size);
+      if (!is_new && known->second.second != size) {
+        const std::pair pair{known->second.first, rule};
+        if (both[pair].empty()) order.push_back(pair);
+        both[pair].push_back(number);
+      }
+      known->second = {rule, size};
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& pair : order) {
+    const std::vector<std::int32_t>& faces = both[pair];
+    sentences.push_back("--face-size " + pair.first + " and --face-size " + pair.second + " both name face " +
+                        std::to_string(faces.front()) +
+                        (faces.size() > 1 ? " and " + std::to_string(faces.size() - 1) + " more" : "") +
+                        ": the last one holds");
+  }
   return sentences;
 }
 

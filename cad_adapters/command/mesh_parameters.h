@@ -19,6 +19,9 @@ void check_words(const MeshOptions& options);
 /// A sentence for each size that was typed and that --min or --max changes.
 std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double diagonal);
 
+/// A sentence for each two rules of --face-size that name a face and differ.
+std::vector<std::string> contradicting_face_sizes(const MeshOptions& options, const CadInput& input);
+
 /// Gives face sizes to the input, and parameters and the size map to the session: first what this command chooses
 /// itself, then the env file, then the options, --set last. Throws Failure.
 void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map);

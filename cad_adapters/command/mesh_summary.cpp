@@ -9,6 +9,7 @@
 
 #include "delivered_json.h"
 #include "json_output.h"
+#include "part_crossings.h"
 #include "quality_json.h"
 #include "session_handle.h"
 
@@ -239,8 +240,7 @@ std::string free_edges_of_parts(const MeshRun& run) {
 std::string crossings_of_parts(const MeshRun& run) {
   const std::int64_t pairs = counts_of(run.mesh).crossings;
   if (pairs <= 0) return "";
-  return std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-         " of triangles cross, and smaller ones do, too: faces cross in the geometry itself, or lie at one place";
+  return crossings_count(pairs) + ", and smaller ones do, too: faces cross in the geometry itself, or lie at one place";
 }
 
 std::vector<std::string> part_lines(const MeshRun& run, int processes) {
@@ -299,6 +299,7 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                                       {"faces", short_edges.faces}}},
                                     {"faces", faces},
                                     {"intersections", crossings_json(run.crossings)},
+                                    {"crossing_parts", part_crossings_json(run.crossings, run.input)},
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
                                     {"interfaces", interfaces_json(run.input, interfaces_of(run.session))},

@@ -17,14 +17,12 @@ void check_geometry_name(const std::string& path) {
 std::unique_ptr<CadInput> open_input(const std::string& path, const InputChoice& choice,
                                      const ReadingProgress& progress) {
   if (is_formula(path)) return open_formula(path, choice.domain);
-  if (!choice.domain.empty()) throw Failure("--domain goes with a surface by formulas, not with '" + path + "'.");
   if (choice.molecule.surface == atlas_surface) return open_atlas(path);
   check_geometry_name(path);
   if (needs_host(path)) {
     if (choice.host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
     return open_pardom(path, choice.host);
   }
-  if (!choice.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
   if (is_grid(path, choice.grid)) return open_grid(path, choice.grid);
   if (is_triangles(path)) return open_triangles(path, choice.triangles);
   if (is_molecule(path)) return open_molecule(path, choice.molecule);

@@ -145,7 +145,7 @@ void add_domain_option(CLI::App* app, std::string& domain) {
 
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice) {
   app->add_option("--sharp", choice.sharp,
-                  "Of triangles: degrees between two of them beyond which their edge is one of a sharp line; 45")
+                  "Of triangles: degrees between two of them beyond which their edge is one of a sharp line; found when not given")
       ->check(CLI::Range(0.1, 180.0))
       ->type_name(kind::number);
   app->add_option("--corner", choice.corner,

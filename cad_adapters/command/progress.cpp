@@ -95,6 +95,13 @@ void Progress::line(const std::string& text) {
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
+void Progress::attention(const char* word, const std::vector<std::string>& lines) {
+  if (quiet_ || lines.empty()) return;
+  clear();
+  print_marked(word, colour::red, lines.front().c_str());
+  for (std::size_t k = 1; k < lines.size(); ++k) std::fprintf(stderr, "%s\n", lines[k].c_str());
+}
+
 void Progress::warning(const std::string& text) {
   warnings_.push_back(text);
   if (quiet_) return;

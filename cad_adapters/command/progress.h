@@ -37,6 +37,8 @@ class Progress {
   void line(const std::string& text);
   /// Something that may be wrong.
   void warning(const std::string& text);
+  /// Prints a marked line and those that belong to it.
+  void attention(const char* word, const std::vector<std::string>& lines);
   /// All of them, in their order, also those that were not shown.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
   /// What a quiet run shows as well.

@@ -103,6 +103,11 @@ class SeveralInput final : public CadInput {
       for (std::string& loss : part->losses()) all.push_back(std::move(loss));
     return all;
   }
+  [[nodiscard]] Part part_of_face(std::int32_t face) const override {
+    const std::size_t k = part_of(face);
+    return k < parts_.size() ? Part{static_cast<std::int32_t>(k) + 1, ""} : Part{};
+  }
+  [[nodiscard]] const char* part_word() const override { return "file"; }
   [[nodiscard]] bool closed() const override { return all_triangles_ && report_.border_edges == 0; }
   [[nodiscard]] std::string of_mesh(carreau_session* session) const override {
     return any_triangles_ ? distances_line(session, report_.deviation) : "";

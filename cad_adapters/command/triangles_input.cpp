@@ -189,7 +189,7 @@ void print_triangles_info(const std::string& path, const TrianglesChoice& choice
   if (json) {
     nlohmann::ordered_json value = {{"input", path}};
     for (const auto& [name, n] : counts) value[name] = n;
-    value["diagonal"] = r.diagonal, value["deviation"] = r.deviation;
+    value["diagonal"] = r.diagonal, value["deviation"] = r.deviation, value["sharp_angle"] = r.sharp_angle;
     print_json("info", value);
     return;
   }
@@ -198,7 +198,8 @@ void print_triangles_info(const std::string& path, const TrianglesChoice& choice
     std::replace(words.begin(), words.end(), '_', ' ');
     std::printf("%-18s %lld\n", words.c_str(), static_cast<long long>(n));
   }
-  std::printf("%-18s %.6g\n%-18s %.6g\n", "diagonal", r.diagonal, "deviation", r.deviation);
+  std::printf("%-18s %.6g\n%-18s %.6g\n%-18s %.6g\n", "diagonal", r.diagonal, "deviation", r.deviation, "sharp angle",
+              r.sharp_angle);
 }
 
 }  // namespace command

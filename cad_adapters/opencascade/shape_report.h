@@ -2,6 +2,7 @@
 // What a shape holds, and what of it is hard to mesh: before anything is meshed.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Danger {
   int face = 0, edge = 0;
   double value = 0;  ///< a length in model units, a number of faces, or an angle in degrees
   std::string text;  ///< the rest of the sentence
+  std::array<int, 2> solids{};  ///< that touch or overlap; 0: not concerned
 };
 
 struct ShapeReport {

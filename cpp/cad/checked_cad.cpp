@@ -41,6 +41,13 @@ bool is_usable(const SurfaceJet& jet, unsigned want) {
          ((want & want_second) == 0 || (is_usable(jet.suu) && is_usable(jet.suv) && is_usable(jet.svv)));
 }
 
+/// A size that a host gives; what means no answer has been sorted out.
+void check_size(double h, const Where& where, const char* routine) {
+  check_number(h, where, routine);
+  if (!(h > 0))
+    throw CallbackError(where, std::string(routine) + " returned the size " + format_number(h) + ", which is not positive");
+}
+
 [[noreturn]] void not_a_number(const Where& where, const char* routine) {
   throw CallbackError(where, std::string(routine) + " returned a value that is not a number");
 }
@@ -90,7 +97,7 @@ std::optional<double> CheckedCad::surface_size(int face, Vec2 uv) {
   counter_.add_size();
   const Where where{.face = face, .uv = uv};
   const std::optional<double> h = ask_host(where, "cad_hphys", [&] { return host_.surface_size(face, uv); });
-  if (h) check_number(*h, where, "cad_hphys");
+  if (h) check_size(*h, where, "cad_hphys");
   return h;
 }
 
@@ -98,7 +105,7 @@ std::optional<double> CheckedCad::curve_size(int face, int ic, double t) {
   counter_.add_size();
   const Where where{.face = face, .curve_index = ic, .t = t};
   const std::optional<double> h = ask_host(where, "cad_hphyc", [&] { return host_.curve_size(face, ic, t); });
-  if (h) check_number(*h, where, "cad_hphyc");
+  if (h) check_size(*h, where, "cad_hphyc");
   return h;
 }
 
@@ -106,7 +113,7 @@ std::optional<double> CheckedCad::point_size(int point) {
   counter_.add_size();
   const Where where{.point = point};
   const std::optional<double> h = ask_host(where, "cad_hphyp", [&] { return host_.point_size(point); });
-  if (h) check_number(*h, where, "cad_hphyp");
+  if (h) check_size(*h, where, "cad_hphyp");
   return h;
 }
 

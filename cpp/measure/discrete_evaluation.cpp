@@ -2,9 +2,11 @@
 #include "measure/discrete_evaluation.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "cad/fundamental_forms.h"
 #include "measure/composite_evaluation.h"
+#include "measure/thresholds.h"
 #include "mesh/surface_distance.h"
 #include "support/infinity.h"
 #include "surface/discrete/start_mesh.h"
@@ -87,6 +89,29 @@ void bound_input_distances(const discrete::DiscreteSurface& surface, const Surfa
                        back = bound_distance(given, made, {}, threads, monitor);
   delivered.input = {there.lower, there.upper, back.lower, back.upper};
   summarise(delivered);
+}
+
+FarPlace farthest_by_size(const TrianglesOfSpace& made, std::span<const FarPoint> of_made,
+                          std::span<const FarPoint> of_given) {
+  FarPlace worst;
+  const auto look = [&](const FarPoint& point, std::size_t triangle) {
+    const auto& [a, b, c] = made.triangles[triangle];
+    const Vec3 &p = made.vertices[index(a)], &q = made.vertices[index(b)], &r = made.vertices[index(c)];
+    const double size = (norm(q - p) + norm(r - q) + norm(p - r)) / 3;
+    if (point.distance * worst.size > worst.distance * size || worst.size == 0)
+      worst = {point.at, point.distance, size};
+  };
+  for (std::size_t t = 0; t < of_made.size(); ++t) look(of_made[t], t);
+  for (const FarPoint& point : of_given) look(point, index(point.nearest));
+  return worst;
+}
+
+void warn_of_distance(const FarPlace& place, Monitor& monitor) {
+  if (!(place.distance > thresholds::measure::max_share_of_size * place.size)) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "the mesh is %.3g away from the triangles at (%.6g, %.6g, %.6g), %.2g of the size there",
+                place.distance, place.at.x(), place.at.y(), place.at.z(), place.distance / place.size);
+  monitor.message(Level::warning, std::string(text) + ": the size does not resolve the surface, or edges below the sharp angle are rounded");
 }
 
 }  // namespace carreau

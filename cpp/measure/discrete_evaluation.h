@@ -4,6 +4,7 @@
 
 #include "geometry/discrete/discrete_cad.h"
 #include "measure/mesh_evaluation.h"
+#include "mesh/surface_distance.h"
 #include "surface/options.h"
 #include "surface/result.h"
 
@@ -17,5 +18,19 @@ MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad,
 /// elements have none. Throws Cancelled.
 void bound_input_distances(const discrete::DiscreteSurface& surface, const SurfaceMesh& mesh, int threads,
                            Monitor& monitor, MeshEvaluation& delivered);
+
+/// A place where a mesh and the triangles that it was made of are apart.
+struct FarPlace {
+  Vec3 at{};
+  double distance = 0;
+  double size = 0;  ///< mean length of the edges of the mesh's triangle there
+};
+
+/// Returns the place where the distance is the largest share of the size. `of_made`, `of_given`: by bound_distance().
+FarPlace farthest_by_size(const TrianglesOfSpace& made, std::span<const FarPoint> of_made,
+                          std::span<const FarPoint> of_given);
+
+/// Warns with the place when a mesh is farther from the triangles that it was made of than its sizes resolve.
+void warn_of_distance(const FarPlace& place, Monitor& monitor);
 
 }  // namespace carreau

@@ -21,6 +21,11 @@ inline constexpr double gradation_tolerance = 0.02;
 /// Unit edges. Lengths in range are between these (HDR eq. 2.14). [DeliveredPlane.UniformLengthsAreExact]
 inline constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;
 
+// Meshes of triangles
+/// Share of the size. A mesh that is farther from the triangles that it was made of has lost a feature, or its sizes do
+/// not resolve a curvature: a chord of .8 radii is .1 of its length away. [command_triangles]
+inline constexpr double max_share_of_size = 0.1;
+
 // Bounds of A0 and A1 (deviation_bounds)
 /// Triangles at work at a time.
 inline constexpr std::size_t triangles_at_once = 32768;

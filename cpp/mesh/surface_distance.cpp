@@ -124,8 +124,9 @@ class DistanceBounder {
       : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, crew.threads), tolerance_(tolerance),
         crew_(crew), monitor_(monitor) {}
 
-  DistanceBounds run(std::vector<double>* of_triangles) {
+  DistanceBounds run(std::vector<double>* of_triangles, std::vector<FarPoint>* farthest) {
     if (of_triangles != nullptr) of_triangles->assign(from_.triangles.size(), 0);
+    if (farthest != nullptr) farthest->clear();
     if (search_.empty() || from_.triangles.empty()) return {};
     Box box, all;
     box.add(to_.vertices), all.add(from_.vertices), all.add(to_.vertices);
@@ -134,6 +135,8 @@ class DistanceBounder {
                             std::max(all.low.cwiseAbs().maxCoeff(), all.high.cwiseAbs().maxCoeff());
     look_around();
     enough_ = goal(lower_);
+    if (farthest != nullptr)
+      for (std::size_t t = 0; t < from_.triangles.size(); ++t) farthest->push_back(farthest_of(t));
     const std::size_t n = from_.triangles.size();
     const std::vector<double> bounds = pairs(n, [&](std::size_t t, const double*, Monitor& of_task) -> Pair {
       const auto [low, high] = bounds_of(t, of_task);
@@ -202,6 +205,13 @@ class DistanceBounder {
     });
     for (const auto* corners : {&at_vertex_, &middle_})
       for (const Corner& c : *corners) lower_ = std::max(lower_, c.distance);
+  }
+
+  [[nodiscard]] FarPoint farthest_of(std::size_t triangle) const {
+    const Corner* best = &middle_[triangle];
+    for (const std::int32_t v : from_.triangles[triangle])
+      if (at_vertex_[index(v)].distance > best->distance) best = &at_vertex_[index(v)];
+    return {best->p, best->distance, best->nearest};
   }
 
   [[nodiscard]] std::array<Vec3, 3> target(std::int32_t t) const {
@@ -320,8 +330,9 @@ class DistanceBounder {
 }  // namespace
 
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles) {
-  return DistanceBounder(from, to, tolerance, crew, monitor).run(of_triangles);
+                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles,
+                              std::vector<FarPoint>* farthest) {
+  return DistanceBounder(from, to, tolerance, crew, monitor).run(of_triangles, farthest);
 }
 
 }  // namespace carreau

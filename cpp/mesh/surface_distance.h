@@ -30,6 +30,13 @@ struct DistanceBounds {
   double lower = 0, upper = 0;
 };
 
+/// A point of a triangle, and the point nearest to it of another mesh.
+struct FarPoint {
+  Vec3 at{};
+  double distance = 0;
+  std::int32_t nearest = 0;  ///< triangle of the other mesh
+};
+
 /// How near bounds are to be.
 struct DistanceTolerance {
   double share = 0.01;   ///< of the distance
@@ -39,9 +46,10 @@ struct DistanceTolerance {
 /// The distance to a single triangle is convex: over a convex polygon it is largest at a corner. Triangles are cut, beside
 /// the triangles that are nearest and then in halves, until one triangle of `to` shows of each piece that it is near
 /// enough. Where that takes too many pieces the upper bound is the one reached. `of_triangles`, unless it is null, gets
-/// an upper bound for each triangle. Both 0 where one of the meshes has none. The same for any crew. Throws Cancelled.
+/// an upper bound for each triangle, and `farthest` the farthest of its corners and its middle. Both 0 where one of the meshes has none. The same for any crew. Throws Cancelled.
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles = nullptr);
+                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles = nullptr,
+                              std::vector<FarPoint>* farthest = nullptr);
 inline DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
                                      int threads, Monitor& monitor, std::vector<double>* of_triangles = nullptr) {
   return bound_distance(from, to, tolerance, Crew{nullptr, threads}, monitor, of_triangles);

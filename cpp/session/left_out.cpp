@@ -40,6 +40,10 @@ void leave_out_defects(Model& model) {
   }
 }
 
+std::string reason_of(int face, const std::string& why) {
+  return why.starts_with("face ") ? why : Where{.face = face}.prefix() + why;
+}
+
 Model without_left_out(const Model& model) {
   Model part = model;
   for (Face& face : part.faces)
@@ -52,7 +56,7 @@ std::pair<Model, ModelSupports> supports_of(Model& known, Cad& whole_cad, double
   for (;;) {
     Model given = without_left_out(known);
     if (std::none_of(given.faces.begin(), given.faces.end(), [](const Face& face) { return face.left_out.empty(); }))
-      throw DomainError("no face could be meshed: " + given.faces.front().left_out);
+      throw DomainError("no face could be meshed: " + reason_of(given.faces.front().ref, given.faces.front().left_out));
     PartCad cad(whole_cad, parts_of(given));
     std::vector<std::string> failures;
     ModelSupports supports = build_supports(given, cad, angle_smo, threads_of(parameters), monitor,

@@ -21,6 +21,9 @@ bool leave_out(Model& model, const Error& error);
 /// about no face.
 void leave_out_defects(Model& model);
 
+/// Why a face has no mesh, with the face in front.
+std::string reason_of(int face, const std::string& why);
+
 /// The model as it is meshed: faces that are left out have no curves and no points.
 Model without_left_out(const Model& model);
 /// That and its supports. Faces of `known` whose curves cannot be had are left out when the parameter says so. Throws

@@ -246,8 +246,8 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   if (!any_triangle && result.mesh.loose_edge_count() == 0) {
     const auto failed = std::find_if(result.mesh.faces.begin(), result.mesh.faces.end(),
                                      [](const FaceMesh& face) { return !face.why.empty(); });
-    throw DomainError("no face could be meshed: " +
-                      (failed != result.mesh.faces.end() ? failed->why : std::string("no reason is known")));
+    throw DomainError("no face could be meshed: " + (failed != result.mesh.faces.end() ? reason_of(failed->ref, failed->why)
+                                                                                       : std::string("no reason is known")));
   }
   if (part != nullptr)
     *part = part_of(model, std::move(result));

@@ -34,8 +34,8 @@ std::string text_of(Metric2 m) {
   return "(a, b, c) = (" + format_number(m.a) + ", " + format_number(m.b) + ", " + format_number(m.c) + ")";
 }
 
-/// A definite metric within 1e-12 of a semi-definite one is not usable either. A size stands for the metric I / h^2:
-/// unlike those of cad_hphys, which may have any sign and are clamped, it must be positive.
+/// A definite metric within 1e-12 of a semi-definite one is not usable either. A size stands for the metric I / h^2, and
+/// is positive.
 void check(const Prescription& p, const PrescriptionSource& source, const Where& where) {
   const auto refuse = [&](const std::string& what) { throw CallbackError(where, source.name() + " returned " + what); };
   const auto finite = [](auto... x) { return (std::isfinite(x) && ...); };

@@ -87,6 +87,26 @@ class Mesh(unittest.TestCase):
             self.assertAlmostEqual(float(values["area"]) / (4 * math.pi), 1, delta=1e-3)
             self.assertAlmostEqual(volume(path) / (4 * math.pi / 3), 1, delta=2e-3)
 
+    def test_solids_that_touch_or_overlap_are_named_before_and_after_meshing(self):
+        boxes = os.path.join(SHAPES, "boxes.brep")
+        info = json.loads(run("info", boxes, "--json").stdout)
+        self.assertEqual([(c["solids"], c["overlap"]) for c in info["contacts"]], [([1, 3], True), ([1, 2], False)])
+        text = run("info", boxes).stdout
+        self.assertRegex(text, r"overlapping solids: 1\n  solids 1 and 3 overlap at \(")
+        self.assertRegex(text, r"touching solids: 1\n  solids 1 and 2 touch at \(10, ")
+        self.assertEqual(json.loads(run("info", os.path.join(SHAPES, "sphere.brep"), "--json").stdout)["contacts"], [])
+        done = run("mesh", boxes, "-o", self.out("a.mesh"), "--size", "1", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)["crossing_parts"]
+        self.assertEqual(found["pairs"], sum(part["pairs"] for part in found["parts"]))
+        self.assertLessEqual(found["triangles"], 2 * found["pairs"])
+        self.assertIn(("solid", [1, 3]), [(part["kind"], part["numbers"]) for part in found["parts"]])
+        last = done.stderr.rstrip().splitlines()[-len(found["parts"]) - 2:]
+        self.assertRegex(last[0], r"^crossing: \d+ triangles cross others, in \d+ pairs: \d pairs? of solids touch(es)? or overlaps?$")
+        self.assertTrue(any(line.startswith("  solids 1 and 3: ") for line in last[1:-1]), last)
+        self.assertEqual(figures(self.out("a.mesh"))["status"], 1)
+        self.assertNotIn("crossing:", run("mesh", os.path.join(SHAPES, "sphere.brep"), "-o", self.out("b.mesh")).stderr)
+
     def test_a_size_may_be_a_share_of_the_diagonal(self):
         # The box of the sphere has the diagonal 2 sqrt(3).
         mean = float(figures(self.mesh("sphere.step", "--size", "2%"))["edge length"].split()[-1])

@@ -176,6 +176,18 @@ void write_free_edges(const std::string& path) {
   require(BRepTools::Write(all, path.c_str()), path);
 }
 
+/// Four boxes: two touch, two overlap, one is apart.
+void write_boxes(const std::string& path) {
+  BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 10, 10, 10).Shape());
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(10, 2, 2), 10, 6, 6).Shape());
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(-5, 4, 4), 10, 2, 2).Shape());
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 20), 10, 10, 10).Shape());
+  require(BRepTools::Write(all, path.c_str()), path);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -197,6 +209,7 @@ int main(int argc, char** argv) {
     write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");
     write_open_iges(folder + "open.igs");
     write_free_edges(folder + "free.brep");
+    write_boxes(folder + "boxes.brep");
     for (const shapes::BentShape& bent : shapes::bent_shapes())
       require(BRepTools::Write(bent.make(), (folder + bent.name + ".brep").c_str()), bent.name);
     require(BRepTools::Write(shapes::torn_roof(), (folder + "torn_roof.brep").c_str()), "torn_roof.brep");

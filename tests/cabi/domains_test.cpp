@@ -130,6 +130,10 @@ TEST_F(PolygonTest, ADomainThatCrossesItselfIsRefused) {
   use_polygons();
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_DOMAIN);
   EXPECT_NE(error().find("face 1"), std::string::npos) << error();
+  auto place = sized<carreau_error_place>();
+  ASSERT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
+  EXPECT_EQ(place.face, 1);
+  EXPECT_EQ(place.ic, 1);
   carreau_mesh* none = nullptr;
   EXPECT_EQ(carreau_session_mesh(session, &none), CARREAU_ERR_SEQUENCE);
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -349,6 +350,27 @@ TEST_F(MeshFileTest, AMeshWrittenIsReadBackBitForBit) {
     EXPECT_EQ(carreau_mesh_write(read, (path + suffix).c_str()), CARREAU_OK) << read_error();
 }
 
+TEST_F(SessionTest, SizesThatAreNotPositiveAreErrorsOfTheCallback) {
+  ASSERT_EQ(paraboloid_model(session), CARREAU_OK);
+  ASSERT_EQ(carreau_set_integer(session, "hphy_flag", 2), CARREAU_OK);
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    carreau_cad cad = paraboloid_cad(&host);
+    static double given;
+    given = size;
+    cad.surface_size = [](std::int32_t, double, double, double* value, void*) { return *value = given, 0; };
+    ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+    EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_CALLBACK) << size;
+    auto place = sized<carreau_error_place>();
+    ASSERT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
+    EXPECT_EQ(place.face, 1);
+    EXPECT_TRUE(std::isfinite(place.uv[0]) && std::isfinite(place.uv[1]));
+  }
+  carreau_cad cad = paraboloid_cad(&host);
+  cad.surface_size = [](std::int32_t, double, double, double* value, void*) { return *value = CARREAU_HVIDE, 0; };
+  ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+}
+
 TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
   carreau_cad cad = paraboloid_cad(&host);
   cad.failure = [](std::int32_t face, void* user) {
@@ -363,6 +385,9 @@ TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
   ASSERT_EQ(carreau_set_text(session, "failing_faces", "leave_out"), CARREAU_OK);
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_DOMAIN);
   EXPECT_NE(error().find("no face could be meshed: face 1"), std::string::npos) << error();
+  auto place = sized<carreau_error_place>();
+  ASSERT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
+  EXPECT_EQ(place.face, 1);
   EXPECT_NE(error().find("(the knots of the spline descend)"), std::string::npos) << error();
 }
 

@@ -190,9 +190,12 @@ class Command(unittest.TestCase):
                 [(1, 2, 3, 1), (1, 3, 4, 2), (5, 6, 7, 7)])
 
     def test_check_finds_triangles_that_cross(self):
-        self.check_json("crossing.mesh", *self.CROSSING, "--no-crossings", code=1)
-        self.check_json("t.mesh", *self.TETRAHEDRON, "--no-crossings")
-        found = self.check_json("crossing.mesh", *self.CROSSING)["intersections"]
+        told = self.check_json("crossing.mesh", *self.CROSSING, code=1)
+        self.assertIn("1 pair of triangles crosses", told["defects"])
+        self.check_json("crossing.mesh", *self.CROSSING, "--no-crossings", code=1)  # of earlier scripts: it changes nothing
+        allowed = self.check_json("crossing.mesh", *self.CROSSING, "--allow-crossings", code=0)
+        self.assertEqual(allowed["defects"], [])
+        found = allowed["intersections"]
         self.assertEqual(found["pairs"], 1)
         pair, = found["faces"]
         self.assertEqual((pair["faces"], pair["pairs"], pair["triangles"]), ([1, 7], 1, [0, 2]))

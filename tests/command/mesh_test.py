@@ -227,6 +227,50 @@ class Formulas(Folder):
             self.refused(*given, "-o", "out.mesh", sentence=sentence)
         self.refused(TEAPOT, "--domain", "disc:0,0,1", "-o", "out.mesh", sentence="--domain goes with a surface by formulas")
 
+    def test_options_that_mean_nothing_for_an_input_are_rejected_by_name(self):
+        inputs = {"cad": "x.step", "bezier": TEAPOT, "molecule": "x.pdb", "grid": "x.fmt", "triangles": "x.stl"}
+        scopes = {"--probe=1": ("molecule",), "--drop-cavities": ("molecule",), "--surface=ses": ("molecule",),
+                  "--smooth=3": ("grid",), "--lengths": ("grid",), "--join=10": ("grid",), "--fill": ("grid",), "--step=1": ("grid",),
+                  "--join-nodes=.1": ("grid",), "--domain=disc:0,0,1": (), "--host=a.so": (), "--sharp=30": ("triangles",),
+                  "--corner=30": ("triangles",), "--given-edges": ("triangles",), "--ignore-references": ("triangles",)}
+        for option, kinds in scopes.items():
+            name = option.split("=")[0]
+            for kind, path in inputs.items():
+                if kind not in kinds:
+                    with self.subTest(option=option, input=path):
+                        self.refused(path, option, "-o", "a.mesh", sentence=f"{name} goes with ")
+        done = subprocess.run([PROGRAM, "info", "x.step", "--sharp", "30"], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--sharp goes with triangles, not with 'x.step'.", done.stderr)
+        done = subprocess.run([PROGRAM, "adapt", TEAPOT, "--smooth", "-o", "a.mesh"], capture_output=True, text=True, cwd=self.folder)
+        self.assertIn("--smooth goes with a plane domain, not with", done.stderr)
+
+    def test_patches_that_cross_are_reported_in_the_summary(self):
+        crossed = self.write("crossed.bpt", SQUARE.replace("1\n", "2\n", 1) + "1 1\n-.9 .1 -1\n.9 .1 -1\n-.9 .1 1\n.9 .1 1\n")
+        done = self.run_mesh(crossed, "-o", "a.mesh", "--size", ".2", "--json")
+        found = json.loads(done.stdout)["crossing_parts"]
+        part, = found["parts"]
+        self.assertEqual((part["kind"], part["numbers"]), ("face", [1, 2]))
+        self.assertGreater(part["pairs"], 9)  # the line of 1.8 in edges of .2
+        self.assertEqual(part["pairs"], found["pairs"])
+        self.assertAlmostEqual(part["at"][1], 0.1, delta=1e-9)
+        self.assertAlmostEqual(part["at"][2], 0, delta=1e-9)
+        self.assertRegex(done.stderr, r"(?m)^crossing: \d+ triangles cross others, in \d+ pairs: 1 pair of faces touches or overlaps\n  faces 1 and 2: \d+ pairs of triangles")
+
+    def test_contradicting_sizes_of_a_face_are_reported_and_the_last_one_holds(self):
+        def counts(*rules):
+            done = subprocess.run([PROGRAM, "mesh", TEAPOT, "-o", "a.mesh", "--size", "20%", *(w for r in rules for w in ("--face-size", r)), "--json"],
+                                  capture_output=True, text=True, cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told = json.loads(done.stdout)
+            return [f["triangles"] for f in told["faces"]], [w for w in told["warnings"] if "face-size" in w]
+        once, none = counts("1=.2")
+        self.assertEqual(none, [])
+        twice, warned = counts("1=.7", "1=.2")
+        self.assertEqual(twice, once)
+        self.assertEqual(warned, ["--face-size 1=.7 and --face-size 1=.2 both name face 1: the last one holds"])
+        self.assertEqual(counts("1=.2", "1=.2")[1], [])
+
 
 class Sizes(Folder):
     def setUp(self):

@@ -62,7 +62,7 @@ class Molecules(unittest.TestCase):
         for surface in ("vws", "sas", "ses"):
             self.run_command("mesh", os.path.join(DATA, "caffeine.xyzr"), "--surface", surface, "--size", "0.4", "-q",
                              "-o", surface + ".mesh")
-            self.run_command("check", surface + ".mesh", "--closed", "--no-crossings")
+            self.run_command("check", surface + ".mesh", "--closed")
 
     def test_the_excluded_surface_of_dna_is_closed_and_has_good_triangles(self):
         run = json.loads(self.run_command("mesh", os.path.join(DATA, "1bna.xyzr"), "--surface", "ses", "--probe", "1.4", "--size", "0.4", "-q", "--json",

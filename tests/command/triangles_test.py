@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -22,6 +23,19 @@ def cylinder(n=36, height=2.0):
     for i in range(n):
         a, b = 2 * i, 2 * ((i + 1) % n)
         t += [(a, b, b + 1), (a, b + 1, a + 1), (b, a, 2 * n), (a + 1, b + 1, 2 * n + 1)]
+    return x, t
+
+
+def countersink(n=36, slope=41.0):
+    """Vertices and triangles of a washer of radii 1 and 4 and height 2, whose hole has a cone from radius 2 on."""
+    profile = [(1, 0), (4, 0), (4, 2), (2, 2), (1, 2 - math.tan(math.radians(slope)))]
+    m = len(profile)
+    x = [(r * math.cos(2 * math.pi * i / n), r * math.sin(2 * math.pi * i / n), float(z)) for i in range(n) for r, z in profile]
+    t = []
+    for i in range(n):
+        for k in range(m):
+            a, b, c, d = i * m + k, i * m + (k + 1) % m, (i + 1) % n * m + (k + 1) % m, (i + 1) % n * m + k
+            t += [(a, b, c), (a, c, d)]
     return x, t
 
 
@@ -64,6 +78,22 @@ class Triangles(unittest.TestCase):
             self.assertEqual((found["vertices"], found["euler_number"], found["shells"]), (74, 2, 1))
             self.assertEqual(self.info(self.path(name), "--sharp", "95")["lines"], 0)
         self.assertIn("sharp edges        72\n", self.run_command("info", self.path("a.off")).stdout)
+
+    def test_features_below_45_degrees_stay_and_a_lost_one_is_told_with_its_place(self):
+        source, target = self.path("a.stl", stl(*countersink())), self.path("b.mesh")
+        found = self.info(source)
+        self.assertEqual((found["lines"], found["regions"], found["sharp_edges"]), (5, 5, 5 * 36))
+        self.assertGreaterEqual(found["sharp_angle"], 20)
+        self.assertLess(found["sharp_angle"], 40)
+        self.assertEqual(self.info(source, "--sharp", "45")["sharp_angle"], 45)
+        kept = self.run_command("mesh", source, "-o", target, "--size", "0.3").stderr
+        self.assertNotIn("away from the triangles", kept)
+        distance = float(re.search(r"(?m)^distance +(\S+) at most", kept)[1])
+        self.assertLess(distance, 0.03)
+        lost = self.run_command("mesh", source, "-o", target, "--size", "0.3", "--sharp", "45").stderr
+        place = re.search(r"warning: the mesh is (\S+) away from the triangles at \((\S+), (\S+), (\S+)\), (\S+) of the size there", lost)
+        self.assertGreater(float(place[5]), 0.1)
+        self.assertLess(math.hypot(float(place[2]), float(place[3])), 4.1)
 
     def test_meshes_lie_on_the_cylinder_that_the_triangles_stand_for(self):
         source, target = self.path("a.stl", stl(*cylinder())), self.path("b.mesh")

@@ -718,6 +718,7 @@ class carreau_triangles_report(Structure):
         ("folded", c_int64),
         ("diagonal", c_double),
         ("deviation", c_double),
+        ("sharp_angle", c_double),
     ]
 
 
@@ -822,6 +823,9 @@ class carreau_cad_face(Structure):
         ("rgb", c_int32),
         ("name", c_char_p),
         ("why", c_char_p),
+        ("solid", c_int32),
+        ("reserved", c_int32),
+        ("solid_name", c_char_p),
     ]
 
 
@@ -870,6 +874,7 @@ class carreau_cad_danger(Structure):
         ("cut", c_int32),
         ("reserved", c_int32),
         ("sentence", c_char_p),
+        ("solids", c_int32 * 2),
     ]
 
 

@@ -281,6 +281,7 @@ class TrianglesReport(NamedTuple):
     folded: int
     diagonal: float
     deviation: float
+    sharp_angle: float
 
 
 class RemeshSummary(NamedTuple):
@@ -331,6 +332,8 @@ class CadFace(NamedTuple):
     rgb: int
     name: str
     why: str
+    solid: int
+    solid_name: str
 
 
 class CadFigures(NamedTuple):
@@ -375,6 +378,7 @@ class CadDanger(NamedTuple):
     value: float
     cut: int
     sentence: str
+    solids: tuple[int, int]
 
 
 class CadGaps(NamedTuple):

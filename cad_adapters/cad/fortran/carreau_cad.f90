@@ -32,8 +32,8 @@ module carreau_cad
   end type carreau_cad_content
 
   type :: carreau_cad_face
-    integer(c_int32_t) :: number = 0, rgb = 0
-    character(len=:), allocatable :: name, why
+    integer(c_int32_t) :: number = 0, rgb = 0, solid = 0
+    character(len=:), allocatable :: name, why, solid_name
   end type carreau_cad_face
 
   type :: carreau_cad_figures
@@ -55,6 +55,7 @@ module carreau_cad
     real(c_double) :: value = 0
     logical :: cut = .false.
     character(len=:), allocatable :: sentence
+    integer(c_int32_t), dimension(2) :: solids = 0
   end type carreau_cad_danger
 
   type :: carreau_cad_gaps
@@ -195,6 +196,8 @@ contains
     face%rgb = c%rgb
     face%name = carreau_string(c%name)
     face%why = carreau_string(c%why)
+    face%solid = c%solid
+    face%solid_name = carreau_string(c%solid_name)
   end subroutine carreau_cad_file_face
 
   subroutine carreau_cad_measure_face(file, number, figures, status)
@@ -262,6 +265,7 @@ contains
     danger%value = c%value
     danger%cut = c%cut /= 0
     danger%sentence = carreau_string(c%sentence)
+    danger%solids = c%solids
   end subroutine carreau_cad_danger_at
 
   subroutine carreau_cad_measure_gaps(file, gaps, status)

@@ -30,6 +30,8 @@ module carreau_cad_c
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: number = 0, rgb = 0
     type(c_ptr) :: name = c_null_ptr, why = c_null_ptr
+    integer(c_int32_t) :: solid = 0, reserved = 0
+    type(c_ptr) :: solid_name = c_null_ptr
   end type c_cad_face
 
   !> Measures of a face.
@@ -56,6 +58,7 @@ module carreau_cad_c
     real(c_double) :: value = 0
     integer(c_int32_t) :: cut = 0, reserved = 0
     type(c_ptr) :: sentence = c_null_ptr
+    integer(c_int32_t) :: solids(2) = 0
   end type c_cad_danger
 
   !> Gaps between the curves of edges and their images on the faces beside, at ten places each.

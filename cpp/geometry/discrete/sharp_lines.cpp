@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/discrete/sharp_angle.h"
 #include "geometry/discrete/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -30,6 +31,12 @@ class LineFinder {
       : mesh_(mesh), options_(options), at_vertex_(mesh.vertices.size(), mesh.edges) {}
 
   SharpLines run() {
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) bends_.push_back(mesh_.bend(static_cast<std::int32_t>(e)));
+    found_.sharp_angle = options_.sharp_angle.value_or(thresholds::usual_sharp);
+    if (!options_.sharp_angle && !options_.marked_only) {
+      SharpAngle angle = find_sharp_angle(mesh_, bends_);
+      found_.sharp_angle = angle.angle, round_ = std::move(angle.round);
+    }
     found_.sharp.assign(mesh_.edges.size(), 0);
     certain_.assign(mesh_.edges.size(), 0);
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) start(static_cast<std::int32_t>(e));
@@ -67,7 +74,7 @@ class LineFinder {
     const bool marked = std::ranges::binary_search(mesh_.marked, mesh_.edges[index(e)]);
     if (!agree || refs || marked)
       found_.sharp[index(e)] = certain_[index(e)] = 1;
-    else if (!options_.marked_only && mesh_.bend(e) > options_.sharp_angle)
+    else if (!options_.marked_only && bends_[index(e)] > found_.sharp_angle && (round_.empty() || round_[index(e)] == 0))
       found_.sharp[index(e)] = 1;
   }
 
@@ -94,13 +101,13 @@ class LineFinder {
   [[nodiscard]] std::int32_t candidate(std::int32_t v, std::int32_t last) const {
     double largest = 0;
     for (const std::int32_t e : at_vertex_.of(v))
-      if (!is_sharp(e)) largest = std::max(largest, mesh_.bend(e));
+      if (!is_sharp(e)) largest = std::max(largest, bends_[index(e)]);
     const double least = std::max(thresholds::share_of_largest * largest, thresholds::least_angle);
     const Vec3 came = direction(last, v);
     std::int32_t best = -1;
     double straightest = thresholds::least_straightness;
     for (const std::int32_t e : at_vertex_.of(v)) {
-      if (is_sharp(e) || mesh_.bend(e) < least) continue;
+      if (is_sharp(e) || bends_[index(e)] < least) continue;
       if (const double straight = -dot(came, direction(e, v)); straight > straightest) straightest = straight, best = e;
     }
     return best;
@@ -161,7 +168,10 @@ class LineFinder {
         if (is_sharp(e)) last = e;
       const std::vector<std::int32_t> line = line_to(v, last);
       const bool certain = std::ranges::any_of(line, [&](std::int32_t e) { return certain_[index(e)] != 0; });
-      if (certain || static_cast<int>(line.size()) >= thresholds::least_faded) continue;
+      // Where the angle was found, flatter edges that fade out are those of a tessellation.
+      const bool clear = options_.sharp_angle ||
+                         std::ranges::any_of(line, [&](std::int32_t e) { return bends_[index(e)] > thresholds::usual_sharp; });
+      if (certain || (clear && static_cast<int>(line.size()) >= thresholds::least_faded)) continue;
       for (const std::int32_t e : line) found_.sharp[index(e)] = 0;
       found_.dropped += static_cast<std::int64_t>(line.size());
     }
@@ -241,6 +251,8 @@ class LineFinder {
   const Triangulation& mesh_;
   const SharpOptions& options_;
   Incidence at_vertex_;
+  std::vector<double> bends_;  // by edge, degrees
+  std::vector<char> round_;    // by edge: no feature; empty: all may be
   std::vector<char> certain_;  // by edge: no line has to be sought
   SharpLines found_;
 };
@@ -264,7 +276,7 @@ UnionFind sectors_of(const Triangulation& mesh, const std::vector<char>& sharp) 
 }
 
 SharpLines find_sharp_lines(const Triangulation& mesh, const SharpOptions& options) {
-  check_angle("sharp angle", options.sharp_angle);
+  if (options.sharp_angle) check_angle("sharp angle", *options.sharp_angle);
   check_angle("corner angle", options.corner_angle);
   return LineFinder(mesh, options).run();
 }

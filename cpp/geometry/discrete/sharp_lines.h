@@ -2,6 +2,7 @@
 // Lines on which a triangulation is sharp, and their corners (HDR sec. 4.9.1).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace carreau::discrete {
 
 struct SharpOptions {
-  double sharp_angle = 45;   ///< degrees: edges whose normals differ by more start a line (w_v)
+  /// Degrees: edges whose normals differ by more start a line (w_v). Not given: find_sharp_angle().
+  std::optional<double> sharp_angle = {};
   double corner_angle = 45;  ///< degrees: a line that turns by more at a vertex has a corner there (180 - w_c)
   /// Edges that the input marks are those of lines, and no other is sought but borders and edges with three triangles.
   bool marked_only = false;
@@ -32,6 +34,7 @@ struct SharpLines {
   std::vector<Line> lines;
   std::vector<std::int32_t> region;  ///< by triangle: connected over edges that are not sharp, from 0
   std::int32_t regions = 0;
+  double sharp_angle = 0;      ///< degrees; the one given, or found
   std::int64_t edges = 0;      ///< that are sharp
   std::int64_t dropped = 0;    ///< potential ones that no line goes through
   std::int64_t prolonged = 0;  ///< regular ones over which lines go on

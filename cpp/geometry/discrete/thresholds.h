@@ -8,6 +8,33 @@ namespace carreau::discrete::thresholds {
 /// Share of the longest side. A triangle with a smaller height is flat: its normal is rounding.
 inline constexpr double flat_height = 1e-12;
 
+// Sharp angle
+/// Degrees: where the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
+inline constexpr double usual_sharp = 45;
+/// Degrees: flatter edges are no features, wherever the gap is. Tessellations of CAD programs turn by up to 12 (.2 rad)
+/// with usual settings; kinks of less move a surface little.
+inline constexpr double min_sharp = 20;
+/// Degrees: the width of a gap.
+inline constexpr double gap_width = 5;
+/// Length of edges in a gap, as a share of the length of sharper ones: .04 on public STL parts, from .35 on scans.
+inline constexpr double gap_share = 0.1;
+/// Degrees: sharper edges are features even where the surface turns on beside them. Circles of 8 edges are flatter, with
+/// room for rounding.
+inline constexpr double max_round = 46;
+/// Neighbours of an edge of a tessellated surface turn by at least, and at most, this share of its angle: by the half
+/// where a fillet begins. Beside a chamfer of 45 degrees a right angle is too sharp.
+inline constexpr double min_turn = 0.4, max_turn = 1.6;
+/// Ratio of the widths of two neighbouring facets of a tessellated surface, at most: beside a chamfer it is larger.
+inline constexpr double round_widths = 2;
+/// Degrees: triangles of a facet differ by no more.
+inline constexpr double flat_bend = 0.5;
+/// Sides of a facet that may turn on. A strip of a tessellated surface has two to six, and more where it was refined.
+/// A facet with more is a plane face of a part.
+inline constexpr int max_sides_of_facet = 64;
+/// Degrees, and sides: beside sharper edges a facet with more sides is a plane face, around a chamfer or a countersink.
+inline constexpr double chamfer_angle = 35;
+inline constexpr int max_sides_beside_chamfer = 8;
+
 // Sharp lines
 /// Degrees: a line does not go on over an edge that is flatter (HDR sec. 4.9.1 has none; rounding and noise are).
 inline constexpr double least_angle = 5;

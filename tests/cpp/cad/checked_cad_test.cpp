@@ -81,6 +81,19 @@ TEST(CheckedCad, RefusesSizesThatAreNotFiniteAndRadiiThatAreNotNumbers) {
             "face 1, curve 2, t = 0.5: cad_hphyc returned a value that is not finite");
   EXPECT_EQ(callback_error([&] { cad.point_size(9); }),
             "point of reference 9: cad_hphyp returned a value that is not finite");
+  for (const double bad : {0.0, -0.5}) {
+    host.value = bad;
+    const std::string text = bad == 0 ? "0" : "-0.5";
+    EXPECT_EQ(callback_error([&] {
+                cad.surface_size(1, {0.25, 0.5});
+              }),
+              "face 1, u = 0.25, v = 0.5: cad_hphys returned the size " + text + ", which is not positive");
+    EXPECT_EQ(callback_error([&] { cad.curve_size(1, 2, 0.5); }),
+              "face 1, curve 2, t = 0.5: cad_hphyc returned the size " + text + ", which is not positive");
+    EXPECT_EQ(callback_error([&] { cad.point_size(9); }),
+              "point of reference 9: cad_hphyp returned the size " + text + ", which is not positive");
+  }
+  host.value = infinity;
   // A plane, a straight line (RT-0232 sec. 3.1.3 b).
   EXPECT_EQ(cad.surface_radius(1, {0, 0}), infinity);
   EXPECT_EQ(cad.curve_radius(1, 1, 0), infinity);

@@ -244,7 +244,7 @@ TEST(SharpLines, GoOnWhereNoiseMakesThemFlatter) {
       mesh.vertices[static_cast<std::size_t>(4 * 36 + 2 * i + side)] *=
           i % 12 == 5 ? 0.97 : 1 + 0.001 * std::sin(11.0 * i);
   const Triangulation noisy(mesh);
-  const SharpLines lines = find_sharp_lines(noisy);
+  const SharpLines lines = find_sharp_lines(noisy, {.sharp_angle = 45});
   double least = 180;
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(noisy.edges.size()); ++e)
     if (lines.sharp[static_cast<std::size_t>(e)] != 0) least = std::min(least, noisy.bend(e));
@@ -255,6 +255,100 @@ TEST(SharpLines, GoOnWhereNoiseMakesThemFlatter) {
   ASSERT_EQ(lines.lines.size(), 1u);
   EXPECT_TRUE(lines.lines[0].closed());
   EXPECT_EQ(lines.regions, 2);
+}
+
+/// Points (r, z) turned about the z axis in n steps, closed both ways.
+FlatMesh turned(const std::vector<Vec2>& profile, int n) {
+  FlatMesh mesh;
+  const auto m = static_cast<std::int32_t>(profile.size());
+  for (int i = 0; i < n; ++i)
+    for (const Vec2& p : profile)
+      mesh.vertices.emplace_back(p.x() * std::cos(2 * std::numbers::pi * i / n), p.x() * std::sin(2 * std::numbers::pi * i / n), p.y());
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::int32_t k = 0; k < m; ++k) {
+      const std::int32_t a = i * m + k, b = i * m + (k + 1) % m, c = (i + 1) % n * m + (k + 1) % m, d = (i + 1) % n * m + k;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  return mesh;
+}
+
+TEST(SharpLines, OfACountersinkHaveAnAngleInTheGap) {
+  // A washer whose hole has a cone on top.
+  for (const int n : {18, 36, 90})
+    for (const double slope : {25.0, 30.0, 41.0, 45.0, 60.0}) {
+      const Triangulation washer(turned({{1, 0}, {4, 0}, {4, 2}, {2, 2}, {1, 2 - std::tan(slope * std::numbers::pi / 180)}}, n));
+      const SharpLines lines = find_sharp_lines(washer);
+      EXPECT_EQ(lines.edges, 5 * n) << n << " " << slope;
+      EXPECT_EQ(lines.regions, 5) << n << " " << slope;
+      EXPECT_TRUE(lines.corners.empty());
+      EXPECT_GE(lines.sharp_angle, 20);
+      EXPECT_LE(lines.sharp_angle, 45);
+    }
+}
+
+TEST(SharpLines, OfAHingeKeepTheSurfaceAtItsTriangles) {
+  // Two plates bent by 30 degrees at their common edge.
+  FlatMesh hinge;
+  const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
+  for (const double y : {0.0, 10.0})
+    for (const double z : {0.0, 1.0}) {
+      hinge.vertices.emplace_back(-10, y, z);
+      hinge.vertices.emplace_back(0, y, z);
+      hinge.vertices.emplace_back(10 * c, y, z + 10 * s);
+    }
+  const auto quad = [&](std::int32_t a, std::int32_t b, std::int32_t d, std::int32_t e) {
+    hinge.triangles.push_back({a, b, d});
+    hinge.triangles.push_back({a, d, e});
+  };
+  for (const std::int32_t k : {0, 1}) {
+    quad(3 + k, 4 + k, 10 + k, 9 + k);  // top
+    quad(k, 6 + k, 7 + k, 1 + k);       // bottom
+    quad(k, 1 + k, 4 + k, 3 + k);       // fronts
+    quad(6 + k, 9 + k, 10 + k, 7 + k);
+  }
+  quad(0, 3, 9, 6);
+  quad(2, 8, 11, 5);
+  const DiscreteSurface surface = surface_of(hinge);
+  EXPECT_EQ(surface.lines().regions, 8);
+  EXPECT_LT(surface.deviation(), 1e-12);
+  EXPECT_GT(surface_of(hinge, {.sharp_angle = 45}).deviation(), 0.3);
+}
+
+TEST(SharpLines, StayOutOfCoarseCurvedSurfaces) {
+  for (const int n : {8, 9, 12, 16}) {  // bends of 45, 40, 30 and 22.5 degrees
+    const SharpLines lines = find_sharp_lines(Triangulation(cylinder(n)));
+    EXPECT_EQ(lines.edges, 2 * n);
+    EXPECT_EQ(lines.regions, 3);
+  }
+  EXPECT_EQ(find_sharp_lines(Triangulation(torus(48, 12))).edges, 0);
+  // Rows that are shifted by half a step: no edges are parallel.
+  FlatMesh shifted = torus(100, 12, 2, 0.8);
+  for (std::int32_t i = 0; i < 100; ++i)
+    for (std::int32_t j = 0; j < 12; ++j) {
+      const double a = 2 * std::numbers::pi * i / 100, b = 2 * std::numbers::pi * (j + 0.5 * (i % 2)) / 12, r = 2 + 0.8 * std::cos(b);
+      shifted.vertices[static_cast<std::size_t>(12 * i + j)] = {r * std::cos(a), r * std::sin(a), 0.8 * std::sin(b)};
+    }
+  shifted.triangles.clear();
+  const auto at = [](std::int32_t i, std::int32_t j) { return i % 100 * 12 + (j + 12) % 12; };
+  for (std::int32_t i = 0; i < 100; ++i)
+    for (std::int32_t j = 0; j < 12; ++j) {
+      shifted.triangles.push_back({at(i, j), at(i + 1, j + i % 2), at(i, j + 1)});
+      shifted.triangles.push_back({at(i, j), at(i + 1, j + i % 2 - 1), at(i + 1, j + i % 2)});
+    }
+  EXPECT_EQ(find_sharp_lines(Triangulation(shifted)).edges, 0);
+}
+
+TEST(SharpLines, OfNoiseAreThoseOf45Degrees) {
+  FlatMesh mesh = sphere(12);
+  const Triangulation even(mesh);
+  mesh.vertices = even.vertices, mesh.triangles = even.triangles;
+  std::mt19937 random(42);
+  for (Vec3& p : mesh.vertices) p *= 1 + 0.06 * (static_cast<double>(random()) / std::mt19937::max() - 0.5);
+  const Triangulation noisy(mesh);
+  const SharpLines found = find_sharp_lines(noisy);
+  EXPECT_EQ(found.sharp_angle, 45);
+  EXPECT_EQ(found.sharp, find_sharp_lines(noisy, {.sharp_angle = 45}).sharp);
 }
 
 TEST(SharpLines, ALineThatFadesOutStopsAndIsTold) {
