@@ -32,6 +32,7 @@ void read(carreau_cad_file& file, const char* path, const carreau_cad_options* g
   }
   fresh.host->keep(fresh.trap);
   fresh.left_out = fresh.host->excluded();
+  for (const std::string& note : fresh.shape.notes) fresh.notes += (fresh.notes.empty() ? "" : "\n") + note;
   file = std::move(fresh);
 }
 

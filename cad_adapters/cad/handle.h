@@ -29,6 +29,7 @@ struct carreau_cad_file {
   std::optional<std::vector<carreau_occ::FaceFigures>> figures;  // once asked for
   std::optional<carreau_occ::ShapeReport> report;                // the last one
   std::vector<std::string> sentences;                            // of its dangers
+  std::string notes;  // a line each
   std::string error;
 };
 

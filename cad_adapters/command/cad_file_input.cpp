@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <sstream>
 
 #include "cad_file.h"
 #include "cad_library.h"
@@ -58,6 +59,13 @@ std::vector<FaceLook> faces_of(carreau_cad_file* file) {
     list.push_back(std::move(look));
   }
   return list;
+}
+
+std::vector<std::string> notes_of(carreau_cad_file* file) {
+  std::istringstream lines(content_of(file).notes);
+  std::vector<std::string> sentences;
+  for (std::string line; std::getline(lines, line);) sentences.push_back(line);
+  return sentences;
 }
 
 std::vector<std::string> losses_of(carreau_cad_file* file) {
@@ -142,6 +150,8 @@ class CadFileInput final : public CadInput {
     return true;
   }
   [[nodiscard]] std::vector<std::string> losses() const override { return losses_of(file_.get()); }
+
+  [[nodiscard]] std::vector<std::string> notes() const override { return notes_of(file_.get()); }
 
   [[nodiscard]] std::vector<std::string> kinks() const override {
     std::vector<std::string> sentences;

@@ -127,6 +127,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
   for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
+  for (const std::string& note : input.notes()) progress.warning(note);
   std::int32_t by_curvature = 0;
   require(run.session, carreau_get_integer(run.session, "hgeo_flag", &by_curvature));
   if (by_curvature != 0)

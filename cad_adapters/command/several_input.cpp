@@ -103,6 +103,12 @@ class SeveralInput final : public CadInput {
       for (std::string& loss : part->losses()) all.push_back(std::move(loss));
     return all;
   }
+  [[nodiscard]] std::vector<std::string> notes() const override {
+    std::vector<std::string> all;
+    for (const auto& part : parts_)
+      for (std::string& note : part->notes()) all.push_back(std::move(note));
+    return all;
+  }
   [[nodiscard]] bool closed() const override { return all_triangles_ && report_.border_edges == 0; }
   [[nodiscard]] std::string of_mesh(carreau_session* session) const override {
     return any_triangles_ ? distances_line(session, report_.deviation) : "";

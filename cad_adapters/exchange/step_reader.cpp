@@ -223,8 +223,10 @@ using namespace carreau_occ;
 void carreau_translate_step(const std::string& path, const Message_ProgressRange& progress, ShapeFile& file) {
   STEPControl_Reader reader;  // settings are known once there is one
   choose_encoding(path);
-  reader.WS()->SetLibrary(new PlainStepLibrary);
+  const Handle(PlainStepLibrary) library = new PlainStepLibrary;
+  reader.WS()->SetLibrary(library);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) refuse(path, "is not a readable STEP file");
+  if (const std::string note = library->note(); !note.empty()) file.notes.push_back(note);
   take_out_zero_edges(reader.WS()->Model());
   const StepEntities kinds;
   const EntityCheck check(reader.WS(), kinds);
@@ -232,6 +234,7 @@ void carreau_translate_step(const std::string& path, const Message_ProgressRange
   Document document;
   const bool translated = StepReader(document).translate(reader, progress);
   file.losses = check.losses();
+  if (const std::string note = check.passed_over(); !note.empty()) file.notes.push_back(note);
   if (!translated) refuse_untranslated(path, "STEP", file);
   file.doubtful = check.doubtful();
   document.write(file);

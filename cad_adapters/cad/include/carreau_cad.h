@@ -96,10 +96,11 @@ typedef struct carreau_cad_content {
   double glue_tolerance; /* how far apart edges of one face only may be that are one, as the tolerances of the file's
                             own edges have it and its shortest edge allows (eps_glue); 0: there are no two of them */
   double open_tolerance; /* the same whatever the lengths (eps_glue_open) */
-  int32_t losses;        /* entities that could not be read: see carreau_cad_loss */
+  int32_t losses;        /* entities with faces that could not be read: see carreau_cad_loss */
   int32_t bent_faces;    /* faces that bend inside and could not be cut there */
   int32_t left_out;      /* faces that cannot be meshed */
   int32_t references;    /* largest reference of a face, parts of cut faces included */
+  const char* notes;     /* what was passed over or repaired without the loss of a face: sentences, one a line */
 } carreau_cad_content;
 
 /* Counts what the file holds. */
