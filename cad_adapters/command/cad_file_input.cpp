@@ -16,13 +16,14 @@ void require(carreau_cad_file* file, carreau_status status) {
   if (status != CARREAU_OK) throw Failure(cad_library().last_error(file));
 }
 
-CadFileHandle read_cad(const std::string& path, const ReadingProgress& progress) {
+CadFileHandle read_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
   carreau_cad_file* created = nullptr;
   if (cad_library().create(&created) != CARREAU_OK) throw Failure("'" + path + "': out of memory.");
   CadFileHandle file(created);
   carreau_cad_options options{};
   options.struct_size = sizeof options;
   options.trap_faults = 1;
+  options.loose_edges = loose_edges ? 1 : 0;
   options.user = const_cast<ReadingProgress*>(&progress);
   options.progress = [](double fraction, void* user) {
     const auto& tell = *static_cast<const ReadingProgress*>(user);
@@ -105,6 +106,7 @@ class CadFileInput final : public CadInput {
   [[nodiscard]] double diagonal() const override { return content_.diagonal > 0 ? content_.diagonal : 1; }
   [[nodiscard]] double glue_tolerance() const override { return content_.glue_tolerance; }
   [[nodiscard]] double open_tolerance() const override { return content_.open_tolerance; }
+  [[nodiscard]] double match_tolerance() const override { return content_.match_tolerance; }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   bool set_face_size(const std::string& face, double size) override {
@@ -161,6 +163,7 @@ class CadFileInput final : public CadInput {
     return sentences;
   }
 
+  [[nodiscard]] bool is_wires() const override { return content_.faces == 0; }
   [[nodiscard]] bool closed() const override { return content_.closed != 0; }
 
   [[nodiscard]] std::string gaps() const override {
@@ -201,8 +204,8 @@ class CadFileInput final : public CadInput {
 
 }  // namespace
 
-std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress) {
-  return std::make_unique<CadFileInput>(read_cad(path, progress));
+std::unique_ptr<CadInput> open_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
+  return std::make_unique<CadFileInput>(read_cad(path, loose_edges, progress));
 }
 
 }  // namespace command

@@ -106,7 +106,7 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
 }  // namespace
 
 int print_cad_info(const InfoOptions& options) {
-  const CadFileHandle file = read_cad(options.input);
+  const CadFileHandle file = read_cad(options.input, true);
   const carreau_cad_report report = inspect(file.get());
   if (options.json) {
     nlohmann::ordered_json value = json_of(file.get(), report, options);

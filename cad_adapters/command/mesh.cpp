@@ -275,7 +275,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const std::string failed = failed_faces(run.faces), lost = lost_entities(*input);
   const bool any =
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
-  if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
+  if (!any && (!failed.empty() || !input->is_wires())) throw Failure(failed.empty() ? "There is no triangle." : failed);
   if (part == nullptr && (!options.quiet || options.json || has_report(options))) run.short_edges = find_short_edges(run.session, run.mesh, run.quality);
   run.warnings = progress.warnings();
   if (has_report(options)) measure(run.session);

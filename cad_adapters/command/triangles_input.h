@@ -23,7 +23,7 @@ struct TrianglesChoice {
   bool ignore_references = false;
 };
 
-/// Whether the suffix is that of a file of triangles.
+/// Whether the suffix is that of a file of triangles, or a STEP file has no other faces.
 bool is_triangles(const std::string& path);
 
 /// What was found in the triangles of a session. Throws Failure.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a BrepHost takes from a shape: topology, names, doubts.
+#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Precision.hxx>
 #include <TopAbs.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -11,6 +13,8 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -18,8 +22,11 @@
 #include "brep_state.h"
 #include "face_check.h"
 #include "faults.h"
+#include "loop_gaps.h"
 #include "missing_curves.h"
+#include "missing_seams.h"
 #include "torn_loops.h"
+#include "wire_order.h"
 #include "wire_periods.h"
 
 namespace carreau_occ {
@@ -91,13 +98,78 @@ std::vector<std::vector<EdgeImage>> complete_wires_of(const TopoDS_Face& face) {
   return wires;
 }
 
-std::vector<EdgeImage> images_of(std::vector<EdgeImage> images, const TopoDS_Face& face) {
-  std::erase_if(images, [](const EdgeImage& image) { return image.edge.Orientation() == TopAbs_EXTERNAL; });
-  for (const EdgeImage& image : images)
-    if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
-  close_over_periods(images, face);
-  make_returns_internal(images);
-  return images;
+/// Internal edges that lie outside of the face mean nothing to it.
+bool is_outside(const EdgeImage& image, const TopoDS_Face& face) {
+  constexpr int places = 4;
+  BRepTopAdaptor_FClass2d inside(face, Precision::PConfusion());
+  for (int i = 1; i < places; ++i)
+    if (inside.Perform(image.curve->Value(image.first + (image.last - image.first) * i / places)) != TopAbs_OUT)
+      return false;
+  return true;
+}
+
+/// What all loops of a face enclose in the parameter plane, as shares of the boxes of the loops.
+struct Enclosed {
+  double largest = 0;  ///< of one loop
+  double sum = 0;      ///< of all; outer loops are counterclockwise
+};
+
+/// No value where a loop is not in order or does not close, or where there is none.
+std::optional<Enclosed> enclosed_by(const std::vector<std::vector<EdgeImage>>& loops) {
+  constexpr double rounding = 1e-9;  // of the box of the loop
+  double areas = 0, largest_box = 0;
+  Enclosed enclosed;
+  for (const std::vector<EdgeImage>& wire : loops) {
+    std::vector<EdgeImage> loop;
+    std::copy_if(wire.begin(), wire.end(), std::back_inserter(loop), bounds);
+    if (loop.empty()) continue;
+    loop = in_order(loop);
+    if (loop.empty()) return std::nullopt;
+    const LoopArea area = area_of(loop);
+    if (start_of(loop.front()).Distance(end_of(loop.back())) > rounding * (area.width + area.height)) return std::nullopt;
+    const double box = area.width * area.height;
+    areas += area.area;
+    largest_box = std::max(largest_box, box);
+    if (std::abs(area.area) > rounding * box) enclosed.largest = std::max(enclosed.largest, std::abs(area.area) / box);
+  }
+  if (largest_box > 0) enclosed.sum = areas / largest_box;
+  return std::any_of(loops.begin(), loops.end(), [](const auto& loop) { return !loop.empty(); })
+             ? std::optional(enclosed)
+             : std::nullopt;
+}
+
+/// Loops that enclose nothing are an error. Loops that are turned the wrong way as a whole would enclose the outside.
+void check_enclosed(std::vector<std::vector<EdgeImage>>& loops) {
+  constexpr double surely = 0.05;  // of the box: chords stand for the curves
+  const std::optional<Enclosed> enclosed = enclosed_by(loops);
+  if (!enclosed) return;
+  if (enclosed->largest == 0) throw std::runtime_error("its curves enclose no area");
+  if (enclosed->sum > -surely) return;
+  for (std::vector<EdgeImage>& loop : loops)
+    for (EdgeImage& image : loop)
+      if (bounds(image)) image.edge.Reverse();
+}
+
+/// The images that bound the face or lie inside it, loop by loop.
+std::vector<EdgeImage> images_of(std::vector<std::vector<EdgeImage>> loops, const TopoDS_Face& face) {
+  for (std::vector<EdgeImage>& images : loops) {
+    std::erase_if(images, [](const EdgeImage& image) { return image.edge.Orientation() == TopAbs_EXTERNAL; });
+    for (const EdgeImage& image : images)
+      if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
+    std::erase_if(images, [&](const EdgeImage& image) {
+      return image.first == image.last ||
+             (image.edge.Orientation() == TopAbs_INTERNAL && is_outside(image, face));
+    });
+    close_over_periods(images, face);
+  }
+  add_missing_seams(loops, face);
+  check_enclosed(loops);
+  std::vector<EdgeImage> all;
+  for (std::vector<EdgeImage>& images : loops) {
+    make_returns_internal(images);
+    all.insert(all.end(), images.begin(), images.end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -106,10 +178,10 @@ void BrepHost::State::collect() {
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   TopExp::MapShapes(shape, TopAbs_EDGE, edges);
   TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  file_edges = edges.Extent(), file_vertices = vertices.Extent();
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
   evaluators.resize(host_faces.size());
-  vertex_total = vertices.Extent();
   for (int f = 1; f <= faces.Extent(); ++f) {
     HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
     face.whole = f;
@@ -123,10 +195,18 @@ void BrepHost::State::collect() {
     }
   }
   close_torn_loops(host_faces, vertices);
+  if (std::string note = close_loop_gaps({host_faces, evaluators, faces, edges, vertices, uses}); !note.empty())
+    notes.push_back(std::move(note));
+  vertex_total = vertices.Extent();
 }
 
-void BrepHost::State::collect_wires() {
+void BrepHost::State::collect_wires(bool beside_faces) {
   wires = find_loose_edges(shape, edges, vertices);
+  if (!beside_faces && !faces.IsEmpty() && !wires.empty()) {
+    notes.push_back(std::to_string(wires.size()) + (wires.size() == 1 ? " edge of no face is" : " edges of no face are") +
+                    " not in the mesh (loose-edges adds them)");
+    wires.clear();
+  }
   wire_curves.set(wires);
   if (faces.IsEmpty() && wires.empty()) throw std::runtime_error("the shape has neither a face nor an edge");
 }
@@ -146,6 +226,7 @@ void BrepHost::State::let_evaluate() {
 
 void BrepHost::State::collect_face(int number) {
   const TopoDS_Face face = TopoDS::Face(faces(number));
+  const auto number_of = [this](const TopoDS_Vertex& vertex) { return vertex.IsNull() ? 0 : vertices.Add(vertex); };
   HostFace& host = host_faces[static_cast<std::size_t>(number - 1)];
   // A placement that mirrors turns the surface inside out and leaves the orientation of the face.
   host.swapped =
@@ -154,20 +235,20 @@ void BrepHost::State::collect_face(int number) {
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
   const std::vector<std::vector<EdgeImage>> loops = complete_wires_of(forward);
   std::vector<Handle(Geom2d_Curve)> images;
-  for (const std::vector<EdgeImage>& loop : loops)
-    for (const EdgeImage& image : images_of(loop, forward)) {
-      HostCurve curve;
-      curve.first = image.first, curve.last = image.last;
-      curve.edge = edges.FindIndex(image.edge);
-      curve.end1 = vertices.FindIndex(TopExp::FirstVertex(image.edge, Standard_False));
-      curve.end2 = vertices.FindIndex(TopExp::LastVertex(image.edge, Standard_False));
-      curve.forward = image.edge.Orientation() == TopAbs_FORWARD;
-      curve.internal = image.edge.Orientation() == TopAbs_INTERNAL;
-      if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
-      if (BRep_Tool::Degenerated(image.edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
-      host.curves.push_back(curve);
-      images.push_back(image.curve);
-    }
+  for (const EdgeImage& image : images_of(loops, forward)) {
+    HostCurve curve;
+    curve.first = image.first, curve.last = image.last;
+    curve.edge = edges.Add(image.edge);  // a seam that was missing is new
+    uses.resize(static_cast<std::size_t>(edges.Extent()), 0);
+    curve.end1 = number_of(TopExp::FirstVertex(image.edge, Standard_False));
+    curve.end2 = number_of(TopExp::LastVertex(image.edge, Standard_False));
+    curve.forward = image.edge.Orientation() == TopAbs_FORWARD;
+    curve.internal = image.edge.Orientation() == TopAbs_INTERNAL;
+    if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
+    if (BRep_Tool::Degenerated(image.edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
+    host.curves.push_back(curve);
+    images.push_back(image.curve);
+  }
   evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
   host.known = true;
   refuse_unusable(forward, loops);

@@ -51,6 +51,8 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   std::vector<LooseEdge> wires;      // edges of no face: their references are behind those of all faces and parts
   LooseCurves wire_curves;
   std::vector<int> uses;             // of each edge, by its number - 1; behind all edges those of cuts
+  int file_edges = 0, file_vertices = 0;  // without those that mending added
+  std::vector<std::string> notes;         // what was mended
   int vertex_total = 0;              // those of the shape and of cuts
   std::map<int, int> whole_edge;     // of the numbers behind all edges that are pieces of one
   double shortest_free_piece = std::numeric_limits<double>::infinity();  // of edges of one face that were cut
@@ -74,7 +76,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   void collect_face(int number);
   /// Faces become parts that do not bend inside, where that can be done.
   void cut_kinks();
-  void collect_wires();
+  void collect_wires(bool beside_faces);
   /// Of faces that are known.
   void let_evaluate();
   /// The edge of a reference that is that of a wire; nullptr: of a face.
