@@ -17,7 +17,7 @@ namespace {
 
 constexpr double millimetres_of_metre = 1000, millimetres_of_inch = 25.4;
 
-std::string content_of(const std::string& path) {
+std::string bytes_of_step(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (!stream.eof() || text.empty()) throw Failure("'" + path + "' cannot be read: " + std::strerror(errno) + ".");
@@ -235,13 +235,13 @@ bool is_tessellated_step(const std::string& path) {
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(stream.gcount()));
   if (start.find("AP242") == std::string::npos) return false;  // of the schema: no other one has tessellated shapes
-  const std::string text = content_of(path);
+  const std::string text = bytes_of_step(path);
   const auto has = [&](const char* type) { return text.find(type) != std::string::npos; };
   return has("TRIANGULATED_FACE") && !has("ADVANCED_FACE") && !has("FACE_SURFACE");
 }
 
 Tessellation read_tessellation(const std::string& path) {
-  const Records records(path, content_of(path));
+  const Records records(path, bytes_of_step(path));
   for (const auto& [number, record] : records.all())
     if (record.type == "NEXT_ASSEMBLY_USAGE_OCCURRENCE")
       records.fail(number, "tessellated parts of an assembly are not read");

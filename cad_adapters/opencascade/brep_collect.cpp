@@ -72,16 +72,24 @@ void make_returns_internal(std::vector<EdgeImage>& images) {
   images.resize(kept);
 }
 
-/// Images of all edges of each wire, null where there is none. On planes OpenCASCADE makes them when it is asked, which
+bool has_no_range(const EdgeImage& image) {
+  constexpr double rounding = 1e-12;
+  return std::abs(image.last - image.first) <= rounding * std::max(1.0, std::abs(image.first));
+}
+
+/// Images of all edges of each wire, null where there is none, without edges of no length. On planes OpenCASCADE makes them when it is asked, which
 /// takes long: so once.
 std::vector<std::vector<EdgeImage>> wires_of(const TopoDS_Face& face) {
   std::vector<std::vector<EdgeImage>> wires;
   for (TopExp_Explorer w(face, TopAbs_WIRE); w.More(); w.Next()) {
     std::vector<EdgeImage>& images = wires.emplace_back();
     for (TopExp_Explorer e(w.Current(), TopAbs_EDGE); e.More(); e.Next()) {
-      EdgeImage& image = images.emplace_back();
+      EdgeImage image;
       image.edge = TopoDS::Edge(e.Current());
+      BRep_Tool::Range(image.edge, image.first, image.last);
+      if (BRep_Tool::IsGeometric(image.edge) && has_no_range(image)) continue;
       image.curve = BRep_Tool::CurveOnSurface(image.edge, face, image.first, image.last);
+      images.push_back(std::move(image));
     }
   }
   return wires;
@@ -116,7 +124,8 @@ struct Enclosed {
 
 /// No value where a loop is not in order or does not close, or where there is none.
 std::optional<Enclosed> enclosed_by(const std::vector<std::vector<EdgeImage>>& loops) {
-  constexpr double rounding = 1e-9;  // of the box of the loop
+  constexpr double rounding = 1e-9, closing = 1e-2;  // of the box of the loop
+  constexpr double coordinate_rounding = 1e-12;  // of coordinates
   double areas = 0, largest_box = 0;
   Enclosed enclosed;
   for (const std::vector<EdgeImage>& wire : loops) {
@@ -126,11 +135,13 @@ std::optional<Enclosed> enclosed_by(const std::vector<std::vector<EdgeImage>>& l
     loop = in_order(loop);
     if (loop.empty()) return std::nullopt;
     const LoopArea area = area_of(loop);
-    if (start_of(loop.front()).Distance(end_of(loop.back())) > rounding * (area.width + area.height)) return std::nullopt;
-    const double box = area.width * area.height;
+    if (start_of(loop.front()).Distance(end_of(loop.back())) > closing * (area.width + area.height)) return std::nullopt;
+    const gp_Pnt2d at = start_of(loop.front());
+    const bool flat = area.width <= coordinate_rounding * std::abs(at.X()) || area.height <= coordinate_rounding * std::abs(at.Y());
+    const double box = flat ? 0 : area.width * area.height;
     areas += area.area;
     largest_box = std::max(largest_box, box);
-    if (std::abs(area.area) > rounding * box) enclosed.largest = std::max(enclosed.largest, std::abs(area.area) / box);
+    if (!flat && std::abs(area.area) > rounding * box) enclosed.largest = std::max(enclosed.largest, std::abs(area.area) / box);
   }
   if (largest_box > 0) enclosed.sum = areas / largest_box;
   return std::any_of(loops.begin(), loops.end(), [](const auto& loop) { return !loop.empty(); })
@@ -157,7 +168,7 @@ std::vector<EdgeImage> images_of(std::vector<std::vector<EdgeImage>> loops, cons
     for (const EdgeImage& image : images)
       if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
     std::erase_if(images, [&](const EdgeImage& image) {
-      return image.first == image.last ||
+      return has_no_range(image) ||
              (image.edge.Orientation() == TopAbs_INTERNAL && is_outside(image, face));
     });
     close_over_periods(images, face);
@@ -174,6 +185,17 @@ std::vector<EdgeImage> images_of(std::vector<std::vector<EdgeImage>> loops, cons
 
 }  // namespace
 
+/// What more there is to report of a face without edges.
+std::string BrepHost::State::endless(int number) const {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces(number)));
+  if (surface.IsNull()) return ", and it has no surface";
+  double u1 = 0, u2 = 0, v1 = 0, v2 = 0;
+  surface->Bounds(u1, u2, v1, v2);
+  const auto is_infinite = [](double x) { return Precision::IsInfinite(x) == Standard_True; };
+  const bool any = is_infinite(u1) || is_infinite(u2) || is_infinite(v1) || is_infinite(v2);
+  return any ? ", and its surface has no end" : "";
+}
+
 void BrepHost::State::collect() {
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   TopExp::MapShapes(shape, TopAbs_EDGE, edges);
@@ -187,7 +209,7 @@ void BrepHost::State::collect() {
     face.whole = f;
     try {
       guarded([&] { collect_face(f); });
-      if (face.curves.empty()) face.broken = "no edge bounds it";
+      if (face.curves.empty() && face.broken.empty()) face.broken = "no edge bounds it" + endless(f);
     } catch (const Standard_Failure& error) {
       face.broken = sentence_of(error);
     } catch (const std::runtime_error& error) {

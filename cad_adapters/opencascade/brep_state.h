@@ -74,6 +74,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   void collect_names(const ShapeFile& file);
   void collect_doubts(const ShapeFile& file);
   void collect_face(int number);
+  [[nodiscard]] std::string endless(int number) const;
   /// Faces become parts that do not bend inside, where that can be done.
   void cut_kinks();
   void collect_wires(bool beside_faces);

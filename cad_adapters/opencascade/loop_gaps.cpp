@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_gaps.h"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -64,6 +66,8 @@ class EndSets {
   std::map<EdgeEnd, EdgeEnd> above_;
 };
 
+constexpr int probes = 8;  // intervals of a curve in which it is compared
+
 class GapCloser {
  public:
   explicit GapCloser(const LoopsOfFaces& loops) : loops_(loops), images_(loops.faces.size()), changed_(loops.faces.size(), 0) {}
@@ -72,14 +76,12 @@ class GapCloser {
     for (std::size_t f = 0; f < loops_.faces.size(); ++f) collect(f);
     if (!any_doubt_) return "";
     measure();
-    for (std::size_t f = 0; f < loops_.faces.size(); ++f)
-      if (has_gap(f)) make_images_anew(f);
+    for (const auto& [f, curves] : doubtful_curves()) make_images_anew(f, curves);
     divide_vertices();
     close();
     for (std::size_t f = 0; f < loops_.faces.size(); ++f)
       if (changed_[f] != 0) {
-        const auto forward = TopoDS::Face(loops_.shapes(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
-        guarded([&] { loops_.evaluators.set(f, forward, images_of(f)); });
+        guarded([&] { loops_.evaluators.set(f, forward(f), images_of(f)); });
       }
     return sentence();
   }
@@ -93,13 +95,22 @@ class GapCloser {
   [[nodiscard]] const Handle(Geom2d_Curve) & image(std::size_t f, std::size_t c) {
     return (images_[f].empty() ? loops_.evaluators.curves(f) : images_[f])[c];
   }
+  [[nodiscard]] TopoDS_Face forward(std::size_t f) const {
+    return TopoDS::Face(loops_.shapes(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
+  }
+  // The evaluators of a thread know the curves that a face had when it was first asked.
+  const BRepAdaptor_Surface& surface_of(std::size_t f) {
+    std::unique_ptr<BRepAdaptor_Surface>& known = surfaces_[f];
+    if (!known) known = std::make_unique<BRepAdaptor_Surface>(forward(f), Standard_False);
+    return *known;
+  }
   [[nodiscard]] TopoDS_Edge edge(int number) const { return TopoDS::Edge(loops_.edges(number)); }
   [[nodiscard]] bool is_pole(const HostCurve& curve) const { return BRep_Tool::Degenerated(edge(curve.edge)) == Standard_True; }
 
   CurveEnd end_of(std::size_t f, std::size_t c, bool last) {
     const HostCurve& curve = face(f).curves[c];
     CurveEnd end{c, {curve.edge, last}, image(f, c)->Value(last ? curve.last : curve.first), {}};
-    loops_.evaluators.surface(f).d0(end.uv.X(), end.uv.Y(), end.at);
+    surface_of(f).D0(end.uv.X(), end.uv.Y(), end.at);
     return end;
   }
 
@@ -107,7 +118,7 @@ class GapCloser {
     const HostCurve& curve = face(f).curves[c];
     const gp_Pnt2d uv = image(f, c)->Value(curve.first + share * (curve.last - curve.first));
     gp_Pnt at;
-    loops_.evaluators.surface(f).d0(uv.X(), uv.Y(), at);
+    surface_of(f).D0(uv.X(), uv.Y(), at);
     return at;
   }
 
@@ -161,8 +172,16 @@ class GapCloser {
       if (taken_in[i] != 0 || taken_out[j] != 0) continue;
       taken_in[i] = taken_out[j] = 1;
       joints_.push_back({f, vertex, in[i], out[j], apart});
-      any_doubt_ = any_doubt_ || apart > 0;
+      any_doubt_ = any_doubt_ || apart > 0 || off_vertex(joints_.back()) > 0;
     }
+  }
+
+  /// How far curves end beyond the tolerance of their vertex.
+  [[nodiscard]] double off_vertex(const Joint& joint) const {
+    const TopoDS_Vertex vertex = TopoDS::Vertex(loops_.vertices(joint.vertex));
+    const gp_Pnt at = BRep_Tool::Pnt(vertex);
+    const double off = std::max(at.Distance(joint.in.at), at.Distance(joint.out.at));
+    return off > std::max(BRep_Tool::Tolerance(vertex), doubt()) ? off : 0;
   }
 
   static double doubt() { return 100 * Precision::Confusion(); }
@@ -185,9 +204,12 @@ class GapCloser {
     if (joint.gap <= doubt()) return false;
     return is_wide(joint.gap, std::min(length(joint.face, joint.in.curve), length(joint.face, joint.out.curve)));
   }
-  bool has_gap(std::size_t f) {
-    return std::any_of(joints_.begin(), joints_.end(),
-                       [&](const Joint& joint) { return joint.face == f && is_open(joint); });
+  /// Curves that miss each other or their vertex.
+  [[nodiscard]] std::map<std::size_t, std::set<std::size_t>> doubtful_curves() {
+    std::map<std::size_t, std::set<std::size_t>> curves;  // by face
+    for (const Joint& joint : joints_)
+      if (is_open(joint) || is_wide(off_vertex(joint), 0)) curves[joint.face].insert({joint.in.curve, joint.out.curve});
+    return curves;
   }
   /// A side that is called a point and is none.
   bool is_false_pole(std::size_t f, std::size_t c) {
@@ -195,12 +217,9 @@ class GapCloser {
     return is_pole(curve) && curve.end1 == curve.end2 && curve.end1 != 0 && !curve.internal && is_wide(length(f, c), 0);
   }
 
-  void make_images_anew(std::size_t f) {
-    std::set<std::size_t> at_gaps;
-    for (const Joint& joint : joints_)
-      if (joint.face == f && is_open(joint)) at_gaps.insert({joint.in.curve, joint.out.curve});
+  void make_images_anew(std::size_t f, const std::set<std::size_t>& curves) {
     bool any = false;
-    for (const std::size_t c : at_gaps) {
+    for (const std::size_t c : curves) {
       try {
         guarded([&] { any = make_image_anew(f, c) || any; });
       } catch (const Standard_Failure&) {  // the image stays
@@ -210,38 +229,71 @@ class GapCloser {
   }
 
   bool make_image_anew(std::size_t f, std::size_t c) {
-    constexpr int tests = 8;
     HostCurve& curve = face(f).curves[c];
-    const auto forward = TopoDS::Face(loops_.shapes(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
-    if (is_pole(curve) || BRep_Tool::IsClosed(edge(curve.edge), forward)) return false;
     double first = 0, last = 0;
     const Handle(Geom_Curve) in_space = BRep_Tool::Curve(edge(curve.edge), first, last);
-    if (in_space.IsNull() || !(first < last)) return false;
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(forward);
-    const Handle(ShapeAnalysis_Surface) analysis = new ShapeAnalysis_Surface(surface);
+    if (is_pole(curve) || in_space.IsNull() || !(first < last)) return false;
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(forward(f));
+    ShapeAnalysis_Surface analysis(surface);
     double to_image = 0, to_surface = 0;
-    for (int i = 0; i <= tests; ++i) {
-      const double share = static_cast<double>(i) / tests;
+    gp_Pnt2d start;
+    for (int i = 0; i <= probes; ++i) {
+      const double share = static_cast<double>(i) / probes;
       const gp_Pnt p = in_space->Value(first + share * (last - first));
-      const gp_Pnt2d uv = analysis->ValueOfUV(p, Precision::Confusion());
-      to_surface = std::max(to_surface, p.Distance(analysis->Value(uv)));
+      const gp_Pnt2d uv = analysis.ValueOfUV(p, Precision::Confusion());
+      if (i == 0) start = uv;
+      to_surface = std::max(to_surface, p.Distance(analysis.Value(uv)));
       to_image = std::max(to_image, p.Distance(point(f, c, share)));
     }
     if (!is_wide(to_image, 0) || to_surface > thresholds::wrong_image * to_image) return false;
-    ShapeConstruct_ProjectCurveOnSurface project;
-    project.Init(surface, std::max(to_surface, Precision::Confusion()));
-    Handle(Geom_Curve) given = in_space;
-    Handle(Geom2d_Curve) made;
-    if (!project.Perform(given, first, last, made) || made.IsNull()) return false;
-    if (made->FirstParameter() > first + Precision::PConfusion() || made->LastParameter() < last - Precision::PConfusion())
-      return false;
-    move_beside(*surface, image(f, c)->Value(curve.first), made, first);
+    Handle(Geom2d_Curve) made = moved_image(f, c, first, last, start);
+    if (made.IsNull() || off(f, made, *in_space, first, last) > thresholds::wrong_image * to_image) {
+      if (BRep_Tool::IsClosed(edge(curve.edge), forward(f))) return false;  // a seam has two images
+      made = projected(surface, in_space, first, last, to_surface);
+      if (made.IsNull()) return false;
+      move_beside(*surface, image(f, c)->Value(curve.first), made, first);
+    }
     images_of(f)[c] = made;
     curve.first = first, curve.last = last;
     changed_[f] = 1;
     ++remade_;
     tell(f, c, to_image);
     return true;
+  }
+
+  /// The image, moved to where the curve in space begins; null where the two run over different intervals.
+  Handle(Geom2d_Curve) moved_image(std::size_t f, std::size_t c, double first, double last, gp_Pnt2d start) {
+    const HostCurve& curve = face(f).curves[c];
+    if (std::abs(curve.first - first) + std::abs(curve.last - last) > Precision::PConfusion()) return nullptr;
+    const Handle(Geom2d_Curve) made = Handle(Geom2d_Curve)::DownCast(image(f, c)->Copy());
+    const gp_Pnt2d before = made->Value(first);
+    made->Translate(before, start);
+    move_beside(*BRep_Tool::Surface(forward(f)), before, made, first);
+    return made;
+  }
+
+  /// How far the image is from the curve in space.
+  double off(std::size_t f, const Handle(Geom2d_Curve) & made, const Geom_Curve& in_space, double first, double last) {
+    double off = 0;
+    for (int i = 0; i <= probes; ++i) {
+      const double t = first + (last - first) * i / probes;
+      const gp_Pnt2d uv = made->Value(t);
+      gp_Pnt at;
+      surface_of(f).D0(uv.X(), uv.Y(), at);
+      off = std::max(off, at.Distance(in_space.Value(t)));
+    }
+    return off;
+  }
+
+  static Handle(Geom2d_Curve) projected(const Handle(Geom_Surface) & surface, const Handle(Geom_Curve) & in_space, double first,
+                                        double last, double to_surface) {
+    ShapeConstruct_ProjectCurveOnSurface project;
+    project.Init(surface, std::max(to_surface, Precision::Confusion()));
+    Handle(Geom_Curve) given = in_space;
+    Handle(Geom2d_Curve) made;
+    if (!project.Perform(given, first, last, made) || made.IsNull()) return nullptr;
+    const double rounding = Precision::PConfusion();
+    return made->FirstParameter() > first + rounding || made->LastParameter() < last - rounding ? nullptr : made;
   }
 
   /// The period of the surface in which the previous image was.
@@ -357,6 +409,7 @@ class GapCloser {
   }
 
   const LoopsOfFaces& loops_;
+  std::map<std::size_t, std::unique_ptr<BRepAdaptor_Surface>> surfaces_;
   std::vector<Images> images_;
   std::vector<char> changed_;
   std::vector<Joint> joints_;
