@@ -20,7 +20,7 @@ constexpr double millimetres_of_metre = 1000, millimetres_of_inch = 25.4;
 std::string bytes_of_step(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream.eof() || text.empty()) throw Failure("'" + path + "' cannot be read: " + std::strerror(errno) + ".");
+  if (text.empty()) throw Failure("'" + path + "' cannot be read: " + std::strerror(errno) + ".");
   return text;
 }
 

@@ -455,7 +455,7 @@ bool PlainStepLibrary::read_plain(Standard_CString path, Handle(Interface_Interf
   Handle(StepData_StepModel) read = model_of(plain, step);
   // A reader stops at the first attribute that it cannot read, so that mending it shows the next one.
   std::set<std::string> all;
-  for (int round = 0; round < most_mending_rounds; ++round) {
+  for (int round = 0; mended != nullptr && round < most_mending_rounds; ++round) {
     const std::set<std::string> now = plain.mend_attributes(errors_of(*read));
     if (now.empty()) break;
     all.insert(now.begin(), now.end());

@@ -16,8 +16,9 @@ class PlainStepLibrary final : public StepSelect_WorkLibrary {
   Standard_Integer ReadFile(Standard_CString path, Handle(Interface_InterfaceModel) & model,
                             const Handle(Interface_Protocol) & protocol) const override;
 
-  /// The same without what OpenCASCADE reads. False: the file is not plain. Names that are no text become empty, missing
-  /// names are added, and attributes behind the last known one are dropped: `mended` gets the entities, "#12".
+  /// The same without what OpenCASCADE reads. False: the file is not plain. With `mended`, names
+  /// that are no text become empty, missing names are added, and attributes behind the last known one are dropped; it gets
+  /// the entities, "#12".
   [[nodiscard]] static bool read_plain(Standard_CString path, Handle(Interface_InterfaceModel) & model,
                                        const Handle(Interface_Protocol) & protocol,
                                        std::vector<std::string>* mended = nullptr);

@@ -20,6 +20,6 @@ inline constexpr double wrong_image = 0.1;
 
 /// Share of the diagonal. Uses of one edge, and ends of one vertex, may be so far apart: a shape of OpenCASCADE's own
 /// data with gaps of 5.6 per cent is meshed by Gmsh. [LoopGaps.FacesThatMissTheirEdgesAreMeshed]
-inline constexpr double match_share = 0.1;
+inline constexpr double match_share = 0.06;
 
 }  // namespace carreau_occ::thresholds

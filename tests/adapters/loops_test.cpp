@@ -141,7 +141,7 @@ TEST(LoopGaps, FacesThatMissTheirEdgesAreMeshed) {
     }
   }
   carreau_occ::BrepHost host(file_of(box));
-  EXPECT_NEAR(host.match_tolerance(), host.diagonal() / 10, 1e-12);
+  EXPECT_NEAR(host.match_tolerance(), 0.06 * host.diagonal(), 1e-12);
   const adapters::MeasuredMesh narrow = adapters::mesh_and_measure(
       host, 0.2, [](carreau_session* session) { carreau_set_real(session, "eps_match", 0.05); });
   EXPECT_NE(narrow.error.find("its first end is 0.08"), std::string::npos) << narrow.error;

@@ -100,8 +100,8 @@ typedef struct carreau_cad_content {
   int32_t bent_faces;    /* faces that bend inside and could not be cut there */
   int32_t left_out;      /* faces that cannot be meshed */
   int32_t references;    /* largest reference of a face, parts of cut faces included */
-  double match_tolerance; /* how far faces may be from edges and vertices that they share (eps_match): a tenth of the
-                             diagonal */
+  double match_tolerance; /* how far faces may be from edges and vertices that they share (eps_match): six
+                             hundredths of the diagonal */
   const char* notes;     /* what was passed over or repaired without the loss of a face: sentences, one a line */
 } carreau_cad_content;
 
