@@ -63,12 +63,13 @@ class Records {
   /// Without the brackets; empty when it has none.
   static std::string_view inside(std::string_view list) {
     return list.size() >= 2 && list.front() == '(' && list.back() == ')' ? list.substr(1, list.size() - 2)
-                                                                          : std::string_view();
+                                                                         : std::string_view();
   }
   static std::string_view trimmed(std::string_view s) {
     constexpr std::string_view blanks = " \t\r\n";
     const std::size_t first = s.find_first_not_of(blanks);
-    return first == std::string_view::npos ? std::string_view() : s.substr(first, s.find_last_not_of(blanks) - first + 1);
+    return first == std::string_view::npos ? std::string_view()
+                                           : s.substr(first, s.find_last_not_of(blanks) - first + 1);
   }
   static int reference(std::string_view s) {
     return !s.empty() && s.front() == '#' ? std::atoi(std::string(s.substr(1)).c_str()) : 0;
@@ -96,8 +97,10 @@ class Records {
     while (at != std::string::npos) {
       at = text_.find_first_of("#'/", at);
       if (at == std::string::npos) return;
-      if (text_[at] == '\'') at = text_.find('\'', at + 1);
-      else if (text_.compare(at, 2, "/*") == 0) at = text_.find("*/", at + 2);
+      if (text_[at] == '\'')
+        at = text_.find('\'', at + 1);
+      else if (text_.compare(at, 2, "/*") == 0)
+        at = text_.find("*/", at + 2);
       else if (text_[at] == '#') {
         at = take(at);
         continue;
@@ -174,7 +177,8 @@ class TessellationReader {
     if (fresh) {
       const std::vector<double> values = records_.numbers(argument(list, record, 2), list);
       if (values.empty() || values.size() % 3 != 0) records_.fail(list, "its points have no three coordinates");
-      known->second = {static_cast<std::int64_t>(made_.vertices.size() / 3), static_cast<std::int64_t>(values.size() / 3)};
+      known->second = {static_cast<std::int64_t>(made_.vertices.size() / 3),
+                       static_cast<std::int64_t>(values.size() / 3)};
       for (const double x : values) made_.vertices.push_back(unit_ * x);
     }
     count = known->second.second;
@@ -189,7 +193,8 @@ class TessellationReader {
     const auto vertex = [&](double local) {
       double rank = local;
       if (!index.empty()) {
-        if (!(local >= 1 && local <= static_cast<double>(index.size()))) records_.fail(number, "an index is out of range");
+        if (!(local >= 1 && local <= static_cast<double>(index.size())))
+          records_.fail(number, "an index is out of range");
         rank = index[static_cast<std::size_t>(local) - 1];
       }
       if (!(rank >= 1 && rank <= static_cast<double>(count))) records_.fail(number, "an index is out of range");
@@ -197,7 +202,8 @@ class TessellationReader {
     };
     const auto add = [&](double a, double b, double c) {
       const std::int32_t corners[] = {vertex(a), vertex(b), vertex(c)};
-      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;  // a turn of a strip
+      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+        return;  // a turn of a strip
       made_.triangles.insert(made_.triangles.end(), std::begin(corners), std::end(corners));
       made_.refs.push_back(ref_);
     };
@@ -209,7 +215,8 @@ class TessellationReader {
     }
     for (const std::string_view strip : Records::split(Records::inside(argument(number, record, 6)))) {
       const std::vector<double> p = records_.numbers(strip, number);
-      for (std::size_t i = 2; i < p.size(); ++i) i % 2 == 0 ? add(p[i - 2], p[i - 1], p[i]) : add(p[i - 1], p[i - 2], p[i]);
+      for (std::size_t i = 2; i < p.size(); ++i)
+        i % 2 == 0 ? add(p[i - 2], p[i - 1], p[i]) : add(p[i - 1], p[i - 2], p[i]);
     }
     for (const std::string_view fan : Records::split(Records::inside(argument(number, record, 7)))) {
       const std::vector<double> p = records_.numbers(fan, number);

@@ -15,8 +15,8 @@ struct Tessellation {
   std::vector<std::int32_t> refs;       ///< of triangles
 };
 
-/// Whether a file is STEP, and has tessellated faces and no others (ISO 10303-42, tessellated geometry): OpenCASCADE 7.6
-/// does not read these.
+/// Whether a file is STEP, and has tessellated faces and no others (ISO 10303-42, tessellated geometry):
+/// OpenCASCADE 7.6 does not read these.
 bool is_tessellated_step(const std::string& path);
 
 /// Reads the faces of all TESSELLATED_SHELL and TESSELLATED_SOLID, or those outside of them where there is none:

@@ -38,7 +38,8 @@ bool is_harmless(const std::string& error) {
 
 std::string error_of(const Handle(Interface_Check) & check) {
   for (int i = 1; i <= check->NbFails(); ++i)
-    if (const std::string error = check->CFail(i); !is_harmless(error)) return error.substr(error.find_first_not_of(' '));
+    if (const std::string error = check->CFail(i); !is_harmless(error))
+      return error.substr(error.find_first_not_of(' '));
   return "";
 }
 
@@ -143,7 +144,8 @@ std::string EntityCheck::passed_over() const {
     if (++count <= most_listed) list += (count > 1 ? ", " : "") + label(model_->Value(number));
   }
   if (count == 0) return "";
-  return std::to_string(count) + (count == 1 ? " entity that carries no face was" : " entities that carry no face were") +
+  return std::to_string(count) +
+         (count == 1 ? " entity that carries no face was" : " entities that carry no face were") +
          " not read: " + list + (count > most_listed ? ", ..." : "");
 }
 

@@ -80,7 +80,8 @@ bool is_step(const std::string& name, const TCollection_AsciiString& format) {
   std::string lower = name;
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::any_of(std::begin(suffixes), std::end(suffixes), [&](const char* s) { return lower.ends_with(s); })) return true;
+  if (std::any_of(std::begin(suffixes), std::end(suffixes), [&](const char* s) { return lower.ends_with(s); }))
+    return true;
   return are_one_word(format, "STEP AP203") || are_one_word(format, "STEP AP214") || are_one_word(format, "STEP AP242");
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a BrepHost takes from a shape: topology, names, doubts.
 #include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
 #include <Precision.hxx>
 #include <TopAbs.hxx>
 #include <TopExp.hxx>
@@ -10,6 +12,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
@@ -77,8 +80,8 @@ bool has_no_range(const EdgeImage& image) {
   return std::abs(image.last - image.first) <= rounding * std::max(1.0, std::abs(image.first));
 }
 
-/// Images of all edges of each wire, null where there is none, without edges of no length. On planes OpenCASCADE makes them when it is asked, which
-/// takes long: so once.
+/// Images of all edges of each wire, null where there is none, without edges of no length. On planes OpenCASCADE makes
+/// them when it is asked, which takes long: so once.
 std::vector<std::vector<EdgeImage>> wires_of(const TopoDS_Face& face) {
   std::vector<std::vector<EdgeImage>> wires;
   for (TopExp_Explorer w(face, TopAbs_WIRE); w.More(); w.Next()) {
@@ -125,7 +128,7 @@ struct Enclosed {
 /// No value where a loop is not in order or does not close, or where there is none.
 std::optional<Enclosed> enclosed_by(const std::vector<std::vector<EdgeImage>>& loops) {
   constexpr double rounding = 1e-9, closing = 1e-2;  // of the box of the loop
-  constexpr double coordinate_rounding = 1e-12;  // of coordinates
+  constexpr double coordinate_rounding = 1e-12;      // of coordinates
   double areas = 0, largest_box = 0;
   Enclosed enclosed;
   for (const std::vector<EdgeImage>& wire : loops) {
@@ -135,13 +138,16 @@ std::optional<Enclosed> enclosed_by(const std::vector<std::vector<EdgeImage>>& l
     loop = in_order(loop);
     if (loop.empty()) return std::nullopt;
     const LoopArea area = area_of(loop);
-    if (start_of(loop.front()).Distance(end_of(loop.back())) > closing * (area.width + area.height)) return std::nullopt;
+    if (start_of(loop.front()).Distance(end_of(loop.back())) > closing * (area.width + area.height))
+      return std::nullopt;
     const gp_Pnt2d at = start_of(loop.front());
-    const bool flat = area.width <= coordinate_rounding * std::abs(at.X()) || area.height <= coordinate_rounding * std::abs(at.Y());
+    const bool flat =
+        area.width <= coordinate_rounding * std::abs(at.X()) || area.height <= coordinate_rounding * std::abs(at.Y());
     const double box = flat ? 0 : area.width * area.height;
     areas += area.area;
     largest_box = std::max(largest_box, box);
-    if (!flat && std::abs(area.area) > rounding * box) enclosed.largest = std::max(enclosed.largest, std::abs(area.area) / box);
+    if (!flat && std::abs(area.area) > rounding * box)
+      enclosed.largest = std::max(enclosed.largest, std::abs(area.area) / box);
   }
   if (largest_box > 0) enclosed.sum = areas / largest_box;
   return std::any_of(loops.begin(), loops.end(), [](const auto& loop) { return !loop.empty(); })
@@ -168,8 +174,7 @@ std::vector<EdgeImage> images_of(std::vector<std::vector<EdgeImage>> loops, cons
     for (const EdgeImage& image : images)
       if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
     std::erase_if(images, [&](const EdgeImage& image) {
-      return has_no_range(image) ||
-             (image.edge.Orientation() == TopAbs_INTERNAL && is_outside(image, face));
+      return has_no_range(image) || (image.edge.Orientation() == TopAbs_INTERNAL && is_outside(image, face));
     });
     close_over_periods(images, face);
   }
@@ -225,7 +230,8 @@ void BrepHost::State::collect() {
 void BrepHost::State::collect_wires(bool beside_faces) {
   wires = find_loose_edges(shape, edges, vertices);
   if (!beside_faces && !faces.IsEmpty() && !wires.empty()) {
-    notes.push_back(std::to_string(wires.size()) + (wires.size() == 1 ? " edge of no face is" : " edges of no face are") +
+    notes.push_back(std::to_string(wires.size()) +
+                    (wires.size() == 1 ? " edge of no face is" : " edges of no face are") +
                     " not in the mesh (loose-edges adds them)");
     wires.clear();
   }
@@ -248,7 +254,6 @@ void BrepHost::State::let_evaluate() {
 
 void BrepHost::State::collect_face(int number) {
   const TopoDS_Face face = TopoDS::Face(faces(number));
-  const auto number_of = [this](const TopoDS_Vertex& vertex) { return vertex.IsNull() ? 0 : vertices.Add(vertex); };
   HostFace& host = host_faces[static_cast<std::size_t>(number - 1)];
   // A placement that mirrors turns the surface inside out and leaves the orientation of the face.
   host.swapped =
@@ -262,8 +267,8 @@ void BrepHost::State::collect_face(int number) {
     curve.first = image.first, curve.last = image.last;
     curve.edge = edges.Add(image.edge);  // a seam that was missing is new
     uses.resize(static_cast<std::size_t>(edges.Extent()), 0);
-    curve.end1 = number_of(TopExp::FirstVertex(image.edge, Standard_False));
-    curve.end2 = number_of(TopExp::LastVertex(image.edge, Standard_False));
+    curve.end1 = end_of(image, false);
+    curve.end2 = end_of(image, true);
     curve.forward = image.edge.Orientation() == TopAbs_FORWARD;
     curve.internal = image.edge.Orientation() == TopAbs_INTERNAL;
     if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
@@ -274,6 +279,32 @@ void BrepHost::State::collect_face(int number) {
   evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
   host.known = true;
   refuse_unusable(forward, loops);
+}
+
+// An edge that does not name one of its ends has it at another vertex of its own that lies there, or at a new one.
+int BrepHost::State::end_of(const EdgeImage& image, bool last) {
+  const TopoDS_Vertex named =
+      last ? TopExp::LastVertex(image.edge, Standard_False) : TopExp::FirstVertex(image.edge, Standard_False);
+  if (!named.IsNull()) return vertices.Add(named);
+  double from = 0, to = 0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(image.edge, from, to);
+  if (curve.IsNull() || Precision::IsInfinite(last ? to : from)) return 0;
+  const gp_Pnt at = curve->Value(last ? to : from);
+  const double tolerance = std::max(BRep_Tool::Tolerance(image.edge), Precision::Confusion());
+  int& vertex = missing_ends[{edges.FindIndex(image.edge), last}];
+  if (vertex != 0) return vertex;
+  for (TopoDS_Iterator own(image.edge, Standard_False); own.More() && vertex == 0; own.Next())
+    if (const TopoDS_Vertex other = TopoDS::Vertex(own.Value().Located(image.edge.Location() * own.Value().Location()));
+        at.Distance(BRep_Tool::Pnt(other)) <= tolerance + BRep_Tool::Tolerance(other))
+      vertex = vertices.Add(other);
+  if (const auto other = missing_ends.find({edges.FindIndex(image.edge), !last});
+      vertex == 0 && other != missing_ends.end() && other->second != 0 &&
+      at.Distance(BRep_Tool::Pnt(TopoDS::Vertex(vertices(other->second)))) <= 2 * tolerance)
+    vertex = other->second;
+  if (vertex != 0) return vertex;
+  TopoDS_Vertex made;
+  BRep_Builder().MakeVertex(made, at, tolerance);
+  return vertex = vertices.Add(made);
 }
 
 // Wide parts first, so that the name of the narrowest part stays: a shell before its only face.

@@ -70,7 +70,8 @@ constexpr int probes = 8;  // intervals of a curve in which it is compared
 
 class GapCloser {
  public:
-  explicit GapCloser(const LoopsOfFaces& loops) : loops_(loops), images_(loops.faces.size()), changed_(loops.faces.size(), 0) {}
+  explicit GapCloser(const LoopsOfFaces& loops)
+      : loops_(loops), images_(loops.faces.size()), changed_(loops.faces.size(), 0) {}
 
   std::string run() {
     for (std::size_t f = 0; f < loops_.faces.size(); ++f) collect(f);
@@ -105,7 +106,9 @@ class GapCloser {
     return *known;
   }
   [[nodiscard]] TopoDS_Edge edge(int number) const { return TopoDS::Edge(loops_.edges(number)); }
-  [[nodiscard]] bool is_pole(const HostCurve& curve) const { return BRep_Tool::Degenerated(edge(curve.edge)) == Standard_True; }
+  [[nodiscard]] bool is_pole(const HostCurve& curve) const {
+    return BRep_Tool::Degenerated(edge(curve.edge)) == Standard_True;
+  }
 
   CurveEnd end_of(std::size_t f, std::size_t c, bool last) {
     const HostCurve& curve = face(f).curves[c];
@@ -157,14 +160,15 @@ class GapCloser {
       if (ends[0].size() == ends[1].size()) join(f, vertex, ends[0], ends[1]);
   }
 
-  /// The nearest ones in space, and of those that are equally near the nearest ones in the parameter plane. An edge goes
-  /// on to itself where there is no other one, as a circle does.
+  /// The nearest ones in space, and of those that are equally near the nearest ones in the parameter plane. An edge
+  /// goes on to itself where there is no other one, as a circle does.
   void join(std::size_t f, int vertex, std::vector<CurveEnd>& in, std::vector<CurveEnd>& out) {
     std::vector<std::tuple<bool, double, double, std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < in.size(); ++i)
       for (std::size_t j = 0; j < out.size(); ++j) {
         const double apart = in[i].at.Distance(out[j].at);
-        pairs.emplace_back(in[i].end.first == out[j].end.first, apart <= doubt() ? 0 : apart, in[i].uv.Distance(out[j].uv), i, j);
+        pairs.emplace_back(in[i].end.first == out[j].end.first, apart <= doubt() ? 0 : apart,
+                           in[i].uv.Distance(out[j].uv), i, j);
       }
     std::sort(pairs.begin(), pairs.end());
     std::vector<char> taken_in(in.size(), 0), taken_out(out.size(), 0);
@@ -197,8 +201,8 @@ class GapCloser {
   }
 
   [[nodiscard]] bool is_wide(double gap, double shorter) const {
-    return gap > doubt() && (gap > thresholds::wide_gap * diagonal_ ||
-                             (gap > thresholds::narrow_gap * diagonal_ && gap > thresholds::gap_beside_curve * shorter));
+    return gap > doubt() && (gap > thresholds::wide_gap * diagonal_ || (gap > thresholds::narrow_gap * diagonal_ &&
+                                                                        gap > thresholds::gap_beside_curve * shorter));
   }
   bool is_open(const Joint& joint) {
     if (joint.gap <= doubt()) return false;
@@ -285,8 +289,8 @@ class GapCloser {
     return off;
   }
 
-  static Handle(Geom2d_Curve) projected(const Handle(Geom_Surface) & surface, const Handle(Geom_Curve) & in_space, double first,
-                                        double last, double to_surface) {
+  static Handle(Geom2d_Curve) projected(const Handle(Geom_Surface) & surface, const Handle(Geom_Curve) & in_space,
+                                        double first, double last, double to_surface) {
     ShapeConstruct_ProjectCurveOnSurface project;
     project.Init(surface, std::max(to_surface, Precision::Confusion()));
     Handle(Geom_Curve) given = in_space;
@@ -399,7 +403,9 @@ class GapCloser {
 
   [[nodiscard]] std::string sentence() const {
     if (remade_ + closed_ == 0) return "";
-    const auto count = [](int n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); };
+    const auto count = [](int n, const char* one, const char* many) {
+      return std::to_string(n) + " " + (n == 1 ? one : many);
+    };
     std::string done;
     if (remade_ > 0) done = count(remade_, "curve was", "curves were") + " made anew in the parameter plane";
     if (closed_ > 0) done += (done.empty() ? "" : ", ") + count(closed_, "gap was", "gaps were") + " closed by an edge";

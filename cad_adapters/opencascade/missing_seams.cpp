@@ -18,10 +18,10 @@
 namespace carreau_occ {
 namespace {
 
-constexpr double closing_share = 0.01;     // of a period: as near as ends of a loop are to it
-constexpr int samples_of_curve = 24;       // chords that stand for a curve where lines must not cross it
+constexpr double closing_share = 0.01;       // of a period: as near as ends of a loop are to it
+constexpr int samples_of_curve = 24;         // chords that stand for a curve where lines must not cross it
 constexpr std::size_t most_candidates = 24;  // vertices of a loop at which seams may end
-constexpr double end_share = 1e-6;         // of a seam, at its ends, where it meets its loops
+constexpr double end_share = 1e-6;           // of a seam, at its ends, where it meets its loops
 
 using Loop = std::vector<EdgeImage>;
 using Polyline = std::vector<gp_XY>;
@@ -169,7 +169,8 @@ class SeamMaker {
         place.q += step(-period() * std::round(along(place.q - place.p) / period()));
         candidates.emplace_back((place.q - place.p).Modulus(), place);
       }
-    std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [length, place] : candidates)
       if (length > Precision::PConfusion() && is_free(place, obstacles)) return place;
     return std::nullopt;

@@ -6,8 +6,8 @@ namespace carreau_occ::thresholds {
 
 // Gaps in loops (loop_gaps). In brackets: the tests that rest on it, of tests/adapters/loops_test.cpp.
 
-/// Share of the diagonal. A wider gap between two curves of a loop gets an edge: the engine takes ends that are nearer as
-/// one point. [LoopGaps.*]
+/// Share of the diagonal. A wider gap between two curves of a loop gets an edge: the engine takes ends that are nearer
+/// as one point. [LoopGaps.*]
 inline constexpr double wide_gap = 1.0 / 100;
 /// Share of the shorter curve beside a gap, and of the diagonal. A gap above both gets an edge, too: the engine joins
 /// ends within a quarter of the shortest curve. [LoopGaps.*]

@@ -20,8 +20,12 @@ inline bool bounds(const EdgeImage& image) {
   return image.edge.Orientation() == TopAbs_FORWARD || image.edge.Orientation() == TopAbs_REVERSED;
 }
 inline bool is_forward(const EdgeImage& image) { return image.edge.Orientation() == TopAbs_FORWARD; }
-inline gp_Pnt2d start_of(const EdgeImage& image) { return image.curve->Value(is_forward(image) ? image.first : image.last); }
-inline gp_Pnt2d end_of(const EdgeImage& image) { return image.curve->Value(is_forward(image) ? image.last : image.first); }
+inline gp_Pnt2d start_of(const EdgeImage& image) {
+  return image.curve->Value(is_forward(image) ? image.first : image.last);
+}
+inline gp_Pnt2d end_of(const EdgeImage& image) {
+  return image.curve->Value(is_forward(image) ? image.last : image.first);
+}
 
 /// Orders edges one after the other (Hierholzer's circuit through all of them); empty when there is no such order.
 std::vector<EdgeImage> in_order(const std::vector<EdgeImage>& loop);

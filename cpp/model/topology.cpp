@@ -28,11 +28,7 @@ constexpr int probes = 23;
 class TopologyBuilder {
  public:
   TopologyBuilder(const Model& model, const CurveTraces& traces, double eps, double eps_match)
-      : model_(model),
-        traces_(traces),
-        eps_(eps),
-        apart_(std::max(eps, eps_match)),
-        corners_(prepare_corners()) {}
+      : model_(model), traces_(traces), eps_(eps), apart_(std::max(eps, eps_match)), corners_(prepare_corners()) {}
 
   Topology run() {
     find_small_loops();
@@ -48,8 +44,8 @@ class TopologyBuilder {
   /// What is farther apart than eps; "": nothing.
   [[nodiscard]] std::string remark() const {
     if (wide_ == 0) return "";
-    return std::to_string(wide_) + (wide_ == 1 ? " curve or end of one is" : " curves or ends of them are") + " up to " +
-           format_number(widest_) + " away from where another face has them (first " + widest_place_ +
+    return std::to_string(wide_) + (wide_ == 1 ? " curve or end of one is" : " curves or ends of them are") +
+           " up to " + format_number(widest_) + " away from where another face has them (first " + widest_place_ +
            "); the mesh joins them, since eps_match is " + format_number(apart_);
   }
 

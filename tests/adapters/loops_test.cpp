@@ -106,7 +106,8 @@ TEST(LoopGaps, WrongImagesAreMadeAnew) {
 TEST(LoopGaps, AVertexThatStandsForASideBecomesAnEdgeOfBothFaces) {
   const gp_Pnt a(0, 0, 0), b(4, 0, 0), c(4, 4, 0), d(0, 4, 0);
   const TopoDS_Vertex side = vertex_at(gp_Pnt(0, 2, 0), 2.5), vb = vertex_at(b), vc = vertex_at(c);
-  const std::vector<TopoDS_Edge> edges = {line_edge(a, b, side, vb), line_edge(b, c, vb, vc), line_edge(c, d, vc, side)};
+  const std::vector<TopoDS_Edge> edges = {line_edge(a, b, side, vb), line_edge(b, c, vb, vc),
+                                          line_edge(c, d, vc, side)};
   const Handle(Geom_Plane) up = new Geom_Plane(gp_Pln(gp::XOY()));
   const BRep_Builder builder;
   TopoDS_Compound both;
@@ -168,8 +169,8 @@ TEST(MissingSeams, ABandBetweenTwoCirclesGetsOne) {
 
 TEST(MissingSeams, ACapGetsItsPoleToo) {
   const Handle(Geom_SphericalSurface) sphere = new Geom_SphericalSurface(gp_Ax3(gp::XOY()), 1);
-  const TopoDS_Edge equator = circle_edge(gp_Circ(gp::XOY(), 1), new Geom2d_Line(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), sphere,
-                                          vertex_at(gp_Pnt(1, 0, 0)));
+  const TopoDS_Edge equator = circle_edge(gp_Circ(gp::XOY(), 1), new Geom2d_Line(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)),
+                                          sphere, vertex_at(gp_Pnt(1, 0, 0)));
   for (const bool upper : {true, false}) {
     const TopoDS_Edge edge = upper ? equator : TopoDS::Edge(equator.Reversed());
     carreau_occ::BrepHost host(file_of(face_on(sphere, {wire_of({edge})})));
@@ -244,10 +245,31 @@ TEST(OddCurves, InsideTheFaceBoundItAndOutsideTheyDoNot) {
 TEST(OddCurves, ThatEncloseNothingLeaveNoFace) {
   const gp_Pnt p(0, 0, 0), q(1, 1, 0);
   const TopoDS_Vertex from = vertex_at(p), to = vertex_at(q);
-  const TopoDS_Face face = face_on(new Geom_Plane(gp_Pln(gp::XOY())),
-                                   {wire_of({line_edge(p, q, from, to), line_edge(q, p, to, from)})});
+  const TopoDS_Face face =
+      face_on(new Geom_Plane(gp_Pln(gp::XOY())), {wire_of({line_edge(p, q, from, to), line_edge(q, p, to, from)})});
   carreau_occ::BrepHost host(file_of(face));
   EXPECT_EQ(host.excluded(), (std::vector<std::pair<int, std::string>>{{1, "its curves enclose no area"}}));
+}
+
+// Two faces share a circle that names no vertex.
+TEST(OddCurves, WithoutVerticesGetThem) {
+  const gp_Circ circle(gp_Ax2(gp::XOY()), 1);
+  const BRep_Builder builder;
+  TopoDS_Edge edge;
+  builder.MakeEdge(edge, new Geom_Circle(circle), tolerance);
+  builder.Range(edge, 0, 2 * pi);
+  const Handle(Geom_Plane) plane = new Geom_Plane(gp_Pln(gp::XOY()));
+  TopoDS_Compound both;
+  builder.MakeCompound(both);
+  builder.Add(both, face_on(plane, {wire_of({edge})}));
+  builder.Add(both, face_on(plane, {wire_of({edge})}).Reversed());
+  carreau_occ::BrepHost host(file_of(both));
+  EXPECT_TRUE(host.is_closed());
+  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.2);
+  EXPECT_TRUE(mesh.failed.empty()) << mesh.failed.front();
+  EXPECT_EQ(mesh.error, "");
+  EXPECT_EQ(mesh.open_edges, 0);
+  EXPECT_NEAR(mesh.quality.area, 2 * pi, 0.1);
 }
 
 TEST(OddCurves, ThatAreTurnedTheWrongWayBoundTheInside) {
