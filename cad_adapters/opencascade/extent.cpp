@@ -70,7 +70,7 @@ class FaceBox {
   }
 
  private:
-  static constexpr int least_cells = 24, most_cells = 200, points_on_edge = 32, halvings = 16;
+  static constexpr int least_cells = 24, most_cells = 200, points_on_edge = 32, halvings = 16, most_moves = 2000;
   struct Extreme {
     double value = -std::numeric_limits<double>::infinity();
     gp_Pnt2d uv = {};
@@ -143,7 +143,8 @@ class FaceBox {
     }
   }
   void climb(int side, double du, double dv) {
-    for (int halved = 0; halved < halvings;) {
+    // A spline goes on beyond its ends without bound where curves do, so that the climb itself needs one.
+    for (int halved = 0, moves = 0; halved < halvings && moves < most_moves; ++moves) {
       const gp_Pnt2d from = highest_[side].uv;
       bool higher = false;
       for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}) {
