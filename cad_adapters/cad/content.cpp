@@ -32,6 +32,8 @@ carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out
     content.bent_faces = static_cast<int32_t>(host.bent_faces().size());
     content.left_out = static_cast<int32_t>(file->left_out.size());
     content.references = host.reference_count();
+    content.match_tolerance = host.match_tolerance();
+    content.notes = file->notes.c_str();
     write_struct(content, out_content, "out_content");
   });
 }

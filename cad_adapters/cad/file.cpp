@@ -25,13 +25,16 @@ void read(carreau_cad_file& file, const char* path, const carreau_cad_options* g
   try {
     const std::scoped_lock lock(reading);
     fresh.shape = read_shape(required(path, "path"), progress);
-    fresh.host = std::make_unique<BrepHost>(fresh.shape);
+    fresh.host = std::make_unique<BrepHost>(fresh.shape, options.loose_edges != 0);
   } catch (const std::runtime_error& error) {
     if (!stopped) throw;
     throw Failure(CARREAU_ERR_CANCELLED, error.what());
   }
   fresh.host->keep(fresh.trap);
   fresh.left_out = fresh.host->excluded();
+  std::vector<std::string> notes = fresh.shape.notes;
+  notes.insert(notes.end(), fresh.host->notes().begin(), fresh.host->notes().end());
+  for (const std::string& note : notes) fresh.notes += (fresh.notes.empty() ? "" : "\n") + note;
   file = std::move(fresh);
 }
 

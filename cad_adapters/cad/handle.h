@@ -31,6 +31,7 @@ struct carreau_cad_file {
   std::optional<carreau_occ::ShapeReport> report;                // the last one
   std::vector<std::string> sentences;                            // of its dangers
   std::optional<carreau_occ::Solids> solids;
+  std::string notes;  // a line each
   std::string error;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <sstream>
 
 #include "cad_file.h"
 #include "cad_library.h"
@@ -16,13 +17,14 @@ void require(carreau_cad_file* file, carreau_status status) {
   if (status != CARREAU_OK) throw Failure(cad_library().last_error(file));
 }
 
-CadFileHandle read_cad(const std::string& path, const ReadingProgress& progress) {
+CadFileHandle read_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
   carreau_cad_file* created = nullptr;
   if (cad_library().create(&created) != CARREAU_OK) throw Failure("'" + path + "': out of memory.");
   CadFileHandle file(created);
   carreau_cad_options options{};
   options.struct_size = sizeof options;
   options.trap_faults = 1;
+  options.loose_edges = loose_edges ? 1 : 0;
   options.user = const_cast<ReadingProgress*>(&progress);
   options.progress = [](double fraction, void* user) {
     const auto& tell = *static_cast<const ReadingProgress*>(user);
@@ -64,6 +66,13 @@ std::vector<FaceLook> faces_of(carreau_cad_file* file) {
   return list;
 }
 
+std::vector<std::string> notes_of(carreau_cad_file* file) {
+  std::istringstream lines(content_of(file).notes);
+  std::vector<std::string> sentences;
+  for (std::string line; std::getline(lines, line);) sentences.push_back(line);
+  return sentences;
+}
+
 std::vector<std::string> losses_of(carreau_cad_file* file) {
   std::vector<std::string> sentences;
   for (std::int64_t i = 0; const char* loss = cad_library().loss(file, i); ++i) sentences.emplace_back(loss);
@@ -101,6 +110,7 @@ class CadFileInput final : public CadInput {
   [[nodiscard]] double diagonal() const override { return content_.diagonal > 0 ? content_.diagonal : 1; }
   [[nodiscard]] double glue_tolerance() const override { return content_.glue_tolerance; }
   [[nodiscard]] double open_tolerance() const override { return content_.open_tolerance; }
+  [[nodiscard]] double match_tolerance() const override { return content_.match_tolerance; }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   bool set_face_size(const std::string& face, double size) override {
@@ -153,6 +163,8 @@ class CadFileInput final : public CadInput {
   }
   [[nodiscard]] std::vector<std::string> losses() const override { return losses_of(file_.get()); }
 
+  [[nodiscard]] std::vector<std::string> notes() const override { return notes_of(file_.get()); }
+
   [[nodiscard]] std::vector<std::string> kinks() const override {
     std::vector<std::string> sentences;
     if (content_.bent_faces == 0) return sentences;
@@ -161,6 +173,7 @@ class CadFileInput final : public CadInput {
     return sentences;
   }
 
+  [[nodiscard]] bool is_wires() const override { return content_.faces == 0; }
   [[nodiscard]] bool closed() const override { return content_.closed != 0; }
 
   [[nodiscard]] std::string gaps() const override {
@@ -201,8 +214,8 @@ class CadFileInput final : public CadInput {
 
 }  // namespace
 
-std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress) {
-  return std::make_unique<CadFileInput>(read_cad(path, progress));
+std::unique_ptr<CadInput> open_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
+  return std::make_unique<CadFileInput>(read_cad(path, loose_edges, progress));
 }
 
 }  // namespace command

@@ -58,6 +58,7 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
   if (!losses.empty()) std::printf("not read: %d\n", static_cast<int>(losses.size()));
   for (std::size_t i = 0; i < losses.size() && i <= static_cast<std::size_t>(limit); ++i)
     std::printf("  %s\n", i == static_cast<std::size_t>(limit) ? "..." : losses[i].c_str());
+  for (const std::string& note : notes_of(file)) std::printf("note: %s\n", note.c_str());
   if (count.empty() && losses.empty()) std::puts("nothing looks dangerous");
   std::map<std::string, int> told;
   for (const carreau_cad_danger& danger : dangers) {
@@ -103,13 +104,14 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
           {"largest_gap", r.largest_gap},
           {"not_read", losses_of(file)},
           {"contacts", contacts},
+          {"notes", notes_of(file)},
           {"dangers", dangers}};
 }
 
 }  // namespace
 
 int print_cad_info(const InfoOptions& options) {
-  const CadFileHandle file = read_cad(options.input);
+  const CadFileHandle file = read_cad(options.input, true);
   const carreau_cad_report report = inspect(file.get());
   if (options.json) {
     nlohmann::ordered_json value = json_of(file.get(), report, options);

@@ -35,6 +35,8 @@ class CadInput {
   [[nodiscard]] virtual double glue_tolerance() const { return 0; }
   /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
+  /// How far uses of one curve, and ends at one point, may be apart; 0: the library's own.
+  [[nodiscard]] virtual double match_tolerance() const { return 0; }
   /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
   [[nodiscard]] virtual double ends_tolerance() const { return 0; }
   /// Faces are divided by curves that mean nothing, and may be crooked: edges on them are not cut for the sake of the
@@ -72,6 +74,8 @@ class CadInput {
                                       double& v) const noexcept = 0;
   /// What the file holds and the geometry does not, since it could not be read: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
+  /// What was passed over or repaired without the loss of a face: a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   /// The face of the file that a face of the session is or is a part of; the same for curves, and the parts of a face
   /// of the file. A geometry that cuts no faces has none.
   [[nodiscard]] virtual std::int32_t whole_face(std::int32_t face) const { return face; }
@@ -81,6 +85,8 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
   /// Whether the geometry, or a file beside it, prescribes sizes of its own, when hphy_flag = 2.
   [[nodiscard]] virtual bool has_sizes() const { return false; }
+  /// Whether the file has edges and no face: its mesh has edges alone.
+  [[nodiscard]] virtual bool is_wires() const { return false; }
   /// Whether each edge of the file has two faces.
   [[nodiscard]] virtual bool closed() const { return false; }
   /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
@@ -102,7 +108,7 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const InputChoice&
                                      const ReadingProgress& progress = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
-std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);
+std::unique_ptr<CadInput> open_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress);
 
 /// A sentence of the library with faces as the file numbers them.
 std::string in_terms_of_file(const CadInput& input, const std::string& sentence);

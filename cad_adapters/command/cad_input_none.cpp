@@ -6,13 +6,13 @@
 
 namespace command {
 
-std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress&) {
+std::unique_ptr<CadInput> open_cad(const std::string& path, bool, const ReadingProgress&) {
   throw Failure("'" + path +
                 "' cannot be read: this program was built without OpenCASCADE, which STEP, IGES and BREP files need.");
 }
 
 int print_cad_info(const InfoOptions& options) {
-  open_cad(options.input, {});
+  open_cad(options.input, false, {});
   return 0;
 }
 

@@ -65,6 +65,7 @@ Crossings crossings_of(carreau_mesh* mesh, const std::vector<std::int32_t>& refs
 Crossings crossings_of(carreau_mesh* mesh, int threads) {
   std::int64_t n = 0;
   require(mesh, carreau_mesh_count(mesh, nullptr, &n, nullptr, nullptr));
+  if (n == 0) return {};  // edges alone
   std::vector<std::int32_t> refs(static_cast<std::size_t>(n));
   require(mesh, carreau_mesh_triangle_refs(mesh, n, refs.data()));
   return crossings_of(mesh, refs, threads);

@@ -15,6 +15,7 @@ struct InputChoice {
   MoleculeChoice molecule;    ///< of a molecule; its surface also of an atlas
   GridChoice grid;            ///< of a structured grid
   TrianglesChoice triangles;  ///< of a surface given as triangles
+  bool loose_edges = false;   ///< of a CAD file: edges of no face are meshed, too
   std::string domain;         ///< of a surface by formulas; empty: usual_domain
 };
 

@@ -129,6 +129,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
   for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
+  for (const std::string& note : input.notes()) progress.warning(note);
   std::int32_t by_curvature = 0;
   require(run.session, carreau_get_integer(run.session, "hgeo_flag", &by_curvature));
   if (by_curvature != 0)
@@ -276,7 +277,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const std::string failed = failed_faces(run.faces), lost = lost_entities(*input);
   const bool any =
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
-  if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
+  if (!any && (!failed.empty() || !input->is_wires())) throw Failure(failed.empty() ? "There is no triangle." : failed);
   if (part == nullptr && (!options.quiet || options.json || has_report(options))) run.short_edges = find_short_edges(run.session, run.mesh, run.quality);
   run.warnings = progress.warnings();
   if (has_report(options)) measure(run.session);

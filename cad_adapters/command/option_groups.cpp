@@ -143,6 +143,10 @@ void add_domain_option(CLI::App* app, std::string& domain) {
       ->type_name("DOMAIN");
 }
 
+void add_cad_options(CLI::App* app, InputChoice& choice) {
+  app->add_flag("--loose-edges", choice.loose_edges, "Of CAD files: edges of no face are meshed, too");
+}
+
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice) {
   app->add_option("--sharp", choice.sharp,
                   "Of triangles: degrees between two of them beyond which their edge is one of a sharp line; found when not given")

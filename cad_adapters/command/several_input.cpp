@@ -108,6 +108,12 @@ class SeveralInput final : public CadInput {
     return k < parts_.size() ? Part{static_cast<std::int32_t>(k) + 1, ""} : Part{};
   }
   [[nodiscard]] const char* part_word() const override { return "file"; }
+  [[nodiscard]] std::vector<std::string> notes() const override {
+    std::vector<std::string> all;
+    for (const auto& part : parts_)
+      for (std::string& note : part->notes()) all.push_back(std::move(note));
+    return all;
+  }
   [[nodiscard]] bool closed() const override { return all_triangles_ && report_.border_edges == 0; }
   [[nodiscard]] std::string of_mesh(carreau_session* session) const override {
     return any_triangles_ ? distances_line(session, report_.deviation) : "";

@@ -13,6 +13,7 @@
 #include "built_input.h"
 #include "failure.h"
 #include "json_output.h"
+#include "tessellated_step.h"
 #include "text_file.h"
 
 namespace command {
@@ -30,7 +31,15 @@ carreau_triangles_options options_of(const TrianglesChoice& choice) {
 
 carreau_status load(carreau_session* session, const std::string& path, const TrianglesChoice& choice) {
   const carreau_triangles_options options = options_of(choice);
-  return carreau_load_triangles(session, &options, path.c_str());
+  if (!is_tessellated_step(path)) return carreau_load_triangles(session, &options, path.c_str());
+  const Tessellation faces = read_tessellation(path);
+  carreau_triangles given{};
+  given.struct_size = sizeof given;
+  given.vertex_count = static_cast<std::int64_t>(faces.vertices.size() / 3);
+  given.triangle_count = static_cast<std::int64_t>(faces.refs.size());
+  given.vertices = faces.vertices.data(), given.triangles = faces.triangles.data();
+  given.triangle_refs = faces.refs.data();
+  return carreau_add_triangles(session, &options, &given);
 }
 
 /// Faces are regions, which have no curves of the parameter plane.
@@ -122,7 +131,9 @@ bool locate_by(carreau_session* session, std::int32_t face, double u, double v, 
 
 bool is_triangles(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  return std::any_of(std::begin(triangles_suffixes), std::end(triangles_suffixes), [&](const char* each) { return suffix == each; });
+  return std::any_of(std::begin(triangles_suffixes), std::end(triangles_suffixes),
+                     [&](const char* each) { return suffix == each; }) ||
+         is_tessellated_step(path);
 }
 
 carreau_triangles_report triangles_report(carreau_session* session) {

@@ -25,7 +25,7 @@ struct TrianglesChoice {
 
 inline constexpr const char* triangles_suffixes[] = {".stl", ".off",  ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".vtk",
                                                      ".msh", ".msh2", ".inp", ".bdf", ".unv",  ".su2",   ".tri"};
-/// Whether the suffix is that of a file of triangles.
+/// Whether the suffix is that of a file of triangles, or a STEP file has no other faces.
 bool is_triangles(const std::string& path);
 
 /// What was found in the triangles of a session. Throws Failure.

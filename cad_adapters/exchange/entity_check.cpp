@@ -30,12 +30,16 @@ std::string nonsense(const Spline& spline) {
   return "";
 }
 
-/// OpenCASCADE takes a default where it does not know a word; all else leaves something unset.
-bool is_word(const std::string& error) { return error.find("numeration") != std::string::npos; }
+/// OpenCASCADE takes a default where it does not know a word, and an empty text where there is none; all else leaves
+/// something unset.
+bool is_harmless(const std::string& error) {
+  return error.find("numeration") != std::string::npos || error.find("not a quoted String") != std::string::npos;
+}
 
 std::string error_of(const Handle(Interface_Check) & check) {
   for (int i = 1; i <= check->NbFails(); ++i)
-    if (const std::string error = check->CFail(i); !is_word(error)) return error.substr(error.find_first_not_of(' '));
+    if (const std::string error = check->CFail(i); !is_harmless(error))
+      return error.substr(error.find_first_not_of(' '));
   return "";
 }
 
@@ -101,14 +105,55 @@ void EntityCheck::blame(int number, const std::string& why, std::map<int, std::s
   if (!found) rest.emplace(number, why);
 }
 
-std::vector<std::string> EntityCheck::losses() const {
-  if (model_.IsNull()) return {};
-  std::map<int, std::string> faces = faces_, all = rest_;
+/// Entities with an error that no face has, those of the translation included; `faces` gets the faces of the latter.
+std::map<int, std::string> EntityCheck::errors_beside_faces(std::map<int, std::string>& faces) const {
+  std::map<int, std::string> rest = rest_;
   const Handle(Transfer_TransientProcess) process = session_->TransferReader()->TransientProcess();
   Interface_CheckIterator errors = process->CheckList(Standard_True);
   for (errors.Start(); errors.More(); errors.Next())
     if (const std::string why = error_of(errors.Value()); !why.empty() && errors.Number() > 0)
-      blame(errors.Number(), label(model_->Value(errors.Number())) + ": " + why, faces, all);
+      blame(errors.Number(), label(model_->Value(errors.Number())) + ": " + why, faces, rest);
+  return rest;
+}
+
+/// The entity, or one of which it is a part, carries faces. Representations hold faces and texts alike.
+bool EntityCheck::carries_faces(int number) const {
+  const Interface_Graph& graph = session_->Graph();
+  std::set<int> seen{number};
+  std::vector<int> open{number};
+  while (!open.empty()) {
+    const Entity entity = model_->Value(open.back());
+    open.pop_back();
+    if (kinds_.carries_faces(entity, graph)) return true;
+    for (const Entity& whole : kinds_.wholes_of(entity, graph))
+      if (const int above = model_->Number(whole);
+          above > 0 && (kinds_.is_geometry(whole) || kinds_.carries_faces(whole, graph)) && seen.insert(above).second)
+        open.push_back(above);
+  }
+  return false;
+}
+
+std::string EntityCheck::passed_over() const {
+  if (model_.IsNull()) return "";
+  constexpr int most_listed = 5;
+  std::map<int, std::string> faces;
+  std::string list;
+  int count = 0;
+  for (const auto& [number, why] : errors_beside_faces(faces)) {
+    if (carries_faces(number)) continue;
+    if (++count <= most_listed) list += (count > 1 ? ", " : "") + label(model_->Value(number));
+  }
+  if (count == 0) return "";
+  return std::to_string(count) +
+         (count == 1 ? " entity that carries no face was" : " entities that carry no face were") +
+         " not read: " + list + (count > most_listed ? ", ..." : "");
+}
+
+std::vector<std::string> EntityCheck::losses() const {
+  if (model_.IsNull()) return {};
+  std::map<int, std::string> faces = faces_, all = errors_beside_faces(faces);
+  std::erase_if(all, [&](const auto& error) { return !carries_faces(error.first); });
+  const Handle(Transfer_TransientProcess) process = session_->TransferReader()->TransientProcess();
   for (int i = 1; i <= model_->NbEntities(); ++i) {
     const Entity entity = model_->Value(i);
     if (const std::string why = kinds_.lost_scale(entity); !why.empty()) all.emplace(i, label(entity) + ": " + why);

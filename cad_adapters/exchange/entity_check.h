@@ -23,8 +23,13 @@ class EntityCheck {
   EntityCheck(const Handle(XSControl_WorkSession) & session, const EntityKinds& kinds);
 
   /// After the translation: a sentence for each face of the file that no shape came from, for each placement that
-  /// scales, and for each entity with an error that no such face explains. "#123 ADVANCED_FACE: ...".
+  /// scales, and for each entity that carries faces and has an error that no such face explains. "#123 ADVANCED_FACE:
+  /// ...".
   [[nodiscard]] std::vector<std::string> losses() const;
+
+  /// After the translation: one sentence about all entities with an error that carry no face (annotations, texts); "":
+  /// there is none.
+  [[nodiscard]] std::string passed_over() const;
 
   /// After the translation: faces that were made although an entity below them has an error, with the sentence of it.
   [[nodiscard]] std::vector<std::pair<TopoDS_Shape, std::string>> doubtful() const;
@@ -32,6 +37,8 @@ class EntityCheck {
  private:
   [[nodiscard]] std::string label(const Entity& entity) const;
   void find_errors();
+  [[nodiscard]] std::map<int, std::string> errors_beside_faces(std::map<int, std::string>& faces) const;
+  [[nodiscard]] bool carries_faces(int number) const;
   void blame(int number, const std::string& why, std::map<int, std::string>& faces,
              std::map<int, std::string>& rest) const;
 

@@ -7,6 +7,8 @@
 #include <IGESGeom_BoundedSurface.hxx>
 #include <IGESGeom_TrimmedSurface.hxx>
 #include <IGESSolid_Face.hxx>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace carreau_occ {
@@ -16,6 +18,15 @@ bool IgesEntities::is_face(const Entity& entity) const {
 }
 
 bool IgesEntities::is_geometry(const Entity& entity) const { return is<IGESData_IGESEntity>(entity); }
+
+/// Copious data, curves, points, flashes and all of annotation and structure carry none.
+bool IgesEntities::carries_faces(const Entity& entity, const Interface_Graph&) const {
+  const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity);
+  const int type = iges.IsNull() ? 0 : iges->TypeNumber();
+  constexpr int surfaces[] = {108, 114, 118, 120, 122, 124, 128, 140, 143, 144, 308, 408};
+  const bool solid = type >= 150 && type <= 198, boundary = type >= 502 && type <= 514;
+  return solid || boundary || std::find(std::begin(surfaces), std::end(surfaces), type) != std::end(surfaces);
+}
 
 // Knots of IGES count from minus the degree, poles from zero.
 Spline IgesEntities::spline(const Entity& entity) const {

@@ -9,6 +9,7 @@ class IgesEntities final : public EntityKinds {
  public:
   [[nodiscard]] bool is_face(const Entity& entity) const override;
   [[nodiscard]] bool is_geometry(const Entity& entity) const override;
+  [[nodiscard]] bool carries_faces(const Entity& entity, const Interface_Graph& graph) const override;
   [[nodiscard]] Spline spline(const Entity& entity) const override;
   [[nodiscard]] std::string lost_scale(const Entity& entity) const override;
 };

@@ -172,6 +172,7 @@ void carreau_translate_iges(const std::string& path, const Message_ProgressRange
   Document document;
   const bool translated = translate(reader, progress, document);
   file.losses = check.losses();
+  if (const std::string note = check.passed_over(); !note.empty()) file.notes.push_back(note);
   if (!translated) refuse_untranslated(path, "IGES", file);
   file.doubtful = check.doubtful();
   document.write(file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plain_step.h"
 
+#include <Interface_Check.hxx>
 #include <Interface_ParamType.hxx>
 #include <StepData_FileRecognizer.hxx>
 #include <StepData_Protocol.hxx>
@@ -9,11 +10,14 @@
 #include <StepData_StepReaderTool.hxx>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +28,12 @@ namespace {
 // What OpenCASCADE's records call a list inside an entity, and an entity without a number.
 constexpr const char* untyped = "/* (SUB) */";
 constexpr const char* unnumbered = "#0";
+constexpr const char* no_name = "''";
 
 constexpr std::streamoff largest_file = 1 << 30;  // bytes: OpenCASCADE counts records and arguments by int
 constexpr std::ptrdiff_t most_digits = 9;         // of numbers that int holds
 constexpr int deepest = 64;                       // lists in lists
+constexpr int most_mending_rounds = 3;            // each reads all records again
 
 enum : unsigned char { blank = 1, digit = 2, capital = 4, letter = 8 };
 
@@ -67,8 +73,11 @@ class PlainStep {
 
   bool parse();
   [[nodiscard]] Handle(StepData_StepReaderData) data(Resource_FormatType page) const;
+  /// Mends attributes by the errors of OpenCASCADE, which are by entity ("#12"). Returns the entities that changed.
+  std::set<std::string> mend_attributes(const std::map<std::string, std::vector<std::string>>& errors);
 
  private:
+  [[nodiscard]] bool is_complex(std::size_t record) const;
   void skip_blanks();
   bool skip(char c);
   bool skip(std::string_view word);
@@ -319,6 +328,86 @@ Handle(StepData_StepReaderData) PlainStep::data(Resource_FormatType page) const 
   return data;
 }
 
+/// An error of OpenCASCADE about the attributes of an entity.
+struct AttributeError {
+  std::size_t count = 0;  // that the type has; 0: the error is about one attribute
+  std::size_t no_text = 0;  // rank of an attribute that should be a text, from 1; 0: it is about another fault
+  std::string type;         // in capitals, where the count is wrong
+
+  explicit AttributeError(const std::string& error) {
+    if (const std::string number = behind("Count of Parameters is not ", error); !number.empty()) {
+      count = std::strtoul(number.c_str(), nullptr, 10);
+      type = behind(" for ", error);
+      std::transform(type.begin(), type.end(), type.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    } else if (error.find("not a quoted String") != std::string::npos) {
+      no_text = std::strtoul(behind("Parameter n0.", error).c_str(), nullptr, 10);
+    }
+  }
+
+ private:
+  static std::string behind(std::string_view words, const std::string& error) {
+    const std::size_t at = error.find(words);
+    return at == std::string::npos ? "" : error.substr(at + words.size());
+  }
+};
+
+/// A missing name comes first in its entity; attributes behind the last known one are of another schema.
+bool mend(std::vector<PlainStep::Argument>& arguments, const AttributeError& error) {
+  if (error.no_text > 0) {
+    if (error.no_text > arguments.size()) return false;
+    PlainStep::Argument& argument = arguments[error.no_text - 1];
+    if (argument.type != Interface_ParamVoid && argument.type != Interface_ParamMisc) return false;
+    argument = {no_name, Interface_ParamText};
+    return true;
+  }
+  if (arguments.size() > error.count) {
+    arguments.resize(error.count);
+    return true;
+  }
+  if (arguments.size() + 1 != error.count || (!arguments.empty() && arguments.front().type == Interface_ParamText))
+    return false;
+  arguments.insert(arguments.begin(), {no_name, Interface_ParamText});
+  return true;
+}
+
+std::set<std::string> PlainStep::mend_attributes(const std::map<std::string, std::vector<std::string>>& errors) {
+  std::set<std::string> mended;
+  std::vector<Argument> all;
+  const std::vector<std::string>* own = nullptr;  // errors of the entity
+  const char* entity = nullptr;
+  const Argument* from = arguments_.data();
+  for (std::size_t r = 0; r < records_.size(); ++r) {
+    Record& record = records_[r];
+    std::vector<Argument> arguments(from, from + record.arguments);
+    from += record.arguments;
+    const bool outer = record.ident[0] == '#', begins = outer && record.ident != unnumbered;
+    if (begins) {
+      const auto found = errors.find(record.ident);
+      own = found != errors.end() ? &found->second : nullptr;
+      entity = record.ident;
+    }
+    for (std::size_t e = 0; outer && own != nullptr && e < own->size(); ++e) {
+      const AttributeError error((*own)[e]);
+      const bool complex = !begins || is_complex(r);
+      const bool meant = !complex || record.type == error.type ||
+                         (error.no_text > 0 && std::string_view("REPRESENTATION_ITEM") == record.type);
+      if (meant && (error.count > 0 || error.no_text > 0) && mend(arguments, error)) mended.insert(entity);
+    }
+    record.arguments = arguments.size();
+    all.insert(all.end(), arguments.begin(), arguments.end());
+  }
+  arguments_ = std::move(all);
+  return mended;
+}
+
+/// The record is the first of an entity of several types.
+bool PlainStep::is_complex(std::size_t record) const {
+  do ++record;
+  while (record < records_.size() && records_[record].ident[0] != '#');
+  return record < records_.size() && records_[record].ident == unnumbered;
+}
+
 /// Empty: it cannot be read, or is too large.
 std::string text_of(Standard_CString path) {
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
@@ -329,30 +418,67 @@ std::string text_of(Standard_CString path) {
   return stream.read(text.data(), size) ? text : std::string();
 }
 
+Handle(StepData_StepModel) model_of(const PlainStep& plain, const Handle(StepData_Protocol) & protocol) {
+  const Handle(StepData_StepModel) model = new StepData_StepModel;
+  const Handle(StepData_StepReaderData) data = plain.data(model->SourceCodePage());
+  StepData_StepReaderTool tool(data, protocol);
+  tool.SetErrorHandle(Standard_True);
+  tool.PrepareHeader(Handle(StepData_FileRecognizer)());
+  tool.Prepare(Handle(StepData_FileRecognizer)());
+  tool.LoadModel(model);
+  if (model->Protocol().IsNull()) model->SetProtocol(protocol);
+  tool.Clear();
+  return model;
+}
+
+/// Errors of a model by entity.
+std::map<std::string, std::vector<std::string>> errors_of(const StepData_StepModel& model) {
+  std::map<std::string, std::vector<std::string>> errors;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(Interface_Check) check = model.Check(i, Standard_True);
+    if (check->NbFails() == 0) continue;
+    std::string ident(1, '#');
+    ident += std::to_string(model.IdentLabel(model.Value(i)));
+    for (int k = 1; k <= check->NbFails(); ++k) errors[ident].emplace_back(check->CFail(k));
+  }
+  return errors;
+}
+
 }  // namespace
 
 bool PlainStepLibrary::read_plain(Standard_CString path, Handle(Interface_InterfaceModel) & model,
-                                  const Handle(Interface_Protocol) & protocol) {
+                                  const Handle(Interface_Protocol) & protocol, std::vector<std::string>* mended) {
   const Handle(StepData_Protocol) step = Handle(StepData_Protocol)::DownCast(protocol);
   const std::string text = text_of(path);
   PlainStep plain(text);
   if (step.IsNull() || !plain.parse()) return false;
-  const Handle(StepData_StepModel) read = new StepData_StepModel;
-  const Handle(StepData_StepReaderData) data = plain.data(read->SourceCodePage());
-  StepData_StepReaderTool tool(data, step);
-  tool.SetErrorHandle(Standard_True);
-  tool.PrepareHeader(Handle(StepData_FileRecognizer)());
-  tool.Prepare(Handle(StepData_FileRecognizer)());
-  tool.LoadModel(read);
-  if (read->Protocol().IsNull()) read->SetProtocol(step);
-  tool.Clear();
+  Handle(StepData_StepModel) read = model_of(plain, step);
+  // A reader stops at the first attribute that it cannot read, so that mending it shows the next one.
+  std::set<std::string> all;
+  for (int round = 0; mended != nullptr && round < most_mending_rounds; ++round) {
+    const std::set<std::string> now = plain.mend_attributes(errors_of(*read));
+    if (now.empty()) break;
+    all.insert(now.begin(), now.end());
+    read = model_of(plain, step);
+  }
+  if (mended != nullptr) mended->assign(all.begin(), all.end());
   model = read;
   return true;
 }
 
 Standard_Integer PlainStepLibrary::ReadFile(Standard_CString path, Handle(Interface_InterfaceModel) & model,
                                             const Handle(Interface_Protocol) & protocol) const {
-  return read_plain(path, model, protocol) ? 0 : StepSelect_WorkLibrary::ReadFile(path, model, protocol);
+  return read_plain(path, model, protocol, &mended_) ? 0 : StepSelect_WorkLibrary::ReadFile(path, model, protocol);
+}
+
+std::string PlainStepLibrary::note() const {
+  constexpr std::size_t most_listed = 5;
+  if (mended_.empty()) return "";
+  std::string list;
+  for (std::size_t i = 0; i < mended_.size() && i < most_listed; ++i) list += (i > 0 ? ", " : "") + mended_[i];
+  return "the names or counts of attributes of " + std::to_string(mended_.size()) +
+         (mended_.size() == 1 ? " entity are wrong and were mended: " : " entities are wrong and were mended: ") + list +
+         (mended_.size() > most_listed ? ", ..." : "");
 }
 
 }  // namespace carreau_occ

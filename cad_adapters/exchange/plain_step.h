@@ -2,6 +2,8 @@
 #pragma once
 
 #include <StepSelect_WorkLibrary.hxx>
+#include <string>
+#include <vector>
 
 namespace carreau_occ {
 
@@ -14,9 +16,18 @@ class PlainStepLibrary final : public StepSelect_WorkLibrary {
   Standard_Integer ReadFile(Standard_CString path, Handle(Interface_InterfaceModel) & model,
                             const Handle(Interface_Protocol) & protocol) const override;
 
-  /// The same without what OpenCASCADE reads. False: the file is not plain.
+  /// The same without what OpenCASCADE reads. False: the file is not plain. With `mended`, names
+  /// that are no text become empty, missing names are added, and attributes behind the last known one are dropped; it gets
+  /// the entities, "#12".
   [[nodiscard]] static bool read_plain(Standard_CString path, Handle(Interface_InterfaceModel) & model,
-                                       const Handle(Interface_Protocol) & protocol);
+                                       const Handle(Interface_Protocol) & protocol,
+                                       std::vector<std::string>* mended = nullptr);
+
+  /// Returns a sentence about the entities that were mended; "": none was.
+  [[nodiscard]] std::string note() const;
+
+ private:
+  mutable std::vector<std::string> mended_;  // the base class reads by a constant function
 };
 
 }  // namespace carreau_occ

@@ -6,14 +6,23 @@
 #include <StepGeom_BSplineSurfaceWithKnots.hxx>
 #include <StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface.hxx>
 #include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_CartesianTransformationOperator.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Direction.hxx>
 #include <StepGeom_Pcurve.hxx>
+#include <StepGeom_Placement.hxx>
 #include <StepGeom_Surface.hxx>
+#include <StepRepr_ItemDefinedTransformation.hxx>
+#include <StepRepr_MappedItem.hxx>
 #include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_Face.hxx>
+#include <StepShape_FaceBasedSurfaceModel.hxx>
 #include <StepShape_HArray1OfFace.hxx>
+#include <StepShape_ShapeRepresentation.hxx>
+#include <StepShape_ShellBasedSurfaceModel.hxx>
+#include <StepShape_SolidModel.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
+#include <StepVisual_AnnotationOccurrence.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColStd_HArray2OfReal.hxx>
 #include <algorithm>
@@ -52,6 +61,18 @@ bool StepEntities::is_face(const Entity& entity) const { return is<StepShape_Fac
 
 bool StepEntities::is_geometry(const Entity& entity) const {
   return is<StepGeom_GeometricRepresentationItem>(entity) || is<StepShape_TopologicalRepresentationItem>(entity);
+}
+
+bool StepEntities::carries_faces(const Entity& entity, const Interface_Graph& graph) const {
+  if (is<StepShape_Face>(entity) || is<StepShape_ConnectedFaceSet>(entity) || is<StepShape_SolidModel>(entity) ||
+      is<StepShape_ShellBasedSurfaceModel>(entity) || is<StepShape_FaceBasedSurfaceModel>(entity) ||
+      is<StepGeom_Surface>(entity) || is<StepRepr_ItemDefinedTransformation>(entity) ||
+      is<StepGeom_CartesianTransformationOperator>(entity))
+    return true;
+  if (is<StepRepr_MappedItem>(entity)) return !is<StepVisual_AnnotationOccurrence>(entity);
+  if (!is<StepGeom_Placement>(entity)) return false;
+  // The axes of a shape, to which assemblies refer.
+  return graph.TypedSharings(entity, STANDARD_TYPE(StepShape_ShapeRepresentation)).NbEntities() > 0;
 }
 
 Spline StepEntities::spline(const Entity& entity) const {

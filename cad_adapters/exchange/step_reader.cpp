@@ -13,7 +13,10 @@
 #include <TransferBRep.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "entity_check.h"
 #include "known_curves.h"
@@ -71,6 +74,17 @@ bool are_one_word(const TCollection_AsciiString& a, const TCollection_AsciiStrin
   return TCollection_AsciiString::IsSameString(a, b, Standard_False);
 }
 
+/// Documents of an assembly may be drawings and texts, too. Writers name the format, or nothing but the file.
+bool is_step(const std::string& name, const TCollection_AsciiString& format) {
+  constexpr const char* suffixes[] = {".stp", ".step", ".p21"};
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::any_of(std::begin(suffixes), std::end(suffixes), [&](const char* s) { return lower.ends_with(s); }))
+    return true;
+  return are_one_word(format, "STEP AP203") || are_one_word(format, "STEP AP214") || are_one_word(format, "STEP AP242");
+}
+
 /// Translates files into a document: one, and those that it refers to.
 class StepReader {
  public:
@@ -78,6 +92,10 @@ class StepReader {
 
   /// Roots of a file and all that they refer to. False: there is none, or it was stopped.
   bool translate(STEPControl_Reader& reader, const Message_ProgressRange& progress, int* first_item = nullptr);
+
+  /// What the files that the first one refers to have lost.
+  [[nodiscard]] const std::vector<std::string>& losses() const { return losses_; }
+  [[nodiscard]] const std::vector<std::pair<TopoDS_Shape, std::string>>& doubtful() const { return doubtful_; }
 
  private:
   void find_products(STEPControl_Reader& reader, StepParts& parts);
@@ -91,6 +109,8 @@ class StepReader {
   TopTools_DataMapOfShapeInteger items_;
   TopTools_MapOfShape whole_;         // shapes of products and of representations
   std::map<std::string, int> files_;  // the first item of each other file
+  std::vector<std::string> losses_;
+  std::vector<std::pair<TopoDS_Shape, std::string>> doubtful_;
 };
 
 bool StepReader::translate(STEPControl_Reader& reader, const Message_ProgressRange& progress, int* first_item) {
@@ -151,18 +171,18 @@ void StepReader::read_other_files(StepParts& parts, const Message_ProgressRange&
   Message_ProgressScope scope(progress, nullptr, references.NbExternRefs());
   for (int i = 1; i <= references.NbExternRefs() && scope.More(); ++i) {
     const Message_ProgressRange range = scope.Next();
-    if (const Handle(TCollection_HAsciiString) format = references.Format(i); !format.IsNull()) {
-      const TCollection_AsciiString word = format->String();
-      if (!are_one_word(word, "STEP AP203") && !are_one_word(word, "STEP AP214")) continue;
-    }
     const char* const name = references.FileName(i);
     if (name == nullptr || name[0] == '\0') continue;
+    const Handle(TCollection_HAsciiString) format = references.Format(i);
+    if (!is_step(name, format.IsNull() ? TCollection_AsciiString() : format->String())) continue;
     TCollection_AsciiString path = OSD_Path::AbsolutePath(folder, name);
     if (path.IsEmpty()) path = name;
     if (are_one_word(path, OSD_Path::AbsolutePath(folder, own))) continue;
     const Handle(StepBasic_ProductDefinition) definition = references.ProdDef(i);
     if (const auto found = parts.numbers.find(definition.get()); found != parts.numbers.end())
       parts.products[found->second].elsewhere = read_other_file(name, path, range);
+    else
+      losses_.push_back("file '" + std::string(name) + "', to which the file refers, has no place in it");
   }
 }
 
@@ -175,7 +195,18 @@ int StepReader::read_other_file(const std::string& name, const TCollection_Ascii
   session->SetLibrary(new PlainStepLibrary);
   STEPControl_Reader reader(session, Standard_False);
   int item = Document::none;
-  if (reader.ReadFile(path.ToCString()) == IFSelect_RetDone) translate(reader, progress, &item);
+  const bool read = std::filesystem::exists(path.ToCString()) && reader.ReadFile(path.ToCString()) == IFSelect_RetDone;
+  if (read) {
+    take_out_zero_edges(session->Model());
+    const StepEntities kinds;
+    const EntityCheck check(session, kinds);
+    translate(reader, progress, &item);
+    for (const std::string& loss : check.losses()) losses_.push_back(name + ": " + loss);
+    for (auto& doubt : check.doubtful()) doubtful_.push_back(std::move(doubt));
+  }
+  if (item == Document::none)
+    losses_.push_back("file '" + name + "', to which the file refers, " +
+                      (read ? "holds no shape that can be translated" : "cannot be read"));
   return files_[name] = item;
 }
 
@@ -223,17 +254,23 @@ using namespace carreau_occ;
 void carreau_translate_step(const std::string& path, const Message_ProgressRange& progress, ShapeFile& file) {
   STEPControl_Reader reader;  // settings are known once there is one
   choose_encoding(path);
-  reader.WS()->SetLibrary(new PlainStepLibrary);
+  const Handle(PlainStepLibrary) library = new PlainStepLibrary;
+  reader.WS()->SetLibrary(library);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) refuse(path, "is not a readable STEP file");
+  if (const std::string note = library->note(); !note.empty()) file.notes.push_back(note);
   take_out_zero_edges(reader.WS()->Model());
   const StepEntities kinds;
   const EntityCheck check(reader.WS(), kinds);
   const KnownCurves known;
   Document document;
-  const bool translated = StepReader(document).translate(reader, progress);
+  StepReader translation(document);
+  const bool translated = translation.translate(reader, progress);
   file.losses = check.losses();
+  file.losses.insert(file.losses.end(), translation.losses().begin(), translation.losses().end());
+  if (const std::string note = check.passed_over(); !note.empty()) file.notes.push_back(note);
   if (!translated) refuse_untranslated(path, "STEP", file);
   file.doubtful = check.doubtful();
+  file.doubtful.insert(file.doubtful.end(), translation.doubtful().begin(), translation.doubtful().end());
   document.write(file);
   file.unit = "mm";
 }

@@ -19,15 +19,16 @@
 #include "brep_state.h"
 #include "extent.h"
 #include "faults.h"
+#include "thresholds.h"
 
 namespace carreau_occ {
 
-BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_shared<State>()) {
+BrepHost::BrepHost(const ShapeFile& file, bool loose_edges) : state_(std::make_shared<State>()) {
   state_->shape = file.shape;
   try {
     guarded([&] { state_->collect(), state_->collect_names(file), state_->collect_doubts(file); });
     state_->cut_kinks();
-    guarded([&] { state_->collect_wires(); });
+    guarded([&] { state_->collect_wires(loose_edges); });
     state_->let_evaluate();
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
@@ -214,8 +215,9 @@ int BrepHost::whole_edge(int reference) const noexcept {
   return found != state_->whole_edge.end() ? found->second : reference;
 }
 const std::vector<int>& BrepHost::bent_faces() const noexcept { return state_->bent; }
-int BrepHost::edge_count() const noexcept { return state_->edges.Extent(); }
-int BrepHost::vertex_count() const noexcept { return state_->vertices.Extent(); }
+int BrepHost::edge_count() const noexcept { return state_->file_edges; }
+int BrepHost::vertex_count() const noexcept { return state_->file_vertices; }
+const std::vector<std::string>& BrepHost::notes() const noexcept { return state_->notes; }
 
 bool BrepHost::locate(int face, double u, double v, double* xyz, double* uv) const noexcept {
   const double given[2] = {u, v};
@@ -253,6 +255,8 @@ double BrepHost::diagonal() const {
   state_->diagonal = diagonal_of(good);
   return *state_->diagonal;
 }
+
+double BrepHost::match_tolerance() const { return thresholds::match_share * diagonal(); }
 
 BrepHost::GlueTolerances BrepHost::glue_tolerances() const try {
   GlueTolerances tolerances;

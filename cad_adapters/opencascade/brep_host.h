@@ -22,8 +22,9 @@ namespace carreau_occ {
 /// time.
 class BrepHost {
  public:
-  /// The shape and the names of its faces are kept. Throws std::runtime_error when it has neither a face nor an edge.
-  explicit BrepHost(const ShapeFile& file);
+  /// The shape and the names of its faces are kept. Without `loose_edges` the edges of no face of a shape with faces are
+  /// left out, and a note counts them. Throws std::runtime_error when it has neither a face nor an edge.
+  explicit BrepHost(const ShapeFile& file, bool loose_edges = true);
   ~BrepHost();
   BrepHost(const BrepHost&) = delete;
   BrepHost& operator=(const BrepHost&) = delete;
@@ -64,6 +65,8 @@ class BrepHost {
   [[nodiscard]] int whole_edge(int reference) const noexcept;
   /// Faces that bend inside and could not be cut there, ascending.
   [[nodiscard]] const std::vector<int>& bent_faces() const noexcept;
+  /// What was mended so that faces can be meshed: a sentence each.
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept;
   [[nodiscard]] int edge_count() const noexcept;
   [[nodiscard]] int vertex_count() const noexcept;
   /// Diagonal of the box of the faces that are not left out.
@@ -75,6 +78,8 @@ class BrepHost {
     double of_each = 0;  ///< whatever the lengths (eps_glue_open, which looks at those of each pair)
   };
   [[nodiscard]] GlueTolerances glue_tolerances() const;
+  /// How far faces may be from the edges and vertices that they share (parameter eps_match).
+  [[nodiscard]] double match_tolerance() const;
   /// Every edge belongs to two faces, or twice to one.
   [[nodiscard]] bool is_closed() const noexcept;
   /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has

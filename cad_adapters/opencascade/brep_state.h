@@ -17,6 +17,7 @@
 #include "brep_host.h"
 #include "evaluators.h"
 #include "loose_edges.h"
+#include "wire_periods.h"
 
 namespace carreau_occ {
 
@@ -50,9 +51,12 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   std::vector<HostFace> host_faces;  // face number - 1; behind all faces the parts of those that were cut
   std::vector<LooseEdge> wires;      // edges of no face: their references are behind those of all faces and parts
   LooseCurves wire_curves;
-  std::vector<int> uses;             // of each edge, by its number - 1; behind all edges those of cuts
-  int vertex_total = 0;              // those of the shape and of cuts
-  std::map<int, int> whole_edge;     // of the numbers behind all edges that are pieces of one
+  std::vector<int> uses;                             // of each edge, by its number - 1; behind all edges those of cuts
+  int file_edges = 0, file_vertices = 0;             // without those that mending added
+  std::vector<std::string> notes;                    // what was mended
+  std::map<std::pair<int, bool>, int> missing_ends;  // vertices of edges that do not name them, by edge and last end
+  int vertex_total = 0;                              // those of the shape and of cuts
+  std::map<int, int> whole_edge;                     // of the numbers behind all edges that are pieces of one
   double shortest_free_piece = std::numeric_limits<double>::infinity();  // of edges of one face that were cut
   double free_gap = 0;                         // how far from such edges they were cut, at most
   std::vector<int> bent;                       // faces that bend inside and could not be cut, ascending
@@ -72,9 +76,12 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   void collect_names(const ShapeFile& file);
   void collect_doubts(const ShapeFile& file);
   void collect_face(int number);
+  [[nodiscard]] std::string endless(int number) const;
+  /// The number of the vertex where the curve of an edge begins, or ends; 0: it has no end there.
+  int end_of(const EdgeImage& image, bool last);
   /// Faces become parts that do not bend inside, where that can be done.
   void cut_kinks();
-  void collect_wires();
+  void collect_wires(bool beside_faces);
   /// Of faces that are known.
   void let_evaluate();
   /// The edge of a reference that is that of a wire; nullptr: of a face.

@@ -65,7 +65,7 @@ std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTool
   std::vector<LooseEdge> found;
   std::optional<NearVertices> near;
   for (int e = 1; e <= edges.Extent(); ++e) {
-    if (!faces.FindFromKey(edges(e)).IsEmpty()) continue;
+    if (!faces.Contains(edges(e)) || !faces.FindFromKey(edges(e)).IsEmpty()) continue;
     LooseEdge loose;
     loose.edge = TopoDS::Edge(edges(e).Oriented(TopAbs_FORWARD));
     loose.number = e;

@@ -12,12 +12,9 @@
 #include <cmath>
 #include <limits>
 
-namespace carreau_occ {
-namespace {
+#include "wire_order.h"
 
-struct Periods {
-  double u = 0, v = 0;  // 0: none
-};
+namespace carreau_occ {
 
 Periods periods_of(Handle(Geom_Surface) surface) {
   while (!surface.IsNull() && surface->IsKind(STANDARD_TYPE(Geom_RectangularTrimmedSurface)))
@@ -29,12 +26,7 @@ Periods periods_of(Handle(Geom_Surface) surface) {
   return periods;
 }
 
-bool bounds(const EdgeImage& image) {
-  return image.edge.Orientation() == TopAbs_FORWARD || image.edge.Orientation() == TopAbs_REVERSED;
-}
-bool is_forward(const EdgeImage& image) { return image.edge.Orientation() == TopAbs_FORWARD; }
-gp_Pnt2d start_of(const EdgeImage& image) { return image.curve->Value(is_forward(image) ? image.first : image.last); }
-gp_Pnt2d end_of(const EdgeImage& image) { return image.curve->Value(is_forward(image) ? image.last : image.first); }
+namespace {
 
 bool meet(gp_Pnt2d p, gp_Pnt2d q, Periods periods) {
   constexpr double share = 0.01;  // of a period
@@ -46,7 +38,9 @@ bool follows(const EdgeImage& image, const EdgeImage& before) {
   return TopExp::LastVertex(before.edge, Standard_True).IsSame(TopExp::FirstVertex(image.edge, Standard_True));
 }
 
-/// Whatever their order: each curve ends where one starts. Neighbours in the wire first, they nearly always are.
+}  // namespace
+
+// Neighbours in the wire first, they nearly always are.
 bool closes(const std::vector<EdgeImage>& loop, Periods periods) {
   const std::size_t n = loop.size();
   std::vector<char> taken(n, 0);
@@ -64,7 +58,6 @@ bool closes(const std::vector<EdgeImage>& loop, Periods periods) {
   return true;
 }
 
-/// One after the other (Hierholzer's circuit through all of them); empty when there is no such order.
 std::vector<EdgeImage> in_order(const std::vector<EdgeImage>& loop) {
   std::vector<std::size_t> path, circuit;
   std::vector<char> taken(loop.size(), 0);
@@ -95,13 +88,40 @@ void move(EdgeImage& image, gp_Vec2d by) {
   if (by.SquareMagnitude() > 0) image.curve = Handle(Geom2d_Curve)::DownCast(image.curve->Translated(by));
 }
 
-/// Each edge to where the one before ends; the whole loop to where the surface begins.
-std::vector<EdgeImage> moved(std::vector<EdgeImage> loop, Periods periods, const Handle(Geom_Surface) & surface) {
-  gp_Pnt2d low = start_of(loop.front());
+LoopArea area_of(const std::vector<EdgeImage>& loop) {
+  constexpr int chords = 16;  // of a curve
+  LoopArea found;
+  if (loop.empty()) return found;
+  const gp_XY origin = start_of(loop.front()).XY();
+  gp_XY before(0, 0), low(0, 0), high(0, 0);
+  for (const EdgeImage& image : loop)
+    for (int i = 0; i <= chords; ++i) {
+      const double share = static_cast<double>(is_forward(image) ? i : chords - i) / chords;
+      const gp_XY at = image.curve->Value(image.first + share * (image.last - image.first)).XY() - origin;
+      found.area += (before ^ at) / 2;
+      before = at;
+      low.SetCoord(std::min(low.X(), at.X()), std::min(low.Y(), at.Y()));
+      high.SetCoord(std::max(high.X(), at.X()), std::max(high.Y(), at.Y()));
+    }
+  found.width = high.X() - low.X(), found.height = high.Y() - low.Y();
+  return found;
+}
+
+void chain(std::vector<EdgeImage>& loop, Periods periods) {
   for (std::size_t i = 1; i < loop.size(); ++i) {
     const gp_Pnt2d from = start_of(loop[i]), to = end_of(loop[i - 1]);
     move(loop[i], {whole_periods(to.X() - from.X(), periods.u), whole_periods(to.Y() - from.Y(), periods.v)});
-    const gp_Pnt2d start = start_of(loop[i]);
+  }
+}
+
+namespace {
+
+/// The chain of the loop, where the surface begins.
+std::vector<EdgeImage> moved(std::vector<EdgeImage> loop, Periods periods, const Handle(Geom_Surface) & surface) {
+  chain(loop, periods);
+  gp_Pnt2d low = start_of(loop.front());
+  for (const EdgeImage& image : loop) {
+    const gp_Pnt2d start = start_of(image);
     low = {std::min(low.X(), start.X()), std::min(low.Y(), start.Y())};
   }
   double u = 0, u_end = 0, v = 0, v_end = 0;
@@ -115,6 +135,23 @@ std::vector<EdgeImage> moved(std::vector<EdgeImage> loop, Periods periods, const
   const gp_Vec2d by(to_bounds(u, low.X(), periods.u), to_bounds(v, low.Y(), periods.v));
   for (EdgeImage& image : loop) move(image, by);
   return loop;
+}
+
+/// A closed edge that runs the wrong way has both ends at its vertex all the same. The loop that results, empty: none
+/// closes. Outer borders are counterclockwise.
+std::vector<EdgeImage> with_a_closed_edge_turned(const std::vector<EdgeImage>& loop, Periods periods,
+                                                 const Handle(Geom_Surface) & surface) {
+  std::vector<EdgeImage> best;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (!TopExp::FirstVertex(loop[i].edge).IsSame(TopExp::LastVertex(loop[i].edge))) continue;
+    std::vector<EdgeImage> turned = loop;
+    turned[i].edge.Reverse();
+    turned = moved(std::move(turned), periods, surface);
+    if (!closes(turned, periods)) continue;
+    if (area_of(turned).area > 0) return turned;
+    if (best.empty()) best = std::move(turned);
+  }
+  return best;
 }
 
 bool is_falsely_degenerate(const EdgeImage& image, const Handle(Geom_Surface) & surface) {
@@ -142,9 +179,10 @@ void close_over_periods(std::vector<EdgeImage>& wire, const TopoDS_Face& face) {
   if (plain.size() == loop.size() && closes(loop, periods)) return;
   plain = in_order(plain);
   if (plain.empty()) return;
-  plain = moved(std::move(plain), periods, surface);
-  if (!closes(plain, periods)) return;
-  wire = std::move(plain);
+  std::vector<EdgeImage> closed = moved(plain, periods, surface);
+  if (!closes(closed, periods)) closed = with_a_closed_edge_turned(plain, periods, surface);
+  if (closed.empty()) return;
+  wire = std::move(closed);
   wire.insert(wire.end(), others.begin(), others.end());
 }
 

@@ -19,7 +19,7 @@ constexpr double least_area = 1e-3;
 constexpr double largest_gap = 1e-3;
 
 /// Area on the left of a loop, whatever the order of its edges; 0 when it does not close, or when the sign is in doubt.
-double area_of(const std::vector<EdgeImage>& loop) {
+double turned_area_of(const std::vector<EdgeImage>& loop) {
   double twice_area = 0, perimeter = 0;
   gp_Vec2d gap(0, 0);
   gp_Pnt2d origin;
@@ -53,7 +53,7 @@ bool is_open(const Handle(Geom_Surface) & surface) {
 
 void turn_wrong_loops(std::vector<std::vector<EdgeImage>>& loops, const TopoDS_Face& face) {
   std::vector<double> areas;
-  for (const std::vector<EdgeImage>& loop : loops) areas.push_back(area_of(loop));
+  for (const std::vector<EdgeImage>& loop : loops) areas.push_back(turned_area_of(loop));
   const auto outer =
       std::max_element(areas.begin(), areas.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   if (outer == areas.end() || *outer >= 0 || !is_open(BRep_Tool::Surface(face))) return;

@@ -27,8 +27,8 @@ constexpr int probes = 23;
 
 class TopologyBuilder {
  public:
-  TopologyBuilder(const Model& model, const CurveTraces& traces, double eps)
-      : model_(model), traces_(traces), eps_(eps), corners_(prepare_corners()) {}
+  TopologyBuilder(const Model& model, const CurveTraces& traces, double eps, double eps_match)
+      : model_(model), traces_(traces), eps_(eps), apart_(std::max(eps, eps_match)), corners_(prepare_corners()) {}
 
   Topology run() {
     find_small_loops();
@@ -39,6 +39,14 @@ class TopologyBuilder {
     }
     collect_curves_of_points();
     return std::move(topology_);
+  }
+
+  /// What is farther apart than eps; "": nothing.
+  [[nodiscard]] std::string remark() const {
+    if (wide_ == 0) return "";
+    return std::to_string(wide_) + (wide_ == 1 ? " curve or end of one is" : " curves or ends of them are") +
+           " up to " + format_number(widest_) + " away from where another face has them (first " + widest_place_ +
+           "); the mesh joins them, since eps_match is " + format_number(apart_);
   }
 
  private:
@@ -157,7 +165,7 @@ class TopologyBuilder {
   }
 
   // Each end must be where its reference was first seen.
-  void check_ends(const CurveUse& use, int end1, int end2) const {
+  void check_ends(const CurveUse& use, int end1, int end2) {
     const Vec3 front = trace(use).front(), back = trace(use).back();
     const Vec3 p1 = topology_.points[end1].position, p2 = topology_.points[end2].position;
     const double gap1 = norm(front - p1), gap2 = norm(back - p2), gap = std::max(gap1, gap2);
@@ -166,24 +174,40 @@ class TopologyBuilder {
       throw InvalidModel(where(use), "refp1 and refp2 are exchanged: its first end is at the point of reference " +
                                          std::to_string(face_curve(use).end2) + ", its second one at that of " +
                                          std::to_string(face_curve(use).end1));
-    const bool first = gap1 - slack_of_point_[end1] > eps_;
-    if (!first && gap2 - slack_of_point_[end2] <= eps_) return;
-    if (face_curve(use).end1 == face_curve(use).end2 && norm(back - front) > eps_)
+    const bool first = gap1 - slack_of_point_[end1] > apart_;
+    if (!first && gap2 - slack_of_point_[end2] <= apart_) {
+      note_gap(use, std::max(gap1 - slack_of_point_[end1], gap2 - slack_of_point_[end2]));
+      return;
+    }
+    if (face_curve(use).end1 == face_curve(use).end2 && norm(back - front) > apart_)
       throw InvalidModel(where(use), "refp1 and refp2 are both " + std::to_string(face_curve(use).end1) +
                                          ", but the ends of the curve are " + format_number(norm(back - front)) +
                                          " apart, and " + format_number(gap) + " from where that point is");
     throw InvalidModel(where(use), std::string("its ") + (first ? "first" : "second") + " end is " +
                                        format_number(first ? gap1 : gap2) + " away from the point of reference " +
                                        std::to_string(first ? face_curve(use).end1 : face_curve(use).end2) +
-                                       ", as another curve gave it before (tolerance " + format_number(eps_) + ")");
+                                       ", as another curve gave it before (tolerance " + format_number(apart_) + ")");
   }
 
-  void check_gap(const Curve& shape, const CurveUse& use) const {
+  // Farther apart than usual, and joined all the same.
+  void note_gap(const CurveUse& use, double gap) {
+    if (gap <= eps_) return;
+    ++wide_;
+    if (gap <= widest_) return;
+    widest_ = gap;
+    widest_place_ = "face " + std::to_string(model_.faces[use.face].ref) + ", curve " + std::to_string(use.curve + 1);
+  }
+
+  void check_gap(const Curve& shape, const CurveUse& use) {
     const std::span<const Vec3> first = trace(shape.uses.front()), other = trace(use);
     if (hausdorff_distance(first, other, eps_, eps_) <= eps_) return;
+    if (const double gap = apart_ > eps_ ? hausdorff_distance(first, other, infinity) : infinity; gap <= apart_) {
+      note_gap(use, gap);
+      return;
+    }
     throw InvalidModel(where(use), "the curve is up to " + format_number(hausdorff_distance(first, other, infinity)) +
                                        " away from " + name(shape.uses.front()) +
-                                       ", which has the same reference (tolerance " + format_number(eps_) + ")");
+                                       ", which has the same reference (tolerance " + format_number(apart_) + ")");
   }
 
   // A closed curve says nothing by its ends: the direction is the one in which the shapes agree.
@@ -197,7 +221,7 @@ class TopologyBuilder {
       back = std::max(back, norm(p - trace_point(other, 1 - r)));
     }
     const double gap = std::min(along, back);
-    if (gap > eps_)
+    if (gap > apart_)
       throw InvalidModel(where(use), "the closed curve and " + name(shape.uses.front()) +
                                          ", which has the same reference, are " + format_number(gap) +
                                          " apart at equal lengths: do both start at the same point?");
@@ -219,7 +243,10 @@ class TopologyBuilder {
 
   const Model& model_;
   const CurveTraces& traces_;
-  double eps_;
+  double eps_, apart_;
+  int wide_ = 0;  // gaps between eps_ and apart_
+  double widest_ = 0;
+  std::string widest_place_;
   std::map<int, double> point_extent_;  // by curve reference, of small loops: larger ones are no points
   std::map<int, std::size_t> rank_;     // of point references, by first appearance
   std::vector<double> slack_;           // by rank, of the sets' smallest
@@ -232,11 +259,15 @@ class TopologyBuilder {
 
 }  // namespace
 
-Topology build_topology(const Model& model, const CurveTraces& traces, double eps) {
+Topology build_topology(const Model& model, const CurveTraces& traces, double eps, double eps_match,
+                        std::vector<std::string>* remarks) {
   if (!(eps > 0) || !std::isfinite(eps))
     throw InvalidArgument("the tolerance of curves in space must be positive; it is " + format_number(eps));
   check_traces(model, traces);
-  return TopologyBuilder(model, traces, eps).run();
+  TopologyBuilder builder(model, traces, eps, eps_match);
+  Topology topology = builder.run();
+  if (const std::string remark = builder.remark(); remarks != nullptr && !remark.empty()) remarks->push_back(remark);
+  return topology;
 }
 
 }  // namespace carreau

@@ -114,11 +114,13 @@ Model collapse_tiny_curves(const Model& model, const CurveTraces& traces, double
 /// curves: collapsed ones, those whose trace lies within eps / 1000 of a point (their end references become one corner
 /// whatever they are; not where a whole loop would vanish: there within a thousandth of its longest side), and those
 /// within `eps` of a point that are open and have one reference at both ends.
-/// `eps` (model length) is how far curves and ends of one reference may be apart. The model must have no defect.
+/// `eps` (model length) is how far curves and ends of one reference may be apart, or `eps_match` where that is more:
+/// `remarks` (may be null) receives a sentence when some are farther apart than eps. The model must have no defect.
 /// Throws InvalidModel, naming faces, curves, references and the gap: curves of one reference that are farther apart,
 /// ends that are not where their reference is (exchanged ones are told), refp1 = refp2 on a curve that does not return,
 /// a closed curve whose direction cannot be told. Throws InvalidArgument when eps is not positive or traces are
 /// missing.
-Topology build_topology(const Model& model, const CurveTraces& traces, double eps);
+Topology build_topology(const Model& model, const CurveTraces& traces, double eps, double eps_match = 0,
+                        std::vector<std::string>* remarks = nullptr);
 
 }  // namespace carreau

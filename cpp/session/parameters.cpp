@@ -87,6 +87,8 @@ constexpr std::array kTable = {
              "two sides of one face nearer than this are a seam, model length (0: a thousandth of eps_glue)"),
     real_row("eps_glue_open", 0, infinity, 0,
              "curves that stay open are one within this and a tenth of their lengths, model length (0: eps_glue)"),
+    real_row("eps_match", 0, infinity, 0,
+             "curves of one reference, and ends at one point, may be so far apart, model length (0: a hundredth of diag)"),
     real_row("eps_smooth", 1e-6, 1, 0.01,
              "plane domains: polylines by which their curves are compared, distance as a share of the edge"),
     text_row("failing_faces", "stop", "stop|leave_out",

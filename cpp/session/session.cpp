@@ -230,8 +230,11 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, leaves_out(s.parameters) ? &known : nullptr, s.monitor);
+  std::vector<std::string> wide_gaps;
   Topology topology =
-      build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
+      build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)),
+                     s.parameters.real("eps_match"), &wide_gaps);
+  for (const std::string& gap : wide_gaps) s.monitor.message(Level::warning, gap);
 
   PartMonitor patches(making, 0, has_discrete(known) ? share_of_patches : 1), triangles(making, share_of_patches, 1);
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches);

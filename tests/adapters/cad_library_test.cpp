@@ -220,7 +220,7 @@ TEST(CadLibrary, StopsWhenAsked) {
   options.progress = [](double, void* user) { return std::int32_t{++*static_cast<int*>(user) > 0}; };
   EXPECT_EQ(carreau_cad_open(session, (shapes() + "/assembly.step").c_str(), &options, nullptr), CARREAU_ERR_CANCELLED);
   EXPECT_EQ(calls, 1);
-  options.reserved = 0, options.struct_size = 3;
+  options.struct_size = 3;
   EXPECT_EQ(carreau_cad_open(session, (shapes() + "/assembly.step").c_str(), &options, nullptr), CARREAU_ERR_ARGUMENT);
 }
 

@@ -148,6 +148,95 @@ class Broken(unittest.TestCase):
         self.assertNotEqual(broken, text)
         self.assertEqual(self.mesh("context.step", broken)[0], ALL_FACES)
 
+    def test_annotations_that_cannot_be_read_lose_no_face(self):
+        text = content("plate.step")
+        broken = text.replace("ENDSEC;\nEND-ISO", "#90001 = TEXT_LITERAL('note','5 CM',#90002,'left',.RIGHT.,#90002);\n"
+                              "#90002 = CARTESIAN_POINT('',(0.,0.,0.));\n"
+                              "#90003 = SHAPE_REPRESENTATION('',(#90001),#90004);\n#90004 = DIRECTION('',(1.,0.,0.));\nENDSEC;\nEND-ISO")
+        self.assertNotEqual(broken, text)
+        status, error, summary = self.mesh("note.step", broken)
+        self.assertEqual((status, summary["not_read"]), (ALL_FACES, []), error)
+        self.assertEqual(summary["warnings"], ["1 entity that carries no face was not read: #90001 TEXT_LITERAL"])
+
+    def test_names_and_counts_of_attributes_lose_no_face(self):
+        text = content("plate.step")
+        area = self.mesh("plain.step", text)[2]["mesh"]["area"]
+        unset = re.sub(r"(CARTESIAN_POINT|ADVANCED_FACE|DIRECTION|EDGE_CURVE|CLOSED_SHELL|VERTEX_POINT)\('[^']*',", r"\1($,", text)
+        more = re.sub(r"(EDGE_LOOP\('',\([^()]*\))\)", r"\1,.T.)", text)
+        missing = re.sub(r"(CARTESIAN_POINT|EDGE_LOOP)\('',", r"\1(", text.replace("REPRESENTATION_ITEM('')", "REPRESENTATION_ITEM()"))
+        for broken in (unset, more, missing):
+            self.assertNotEqual(broken, text)
+            status, error, summary = self.mesh("names.step", broken)
+            self.assertEqual((status, len(summary["faces"]), summary["mesh"]["area"]), (ALL_FACES, 7, area), error)
+            self.assertEqual(len(summary["warnings"]), 1)
+            self.assertIn("entities are wrong and were mended", summary["warnings"][0])
+
+    def test_files_of_wires_are_meshed_as_edges(self):
+        path, out = os.path.join(SHAPES, "wires.brep"), os.path.join(self.folder, "out.mesh")
+        done = subprocess.run([PROGRAM, "mesh", path, "-o", out, "--size", "0.1"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, ALL_FACES, done.stderr)
+        with open(out) as file:
+            mesh = file.read()
+        self.assertEqual(re.search(r"\nEdges\s+(\d+)", mesh).group(1), "30")
+        self.assertNotIn("Triangles", mesh)
+
+    def test_edges_of_no_face_are_left_out(self):
+        path, out = os.path.join(SHAPES, "loose.brep"), os.path.join(self.folder, "out.mesh")
+        counts = []
+        for option in ((), ("--loose-edges",)):
+            done = subprocess.run([PROGRAM, "mesh", path, "-o", out, "--size", "0.1", "--json", *option], capture_output=True,
+                                  text=True, timeout=60)
+            self.assertEqual(done.returncode, ALL_FACES, done.stderr)
+            summary = json.loads(done.stdout)
+            self.assertEqual(summary["warnings"], [] if option else ["3 edges of no face are not in the mesh (loose-edges adds them)"])
+            counts.append(summary["mesh"]["vertices"])
+        self.assertEqual(counts[1], counts[0] + 31)
+
+    def test_files_to_which_an_assembly_refers(self):
+        parts = [name for name in os.listdir(SHAPES) if name.startswith("outside")]
+        self.assertEqual(len(parts), 3)
+        for name in parts:
+            shutil.copy(os.path.join(SHAPES, name), self.folder)
+        path, out = os.path.join(self.folder, "outside.step"), os.path.join(self.folder, "out.mesh")
+        command = [PROGRAM, "mesh", path, "-o", out, "--size", "10%", "--json"]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, ALL_FACES, done.stderr)
+        self.assertEqual(len(json.loads(done.stdout)["faces"]), 13)  # of two blocks and a ball
+        missing = next(name for name in parts if "block" in name)
+        os.remove(os.path.join(self.folder, missing))
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, SOME_FACES, done.stderr)
+        self.assertIn(f"file '{missing}', to which the file refers, cannot be read", done.stderr)
+        self.assertEqual(len(json.loads(done.stdout)["faces"]), 1)
+
+    TESSELLATED = """ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');
+FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF'));
+ENDSEC;
+DATA;
+#1=COORDINATES_LIST('',8,((0.,0.,0.),(1.,0.,0.),(1.,1.,0.),(0.,1.,0.),(0.,0.,1.),(1.,0.,1.),(1.,1.,1.),(0.,1.,1.)));
+#2=COMPLEX_TRIANGULATED_FACE('bottom',#1,4,((0.,0.,-1.)),$,(1,4,2,3),((1,2,3,4)),());
+#3=COMPLEX_TRIANGULATED_FACE('top',#1,8,$,$,(),(),((5,6,7,8)));
+#4=TRIANGULATED_FACE('sides; ',#1,8,(),$,(),((1,2,6),(1,6,5),(2,3,7),(2,7,6),(3,4,8),(3,8,7),(4,1,5),(4,5,8)));
+#5=TESSELLATED_SHELL('',(#2,#3,#4),$);
+#6=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.));
+ENDSEC;
+END-ISO-10303-21;
+"""
+
+    def test_tessellated_shells_are_surfaces_given_as_triangles(self):
+        status, error, summary = self.mesh("cube.stp", self.TESSELLATED)
+        self.assertEqual(status, ALL_FACES, error)
+        self.assertTrue(summary["closed"])
+        self.assertAlmostEqual(summary["mesh"]["area"], 600, places=6)
+        self.assertEqual(len(summary["faces"]), 3)
+        for old, new in (("(4,5,8)", "(4,5,9)"), ("TESSELLATED_SHELL('',(#2,", "TESSELLATED_SHELL('',(#77,"), ("((1,2,3,4)),())", "((1,x,3,4)),())"),
+                         ("#1=COORDINATES_LIST", "#1=CARTESIAN_POINT")):
+            self.assertIn(old, self.TESSELLATED)
+            self.refused("cube.stp", self.TESSELLATED.replace(old, new), "#")
+
     def test_brep_files_without_a_table_say_so_on_standard_error_only(self):
         for table in ("Surfaces", "Curves ", "TShapes"):
             status, error, summary = self.mesh("table.brep", content("plate.brep").replace(table, "x" + table))

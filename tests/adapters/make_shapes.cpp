@@ -9,6 +9,8 @@
 //   plate.step, .brep, .igs   a plate with a hole, all of NURBS
 //   quarter_plate.step     a unit square without the quarter of a disc (HDR fig. 3.6): a face
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
+//   wires.brep             three sides of a unit square and no face; loose.brep: the same beside a unit cube
+//   outside.step           the same assembly; its parts are in outside_block.stp and outside_ball.stp
 //   NAME.brep              faces that bend inside: bent_shapes()
 //   torn_roof.brep         one that is not cut there, since its sides do not meet
 //   bent.step              the prism of bent_shapes(), whose side is named "side" and red
@@ -76,6 +78,7 @@ void write_document(const Handle(TDocStd_Document) & document, const std::string
   require(writer.Transfer(document) && writer.Write(path.c_str()) == IFSelect_RetDone, path);
 }
 
+/// In one file, and in one of each part.
 void write_assembly(const std::string& path) {
   Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
   const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
@@ -87,7 +90,11 @@ void write_assembly(const std::string& path) {
   shapes->AddComponent(rig, block, at(20, 0, 0));
   shapes->AddComponent(rig, ball, at(0, 0, 10));
   shapes->UpdateAssemblies();
-  write_document(document, path);
+  write_document(document, path + "assembly.step");
+  STEPCAFControl_Writer outside;
+  require(outside.Transfer(document, STEPControl_AsIs, "outside_") &&
+              outside.Write((path + "outside.step").c_str()) == IFSelect_RetDone,
+          "outside.step");
 }
 
 void write_named_faces(const std::string& path) {
@@ -188,6 +195,21 @@ void write_boxes(const std::string& path) {
   require(BRepTools::Write(all, path.c_str()), path);
 }
 
+void write_wires(const std::string& folder) {
+  BRep_Builder builder;
+  TopoDS_Compound wires, both;
+  builder.MakeCompound(wires);
+  builder.MakeCompound(both);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(gp_Pnt(3, 0, 0), gp_Pnt(4, 0, 0)).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(4, 0, 0), gp_Pnt(4, 1, 0)).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(4, 1, 0), gp_Pnt(3, 1, 0)).Edge());
+  builder.Add(wires, wire.Wire());
+  builder.Add(both, wire.Wire());
+  builder.Add(both, BRepPrimAPI_MakeBox(1, 1, 1).Shape());
+  require(BRepTools::Write(wires, (folder + "wires.brep").c_str()), "wires.brep");
+  require(BRepTools::Write(both, (folder + "loose.brep").c_str()), "loose.brep");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -200,7 +222,7 @@ int main(int argc, char** argv) {
       write_step(made, folder + shape.name + ".step");
       require(BRepTools::Write(made, (folder + shape.name + ".brep").c_str()), shape.name);
     }
-    write_assembly(folder + "assembly.step");
+    write_assembly(folder);
     write_named_faces(folder + "named_faces.step");
     write_bracket(folder + "bracket.step");
     write_plate(folder + "plate");
@@ -210,6 +232,7 @@ int main(int argc, char** argv) {
     write_open_iges(folder + "open.igs");
     write_free_edges(folder + "free.brep");
     write_boxes(folder + "boxes.brep");
+    write_wires(folder);
     for (const shapes::BentShape& bent : shapes::bent_shapes())
       require(BRepTools::Write(bent.make(), (folder + bent.name + ".brep").c_str()), bent.name);
     require(BRepTools::Write(shapes::torn_roof(), (folder + "torn_roof.brep").c_str()), "torn_roof.brep");

@@ -158,6 +158,7 @@ MeasuredMesh mesh_and_measure(carreau_occ::BrepHost& host, double size,
     carreau_set_real(raw, "eps_glue", of_all);
     carreau_set_real(raw, "eps_glue_open", of_each);
   }
+  carreau_set_real(raw, "eps_match", host.match_tolerance());
   if (prepare) prepare(raw);
   m.status = host.give_to(raw);
   if (m.status == CARREAU_OK) m.status = carreau_mesh_generate(raw);

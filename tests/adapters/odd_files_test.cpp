@@ -383,7 +383,7 @@ TEST(NaturalBounds, AreThoseOfClosedSurfaces) {
   builder.Add(shape, plane);  // has no end
   ASSERT_TRUE(BRepTools::Write(shape, path.c_str()));
   carreau_occ::BrepHost endless(carreau_occ::read_shape(path));
-  EXPECT_EQ(endless.excluded(), (std::vector<std::pair<int, std::string>>{{3, "no edge bounds it"}}));
+  EXPECT_EQ(endless.excluded(), (std::vector<std::pair<int, std::string>>{{3, "no edge bounds it, and its surface has no end"}}));
 }
 
 }  // namespace

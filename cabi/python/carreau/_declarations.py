@@ -792,7 +792,7 @@ class carreau_cad_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
         ("trap_faults", c_int32),
-        ("reserved", c_int32),
+        ("loose_edges", c_int32),
         ("progress", carreau_cad_progress_fn),
         ("user", c_void_p),
     ]
@@ -813,6 +813,8 @@ class carreau_cad_content(Structure):
         ("bent_faces", c_int32),
         ("left_out", c_int32),
         ("references", c_int32),
+        ("match_tolerance", c_double),
+        ("notes", c_char_p),
     ]
 
 

@@ -323,6 +323,8 @@ class CadContent(NamedTuple):
     bent_faces: int
     left_out: int
     references: int
+    match_tolerance: float
+    notes: str
 
 
 class CadFace(NamedTuple):

@@ -22,9 +22,10 @@ if TYPE_CHECKING:
 
 class CadFile:
     """A file that was read: .step, .stp, .iges, .igs or .brep. Faces and edges have their numbers in the file, from 1.
-    Lengths are in millimetres; those of a BREP file have no unit. Raises FileError, ImportError without libcarreau_cad."""
+    Lengths are in millimetres; those of a BREP file have no unit. Edges of no face are left out unless loose_edges is
+    given or the file has no face. Raises FileError, ImportError without libcarreau_cad."""
 
-    def __init__(self, path: Path, progress: Progress = None) -> None:
+    def __init__(self, path: Path, progress: Progress = None, loose_edges: bool = False) -> None:
         self._handle = created(cad_lib().cad_create)
         self._close = weakref.finalize(self, cad_lib().cad_close, self._handle)
         hears = listener(progress)
@@ -34,7 +35,7 @@ class CadFile:
             return int(host.stopped or bool(hears and hears(share, "reading", 0)))
 
         callback = c.carreau_cad_progress_fn(host.guarded(lambda *_: {}, on_progress))
-        options = struct(c.carreau_cad_options, progress=callback)
+        options = struct(c.carreau_cad_options, loose_edges=int(loose_edges), progress=callback)
         require_cad(self._handle, run(host, lambda: int(cad_lib().cad_read(self._handle, file_name(path), byref(options)))))
 
     def _call(self, function: Callable[..., int], *arguments: Any) -> None:

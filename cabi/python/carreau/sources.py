@@ -39,6 +39,7 @@ class Source:
 
     options: tuple[str, ...] = ()  # names of its own options
     glue = (0.0, 0.0)              # tolerances within which curves of one face are one: eps_glue, eps_glue_open
+    match = 0.0                    # how far uses of one curve may be apart: eps_match
     short_ends = False             # short curves are exact, and no mistake of a file
     answers_face_sizes = False
 
@@ -122,6 +123,7 @@ class CadSource(Source):
         self.file = path if isinstance(path, CadFile) else CadFile(path, progress)
         self.content = self.file.content
         self.glue = (self.content.glue_tolerance, self.content.open_tolerance)
+        self.match = self.content.match_tolerance
 
     def add_to(self, session: Session) -> None:
         self.file.add_to(session)

@@ -137,6 +137,8 @@ def _set_choices(session: Session, source: Source, diagonal: float, env: Optiona
     session["narrow_ratio"] = NARROW_RATIO
     if source.glue[0] > 0:
         session["glue_open"], session["eps_glue"], session["eps_glue_open"] = 1, *source.glue
+    if source.match > 0:
+        session["eps_match"] = source.match
     if source.short_ends:
         session["eps_ends"] = 1e-9 * diagonal
     if env is not None:

@@ -27,8 +27,9 @@ module carreau_cad
     integer(c_int32_t) :: faces = 0, edges = 0, vertices = 0
     logical :: closed = .false.
     character(len=:), allocatable :: unit
-    real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0
+    real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0, match_tolerance = 0
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
+    character(len=:), allocatable :: notes
   end type carreau_cad_content
 
   type :: carreau_cad_face
@@ -79,17 +80,17 @@ contains
   ! ---- Files ----
 
   !> file: to ask it; to be closed by carreau_cad_close
-  subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user)
+  subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user, loose_edges)
     type(carreau_session), intent(in) :: session
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(carreau_cad_file), intent(inout), optional :: file
-    logical, intent(in), optional :: trap_faults
+    logical, intent(in), optional :: trap_faults, loose_edges
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
     type(c_ptr) :: opened
     opened = c_null_ptr
-    status = c_cad_open(session%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user), opened)
+    status = c_cad_open(session%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user, loose_edges), opened)
     if (present(file) .and. status == CARREAU_OK) then
       file%handle = opened
     else
@@ -97,13 +98,15 @@ contains
     end if
   end subroutine carreau_cad_open
 
-  function options_of(trap_faults, progress, user) result(options)
+  function options_of(trap_faults, progress, user, loose_edges) result(options)
     logical, intent(in), optional :: trap_faults
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
+    logical, intent(in), optional :: loose_edges
     type(c_cad_options) :: options
     options%struct_size = size(transfer(options, [c_null_char]))
     if (present(trap_faults)) options%trap_faults = merge(1_c_int32_t, 0_c_int32_t, trap_faults)
+    if (present(loose_edges)) options%loose_edges = merge(1_c_int32_t, 0_c_int32_t, loose_edges)
     if (present(progress)) options%progress = c_funloc(progress)
     if (present(user)) options%user = user
   end function options_of
@@ -126,14 +129,14 @@ contains
     sentence = carreau_string(c_cad_last_error(file%handle))
   end function carreau_cad_last_error
 
-  subroutine carreau_cad_read(file, path, status, trap_faults, progress, user)
+  subroutine carreau_cad_read(file, path, status, trap_faults, progress, user, loose_edges)
     type(carreau_cad_file), intent(in) :: file
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
-    logical, intent(in), optional :: trap_faults
+    logical, intent(in), optional :: trap_faults, loose_edges
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    status = c_cad_read(file%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user))
+    status = c_cad_read(file%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user, loose_edges))
   end subroutine carreau_cad_read
 
   subroutine carreau_cad_add(file, session, status)
@@ -173,6 +176,8 @@ contains
     content%bent_faces = c%bent_faces
     content%left_out = c%left_out
     content%references = c%references
+    content%match_tolerance = c%match_tolerance
+    content%notes = carreau_string(c%notes)
   end subroutine carreau_cad_info
 
   !> index: from 1; "" when there is no such

@@ -11,7 +11,7 @@ module carreau_cad_c
   !> How a file is read.
   type, bind(c) :: c_cad_options
     integer(c_size_t) :: struct_size = 0
-    integer(c_int32_t) :: trap_faults = 0, reserved = 0
+    integer(c_int32_t) :: trap_faults = 0, loose_edges = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: user = c_null_ptr
   end type c_cad_options
@@ -23,6 +23,8 @@ module carreau_cad_c
     type(c_ptr) :: unit = c_null_ptr
     real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
+    real(c_double) :: match_tolerance = 0
+    type(c_ptr) :: notes = c_null_ptr
   end type c_cad_content
 
   !> What the file tells of a face.

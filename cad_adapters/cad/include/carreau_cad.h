@@ -45,7 +45,7 @@ typedef struct carreau_cad_options {
   int32_t trap_faults; /* 1: SIGSEGV, SIGBUS, SIGFPE and SIGILL that OpenCASCADE raises in a call of this library are the
                           error of a face or of the file, as long as the file, or a geometry of it, is there; for
                           programs that own their process. 0: signals are left alone, and a fault ends the program */
-  int32_t reserved;    /* 0 */
+  int32_t loose_edges; /* 1: edges of no face are meshed as edges. 0: only those of files without a face are */
   carreau_cad_progress_fn progress; /* NULL: nobody is told */
   void* user;                       /* handed to progress */
 } carreau_cad_options;
@@ -96,10 +96,13 @@ typedef struct carreau_cad_content {
   double glue_tolerance; /* how far apart edges of one face only may be that are one, as the tolerances of the file's
                             own edges have it and its shortest edge allows (eps_glue); 0: there are no two of them */
   double open_tolerance; /* the same whatever the lengths (eps_glue_open) */
-  int32_t losses;        /* entities that could not be read: see carreau_cad_loss */
+  int32_t losses;        /* entities with faces that could not be read: see carreau_cad_loss */
   int32_t bent_faces;    /* faces that bend inside and could not be cut there */
   int32_t left_out;      /* faces that cannot be meshed */
   int32_t references;    /* largest reference of a face, parts of cut faces included */
+  double match_tolerance; /* how far faces may be from edges and vertices that they share (eps_match): six
+                             hundredths of the diagonal */
+  const char* notes;     /* what was passed over or repaired without the loss of a face: sentences, one a line */
 } carreau_cad_content;
 
 /* Counts what the file holds. */

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "support/error.h"
+#include "support/format.h"
 #include "support/infinity.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/thresholds.h"
@@ -328,6 +330,10 @@ class Builder {
     if (orient_loops(domain_.plane, seed_, seed_left_)) return;
     const Where where{.face = face_.ref, .curve_index = std::abs(face_.orientation)};
     if (!defects.empty()) throw DomainError(where, defects.front());
+    if (const std::optional<EdgeConflict> crossing = find_a_crossing(domain_.plane))
+      throw TurnedDomain(where, "the boundary crosses itself at (u, v) = (" + format_number(crossing->uv.x()) + ", " +
+                                    format_number(crossing->uv.y()) +
+                                    "), so that the side given by the orientation is not the inside of the domain");
     throw TurnedDomain(
         where,
         "the boundary is turned the wrong way: the side given by the orientation is not the inside of the domain");

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of the adapter: what they are, in which unit, why, and what supports them.
+#pragma once
+
+namespace carreau_occ::thresholds {
+
+// Gaps in loops (loop_gaps). In brackets: the tests that rest on it, of tests/adapters/loops_test.cpp.
+
+/// Share of the diagonal. A wider gap between two curves of a loop gets an edge: the engine takes ends that are nearer
+/// as one point. [LoopGaps.*]
+inline constexpr double wide_gap = 1.0 / 100;
+/// Share of the shorter curve beside a gap, and of the diagonal. A gap above both gets an edge, too: the engine joins
+/// ends within a quarter of the shortest curve. [LoopGaps.*]
+inline constexpr double gap_beside_curve = 0.2, narrow_gap = 1.0 / 400;
+/// Share of the gap between a curve in space and its image on the surface. An image is wrong where the curve in space
+/// lies so much nearer to the surface than to its image. [LoopGaps.WrongImagesAreMadeAnew]
+inline constexpr double wrong_image = 0.1;
+
+// Tolerance of references (brep_host)
+
+/// Share of the diagonal. Uses of one edge, and ends of one vertex, may be so far apart: a shape of OpenCASCADE's own
+/// data with gaps of 5.6 per cent is meshed by Gmsh. [LoopGaps.FacesThatMissTheirEdgesAreMeshed]
+inline constexpr double match_share = 0.06;
+
+}  // namespace carreau_occ::thresholds
