@@ -178,7 +178,10 @@ ChartPlane::Found ChartPlane::find_around(std::int32_t first, const Vec2& p) con
 Metric2 ChartPlane::metric(const Foot& at) const {
   const std::array<double, 3> w = atlas_.charts.weights(at.triangle, at.uv);
   const auto& n = atlas_.corner[at.triangle];
-  const Vec3 normal = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+  Vec3 normal = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+  // Opposite normals at the corners of a folded triangle cancel out, and a triangle without area has no weights.
+  if (!(norm(normal) > least_normal)) normal = atlas_.normal[at.triangle];
+  if (!(norm(normal) > least_normal)) return {1, 0, 1};
   const double up = std::max(dot(normal, axis_), thresholds::projected::least_cosine * norm(normal));
   const double p = dot(normal, first_) / up, q = dot(normal, second_) / up;
   return {1 + p * p, p * q, 1 + q * q};
