@@ -30,6 +30,15 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+/// While one lives another library is at work: a signal or a run without end is not a fault of this one.
+class Foreign {
+ public:
+  Foreign();
+  ~Foreign();
+  Foreign(const Foreign&) = delete;
+  Foreign& operator=(const Foreign&) = delete;
+};
+
 enum class Result { whole, partial, rejected };
 
 struct Outcome {
@@ -62,7 +71,7 @@ Outcome run_molecule(std::uint64_t seed);
 Outcome run_grid(std::uint64_t seed);
 
 /// KIND [--first SEED] [--count N] [--seconds-per-run S] [--jobs N]: runs seeds in processes of their own. A signal or a
-/// run that takes longer than S seconds is a fault, which names its seed. Returns 1 when there is one.
+/// run that takes longer than S seconds of the processor is a fault, which names its seed. Returns 1 when there is one.
 int main_of(const std::vector<Kind>& kinds, int argc, char** argv);
 
 }  // namespace geometry_fuzz

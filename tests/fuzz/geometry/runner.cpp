@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Seeds in processes of their own.
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -30,14 +33,28 @@ struct Shared {
   std::uint64_t seed;
   std::uint64_t results[3];
   std::uint64_t faults;
+  bool foreign;
 };
+
+Shared* of_process = nullptr;
 
 constexpr std::uint64_t seeds_of_process = 50;
 
+// Time of the processor, which does not depend on other work of the machine; a run that waits for ever uses none.
+void limit(unsigned seconds) {
+  constexpr unsigned waiting = 20;
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(seconds);
+  setitimer(ITIMER_PROF, &timer, nullptr);
+  alarm(waiting * seconds);
+}
+
 [[noreturn]] void run_seeds(const Kind& kind, std::uint64_t first, std::uint64_t end, unsigned seconds, Shared& shared) {
+  of_process = &shared;
+  shared.foreign = false;
   for (std::uint64_t seed = first; seed < end; ++seed) {
     shared.seed = seed;
-    alarm(seconds);
+    limit(seconds);
     Outcome outcome;
     try {
       outcome = kind.run(seed);
@@ -46,7 +63,7 @@ constexpr std::uint64_t seeds_of_process = 50;
     } catch (...) {
       outcome.fault = "an exception";
     }
-    alarm(0);
+    limit(0);
     if (outcome.fault.empty()) {
       ++shared.results[static_cast<int>(outcome.result)];
     } else {
@@ -108,10 +125,14 @@ class Runner {
     Job& job = jobs_[j];
     job.next = job.end;
     if (WIFSIGNALED(status) || WEXITSTATUS(status) != 0) {
-      ++killed_;
       job.next = seed + 1;
-      if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+      ++(shared_[j].foreign ? shared_[j].results[static_cast<int>(Result::rejected)] : killed_);
+      if (shared_[j].foreign)
+        std::printf("%s, seed %llu: another library does not return\n", kind_.name.c_str(), seed);
+      else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
         std::printf("%s, seed %llu: takes longer than %u s\n", kind_.name.c_str(), seed, options_.seconds);
+      else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+        std::printf("%s, seed %llu: waits without end\n", kind_.name.c_str(), seed);
       else if (WIFSIGNALED(status))
         std::printf("%s, seed %llu: signal %d (%s)\n", kind_.name.c_str(), seed, WTERMSIG(status), strsignal(WTERMSIG(status)));
       else
@@ -150,6 +171,14 @@ int usage(const std::vector<Kind>& kinds) {
 }
 
 }  // namespace
+
+Foreign::Foreign() {
+  if (of_process != nullptr) of_process->foreign = true;
+}
+
+Foreign::~Foreign() {
+  if (of_process != nullptr) of_process->foreign = false;
+}
 
 int main_of(const std::vector<Kind>& kinds, int argc, char** argv) {
   Options options;
