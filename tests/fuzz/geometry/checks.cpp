@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What holds for the mesh of any geometry.
 #include <cstdlib>
+#include <cstring>
 #include <set>
 #include <sstream>
 #include <string>
@@ -51,16 +52,19 @@ long face_in(const std::string& sentence) {
   return at == std::string::npos ? 0 : std::strtol(sentence.c_str() + at + 5, nullptr, 10);
 }
 
+/// Faces whose status has a sentence about triangles without area, turned triangles or invalid elements.
 std::set<long> mended_faces(carreau_mesh* mesh) {
+  constexpr const char* reported[] = {"no area", "turned over", "upright", "Jacobian"};
   std::set<long> mended;
   carreau_face face{};
   face.struct_size = sizeof face;
   for (std::int64_t f = 0; carreau_mesh_face(mesh, f, &face) == CARREAU_OK; ++f)
-    if (face.status == CARREAU_FACE_MENDED) mended.insert(face.ref);
+    for (const char* what : reported)
+      if (face.status == CARREAU_FACE_MENDED && std::strstr(face.why, what) != nullptr) mended.insert(face.ref);
   return mended;
 }
 
-/// The defects of faces that are said to be meshed. The status of a mended face has a reason.
+/// The defects that no status of a face reports.
 std::string fault_of_mesh(carreau_mesh* mesh, bool closed) {
   constexpr std::int64_t limit = 1000;
   constexpr int shown = 3;
