@@ -345,8 +345,8 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   }
   // As many as that pays for, the worst ones; of equal ones the first.
   const auto cut = [this](std::vector<std::int32_t>& list, double samples, double cost) {
+    if (samples / cost >= static_cast<double>(list.size())) return;
     const auto count = static_cast<std::size_t>(std::max(samples / cost, 0.0));
-    if (list.size() <= count) return;
     const auto error = [this](std::int32_t c) { return (*tree_)[c].error; };
     std::nth_element(
         list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count), list.end(),
