@@ -9,6 +9,7 @@
 #include "geometry/atlas/blended_surface.h"
 #include "guard.h"
 #include "io/exr.h"
+#include "support/clamped_int.h"
 
 using carreau::InvalidArgument;
 using carreau::Vec2;
@@ -126,7 +127,7 @@ void write_image(const carreau::atlas::Annulus& annulus, const char* path, int w
   const double step = (high.x() - low.x()) / width;
   carreau::ExrPart part;
   part.name = "annulus", part.width = width;
-  part.height = std::clamp(static_cast<int>(std::ceil((high.y() - low.y()) / step)), 1, 16 * width);
+  part.height = carreau::clamped_int(std::ceil((high.y() - low.y()) / step), 1, 16 * width);
   part.channels = {
       {"phi", carreau::ExrType::real}, {"tau", carreau::ExrType::real}, {"zone", carreau::ExrType::integer}};
   part.attributes = {{"low", low}, {"pixel", step}};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "atlas/thresholds.h"
+#include "support/clamped_int.h"
 
 namespace carreau::atlas {
 namespace {
@@ -44,7 +45,7 @@ OuterPieces divided_where_steep(const Part& part, const OuterPieces& given) {
     const double change = std::abs(std::log(width(to) / width(from)));
     const int count =
         std::isfinite(change)
-            ? std::clamp(static_cast<int>(std::ceil(change / thresholds::change_of_width)), 1, thresholds::divisions)
+            ? clamped_int(std::ceil(change / thresholds::change_of_width), 1, thresholds::divisions)
             : 1;
     for (int i = 0; i < count; ++i) {
       const double at = from + (to - from) * i / count;

@@ -7,6 +7,7 @@
 #include "control_space/quadratic_fit.h"
 #include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
+#include "support/clamped_int.h"
 #include "support/infinity.h"
 
 namespace carreau::detail {
@@ -53,8 +54,8 @@ BorderSamples::BorderSamples(const Lattice& lattice)
       in_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
 void BorderSamples::add(Vec2 position, Metric2 root) {
-  const int i = std::clamp(static_cast<int>(position.x() / lattice_.step()), 0, columns_ - 1);
-  const int j = std::clamp(static_cast<int>(position.y() / lattice_.step()), 0, rows_ - 1);
+  const int i = clamped_int(position.x() / lattice_.step(), 0, columns_ - 1);
+  const int j = clamped_int(position.y() / lattice_.step(), 0, rows_ - 1);
   in_cell_[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(samples_.size()));
   samples_.push_back({position, root});
 }
@@ -72,7 +73,7 @@ void BorderSamples::sort_nodes() {
 void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std::vector<Sample>& found) {
   found.clear();
   const auto cells = [&](double x, int count) {
-    return std::clamp(static_cast<int>(std::floor(x / lattice_.step())), 0, count - 1);
+    return clamped_int(x / lattice_.step(), 0, count - 1);
   };
   const int i0 = cells(centre.x() - reach, columns_), i1 = cells(centre.x() + reach, columns_);
   const int j0 = cells(centre.y() - reach, rows_), j1 = cells(centre.y() + reach, rows_);

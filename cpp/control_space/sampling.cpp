@@ -7,6 +7,7 @@
 
 #include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
+#include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
 
@@ -15,6 +16,12 @@ namespace carreau::detail {
 namespace {
 
 using namespace thresholds::control_space;
+
+// Numbers of cells are made of metrics: one that is not finite would make none.
+void require_finite(Metric2 m, const Vec2& uv) {
+  if (!std::isfinite(m.a) || !std::isfinite(m.b) || !std::isfinite(m.c))
+    throw DomainError({.uv = uv}, "the metric of the parameter domain is not finite");
+}
 
 }  // namespace
 
@@ -120,6 +127,7 @@ std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
     monitor_.checkpoint();
     sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n),
              on_surface_ ? std::span(last_tangents_).subspan(start, n) : std::span<SurfaceTangents>{});
+    for (std::size_t k = start; k < start + n; ++k) require_finite(metric[k], uv[k]);
     samples_ += n;
   });
   return metric;
@@ -337,8 +345,8 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   }
   // As many as that pays for, the worst ones; of equal ones the first.
   const auto cut = [this](std::vector<std::int32_t>& list, double samples, double cost) {
+    if (samples / cost >= static_cast<double>(list.size())) return;
     const auto count = static_cast<std::size_t>(std::max(samples / cost, 0.0));
-    if (list.size() <= count) return;
     const auto error = [this](std::int32_t c) { return (*tree_)[c].error; };
     std::nth_element(
         list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count), list.end(),

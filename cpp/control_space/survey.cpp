@@ -151,6 +151,8 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
     s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);
   }
   const double points = share_points * share_points;
+  if (!std::isfinite(s.vertices_in_box) || !(s.aspect > 0) || !std::isfinite(s.aspect))
+    throw DomainError("the parameter domain is too many sizes wide for floating-point numbers");
   s.share = (count_inside(domain, s, locator, share_points) + 1.0) / (points + 1);
   s.metrics.resize(s.vertices.size());
   return s;

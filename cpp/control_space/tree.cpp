@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control_space/thresholds.h"
+#include "support/clamped_int.h"
 
 namespace carreau::detail {
 
@@ -24,7 +25,7 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
   std::vector<std::vector<std::int32_t>> candidates(static_cast<std::size_t>(columns_) *
                                                     static_cast<std::size_t>(rows_));
   const auto cell_of = [&](double x, int count, double shift) {
-    return std::clamp(static_cast<int>(std::floor(x / lattice_.step() + shift)), 0, count - 1);
+    return clamped_int(x / lattice_.step() + shift, 0, count - 1);
   };
   for (std::size_t e = 0; e < domain.edges.size(); ++e) {
     const Vec2 p = lattice.position(domain.vertices[domain.edges[e].first]);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "gradation/thresholds.h"
+#include "support/clamped_int.h"
 
 namespace carreau {
 
@@ -72,7 +73,7 @@ void TriangleTree::make_starts(Vec2 extent) {
   const double count = static_cast<double>(corners_.size());
   const double side = std::sqrt(std::max(extent.x() * extent.y() / count, 1e-300));
   const auto cells = [&](double length) {
-    return static_cast<std::int32_t>(std::clamp(std::ceil(length / side), 1.0, count));
+    return clamped_int(std::ceil(length / side), 1, static_cast<int>(corners_.size()));
   };
   columns_ = cells(extent.x()), rows_ = cells(extent.y());
   start_scale_ = {extent.x() > 0 ? columns_ / extent.x() : 0, extent.y() > 0 ? rows_ / extent.y() : 0};

@@ -2,6 +2,7 @@
 #include "io/element_lists.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "mesh/quality.h"
@@ -40,33 +41,95 @@ std::array<std::int32_t, 8> turned_once(std::array<std::int32_t, 8> n) {
   return n;
 }
 
-// Two quadrilaterals that meet in two edges, as at the apex of a cone, may have one triangle as their better halves.
-void part_equal_halves(FlatMesh& mesh) {
-  std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> halves;
-  for (std::size_t c = 0, t = 0; c < mesh.cells.size(); ++c)
-    for (int k = corner_count(mesh.cells[c].kind) - 2; k > 0; --k) {
-      std::array<std::int32_t, 3> corners = mesh.triangles[t++];
-      std::sort(corners.begin(), corners.end());
-      halves.emplace_back(corners, c);
-    }
-  std::sort(halves.begin(), halves.end());
-  std::vector<char> again(mesh.cells.size(), 0);
-  for (std::size_t i = 1; i < halves.size(); ++i)
-    if (halves[i].first == halves[i - 1].first) {
-      const std::size_t later = halves[i].second;
-      again[corner_count(mesh.cells[later].kind) == 3 ? halves[i - 1].second : later] = 1;
-    }
-  for (std::size_t c = 0, t = 0; c < mesh.cells.size(); t += corner_count(mesh.cells[c++].kind) == 4 ? 2 : 1) {
-    if (again[c] == 0 || corner_count(mesh.cells[c].kind) == 3) continue;
-    std::array<std::int32_t, 8>& n = mesh.cells[c].nodes;
-    const bool flat = n[0] == n[1] || n[1] == n[2] || n[2] == n[3] || n[3] == n[0] || n[0] == n[2] || n[1] == n[3];
-    if (flat) continue;
-    // The same whichever end of its diagonal it begins with: what was written and is read again does not change.
-    const std::array<std::int32_t, 8> once = turned_once(n), thrice = turned_once(turned_once(once));
-    n = once[0] < thrice[0] ? once : thrice;
-    mesh.triangles[t] = {n[0], n[1], n[2]}, mesh.triangles[t + 1] = {n[0], n[2], n[3]};
-  }
+std::array<std::int32_t, 3> half_of(const std::array<std::int32_t, 8>& n, std::size_t i, std::size_t j, std::size_t k) {
+  std::array<std::int32_t, 3> corners{n[i], n[j], n[k]};
+  std::ranges::sort(corners);
+  return corners;
 }
+
+bool has_four_corners(const Cell& cell) {
+  const std::array<std::int32_t, 8>& n = cell.nodes;
+  return corner_count(cell.kind) == 4 && n[0] != n[1] && n[1] != n[2] && n[2] != n[3] && n[3] != n[0] && n[0] != n[2] &&
+         n[1] != n[3];
+}
+
+/// Turns quadrilaterals whose halves are triangles of other elements. The result does not depend on the corner that a
+/// quadrilateral begins with: a mesh that is written and read again does not change.
+class EqualHalves {
+ public:
+  explicit EqualHalves(FlatMesh& mesh) : mesh_(mesh) {}
+
+  void part() {
+    find_candidates();
+    if (candidates_.empty()) return;
+    for (const std::size_t c : candidates_) set_canonical(mesh_.cells[c].nodes);
+    for (const Cell& cell : mesh_.cells) count(cell, 1);
+    // The first of several elements keeps its diagonal.
+    for (auto c = candidates_.rbegin(); c != candidates_.rend(); ++c) turn_if_better(mesh_.cells[*c]);
+    for (std::size_t c = 0, t = 0, k = 0; c < mesh_.cells.size() && k < candidates_.size(); ++c) {
+      const std::array<std::int32_t, 8>& n = mesh_.cells[c].nodes;
+      if (c == candidates_[k])
+        mesh_.triangles[t] = {n[0], n[1], n[2]}, mesh_.triangles[t + 1] = {n[0], n[2], n[3]}, ++k;
+      t += corner_count(mesh_.cells[c].kind) == 4 ? 2 : 1;
+    }
+  }
+
+ private:
+  using Half = std::array<std::int32_t, 3>;
+
+  // Quadrilaterals that share three corners with another element, by whichever diagonal either is cut.
+  void find_candidates() {
+    std::vector<std::pair<Half, std::int32_t>> halves;
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+      const std::array<std::int32_t, 8>& n = mesh_.cells[c].nodes;
+      const auto add_half = [&](std::size_t i, std::size_t j, std::size_t k) {
+        halves.emplace_back(half_of(n, i, j, k), static_cast<std::int32_t>(c));
+      };
+      add_half(0, 1, 2);
+      if (corner_count(mesh_.cells[c].kind) == 4) add_half(0, 2, 3), add_half(1, 2, 3), add_half(3, 0, 1);
+    }
+    std::ranges::sort(halves);
+    for (std::size_t i = 1; i < halves.size(); ++i)
+      if (halves[i].first == halves[i - 1].first && halves[i].second != halves[i - 1].second)
+        for (const std::size_t k : {i - 1, i})
+          if (const auto c = static_cast<std::size_t>(halves[k].second); has_four_corners(mesh_.cells[c]))
+            candidates_.push_back(c);
+    std::ranges::sort(candidates_);
+    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+  }
+
+  // The better diagonal, from its lower end; of two that are as good the one with the lowest end.
+  void set_canonical(std::array<std::int32_t, 8>& n) const {
+    while (n[0] != std::min({n[0], n[1], n[2], n[3]})) n = turned_once(n);
+    if (worse_half(mesh_, turned_once(n)) > worse_half(mesh_, n)) turn(n);
+  }
+
+  static void turn(std::array<std::int32_t, 8>& n) {
+    n = turned_once(n);
+    if (n[2] < n[0]) n = turned_once(turned_once(n));
+  }
+
+  void count(const Cell& cell, int by) {
+    count_[half_of(cell.nodes, 0, 1, 2)] += by;
+    if (corner_count(cell.kind) == 4) count_[half_of(cell.nodes, 0, 2, 3)] += by;
+  }
+
+  [[nodiscard]] int others_like(const Cell& cell) {
+    return count_[half_of(cell.nodes, 0, 1, 2)] + count_[half_of(cell.nodes, 0, 2, 3)];
+  }
+
+  void turn_if_better(Cell& cell) {
+    count(cell, -1);
+    Cell turned = cell;
+    turn(turned.nodes);
+    if (others_like(cell) > 0 && others_like(turned) == 0) cell = turned;
+    count(cell, 1);
+  }
+
+  FlatMesh& mesh_;
+  std::vector<std::size_t> candidates_;  // ascending
+  std::map<Half, int> count_;
+};
 
 // The diagonal from corner 0 is the one that cuts.
 void turn_quads(FlatMesh& mesh, std::size_t first_cell, std::size_t first_triangle) {
@@ -139,7 +202,9 @@ void set_elements(const ElementLists& lists, FlatMesh& mesh) {
     add_all(lists.triangles6, CellKind::triangle6, mesh);
     add_all(lists.quads, CellKind::quad4, mesh);
     add_all(lists.triangles, CellKind::triangle3, mesh);
-    turn_quads(mesh, 0, 0), part_equal_halves(mesh);
+    turn_quads(mesh, 0, 0);
+    // Two quadrilaterals that meet in two edges, as at the apex of a cone, may have one triangle as their better halves.
+    EqualHalves(mesh).part();
   }
   // Of straight and curved edges only the ends are kept.
   const bool with_mids = lists.edges.nodes.empty();

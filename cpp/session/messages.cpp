@@ -31,6 +31,26 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
     }
 }
 
+void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor) {
+  for (FaceMesh& face : mesh.faces) {
+    if (face.status != FaceStatus::meshed && face.status != FaceStatus::mended) continue;
+    std::size_t flat = 0;
+    Where where{.face = face.ref};
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+      const auto& [a, b, c] = face.triangles[t];
+      const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.vertices[face.vertex[v]]; };
+      if (quality_q2(at(a), at(b), at(c)) > flat_quality) continue;
+      if (flat++ == 0 && !face.is_spread(t)) where.uv = (face.uv[a] + face.uv[b] + face.uv[c]) / 3;
+    }
+    if (flat == 0) continue;
+    const std::string what = where.prefix() + std::to_string(flat) +
+                             (flat == 1 ? " triangle has no area in space" : " triangles have no area in space");
+    face.status = FaceStatus::mended;
+    face.why += (face.why.empty() ? "" : "; ") + what;
+    monitor.message(Level::warning, what);
+  }
+}
+
 namespace {
 
 /// What there is of a mesh.

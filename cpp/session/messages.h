@@ -15,6 +15,10 @@ namespace carreau {
 /// A message for each curve whose ends are nearer than `eps_ends`, which is sometimes an error (RT-0232 sec. 3.3).
 void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor);
 
+/// Sets the status of faces with triangles without area in space to `mended`, with a reason, and warns of them: the
+/// geometry has two points at one place there, or folds.
+void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor);
+
 /// The few lines that a person wants after a run.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
 

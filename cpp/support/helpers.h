@@ -12,16 +12,14 @@ class Helpers {
  public:
   /// At most `threads` at work, the calling one among them: above 1.
   explicit Helpers(int threads);
-  /// Nothing may be under way: wait() first.
+  /// Work that no thread has begun may be left undone, or be done later on; threads of the standard library end.
   ~Helpers();
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
 
-  /// Runs `work`, which throws nothing, in another thread soon, or in wait(). From any thread. Throws when there is no
-  /// memory; `work` is not run then.
+  /// Runs `work`, which throws nothing, in another thread soon. From any thread. Throws when there is no memory or no
+  /// thread; `work` may be run all the same.
   void send(std::function<void()> work);
-  /// Runs what no thread has begun with, and returns when all is done. From the calling thread.
-  void wait();
 
   /// That may be at work at a time in this process.
   static std::size_t most_threads() noexcept;

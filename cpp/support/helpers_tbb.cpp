@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include <utility>
 
@@ -23,25 +22,18 @@ namespace carreau {
 struct Helpers::State {
   explicit State(int threads) : arena(threads, 1) {}
   tbb::task_arena arena;  // of the calling thread and its helpers
-  tbb::task_group helping;
 };
 
 Helpers::Helpers(int threads) : state_(std::make_unique<State>(threads)) {}
 Helpers::~Helpers() = default;
 
 void Helpers::send(std::function<void()> work) {
-  State& s = *state_;
-  tbb::task_handle helper = s.helping.defer([work = std::move(work)] {
+  // Not by a task group: whoever waits for one waits for ever when a task was lost without memory.
+  __tsan_release(&handed_over);
+  state_->arena.enqueue([work = std::move(work)] {
     __tsan_acquire(&handed_over);  // before anything that was captured is read
     work();
   });
-  __tsan_release(&handed_over);
-  s.arena.execute([&s, &helper] { s.helping.run(std::move(helper)); });
-}
-
-void Helpers::wait() {
-  State& s = *state_;
-  s.arena.execute([&s] { s.helping.wait(); });
 }
 
 std::size_t Helpers::most_threads() noexcept {

@@ -19,22 +19,16 @@ struct Helpers::State {
     std::unique_lock lock(mutex);
     for (;;) {
       changed.wait(lock, [this] { return ending || !waiting.empty(); });
-      if (waiting.empty()) return;
-      work_on_one(lock);
+      if (ending) return;
+      std::function<void()> work = std::move(waiting.front());
+      waiting.pop_front();
+      ++at_work;
+      lock.unlock();
+      work();
+      work = nullptr;
+      lock.lock();
+      --at_work;
     }
-  }
-
-  /// `lock` is held before and after.
-  void work_on_one(std::unique_lock<std::mutex>& lock) {
-    std::function<void()> work = std::move(waiting.front());
-    waiting.pop_front();
-    ++at_work;
-    lock.unlock();
-    work();
-    work = nullptr;
-    lock.lock();
-    --at_work;
-    changed.notify_all();
   }
 
   std::size_t most;
@@ -65,19 +59,9 @@ void Helpers::send(std::function<void()> work) {
   if (s.threads.size() < s.most && s.at_work + s.waiting.size() > s.threads.size()) try {
       s.threads.reserve(s.most);
       s.threads.emplace_back([&s] { s.help(); });
-    } catch (const std::exception&) {  // the system has no thread: wait() does the work
+    } catch (const std::exception&) {  // the system has no thread: other threads do the work, if there are any
     }
   s.changed.notify_all();
-}
-
-void Helpers::wait() {
-  State& s = *state_;
-  std::unique_lock lock(s.mutex);
-  for (;;) {
-    while (!s.waiting.empty()) s.work_on_one(lock);
-    if (s.at_work == 0) return;
-    s.changed.wait(lock, [&s] { return s.at_work == 0 || !s.waiting.empty(); });
-  }
 }
 
 std::size_t Helpers::most_threads() noexcept {

@@ -53,6 +53,34 @@ void run_alone(std::span<const std::unique_ptr<SteppedTask>> tasks, const Steppe
   }
 }
 
+/// Lets helpers into a run. One that comes when the run is over finds the gate closed, and one that never comes keeps
+/// nobody waiting: without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
+class Gate {
+ public:
+  [[nodiscard]] bool enter() {
+    const std::scoped_lock lock(mutex_);
+    if (!closed_) ++inside_;
+    return !closed_;
+  }
+  void leave() {
+    const std::scoped_lock lock(mutex_);
+    --inside_;
+    left_.notify_all();
+  }
+  /// Waits until all have left.
+  void close() {
+    std::unique_lock lock(mutex_);
+    closed_ = true;
+    left_.wait(lock, [this] { return inside_ == 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable left_;
+  int inside_ = 0;
+  bool closed_ = false;
+};
+
 /// The calling thread runs bound steps first, so that others never wait for it longer than one step; without any it
 /// works like the others.
 class ThreadedRun {
@@ -81,13 +109,8 @@ class ThreadedRun {
     {
       const std::scoped_lock lock(mutex_);
       waiting_.clear();
-      if (!sent_) return;
     }
-    // Helpers that no thread has begun with the calling thread ends itself: on a machine with other work it may take
-    // long until the system runs another thread.
-    helping_.wait();
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return helpers_ == 0; });
+    gate_->close();
   }
 
   void run() {
@@ -128,10 +151,6 @@ class ThreadedRun {
   bool make_ready(std::size_t task) {
     const bool bound = tasks_[task]->bound();
     (bound ? bound_ : free_).push_back(task);
-    if (!bound) {
-      ++helpers_;
-      sent_ = true;
-    }
     return bound;
   }
 
@@ -140,10 +159,12 @@ class ThreadedRun {
     changed_.notify_all();
     if (bound) return;
     try {
-      helping_.send([this] { help(); });
-    } catch (...) {  // no memory for a helper: the calling thread takes the task
-      const std::scoped_lock lock(mutex_);
-      --helpers_;
+      helping_.send([this, gate = gate_] {
+        if (!gate->enter()) return;
+        help();
+        gate->leave();
+      });
+    } catch (...) {  // no memory or no thread for a helper: the calling thread takes the task
     }
   }
 
@@ -162,10 +183,6 @@ class ThreadedRun {
       } catch (...) {  // no memory: what has not been started waits for the calling thread
       }
     }
-    // Under the lock: the run may be gone as soon as the last helper is known to be.
-    const std::scoped_lock lock(mutex_);
-    --helpers_;
-    changed_.notify_all();
   }
 
   static std::size_t pop(std::deque<std::size_t>& queue) {
@@ -240,8 +257,7 @@ class ThreadedRun {
   std::deque<std::size_t> bound_, free_;
   std::vector<std::exception_ptr> errors_;
   std::vector<char> done_;
-  int helpers_ = 0;    // sent and not yet back
-  bool sent_ = false;  // a helper, ever
+  std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   Helpers helping_;
 };
 

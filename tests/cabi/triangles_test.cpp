@@ -159,6 +159,24 @@ std::vector<std::int32_t> faces_of(carreau_session* session) {
   return refs;
 }
 
+// The weights of a place in a needle, and normals at its corners, are lost to rounding.
+TEST_F(Triangles, ANeedleHasAMesh) {
+  for (const double width : {1e-3, 1e-6, 1e-8, 9.080692e-10})
+    for (const double share : {0.03, 0.2}) {
+      const double vertices[] = {1 + width, 0, 0, 0, 0, 1, 1, 0, 0};
+      const std::int32_t corners[] = {0, 1, 2};
+      auto given = sized<carreau_triangles>();
+      given.vertex_count = 3, given.triangle_count = 1, given.vertices = vertices, given.triangles = corners;
+      ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);
+      ASSERT_EQ(carreau_add_triangles(session, nullptr, &given), CARREAU_OK) << carreau_last_error(session);
+      ASSERT_EQ(carreau_set_real(session, "hphydef", share), CARREAU_OK);
+      ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << carreau_last_error(session);
+      carreau_mesh* mesh = nullptr;
+      ASSERT_EQ(carreau_session_mesh(session, &mesh), CARREAU_OK);
+      EXPECT_EQ(defects_of(mesh), "") << width;
+    }
+}
+
 TEST_F(Triangles, HalvesOfACubeAreOneMesh) {
   for (const char* name : {"lower.off", "upper.off"})
     ASSERT_EQ(carreau_load_triangles(session, nullptr, (std::string(CARREAU_TEST_DATA "/triangles/") + name).c_str()), CARREAU_OK)

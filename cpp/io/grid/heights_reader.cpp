@@ -9,6 +9,7 @@
 #include "io/grid/grid_text.h"
 #include "io/text.h"
 #include "io/words.h"
+#include "support/clamped_int.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -77,9 +78,9 @@ struct EsriHeader {
   bool take(std::string key, double value) {
     for (char& c : key) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     if (key == "ncols")
-      raster.columns = static_cast<int>(value);
+      raster.columns = clamped_int(value, 0, std::numeric_limits<int>::max());
     else if (key == "nrows")
-      raster.rows = static_cast<int>(value);
+      raster.rows = clamped_int(value, 0, std::numeric_limits<int>::max());
     else if (key == "cellsize")
       raster.dx = raster.dy = value;
     else if (key == "dx")

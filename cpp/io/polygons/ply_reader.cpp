@@ -203,10 +203,10 @@ class PlyReader : private Words {
 
   std::size_t next_count(const Property& property) {
     const char* const at = position();
-    const double n = next(*property.count);
+    const double n = std::min(next(*property.count), 1e18);
     if (!(n >= 0) || n != std::floor(n)) fail(at, "the length of a list is " + std::to_string(n));
     if (form_ == Form::ascii)
-      return checked_count(static_cast<std::int64_t>(std::min(n, 1e18)), at, "entries of a list", 1);
+      return checked_count(static_cast<std::int64_t>(n), at, "entries of a list", 1);
     need(static_cast<std::size_t>(n), size_of(property.type));
     return static_cast<std::size_t>(n);
   }

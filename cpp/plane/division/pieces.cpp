@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include "plane/kernel/triangulation.h"
 #include "plane/thresholds.h"
+#include "support/clamped_int.h"
 
 namespace carreau::plane {
 
@@ -143,7 +145,7 @@ class PieceMaker {
     for (int k = 0; k < samples; ++k)
       upto_[k + 1] = upto_[k] + length(unit_.at(lerp(p, q, (k + 0.5) / samples)), q - p) / samples;
     const double whole = upto_.back();
-    const int edges = std::max(1, static_cast<int>(std::lround(whole)));
+    const int edges = clamped_int(std::round(whole), 1, std::numeric_limits<int>::max());
     points_.push_back(number_of(a));
     for (int j = 1, k = 0; j < edges; ++j) {
       const double at = whole * j / edges;

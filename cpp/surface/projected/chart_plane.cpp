@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "support/clamped_int.h"
 #include "support/infinity.h"
 #include "surface/projected/thresholds.h"
 
@@ -73,10 +74,10 @@ void ChartPlane::fill(std::int32_t t) {
   const std::array<Vec2, 3> c = corners(t);
   if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) return;
   const auto column = [&](double x) {
-    return std::clamp(static_cast<int>(std::floor((x - low_.x()) / step_)), 0, columns_ - 1);
+    return clamped_int((x - low_.x()) / step_, 0, columns_ - 1);
   };
   const auto row = [&](double y) {
-    return std::clamp(static_cast<int>(std::floor((y - low_.y()) / step_)), 0, rows_ - 1);
+    return clamped_int((y - low_.y()) / step_, 0, rows_ - 1);
   };
   const Vec2 middle = (c[0] + c[1] + c[2]) / 3;
   if (std::int32_t& here = raster_[cell(column(middle.x()), row(middle.y()))]; here < 0) here = t;
@@ -110,8 +111,8 @@ void ChartPlane::spread() {
 }
 
 std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
-  const int i = std::clamp(static_cast<int>((p.x() - low_.x()) / step_), 0, columns_ - 1),
-            j = std::clamp(static_cast<int>((p.y() - low_.y()) / step_), 0, rows_ - 1);
+  const int i = clamped_int((p.x() - low_.x()) / step_, 0, columns_ - 1),
+            j = clamped_int((p.y() - low_.y()) / step_, 0, rows_ - 1);
   std::int32_t t = raster_[cell(i, j)], before = -1;
   for (int step = 0; step < most_steps && t >= 0; ++step) {
     const std::array<double, 3> w = weights_in(corners(t), p);
@@ -178,7 +179,10 @@ ChartPlane::Found ChartPlane::find_around(std::int32_t first, const Vec2& p) con
 Metric2 ChartPlane::metric(const Foot& at) const {
   const std::array<double, 3> w = atlas_.charts.weights(at.triangle, at.uv);
   const auto& n = atlas_.corner[at.triangle];
-  const Vec3 normal = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+  Vec3 normal = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+  // Opposite normals at the corners of a folded triangle cancel out, and a triangle without area has no weights.
+  if (!(norm(normal) > least_normal)) normal = atlas_.normal[at.triangle];
+  if (!(norm(normal) > least_normal)) return {1, 0, 1};
   const double up = std::max(dot(normal, axis_), thresholds::projected::least_cosine * norm(normal));
   const double p = dot(normal, first_) / up, q = dot(normal, second_) / up;
   return {1 + p * p, p * q, 1 + q * q};

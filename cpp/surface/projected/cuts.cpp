@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "curve/unit_discretisation.h"
+#include "support/clamped_int.h"
 #include "surface/projected/borders.h"
 #include "surface/projected/thresholds.h"
 
@@ -135,7 +137,7 @@ class CutTracer {
     for (std::size_t k = 0; k + 1 < cut.path.size(); ++k) {
       const std::int32_t v = cut.path[k], w = cut.path[k + 1], t = cut.triangles[k];
       const double length = norm(atlas_.xyz(w) - atlas_.xyz(v)), size = 0.5 * (input_.size[v] + input_.size[w]);
-      const int parts = cut.undivided ? 1 : std::max(1, static_cast<int>(std::lround(length / size)));
+      const int parts = cut.undivided ? 1 : clamped_int(std::round(length / size), 1, std::numeric_limits<int>::max());
       for (int j = k == 0 ? 1 : 0; j < parts; ++j) {
         const double s = static_cast<double>(j) / parts;
         cut.inner.push_back({{t, lerp(uv_of(t, v), uv_of(t, w), s)}, lerp(atlas_.xyz(v), atlas_.xyz(w), s)});

@@ -50,6 +50,9 @@ inline constexpr std::size_t most_around = 64;
 /// Rings of triangles beyond the border of a chart that its raster knows: cuts are straightened.
 inline constexpr int rings_beyond = 2;
 
+/// Length. A mean of unit normals that is shorter has no direction: the normals cancel out. [rounding]
+inline constexpr double least_normal = 1e-9;
+
 /// Vertices that are lifted between two looks for a stop [time only].
 inline constexpr std::size_t between_checkpoints = 256;
 

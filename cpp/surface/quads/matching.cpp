@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "support/clamped_int.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
@@ -66,7 +67,8 @@ class Matching {
   // By classes of weights that are all but equal; in a class, as they come.
   [[nodiscard]] std::vector<std::int32_t> heaviest_first() const {
     const auto class_of = [&](const WeightedPair& pair) {
-      return static_cast<std::size_t>((1 - pair.weight / heaviest_) * (weight_classes - 1));
+      return static_cast<std::size_t>(clamped_int((1 - pair.weight / heaviest_) * (weight_classes - 1),
+                                                0, static_cast<int>(weight_classes) - 1));
     };
     std::vector<std::int32_t> start(weight_classes + 1, 0), order(pairs_.size());
     for (const WeightedPair& pair : pairs_) ++start[class_of(pair) + 1];

@@ -2,7 +2,9 @@
 // Degenerate, thin and hostile domains and samplers; limits of the control space.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "control_space/control_space.h"
@@ -190,6 +192,38 @@ TEST(ControlSpaceLimits, DomainsWithoutAreaAreNamed) {
   EXPECT_THROW((void)ControlSpace::build({}, sampler, {}, monitor), DomainError);
   const SampledDomain flat = fields::domain_of({{{0, 0}, {1, 0}, {0.5, 0}}});
   EXPECT_THROW((void)ControlSpace::build(flat, sampler, {}, monitor), DomainError);
+}
+
+TEST(ControlSpaceLimits, MetricsThatAreNotFiniteAreRejectedWithTheirPlace) {
+  Monitor monitor;
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const Vec2& place : {Vec2{0.5, 0.5}, Vec2{0, 0}, Vec2{0.25, 0.125}}) {
+      bool met = false;
+      const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
+        for (std::size_t i = 0; i < uv.size(); ++i) {
+          const bool here = uv[i] == place;
+          met = met || here;
+          metric[i] = {here ? bad : 4e4, 0, 4e4};
+        }
+      };
+      const SampledDomain square = fields::domain_of({fields::rectangle({0, 0}, {1, 1}, 10)});
+      try {
+        (void)ControlSpace::build(square, sampler, {}, monitor);
+        EXPECT_FALSE(met);
+      } catch (const DomainError& error) {
+        ASSERT_TRUE(error.where().uv);
+        EXPECT_EQ(*error.where().uv, place);
+      }
+    }
+}
+
+TEST(ControlSpaceLimits, WidthsBeyondFloatingPointNumbersAreRejected) {
+  Monitor monitor;
+  const SampledDomain square = fields::domain_of({fields::rectangle({0, 0}, {1e160, 1e160}, 10)});
+  const MetricSampler sampler = [](std::span<const Vec2>, std::span<Metric2> metric) {
+    std::ranges::fill(metric, Metric2{1, 0, 1});
+  };
+  EXPECT_THROW((void)ControlSpace::build(square, sampler, {}, monitor), DomainError);
 }
 
 TEST(ControlSpaceLimits, ErrorsOfTheSamplerAndStopsPassThrough) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
 
@@ -92,6 +93,32 @@ TEST(ElementFiles, MeshesOfMixedElementsReadBackExactly) {
         expect_same(read_mesh(path), mesh, suffix);
       }
     }
+}
+
+// Elements of one square share halves: a reader that turns them anew each time would change a mesh at each reading.
+TEST(ElementFiles, ElementsOverTheSameCornersReadBackExactly) {
+  std::mt19937_64 random(7);
+  for (int run = 0; run < 2000; ++run) {
+    std::string text = "NDIME= 3\nNELEM= 0\nNPOIN= 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 .5 0\n";
+    for (int marker = 0; marker < 4; ++marker) {
+      std::array<int, 5> corners{0, 1, 2, 3, 4};
+      std::ranges::shuffle(corners, random);
+      const bool quad = random() % 3 != 0;
+      text += "MARKER_TAG= face_" + std::to_string(9 - marker) + "\nMARKER_ELEMS= 1\n" + (quad ? "9" : "5");
+      for (std::size_t k = 0; k < (quad ? 4U : 3U); ++k) text += " " + std::to_string(corners[k]);
+      text += "\n";
+    }
+    const FlatMesh mesh = read_mesh_su2(text, "x");
+    for (const MeshFormat format : {MeshFormat::mesh, MeshFormat::meshb, MeshFormat::vtu}) {
+      const std::string bytes = mesh_bytes(mesh, format);
+      const FlatMesh again = format == MeshFormat::mesh    ? read_mesh_text(bytes, "x")
+                             : format == MeshFormat::meshb ? read_mesh_binary(bytes, "x")
+                                                           : read_mesh_vtu(bytes, "x");
+      ASSERT_EQ(again.triangles, mesh.triangles) << text;
+      ASSERT_EQ(again.triangle_refs, mesh.triangle_refs) << text;
+      ASSERT_EQ(again.cells, mesh.cells) << text;
+    }
+  }
 }
 
 TEST(ElementFiles, StlHasTheStraightTriangles) {

@@ -2,11 +2,15 @@
 #include "support/stepped_tasks.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -238,6 +242,28 @@ TEST(SteppedTasks, EndWithoutHelpersThatNoThreadHasBegun) {
   carreau::run_stepped(run.tasks, {.threads = 2}, run.monitor);
   EXPECT_EQ(both.held, 2);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need an address space without limit
+// oneTBB throws when there is no room for the stack of a thread, after it has taken the task.
+TEST(SteppedTasksDeathTest, EndWithoutAddressSpaceForAThread) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto run_without_room = [] {
+    alarm(60);
+    rlimit room{};
+    std::ifstream statm("/proc/self/statm");
+    rlim_t pages = 0;
+    statm >> pages;
+    constexpr rlim_t left = 4 << 20;  // bytes; the stack of a thread takes 8 MB
+    room.rlim_cur = room.rlim_max = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + left;
+    if (pages == 0 || setrlimit(RLIMIT_AS, &room) != 0) std::exit(0);
+    const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+    Trial run(60, {}, false);
+    carreau::run_stepped(run.tasks, {.threads = 4}, run.monitor);
+    std::exit(0);
+  };
+  EXPECT_EXIT(run_without_room(), testing::ExitedWithCode(0), "");
+}
+#endif
 
 TEST(SteppedTasks, NoneAreNothing) {
   Monitor monitor;
