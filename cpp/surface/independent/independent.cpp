@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <array>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -191,7 +190,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
   std::optional<StartedMesh> placed = mended(cad, tolerances, least_mean, result, frame, monitor);
   if (!placed) return "it is not made in planes";
   std::optional<std::int64_t> crossings_before;
-  std::int64_t last = 0;
+  std::int64_t first = 0, last = 0;
   bool keeps = false;
   for (int round = 0;; ++round) {
     FreedMesh made = reassembled(result.mesh, std::move(*placed), frame, monitor);
@@ -200,7 +199,9 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
     if (found.count > 0 && found.count > *crossings_before) {
       monitor.message(Level::debug, std::to_string(found.count) + " pairs of triangles cross");
       const bool stays = round > 0 && found.count >= last;
-      if (round == most_untanglings || (stays && keeps)) return "triangles would cross";
+      const bool all_found = found.count == static_cast<std::int64_t>(found.pairs.size());
+      if (round == most_untanglings || (stays && keeps) || !all_found) return "triangles would cross";
+      if (round == 0) first = found.count;
       last = found.count;
       guard_around(found, made, *frame.charts);
       if (!stays) {
@@ -208,7 +209,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
         continue;
       }
       // Edits do not help: there the triangles of the atlas stay.
-      keeps = true, last = std::numeric_limits<std::int64_t>::max();
+      keeps = true, last = first;
       keep_around(found, made, result.mesh, frame);
       placed = mended(cad, tolerances, least_mean, result, frame, monitor);
       if (!placed) return "it is not made in planes";

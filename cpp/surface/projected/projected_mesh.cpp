@@ -295,6 +295,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   for (int round = 0;;) {
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
+    if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles()) return refuse("no plane shows the charts");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
     if (!worse.empty() && round++ < most_mendings && mend(flat, worse, found, monitor)) continue;
