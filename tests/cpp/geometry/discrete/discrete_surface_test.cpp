@@ -173,7 +173,7 @@ TEST(DiscreteSurface, PlaneSidesBesideNarrowRoundingsStayPlane) {
     for (const auto& t : {std::array{i, j, 16 + j}, std::array{i, 16 + j, 16 + i}, std::array{j, i, 32}, std::array{16 + i, 16 + j, 33}})
       prism.triangles.push_back(t);
   }
-  EXPECT_LT(surface_of(prism).deviation(), radius);
+  EXPECT_LT(surface_of(prism).deviation(), 3 * radius);
 }
 
 TEST(Unfolding, SharesTheAnglesOutUntilTangentsFollowEachOther) {
