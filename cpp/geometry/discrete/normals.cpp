@@ -55,10 +55,11 @@ class SectorNormals {
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) first_.push_back(sectors.find(c));
   }
 
-  /// Means by the angles of triangles (eq. 4.96). A mean by areas replaces one that lifts an edge of a large triangle farther
-  /// than the small triangles reach that turn it: beside a rounding the flat face keeps its plane.
+  /// Means by the angles of triangles (eq. 4.96). A mean by areas replaces one that lifts an edge of a large triangle
+  /// farther than the small triangles reach that turn it: beside a rounding the flat face keeps its plane.
   Frames run() const {
-    Frames frames{.normal = means([&](std::size_t c) { return mesh_.angle(triangle(c), rank(c)); }), .reach = {}, .tangent = {}};
+    Frames frames{
+        .normal = means([&](std::size_t c) { return mesh_.angle(triangle(c), rank(c)); }), .reach = {}, .tangent = {}};
     const std::vector<Vec3> by_area = means([&](std::size_t c) { return norm(cross(side(c, 1), side(c, 2))); });
     const std::vector<double> lift = lifts(frames.normal), other_lift = lifts(by_area);
     frames.reach = reaches(frames.normal);
@@ -97,7 +98,8 @@ class SectorNormals {
   [[nodiscard]] std::vector<double> lifts(const std::vector<Vec3>& normal) const {
     std::vector<double> lift(first_.size(), 0);
     for (std::size_t c = 0; c < first_.size(); ++c)
-      for (const int k : {1, 2}) lift[first_[c]] = std::max(lift[first_[c]], std::abs(dot(normal[first_[c]], side(c, k))));
+      for (const int k : {1, 2})
+        lift[first_[c]] = std::max(lift[first_[c]], std::abs(dot(normal[first_[c]], side(c, k))));
     return lift;
   }
 
@@ -174,7 +176,8 @@ std::vector<double> shortest_sharp(const Triangulation& mesh, const SharpLines& 
   std::vector<double> shortest(mesh.vertices.size(), infinity);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (const auto& [p, q] = mesh.edges[e]; lines.sharp[e] != 0)
-      for (const std::int32_t v : {p, q}) shortest[index(v)] = std::min(shortest[index(v)], norm(mesh.at(q) - mesh.at(p)));
+      for (const std::int32_t v : {p, q})
+        shortest[index(v)] = std::min(shortest[index(v)], norm(mesh.at(q) - mesh.at(p)));
   return shortest;
 }
 

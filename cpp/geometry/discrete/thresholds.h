@@ -25,8 +25,8 @@ inline constexpr int least_edges = 8, least_faded = 8;
 /// Sine of the angle between the normal of a triangle and that of its vertex: a triangle that leans
 /// less (5 degrees) does not turn the normal.
 inline constexpr double clear_turn = 0.087;
-/// Share. A mean of normals by areas replaces one by angles if it lifts edges by less than this share: of plane faces beside
-/// roundings it does, of noise it does not.
+/// Share. A mean of normals by areas replaces one by angles if it lifts edges by less than this share: at plane faces
+/// beside roundings it does, in noise it does not.
 inline constexpr double lower_lift = 0.5;
 /// Sine of the angle between the normals beside a line: below, their cross product is no tangent of it.
 inline constexpr double clear_crease = 0.3;

@@ -74,8 +74,8 @@ void give_makers(const CurveModel& model, std::span<const DiscreteCurve> curves,
 }
 
 // The mesh that was made elsewhere: its seams are mended, and what is bad.
-std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, double least_mean, const CompositeResult& result,
-                                  RemeshingFrame& frame, Monitor& monitor) {
+std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, double least_mean,
+                                  const CompositeResult& result, RemeshingFrame& frame, Monitor& monitor) {
   std::vector<WorkedLine> worked;
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
   std::optional<PlacedMesh> placed = frame.made(worked, tolerances);
@@ -100,16 +100,19 @@ std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances,
   if (summarise_shapes(*mesh, frame.workers.threads, monitor).mean < least_mean) {
     mesh->budget.price = high_price;
     for (int round = 0; round < most_line_rounds; ++round) {
-      const std::vector<std::int32_t> changed = remesh_lines(*mesh, worked, {tolerances.deviation, tolerances.share_of_size}, monitor);
+      const std::vector<std::int32_t> changed =
+          remesh_lines(*mesh, worked, {tolerances.deviation, tolerances.share_of_size}, monitor);
       if (round > 0 && changed.empty()) break;
-      remesh_divided(*mesh, frame.workers, monitor, true, true, round > 0 ? std::span<const std::int32_t>(changed) : std::span<const std::int32_t>());
+      remesh_divided(*mesh, frame.workers, monitor, true, true,
+                     round > 0 ? std::span<const std::int32_t>(changed) : std::span<const std::int32_t>());
     }
   }
   raise_worst(*mesh, good_worst, monitor);
   return StartedMesh{std::move(mesh), std::move(worked)};
 }
 
-// Halves the longest edges of triangles that cross: their parts are nearer to the surface. Then the mesh around follows, as near as it is.
+// Halves the longest edges of triangles that cross: their parts are nearer to the surface. Then the mesh around
+// follows, as near as it is.
 void untangle(FreeMesh& mesh, const Intersections& found, const SurfaceMesh& made, Monitor& monitor) {
   mesh.update_guards();
   std::map<std::array<double, 3>, std::int32_t> at;
@@ -123,7 +126,8 @@ void untangle(FreeMesh& mesh, const Intersections& found, const SurfaceMesh& mad
     for (const std::int32_t t : pair.triangles) {
       std::array<std::pair<double, std::array<std::int32_t, 2>>, 3> edges;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t v = at.at(key(flat.vertices[flat.triangles[t][i]])), w = at.at(key(flat.vertices[flat.triangles[t][(i + 1) % 3]]));
+        const std::int32_t v = at.at(key(flat.vertices[flat.triangles[t][i]])),
+                           w = at.at(key(flat.vertices[flat.triangles[t][(i + 1) % 3]]));
         edges[i] = {-mesh.length(v, w), {v, w}};
         around.push_back(v);
       }
@@ -148,7 +152,8 @@ void keep_around(const Intersections& found, const FreedMesh& made, const Surfac
   for (const TriangleIntersection& pair : found.pairs) {
     const double far = guarded_sizes * made.vertex_size[flat.triangles[pair.triangles[0]][0]];
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (std::ranges::any_of(triangles[t].vertex, [&](std::int32_t v) { return norm(before.vertices[v] - pair.place) <= far; }))
+      if (std::ranges::any_of(triangles[t].vertex,
+                              [&](std::int32_t v) { return norm(before.vertices[v] - pair.place) <= far; }))
         frame.kept[t] = 1;
   }
 }

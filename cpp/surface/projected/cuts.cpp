@@ -169,8 +169,8 @@ class CutTracer {
     return CutPoint{*foot, atlas_.flat(*foot)};
   }
 
-  // Cosine of the angle between the surface and the axes of both charts. A cut that slides over the end of a thin part, where one
-  // chart does not show it, would cut the end off.
+  // Cosine of the angle between the surface and the axes of both charts. A cut that slides over the end of a thin part,
+  // where one chart does not show it, would cut the end off.
   [[nodiscard]] double least_shown(const Cut& cut, const CutPoint& p) const {
     const Vec3& normal = atlas_.normal[p.foot.triangle];
     return std::min(dot(normal, input_.charts.axis[cut.left]), dot(normal, input_.charts.axis[cut.right]));
@@ -252,7 +252,8 @@ class CutTracer {
       chain.left = cut.left, chain.right = cut.right;
       chain.vertices.push_back(nodes_[cut.start].vertex);
       for (const CutPoint& p : cut.inner) chain.vertices.push_back(add(p));
-      for (std::size_t k = 1; cut.undivided && k + 1 < cut.path.size(); ++k) borders_.number[cut.path[k]] = chain.vertices[k];
+      for (std::size_t k = 1; cut.undivided && k + 1 < cut.path.size(); ++k)
+        borders_.number[cut.path[k]] = chain.vertices[k];
       chain.vertices.push_back(nodes_[cut.end].vertex);
     }
   }

@@ -259,7 +259,8 @@ void number_pieces(const FlatAtlas& atlas, ProjectedCharts& charts) {
     piece[first] = static_cast<std::int32_t>(axes.size());
     for (std::size_t k = 0; k < queue.size(); ++k)
       for (const std::int32_t u : atlas.at(queue[k]).beyond)
-        if (u >= 0 && piece[u] == none && charts.chart[u] == charts.chart[first]) piece[u] = piece[first], queue.push_back(u);
+        if (u >= 0 && piece[u] == none && charts.chart[u] == charts.chart[first])
+          piece[u] = piece[first], queue.push_back(u);
     axes.push_back(charts.axis[charts.chart[first]]);
   }
   charts.chart = std::move(piece), charts.axis = std::move(axes);

@@ -18,7 +18,8 @@ struct ProjectedCharts {
   std::vector<char> kept;   ///< by triangle: its chart is not meshed, its triangles stay as they are
 };
 
-/// Each chart is connected, and its normals lean against its axis by no more than `loose_cosine` tells. Triangles that lean more are kept.
+/// Each chart is connected, and its normals lean against its axis by no more than `loose_cosine` allows. Triangles that
+/// lean more are kept.
 ProjectedCharts find_charts(const FlatAtlas& atlas, Monitor& monitor);
 
 /// Makes kept charts of the triangles that `which` marks, one each. Whether any was not kept before.

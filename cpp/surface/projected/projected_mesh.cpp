@@ -120,7 +120,8 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
       for (const std::int32_t v : source.atlas.at(static_cast<std::int32_t>(t)).vertex) kept[v] = 1;
   }
   auto borders = cut_borders(
-      {source.atlas, found, source.lines, source.worked, source.size, exact, kept, source.tolerance, source.cad}, monitor);
+      {source.atlas, found, source.lines, source.worked, source.size, exact, kept, source.tolerance, source.cad},
+      monitor);
   if (!borders) return {};
   Plan plan{std::move(*borders), {}, {}, {}, {}};
   plan.charts = charts_of(found, plan.borders);
@@ -154,7 +155,8 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   return plan;
 }
 
-// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and keeps the triangles of small ones.
+// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and
+// keeps the triangles of small ones.
 // False where nothing is left to do.
 bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
   std::vector<char> is_wrong(found.axis.size(), 0);
@@ -204,7 +206,8 @@ SurfacePlace lifted(const FlatAtlas& atlas, const ChartPlane& plane, const Foot&
   return norm(wanted - plane.project(second.xyz)) < norm(miss) ? second : first;
 }
 
-MadeChart kept_of(const FlatAtlas& atlas, const std::vector<std::int32_t>& number, const std::vector<std::int32_t>& triangles) {
+MadeChart kept_of(const FlatAtlas& atlas, const std::vector<std::int32_t>& number,
+                  const std::vector<std::int32_t>& triangles) {
   MadeChart made;
   for (const std::int32_t t : triangles) {
     const auto first = static_cast<std::int32_t>(made.border.size());
@@ -239,7 +242,8 @@ void append(const FlatAtlas& atlas, const MadeChart& chart, PlacedMesh& placed) 
   for (const auto& t : chart.triangles) placed.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
 }
 
-// Charts that have no mesh, or triangles that run along an edge of their border the same way as a triangle of another chart.
+// Charts that have no mesh, or triangles that run along an edge of their border the same way as a triangle of another
+// chart.
 std::vector<std::int32_t> without_mesh(const std::vector<MadeChart>& charts) {
   std::vector<std::array<std::int32_t, 3>> sides;  // start, end, chart
   std::vector<std::int32_t> wrong;
@@ -295,7 +299,8 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   for (int round = 0;;) {
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
-    if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles()) return refuse("no plane shows the charts");
+    if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles())
+      return refuse("no plane shows the charts");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
     if (!worse.empty() && round++ < most_mendings && mend(flat, worse, found, monitor)) continue;
@@ -304,11 +309,12 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
       const auto work = [&](std::size_t c, Monitor& own) {
         const ChartWork& chart = plan->charts[c];
         if (chart.kept) return kept_of(flat, plan->borders.number, chart.triangles);
-        return made_of({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c), plan->xyz,
-                        options.max_triangles},
+        return made_of({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c),
+                        plan->xyz, options.max_triangles},
                        cad, own);
       };
-      charts = shared_work<MadeChart>(options.crew, "charts", plan->charts.size(), !cad.reentrant(), work, put, get, monitor);
+      charts = shared_work<MadeChart>(options.crew, "charts", plan->charts.size(), !cad.reentrant(), work, put, get,
+                                      monitor);
       wrong = without_mesh(charts);
       if (wrong.empty()) break;
     }
@@ -324,7 +330,9 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     if (plan->charts[c].kept) placed.kept.insert(placed.kept.end(), charts[c].border.begin(), charts[c].border.end());
   }
   placed.lines = std::move(plan->borders.lines), placed.on_line = std::move(plan->borders.on_line);
-  monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " + std::to_string(placed.kept.size() / 3) + " triangles kept, " + std::to_string(placed.seams.size()) + " vertices of cuts, " +
+  monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " +
+                                     std::to_string(placed.kept.size() / 3) + " triangles kept, " +
+                                     std::to_string(placed.seams.size()) + " vertices of cuts, " +
                                      std::to_string(placed.triangles.size()) + " triangles");
   return placed;
 }

@@ -139,8 +139,8 @@ TEST(ProjectedMeshes, WhatNoPlaneShowsIsMadeByEdits) {
   EXPECT_FALSE(made_of(fins, 0.1).in_planes);
 }
 
-// A spindle by degrees of longitude and latitude, with a tip of .04 at which the sizes of .1 cannot turn: a cut that slides over the
-// tip leaves .09 of it out.
+// A spindle by degrees of longitude and latitude, with a tip of .04 at which the sizes of .1 cannot turn: a cut that
+// slides over the tip leaves .09 of it out.
 TEST(ProjectedMeshes, ThinPartsKeepTheirEnds) {
   constexpr std::int32_t rings = 60, around = 90;
   FlatMesh spindle;
@@ -274,7 +274,8 @@ TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
       const std::vector<double> sizes(n, size);
       const std::vector<char> all(found.axis.size(), exact);
       const std::vector<char> kept(n, 0);
-      const auto borders = cut_borders({atlas.flat, found, {}, {}, sizes, all, kept, {}, *atlas.built.cad}, atlas.silent);
+      const auto borders =
+          cut_borders({atlas.flat, found, {}, {}, sizes, all, kept, {}, *atlas.built.cad}, atlas.silent);
       ASSERT_TRUE(borders);
       double expected = 0;
       for (std::int32_t t = 0; t < atlas.flat.triangles(); ++t)
