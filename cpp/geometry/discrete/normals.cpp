@@ -6,6 +6,7 @@
 
 #include "geometry/discrete/thresholds.h"
 #include "support/incidence.h"
+#include "support/infinity.h"
 
 namespace carreau::discrete {
 
@@ -46,20 +47,79 @@ class LinesAt {
   Incidence at_;
 };
 
-std::vector<Vec3> mean_normals(const Triangulation& mesh, UnionFind& sectors) {
-  std::vector<Vec3> normal(3 * mesh.triangles.size(), Vec3::Zero());
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
-    for (int k = 0; k < 3; ++k)
-      normal[sectors.find(3 * index(t) + static_cast<std::size_t>(k))] += mesh.angle(t, k) * mesh.normal(t);
-  for (std::size_t c = 0; c < normal.size(); ++c)
-    if (const std::size_t first = sectors.find(c); first == c) {
+/// Normals of sectors: of all corners at a vertex between sharp edges.
+class SectorNormals {
+ public:
+  SectorNormals(const Triangulation& mesh, UnionFind& sectors) : mesh_(mesh) {
+    first_.reserve(3 * mesh.triangles.size());
+    for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) first_.push_back(sectors.find(c));
+  }
+
+  /// Means by the angles of triangles (eq. 4.96). A mean by areas replaces one that lifts an edge of a large triangle
+  /// farther than the small triangles reach that turn it: beside a rounding the flat face keeps its plane.
+  Frames run() const {
+    Frames frames{
+        .normal = means([&](std::size_t c) { return mesh_.angle(triangle(c), rank(c)); }), .reach = {}, .tangent = {}};
+    const std::vector<Vec3> by_area = means([&](std::size_t c) { return norm(cross(side(c, 1), side(c, 2))); });
+    const std::vector<double> lift = lifts(frames.normal), other_lift = lifts(by_area);
+    frames.reach = reaches(frames.normal);
+    for (std::size_t c = 0; c < first_.size(); ++c)
+      if (lift[c] > frames.reach[c] && other_lift[c] < thresholds::lower_lift * lift[c]) frames.normal[c] = by_area[c];
+    frames.reach = reaches(frames.normal);
+    spread(frames.normal), spread(frames.reach);
+    return frames;
+  }
+
+ private:
+  static std::int32_t triangle(std::size_t c) { return static_cast<std::int32_t>(c / 3); }
+  static int rank(std::size_t c) { return static_cast<int>(c % 3); }
+  [[nodiscard]] Vec3 side(std::size_t c, int k) const {
+    return mesh_.at(mesh_.corner(triangle(c), rank(c) + k)) - mesh_.at(mesh_.corner(triangle(c), rank(c)));
+  }
+  template <class Value>
+  void spread(std::vector<Value>& of_first) const {
+    for (std::size_t c = 0; c < first_.size(); ++c) of_first[c] = of_first[first_[c]];
+  }
+
+  // What follows is known at the first corner of each sector.
+  template <class Weight>
+  [[nodiscard]] std::vector<Vec3> means(const Weight& weight) const {
+    std::vector<Vec3> normal(first_.size(), Vec3::Zero());
+    for (std::size_t c = 0; c < first_.size(); ++c) normal[first_[c]] += weight(c) * mesh_.normal(triangle(c));
+    for (std::size_t c = 0; c < first_.size(); ++c) {
+      if (first_[c] != c) continue;
       const Vec3 n = unit(normal[c]);
-      normal[c] = norm(n) > 0 ? n : mesh.normal(static_cast<std::int32_t>(c / 3));
-    } else {
-      normal[c] = normal[first];
+      normal[c] = norm(n) > 0 ? n : mesh_.normal(triangle(c));
     }
-  return normal;
-}
+    return normal;
+  }
+
+  // How far edges leave the tangent plane at most.
+  [[nodiscard]] std::vector<double> lifts(const std::vector<Vec3>& normal) const {
+    std::vector<double> lift(first_.size(), 0);
+    for (std::size_t c = 0; c < first_.size(); ++c)
+      for (const int k : {1, 2})
+        lift[first_[c]] = std::max(lift[first_[c]], std::abs(dot(normal[first_[c]], side(c, k))));
+    return lift;
+  }
+
+  // How far triangles that turn the normal extend at least in the direction in which they turn it.
+  [[nodiscard]] std::vector<double> reaches(const std::vector<Vec3>& normal) const {
+    std::vector<double> reach(first_.size(), infinity);
+    for (std::size_t c = 0; c < first_.size(); ++c) {
+      const Vec3 &n = normal[first_[c]], of_triangle = mesh_.normal(triangle(c));
+      const Vec3 turn = of_triangle - dot(of_triangle, n) * n;
+      const double sine = norm(turn);
+      if (!(sine > thresholds::clear_turn)) continue;
+      const double extent = std::max(std::abs(dot(turn, side(c, 1))), std::abs(dot(turn, side(c, 2)))) / sine;
+      reach[first_[c]] = std::min(reach[first_[c]], extent);
+    }
+    return reach;
+  }
+
+  const Triangulation& mesh_;
+  std::vector<std::size_t> first_;
+};
 
 /// Tangents of the lines that pass vertices.
 std::vector<Vec3> line_tangents(const Triangulation& mesh, const SharpLines& lines, const std::vector<Vec3>& normal) {
@@ -99,6 +159,28 @@ Cubic line_curve(const Vec3& p, const Vec3& q, const Vec3& tp, const Vec3& tq) n
   return {p, z1, z2, q};
 }
 
+/// The inner points of a curve no farther from its chord than what turns the tangents reaches.
+Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
+  const Vec3 u = unit(z[3] - z[0]);
+  const auto keep = [&](Vec3& point, double reach) {
+    const Vec3 along = dot(point - z[0], u) * u, off = point - z[0] - along;
+    const double far = norm(off);
+    if (far > reach) point = z[0] + along + (reach / far) * off;
+  };
+  keep(z[1], reach_start), keep(z[2], reach_end);
+  return z;
+}
+
+/// By vertex: the shortest sharp edge.
+std::vector<double> shortest_sharp(const Triangulation& mesh, const SharpLines& lines) {
+  std::vector<double> shortest(mesh.vertices.size(), infinity);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (const auto& [p, q] = mesh.edges[e]; lines.sharp[e] != 0)
+      for (const std::int32_t v : {p, q})
+        shortest[index(v)] = std::min(shortest[index(v)], norm(mesh.at(q) - mesh.at(p)));
+  return shortest;
+}
+
 /// At corners the region has the plane of the two lines beside it.
 void set_corner_planes(const Triangulation& mesh, const SharpLines& lines, const std::vector<Cubic>& curves,
                        Frames& frames) {
@@ -135,7 +217,7 @@ void set_corner_planes(const Triangulation& mesh, const SharpLines& lines, const
 
 Frames find_frames(const Triangulation& mesh, const SharpLines& lines) {
   UnionFind sectors = sectors_of(mesh, lines.sharp);
-  Frames frames{.normal = mean_normals(mesh, sectors), .tangent = {}};
+  Frames frames = SectorNormals(mesh, sectors).run();
   frames.tangent = line_tangents(mesh, lines, frames.normal);
   for (std::size_t c = 0; c < frames.normal.size(); ++c)
     if (const Vec3& t = frames.tangent[index(mesh.triangles[c / 3][c % 3])]; norm(t) > 0)
@@ -154,9 +236,11 @@ Cubic curve_by_normals(const Vec3& p, const Vec3& q, const Vec3& np, const Vec3&
 
 std::vector<Cubic> find_curves(const Triangulation& mesh, const SharpLines& lines, Frames& frames) {
   std::vector<Cubic> curves(mesh.edges.size());
+  const std::vector<double> shortest = shortest_sharp(mesh, lines);
   for (std::size_t e = 0; e < curves.size(); ++e)
     if (const auto& [p, q] = mesh.edges[e]; lines.sharp[e] != 0)
-      curves[e] = line_curve(mesh.at(p), mesh.at(q), frames.tangent[index(p)], frames.tangent[index(q)]);
+      curves[e] = kept_near(line_curve(mesh.at(p), mesh.at(q), frames.tangent[index(p)], frames.tangent[index(q)]),
+                            shortest[index(p)], shortest[index(q)]);
   set_corner_planes(mesh, lines, curves, frames);
   for (std::size_t e = 0; e < curves.size(); ++e) {
     if (lines.sharp[e] != 0) continue;
@@ -166,7 +250,11 @@ std::vector<Cubic> find_curves(const Triangulation& mesh, const SharpLines& line
     const auto normal = [&](int k) {
       return frames.normal[3 * index(side.triangle) + static_cast<std::size_t>((side.side + k) % 3)];
     };
-    curves[e] = curve_by_normals(mesh.at(p), mesh.at(q), normal(forward ? 0 : 1), normal(forward ? 1 : 0));
+    const auto reach = [&](int k) {
+      return frames.reach[3 * index(side.triangle) + static_cast<std::size_t>((side.side + k) % 3)];
+    };
+    curves[e] = kept_near(curve_by_normals(mesh.at(p), mesh.at(q), normal(forward ? 0 : 1), normal(forward ? 1 : 0)),
+                          reach(forward ? 0 : 1), reach(forward ? 1 : 0));
   }
   return curves;
 }

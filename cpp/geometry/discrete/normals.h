@@ -13,6 +13,7 @@ namespace carreau::discrete {
 /// What the curves of a surface are made with.
 struct Frames {
   std::vector<Vec3> normal;   ///< by corner 3 t + k: of the region there, of unit length
+  std::vector<double> reach;  ///< by corner: shortest extent of a triangle that turns the normal; infinite if none does
   std::vector<Vec3> tangent;  ///< by vertex: of the line through it, of unit length; zero elsewhere and at corners
 };
 

@@ -49,6 +49,12 @@ inline constexpr int most_prolongation = 2;
 inline constexpr int least_edges = 8, least_faded = 8;
 
 // Normals and tangents
+/// Sine of the angle between the normal of a triangle and that of its vertex: a triangle that leans
+/// less (5 degrees) does not turn the normal.
+inline constexpr double clear_turn = 0.087;
+/// Share. A mean of normals by areas replaces one by angles if it lifts edges by less than this share: at plane faces
+/// beside roundings it does, in noise it does not.
+inline constexpr double lower_lift = 0.5;
 /// Sine of the angle between the normals beside a line: below, their cross product is no tangent of it.
 inline constexpr double clear_crease = 0.3;
 /// Sine of the angle between the two lines that bound a region at a corner: below, they span no plane.

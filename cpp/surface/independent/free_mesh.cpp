@@ -66,8 +66,12 @@ void FreeMesh::begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<
   kept_places_.resize(kept);
   place_vertices(mesh, jets);
   if (by_direction()) place_metrics();
-  for (std::size_t t = 0; t < charts_.triangles().size(); ++t)
-    guards_ = guards_ || charts_.is_guarded({static_cast<std::int32_t>(t), {}});
+  update_guards();
+}
+
+void FreeMesh::update_guards() {
+  for (std::size_t t = 0; t < charts_.triangles().size() && !guards_; ++t)
+    guards_ = charts_.is_guarded({static_cast<std::int32_t>(t), {}});
 }
 
 void FreeMesh::place_vertices(const SurfaceMesh& mesh, const VertexJets& jets) {

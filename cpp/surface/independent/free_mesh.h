@@ -122,6 +122,8 @@ class FreeMesh final : public PlacedVertices {
 
   /// After the sizes of the charts have changed.
   void update_sizes();
+  /// After triangles of the charts have been guarded.
+  void update_guards();
   /// Of a mesh so many times as coarse as wanted: triangles leave the surface no farther than those that are wanted may, and lean less;
   /// 1: as was tolerated.
   void tighten(double factor);

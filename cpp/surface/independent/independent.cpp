@@ -3,18 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "mesh/flat_mesh.h"
 #include "support/infinity.h"
 #include "surface/independent/placed_mesh.h"
 #include "surface/independent/reassembly.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
 #include "surface/independent/tries.h"
+#include "surface/independent/edits/edge_edits.h"
 #include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
@@ -70,8 +74,8 @@ void give_makers(const CurveModel& model, std::span<const DiscreteCurve> curves,
 }
 
 // The mesh that was made elsewhere: its seams are mended, and what is bad.
-std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
-                                  Monitor& monitor) {
+std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, double least_mean,
+                                  const CompositeResult& result, RemeshingFrame& frame, Monitor& monitor) {
   std::vector<WorkedLine> worked;
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
   std::optional<PlacedMesh> placed = frame.made(worked, tolerances);
@@ -88,12 +92,70 @@ std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances,
       if (const KeptPlaces& at = placed->on_line[line][k]; !at.empty())
         mesh->put_kept(worked[line].left[k].vertex, at, mesh->wanted_at(at));
   }
-  mesh->budget = {.price = 0, .mean = good_shape};
+  mesh->budget = {.price = placed->kept.empty() ? 0 : high_price, .mean = good_shape};
   std::vector<std::int32_t> around = remesh_lines(*mesh, worked, {tolerances.deviation, tolerances.share_of_size}, monitor);
   around.insert(around.end(), placed->seams.begin(), placed->seams.end());
+  around.insert(around.end(), placed->kept.begin(), placed->kept.end());
   if (!around.empty()) remesh(*mesh, monitor, true, false, around);
+  if (summarise_shapes(*mesh, frame.workers.threads, monitor).mean < least_mean) {
+    mesh->budget.price = high_price;
+    for (int round = 0; round < most_line_rounds; ++round) {
+      const std::vector<std::int32_t> changed =
+          remesh_lines(*mesh, worked, {tolerances.deviation, tolerances.share_of_size}, monitor);
+      if (round > 0 && changed.empty()) break;
+      remesh_divided(*mesh, frame.workers, monitor, true, true,
+                     round > 0 ? std::span<const std::int32_t>(changed) : std::span<const std::int32_t>());
+    }
+  }
   raise_worst(*mesh, good_worst, monitor);
   return StartedMesh{std::move(mesh), std::move(worked)};
+}
+
+// Halves the longest edges of triangles that cross: their parts are nearer to the surface. Then the mesh around
+// follows, as near as it is.
+void untangle(FreeMesh& mesh, const Intersections& found, const SurfaceMesh& made, Monitor& monitor) {
+  mesh.update_guards();
+  std::map<std::array<double, 3>, std::int32_t> at;
+  const auto key = [](const Vec3& p) { return std::array{p[0], p[1], p[2]}; };
+  for (const EditableMesh::Triangle& t : mesh.triangles())
+    if (t[0] >= 0)
+      for (const std::int32_t v : t) at.emplace(key(mesh.position(v)), v);
+  const FlatMesh flat = flatten(made, false);
+  std::vector<std::int32_t> around;
+  for (const TriangleIntersection& pair : found.pairs)
+    for (const std::int32_t t : pair.triangles) {
+      std::array<std::pair<double, std::array<std::int32_t, 2>>, 3> edges;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t v = at.at(key(flat.vertices[flat.triangles[t][i]])),
+                           w = at.at(key(flat.vertices[flat.triangles[t][(i + 1) % 3]]));
+        edges[i] = {-mesh.length(v, w), {v, w}};
+        around.push_back(v);
+      }
+      std::ranges::sort(edges);
+      for (const auto& [length, edge] : edges) {
+        const auto quad = mesh.mesh().quad_between({0, edge[0]}, edge[1]);
+        if (!quad) continue;
+        const auto middle = halve_edge(mesh, *quad);
+        if (!middle) continue;
+        around.push_back(*middle);
+        break;
+      }
+    }
+  remesh(mesh, monitor, true, false, around);
+}
+
+// Marks the triangles of the atlas that have a corner near a place where triangles cross.
+void keep_around(const Intersections& found, const FreedMesh& made, const SurfaceMesh& before, RemeshingFrame& frame) {
+  const FlatMesh flat = flatten(made.mesh, false);
+  const auto& triangles = frame.charts->triangles();
+  frame.kept.assign(triangles.size(), 0);
+  for (const TriangleIntersection& pair : found.pairs) {
+    const double far = guarded_sizes * made.vertex_size[flat.triangles[pair.triangles[0]][0]];
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (std::ranges::any_of(triangles[t].vertex,
+                              [&](std::int32_t v) { return norm(before.vertices[v] - pair.place) <= far; }))
+        frame.kept[t] = 1;
+  }
 }
 
 void take(FreedMesh&& made, RemeshingFrame& frame, CompositeResult& result, Monitor& monitor) {
@@ -130,18 +192,40 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
                           CompositeResult& result, Monitor& monitor) {
   const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
   frame.workers = {options, cad};
-  std::optional<StartedMesh> placed = mended(cad, tolerances, result, frame, monitor);
+  std::optional<StartedMesh> placed = mended(cad, tolerances, least_mean, result, frame, monitor);
   if (!placed) return "it is not made in planes";
-  const bool poor = summarise_shapes(*placed->free, options.threads, monitor).mean < least_mean;
-  FreedMesh made = reassembled(result.mesh, std::move(*placed), frame, monitor);
-  Intersections found = find_crossings(made.mesh, options, monitor);
-  if (found.count > 0 && found.count > find_crossings(result.mesh, options, monitor).count) return "triangles would cross";
-  if (poor) return "shapes would be poor";
-  std::string why = why_worse(made.mesh, result.mesh, options.threads, monitor);
-  if (!why.empty()) return why;
-  if (result.report.crossings >= 0) result.report.crossings = found.count, result.crossings = std::move(found.pairs);
-  take(std::move(made), frame, result, monitor);
-  return "";
+  std::optional<std::int64_t> crossings_before;
+  std::int64_t first = 0, last = 0;
+  bool keeps = false;
+  for (int round = 0;; ++round) {
+    FreedMesh made = reassembled(result.mesh, std::move(*placed), frame, monitor);
+    Intersections found = find_crossings(made.mesh, options, monitor);
+    if (found.count > 0 && !crossings_before) crossings_before = find_crossings(result.mesh, options, monitor).count;
+    if (found.count > 0 && found.count > *crossings_before) {
+      monitor.message(Level::debug, std::to_string(found.count) + " pairs of triangles cross");
+      const bool stays = round > 0 && found.count >= last;
+      const bool all_found = found.count == static_cast<std::int64_t>(found.pairs.size());
+      if (round == most_untanglings || (stays && keeps) || !all_found) return "triangles would cross";
+      if (round == 0) first = found.count;
+      last = found.count;
+      guard_around(found, made, *frame.charts);
+      if (!stays) {
+        untangle(*placed->free, found, made.mesh, monitor);
+        continue;
+      }
+      // Edits do not help: there the triangles of the atlas stay.
+      keeps = true, last = first;
+      keep_around(found, made, result.mesh, frame);
+      placed = mended(cad, tolerances, least_mean, result, frame, monitor);
+      if (!placed) return "it is not made in planes";
+      continue;
+    }
+    std::string why = why_worse(made.mesh, result.mesh, options.threads, monitor);
+    if (!why.empty()) return why;
+    if (result.report.crossings >= 0) result.report.crossings = found.count, result.crossings = std::move(found.pairs);
+    take(std::move(made), frame, result, monitor);
+    return "";
+  }
 }
 
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,

@@ -38,6 +38,7 @@ struct RemeshingFrame {
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
   /// Makes the mesh at once, for mend_in_frame(); none: it does not.
   std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
+  std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
   RemeshingWorkers workers = {};
 };

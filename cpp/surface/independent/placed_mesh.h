@@ -17,6 +17,7 @@ struct PlacedMesh {
   std::vector<std::vector<LineNode>> lines;       ///< by line
   std::vector<std::vector<KeptPlaces>> on_line;   ///< by line and node; none where a vertex stays where it was
   std::vector<std::int32_t> seams;                ///< vertices that nothing but the making has put in line
+  std::vector<std::int32_t> kept;                 ///< corners of triangles that are those of the mesh of before
 };
 
 }  // namespace carreau

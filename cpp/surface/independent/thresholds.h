@@ -53,6 +53,8 @@ inline constexpr int most_rounds = 8;
 inline constexpr int most_last_passes = 8, most_last_passes_thorough = 20;
 /// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
 inline constexpr double least_shape = 0.15;
+/// Shape that the halving of an edge may leave that untangles triangles: swaps and moves follow.
+inline constexpr double flat_shape = 0.02;
 /// Shape. Triangles below are worked at, with two rings around.
 inline constexpr double good_enough = 0.7;
 /// Shape of the triangles of a square, whose diagonals are alike: where both triangles of an edge are better, those of the other
@@ -126,6 +128,8 @@ inline constexpr double least_anisotropy = 1.05;
 inline constexpr double leaning_angle = 35;
 /// Times that triangles beyond tolerances are worked at, each time with what has crossed guarded.
 inline constexpr int most_certifications = 3;
+/// Times that edges of triangles that cross are halved in a mesh made elsewhere.
+inline constexpr int most_untanglings = 8;
 /// Sizes around such a place that are guarded.
 inline constexpr double guarded_sizes = 2;
 /// Degrees. A larger sharp_angle does not let triangles stand upright.

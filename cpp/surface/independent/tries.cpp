@@ -120,6 +120,12 @@ Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& bef
                                   IntersectionOptions{}.limit, {options.team, options.threads}, monitor);
 }
 
+void guard_around(const Intersections& found, const FreedMesh& made, Charts& charts) {
+  const FlatMesh flat = flatten(made.mesh, false);
+  for (const TriangleIntersection& pair : found.pairs)
+    charts.guard(pair.place, guarded_sizes * made.vertex_size[flat.triangles[pair.triangles[0]][0]]);
+}
+
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor) {
   std::vector<std::string> defects;
   std::array<std::int64_t, 2> numbers{};
@@ -213,13 +219,6 @@ Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
   return {std::move(start), worse_in, in_range};
 }
 
-// Around triangles that cross.
-void Tries::guard(const Intersections& found, const FreedMesh& made) {
-  const FlatMesh flat = flatten(made.mesh, false);
-  for (const TriangleIntersection& pair : found.pairs)
-    frame_.charts->guard(pair.place, guarded_sizes * made.vertex_size[flat.triangles[pair.triangles[0]][0]]);
-}
-
 // With why it is not to replace the mesh of before.
 Tries::Outcome Tries::put_together(StartedMesh& mesh) {
   Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
@@ -248,7 +247,7 @@ Tries::Outcome Tries::certified(StartedMesh& mesh) {
     const bool crosses = better.crossings.count > plain->crossings.count;
     if (better.why.empty() && !crosses) return better;
     if (!crosses) break;
-    guard(better.crossings, better.made);
+    guard_around(better.crossings, better.made, *frame_.charts);
   }
   return plain ? std::move(*plain) : put_together(mesh);
 }
@@ -276,7 +275,7 @@ Tries::Outcome Tries::run() {
     }
     outcome = certified(tried.mesh);
     if (outcome.why.empty()) return outcome;
-    if (outcome.crosses) guard(outcome.crossings, outcome.made);
+    if (outcome.crosses) guard_around(outcome.crossings, outcome.made, *frame_.charts);
   }
   return spare && (frame_.everywhere || frame_.elements) ? put_together(spare->mesh) : std::move(outcome);
 }

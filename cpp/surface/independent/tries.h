@@ -54,6 +54,9 @@ Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& op
 Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& before, const CompositeOptions& options,
                              Monitor& monitor);
 
+/// Guards the places of the atlas around triangles that cross.
+void guard_around(const Intersections& found, const FreedMesh& made, Charts& charts);
+
 /// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor);
 
@@ -81,7 +84,6 @@ class Tries {
   Outcome put_together(StartedMesh& mesh);  // it stays where no elements are made of it
   Outcome certified(StartedMesh& mesh);
   bool remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least);
-  void guard(const Intersections& found, const FreedMesh& made);
   [[nodiscard]] std::int64_t crossings_before();
 
   RemeshingFrame& frame_;

@@ -25,6 +25,7 @@ struct Borders {
   std::vector<std::vector<LineNode>> lines;      ///< by line: vertices of the mesh of before
   std::vector<std::vector<KeptPlaces>> on_line;  ///< by line and node; none where a corner stays as it is
   std::vector<SurfacePlace> added;               ///< vertices of cuts; they follow those of the mesh of before
+  std::vector<std::int32_t> number;  ///< by vertex of the mesh of before: at its place on a border; -1: none
 };
 
 struct BorderInput {
@@ -34,6 +35,7 @@ struct BorderInput {
   std::span<const WorkedLine> worked;  ///< by line
   std::span<const double> size;        ///< by vertex of the mesh of before
   std::span<const char> exact;         ///< by chart: see ProjectedCharts
+  std::span<const char> kept;          ///< by vertex of the mesh of before: of a chart that stays as it is
   LineTolerance tolerance;
   Cad& cad;
 };

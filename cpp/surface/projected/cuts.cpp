@@ -8,6 +8,7 @@
 
 #include "curve/unit_discretisation.h"
 #include "support/clamped_int.h"
+#include "support/infinity.h"
 #include "surface/projected/borders.h"
 #include "surface/projected/thresholds.h"
 
@@ -170,19 +171,34 @@ class CutTracer {
     return CutPoint{*foot, atlas_.flat(*foot)};
   }
 
+  // Cosine of the angle between the surface and the axes of both charts. A cut that slides over the end of a thin part,
+  // where one chart does not show it, would cut the end off.
+  [[nodiscard]] double least_shown(const Cut& cut, const CutPoint& p) const {
+    const Vec3& normal = atlas_.normal[p.foot.triangle];
+    return std::min(dot(normal, input_.charts.axis[cut.left]), dot(normal, input_.charts.axis[cut.right]));
+  }
+
   void straighten() {
     monitor_.checkpoint();
     for (CutNode& node : nodes_) {
       if (node.stays) continue;
       Vec3 sum{0, 0, 0};
       for (const auto& [cut, starts] : node.cuts) sum += next_to(cuts_[cut], starts);
-      if (const auto at = near(node.at, sum / static_cast<double>(node.cuts.size()))) node.at = *at;
+      double shown = infinity, still_shown = infinity;
+      const auto at = near(node.at, sum / static_cast<double>(node.cuts.size()));
+      for (const auto& [cut, starts] : node.cuts) {
+        shown = std::min(shown, least_shown(cuts_[cut], node.at));
+        if (at) still_shown = std::min(still_shown, least_shown(cuts_[cut], *at));
+      }
+      if (at && still_shown >= std::min(least_cosine, shown)) node.at = *at;
     }
     for (Cut& cut : cuts_)
       for (std::size_t k = 0; k < cut.inner.size() && !cut.exact; ++k) {
         const Vec3& before = k == 0 ? nodes_[cut.start].at.xyz : cut.inner[k - 1].xyz;
         const Vec3& after = k + 1 == cut.inner.size() ? nodes_[cut.end].at.xyz : cut.inner[k + 1].xyz;
-        if (const auto at = near(cut.inner[k], (before + after) / 2)) cut.inner[k] = *at;
+        if (const auto at = near(cut.inner[k], (before + after) / 2);
+            at && least_shown(cut, *at) >= std::min(least_cosine, least_shown(cut, cut.inner[k])))
+          cut.inner[k] = *at;
       }
   }
   [[nodiscard]] Vec3 next_to(const Cut& cut, bool start) const {
@@ -232,11 +248,14 @@ class CutTracer {
     };
     for (CutNode& node : nodes_)
       if (node.vertex < 0) node.vertex = add(node.at);
+    for (const auto& [v, node] : node_of_) borders_.number[v] = nodes_[node].vertex;
     for (const Cut& cut : cuts_) {
       BorderChain& chain = borders_.chains.emplace_back();
       chain.left = cut.left, chain.right = cut.right;
       chain.vertices.push_back(nodes_[cut.start].vertex);
       for (const CutPoint& p : cut.inner) chain.vertices.push_back(add(p));
+      for (std::size_t k = 1; cut.undivided && k + 1 < cut.path.size(); ++k)
+        borders_.number[cut.path[k]] = chain.vertices[k];
       chain.vertices.push_back(nodes_[cut.end].vertex);
     }
   }

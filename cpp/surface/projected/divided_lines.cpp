@@ -52,6 +52,7 @@ std::optional<Sides> sides_of(const BorderInput& input, std::int32_t from, std::
 
 bool is_exact(const BorderInput& input, std::size_t line) {
   const std::vector<std::int32_t>& v = input.lines[line].vertices;
+  if (std::ranges::any_of(v, [&](std::int32_t w) { return input.kept[w] != 0; })) return true;
   for (std::size_t k = 1; k < v.size(); ++k)
     for (const Charts::OnEdge& on : input.atlas.charts.triangles_on(mesh_edge(v[k - 1], v[k])))
       if (input.exact[input.charts.chart[on.triangle]] != 0) return true;
@@ -127,6 +128,7 @@ std::optional<DividedLine> divide_line(const BorderInput& input, std::size_t ran
 
 std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor) {
   Borders borders;
+  borders.number.assign(input.atlas.mesh.vertices.size(), -1);
   std::set<MeshEdge> lone;  // lines of one edge
   for (std::size_t line = 0; line < input.lines.size(); ++line) {
     monitor.checkpoint();
@@ -136,7 +138,8 @@ std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor) {
       const auto& [first, last] = std::pair{divided->nodes.front().vertex, divided->nodes.back().vertex};
       if (!lone.insert(mesh_edge(first, last)).second) divided = divide_line(input, line, 2);
     }
-    if (!divided || !add_runs(input, line, divided->nodes, borders)) return {};
+    if (!divided) divided = every_vertex(input, line);
+    if (!add_runs(input, line, divided->nodes, borders)) return {};
     borders.lines.push_back(std::move(divided->nodes));
     borders.on_line.push_back(std::move(divided->places));
   }

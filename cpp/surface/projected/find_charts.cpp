@@ -42,8 +42,11 @@ class ChartFinder {
       if (met[t] == 0) cut(region_of(t, met));
     merge_charts(atlas_, merge_cosine, {}, found_, monitor_);
     found_.exact.assign(atlas_.normal.size(), 0);
+    found_.kept.assign(atlas_.normal.size(), 0);
+    std::vector<char> leaning(atlas_.normal.size(), 0);
     for (std::int32_t t = 0; t < atlas_.triangles(); ++t)
-      found_.complete = found_.complete && lean(t, found_.chart[t]) >= loose_cosine;
+      leaning[t] = lean(t, found_.chart[t]) >= loose_cosine ? 0 : 1;
+    keep_triangles(atlas_, leaning, found_);
     return found_;
   }
 
@@ -245,6 +248,24 @@ class ChartFinder {
   std::int32_t stamp_ = 0;
 };
 
+// Each connected piece of a chart becomes a chart, in the order of their first triangles.
+void number_pieces(const FlatAtlas& atlas, ProjectedCharts& charts) {
+  std::vector<std::int32_t> piece(charts.chart.size(), none);
+  std::vector<Vec3> axes;
+  std::vector<std::int32_t> queue;
+  for (std::int32_t first = 0; first < atlas.triangles(); ++first) {
+    if (piece[first] != none) continue;
+    queue.assign(1, first);
+    piece[first] = static_cast<std::int32_t>(axes.size());
+    for (std::size_t k = 0; k < queue.size(); ++k)
+      for (const std::int32_t u : atlas.at(queue[k]).beyond)
+        if (u >= 0 && piece[u] == none && charts.chart[u] == charts.chart[first])
+          piece[u] = piece[first], queue.push_back(u);
+    axes.push_back(charts.axis[charts.chart[first]]);
+  }
+  charts.chart = std::move(piece), charts.axis = std::move(axes);
+}
+
 }  // namespace
 
 bool split_charts(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts, Monitor& monitor) {
@@ -252,6 +273,19 @@ bool split_charts(const FlatAtlas& atlas, const std::vector<char>& which, Projec
   if (std::ranges::count(which, 0) == static_cast<std::ptrdiff_t>(which.size())) return false;
   charts = ChartFinder(atlas, std::move(charts), monitor).split(which);
   return charts.axis.size() > before;
+}
+
+bool keep_triangles(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts) {
+  bool any = false;
+  for (std::int32_t t = 0; t < atlas.triangles(); ++t) {
+    if (which[t] == 0 || charts.kept[t] != 0) continue;
+    any = true;
+    charts.kept[t] = 1, charts.exact[t] = most_exact;
+    charts.chart[t] = static_cast<std::int32_t>(charts.axis.size());
+    charts.axis.push_back(atlas.normal[t]);
+  }
+  if (any) number_pieces(atlas, charts);
+  return any;
 }
 
 ProjectedCharts find_charts(const FlatAtlas& atlas, Monitor& monitor) { return ChartFinder(atlas, monitor).run(); }

@@ -15,11 +15,15 @@ struct ProjectedCharts {
   std::vector<Vec3> axis;           ///< by chart: of its projection, unit
   std::vector<char> exact;  ///< by triangle: borders of its chart are edges of the atlas, not those that sizes want,
                             ///< which would cross: 1: cut by the sizes, where they are long; 2: as they are
-  bool complete = true;     ///< false: some triangle leans too much against every axis
+  std::vector<char> kept;   ///< by triangle: its chart is not meshed, its triangles stay as they are
 };
 
-/// Each chart is connected, and its normals lean against its axis by no more than `loose_cosine` tells.
+/// Each chart is connected, and its normals lean against its axis by no more than `loose_cosine` allows. Triangles that
+/// lean more are kept.
 ProjectedCharts find_charts(const FlatAtlas& atlas, Monitor& monitor);
+
+/// Makes kept charts of the triangles that `which` marks, one each. Whether any was not kept before.
+bool keep_triangles(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts);
 
 /// Cuts those in two between their ends, where they have two triangles. Whether any was.
 bool split_charts(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts, Monitor& monitor);

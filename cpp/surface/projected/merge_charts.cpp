@@ -72,7 +72,12 @@ class ChartMerger {
     return -1;
   }
 
+  [[nodiscard]] bool is_kept(std::int32_t chart) const {
+    return !charts_.kept.empty() && charts_.kept[members_[chart].front()] != 0;
+  }
+
   [[nodiscard]] bool fits(std::int32_t p, std::int32_t q) const {
+    if (is_kept(p) || is_kept(q)) return false;
     const Vec3 sum = sum_[p] + sum_[q];
     // The surface leans more than its flat triangles: at their corners the projection must not turn over.
     const double least = cosine_ * norm(sum), least_at_corners = least_cosine * norm(sum);

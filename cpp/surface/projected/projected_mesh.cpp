@@ -32,6 +32,7 @@ struct ChartWork {
   std::unique_ptr<ChartPlane> plane;
   std::string why;     // its borders are none
   bool leans = false;  // it would be seen better in two
+  bool kept = false;   // its triangles stay as they are
 };
 
 /// What comes of a chart.
@@ -60,8 +61,10 @@ MadeChart get(PacketReader& packet) {
 
 std::vector<ChartWork> charts_of(const ProjectedCharts& found, const Borders& borders) {
   std::vector<ChartWork> charts(found.axis.size());
-  for (std::size_t t = 0; t < found.chart.size(); ++t)
+  for (std::size_t t = 0; t < found.chart.size(); ++t) {
     charts[found.chart[t]].triangles.push_back(static_cast<std::int32_t>(t));
+    charts[found.chart[t]].kept = found.kept[t] != 0;
+  }
   for (const BorderChain& chain : borders.chains) {
     if (chain.left >= 0) charts[chain.left].chains.push_back(&chain);
     if (chain.right >= 0 && chain.right != chain.left) charts[chain.right].chains.push_back(&chain);
@@ -110,17 +113,22 @@ struct Plan {
 };
 
 std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& found, Monitor& monitor) {
-  std::vector<char> exact(found.axis.size(), 0);
-  for (std::size_t t = 0; t < found.chart.size(); ++t)
+  std::vector<char> exact(found.axis.size(), 0), kept(source.atlas.mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < found.chart.size(); ++t) {
     exact[found.chart[t]] = std::max(exact[found.chart[t]], found.exact[t]);
+    if (found.kept[t] != 0)
+      for (const std::int32_t v : source.atlas.at(static_cast<std::int32_t>(t)).vertex) kept[v] = 1;
+  }
   auto borders = cut_borders(
-      {source.atlas, found, source.lines, source.worked, source.size, exact, source.tolerance, source.cad}, monitor);
+      {source.atlas, found, source.lines, source.worked, source.size, exact, kept, source.tolerance, source.cad},
+      monitor);
   if (!borders) return {};
   Plan plan{std::move(*borders), {}, {}, {}, {}};
   plan.charts = charts_of(found, plan.borders);
   plan.xyz = places_of(source.atlas.mesh, plan.borders);
   const auto work = [&](std::size_t c, Monitor& own) {
     ChartWork& chart = plan.charts[c];
+    if (chart.kept) return;
     chart.plane = std::make_unique<ChartPlane>(
         source.atlas, found.axis[c], chart.triangles, mean_size(source.atlas, chart.triangles, source.size),
         std::ranges::any_of(chart.chains, [](const BorderChain* chain) { return chain->left == chain->right; }));
@@ -147,7 +155,8 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   return plan;
 }
 
-// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and leaves edges around single triangles whole.
+// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and
+// keeps the triangles of small ones.
 // False where nothing is left to do.
 bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
   std::vector<char> is_wrong(found.axis.size(), 0);
@@ -163,17 +172,27 @@ bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, Projec
   merge_charts(atlas, most_merge_cosine, join, found, monitor);
   bool changed = found.axis.size() < before;
   if (changed) return true;
-  std::vector<char> apart(found.axis.size(), 0);
-  for (const std::int32_t t : triangles) apart[found.chart[t]] = found.exact[t];
-  std::vector<int> members(found.axis.size(), 0);
+  std::vector<std::size_t> members(found.axis.size(), 0);
   for (const std::int32_t t : triangles) ++members[found.chart[t]];
-  std::vector<char> next;
-  for (const std::int32_t t : triangles)
-    next.push_back(found.exact[t] == 0 ? 1 : members[found.chart[t]] == 1 ? most_exact : found.exact[t]);
-  changed = split_charts(atlas, apart, found, monitor);
-  for (std::size_t k = 0; k < triangles.size(); ++k)
-    changed = changed || found.exact[triangles[k]] != next[k], found.exact[triangles[k]] = next[k];
-  return changed;
+  std::vector<char> apart(found.axis.size(), 0), keep(found.chart.size(), 0);
+  for (const std::int32_t t : triangles) {
+    const std::int32_t c = found.chart[t];
+    if (found.exact[t] == 0)
+      found.exact[t] = 1, changed = true;
+    else if (members[c] > small_piece)
+      apart[c] = 1;
+    else
+      keep[t] = 1;
+  }
+  changed = split_charts(atlas, apart, found, monitor) || changed;
+  return keep_triangles(atlas, keep, found) || changed;
+}
+
+bool keep_charts(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found) {
+  std::vector<char> is_wrong(found.axis.size(), 0), keep(found.chart.size(), 0);
+  for (const std::int32_t c : wrong) is_wrong[c] = 1;
+  for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = is_wrong[found.chart[t]];
+  return keep_triangles(atlas, keep, found);
 }
 
 // On the surface where the plane has it: patches swing out beside their triangles.
@@ -185,6 +204,17 @@ SurfacePlace lifted(const FlatAtlas& atlas, const ChartPlane& plane, const Foot&
   if (!better) return first;
   const SurfacePlace second = atlas.charts.evaluate(cad, *better);
   return norm(wanted - plane.project(second.xyz)) < norm(miss) ? second : first;
+}
+
+MadeChart kept_of(const FlatAtlas& atlas, const std::vector<std::int32_t>& number,
+                  const std::vector<std::int32_t>& triangles) {
+  MadeChart made;
+  for (const std::int32_t t : triangles) {
+    const auto first = static_cast<std::int32_t>(made.border.size());
+    for (const std::int32_t v : atlas.at(t).vertex) made.border.push_back(number[v] >= 0 ? number[v] : v);
+    made.triangles.push_back({first, first + 1, first + 2});
+  }
+  return made;
 }
 
 MadeChart made_of(const ChartInput& input, Cad& cad, Monitor& monitor) {
@@ -210,6 +240,28 @@ void append(const FlatAtlas& atlas, const MadeChart& chart, PlacedMesh& placed) 
     placed.added.push_back(place);
   }
   for (const auto& t : chart.triangles) placed.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+}
+
+// Charts that have no mesh, or triangles that run along an edge of their border the same way as a triangle of another
+// chart.
+std::vector<std::int32_t> without_mesh(const std::vector<MadeChart>& charts) {
+  std::vector<std::array<std::int32_t, 3>> sides;  // start, end, chart
+  std::vector<std::int32_t> wrong;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (!charts[c].why.empty()) wrong.push_back(static_cast<std::int32_t>(c));
+    const auto border = static_cast<std::int32_t>(charts[c].border.size());
+    for (const auto& t : charts[c].triangles)
+      for (int i = 0; i < 3; ++i)
+        if (const std::int32_t a = t[i], b = t[(i + 1) % 3]; a < border && b < border)
+          sides.push_back({charts[c].border[a], charts[c].border[b], static_cast<std::int32_t>(c)});
+  }
+  std::ranges::sort(sides);
+  for (std::size_t k = 1; k < sides.size(); ++k)
+    if (sides[k][0] == sides[k - 1][0] && sides[k][1] == sides[k - 1][1])
+      for (const std::size_t j : {k - 1, k}) wrong.push_back(sides[j][2]);
+  std::ranges::sort(wrong);
+  wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+  return wrong;
 }
 
 // Charts fit together only where all processes cut the same surface by the same sizes.
@@ -241,36 +293,45 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   const BorderSource source{
       flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.crew.threads, cad};
   ProjectedCharts found = find_charts(flat, monitor);
-  if (!found.complete) return refuse("triangles lean too much");
+  if (!frame.kept.empty()) keep_triangles(flat, frame.kept, found);
   std::optional<Plan> plan;
-  for (int round = 0;; ++round) {
+  std::vector<MadeChart> charts;
+  for (int round = 0;;) {
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
+    if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles())
+      return refuse("no plane shows the charts");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
-    if (!worse.empty() && round < most_mendings && mend(flat, worse, found, monitor)) continue;
-    if (plan->wrong.empty()) break;
-    return refuse(plan->why());
+    if (!worse.empty() && round++ < most_mendings && mend(flat, worse, found, monitor)) continue;
+    std::vector<std::int32_t>& wrong = plan->wrong;
+    if (wrong.empty()) {
+      const auto work = [&](std::size_t c, Monitor& own) {
+        const ChartWork& chart = plan->charts[c];
+        if (chart.kept) return kept_of(flat, plan->borders.number, chart.triangles);
+        return made_of({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c),
+                        plan->xyz, options.max_triangles},
+                       cad, own);
+      };
+      charts = shared_work<MadeChart>(options.crew, "charts", plan->charts.size(), !cad.reentrant(), work, put, get,
+                                      monitor);
+      wrong = without_mesh(charts);
+      if (wrong.empty()) break;
+    }
+    if (!keep_charts(flat, wrong, found)) return refuse(plan->why());
   }
-  const auto work = [&](std::size_t c, Monitor& own) {
-    const ChartWork& chart = plan->charts[c];
-    return made_of({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c), plan->xyz,
-                    options.max_triangles},
-                   cad, own);
-  };
-  const std::vector<MadeChart> charts =
-      shared_work<MadeChart>(options.crew, "charts", plan->charts.size(), !cad.reentrant(), work, put, get, monitor);
   PlacedMesh placed;
   placed.added = std::move(plan->borders.added);
   for (std::size_t k = 0; k < placed.added.size(); ++k)
     placed.seams.push_back(static_cast<std::int32_t>(before.vertices.size() + k));
-  for (const MadeChart& chart : charts) {
-    if (!chart.why.empty()) return refuse(chart.why);
+  for (std::size_t c = 0; c < charts.size(); ++c) {
     monitor.checkpoint();
-    append(flat, chart, placed);
+    append(flat, charts[c], placed);
+    if (plan->charts[c].kept) placed.kept.insert(placed.kept.end(), charts[c].border.begin(), charts[c].border.end());
   }
   placed.lines = std::move(plan->borders.lines), placed.on_line = std::move(plan->borders.on_line);
   monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " +
+                                     std::to_string(placed.kept.size() / 3) + " triangles kept, " +
                                      std::to_string(placed.seams.size()) + " vertices of cuts, " +
                                      std::to_string(placed.triangles.size()) + " triangles");
   return placed;

@@ -17,6 +17,9 @@ inline constexpr double most_merge_cosine = 0.2;
 inline constexpr char most_exact = 2;
 /// Times that charts whose borders cross are mended.
 inline constexpr int most_mendings = 16;
+/// Share of the triangles of the atlas that may be kept. Beyond, edits of the whole mesh cost no more. For scans it is
+/// below .15.
+inline constexpr double most_kept = 0.25;
 /// What is left between charts may lean so far: a ratio of 3.
 inline constexpr double loose_cosine = 0.3;
 /// Nothing is found in triangles that lean more: there the projection turns over soon.

@@ -90,7 +90,10 @@ bool swap_edge(FreeMesh& mesh, const Quad& q, bool for_degrees) {
   return true;
 }
 
-std::optional<std::int32_t> split_edge(FreeMesh& mesh, const Quad& q) {
+namespace {
+
+// `whatever_length`: lengths need not gain.
+std::optional<std::int32_t> split(FreeMesh& mesh, const Quad& q, bool whatever_length) {
   const Vec3 middle = 0.5 * (mesh.position(q.a) + mesh.position(q.b));
   const Vec3 normal = mesh.mesh().mean_normal(q.places());
   auto at = mesh.near(q.a, normal, middle);
@@ -105,12 +108,20 @@ std::optional<std::int32_t> split_edge(FreeMesh& mesh, const Quad& q) {
   for (const auto& [v, w] : {std::pair{q.a, q.c}, std::pair{q.c, q.b}, std::pair{q.b, q.d}, std::pair{q.d, q.a}})
     mesh.judge(w, v, m, after);
   mesh.forget_vertex();
-  if (least <= was || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, std::max(least_shape, mesh.budget.floor))) return {};
+  const bool gains = whatever_length || least > was;
+  const double floor = whatever_length ? flat_shape : std::max(least_shape, mesh.budget.floor);
+  if (!gains || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, floor)) return {};
   const double cost = mesh.budget.cost(before, after);
   if (!mesh.budget.affords(cost)) return {};
   mesh.budget.pay(cost);
   return mesh.split(q, *at);
 }
+
+}  // namespace
+
+std::optional<std::int32_t> split_edge(FreeMesh& mesh, const Quad& q) { return split(mesh, q, false); }
+
+std::optional<std::int32_t> halve_edge(FreeMesh& mesh, const Quad& q) { return split(mesh, q, true); }
 
 CollapseShapes shapes_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
   const double short_one = mesh.length(gone, kept);

@@ -22,6 +22,8 @@ bool swap_edge(FreeMesh& mesh, const FreeMesh::Quad& q, bool for_degrees = false
 
 /// Puts a vertex on the surface over the middle of an edge, where lengths gain, shapes stay fair and the surface agrees.
 std::optional<std::int32_t> split_edge(FreeMesh& mesh, const FreeMesh::Quad& q);
+/// The same whatever the length of the edge.
+std::optional<std::int32_t> halve_edge(FreeMesh& mesh, const FreeMesh::Quad& q);
 
 /// What a collapse leaves.
 struct CollapseShapes {

@@ -155,6 +155,28 @@ TEST(DiscreteSurface, ACylinderHasRoundRims) {
       1e-14);
 }
 
+// Sides of 2 x 2 between roundings of radius .01 in facets that lean by 30 degrees: normals lean by 15 degrees if
+// facets weigh by their angles, and the sides bulge by .086.
+TEST(DiscreteSurface, PlaneSidesBesideNarrowRoundingsStayPlane) {
+  constexpr double radius = 0.01;
+  FlatMesh prism;
+  for (const double z : {0., 2.})
+    for (int k = 0; k < 4; ++k)
+      for (int j = 0; j < 4; ++j) {
+        const double middle = (90 * k + 45) * degree, angle = (90 * k + 30 * j) * degree;
+        prism.vertices.push_back({(1 - radius) * std::numbers::sqrt2 * std::cos(middle) + radius * std::cos(angle),
+                                  (1 - radius) * std::numbers::sqrt2 * std::sin(middle) + radius * std::sin(angle), z});
+      }
+  prism.vertices.push_back({0, 0, 0}), prism.vertices.push_back({0, 0, 2});
+  for (std::int32_t i = 0; i < 16; ++i) {
+    const std::int32_t j = (i + 1) % 16;
+    for (const auto& t : {std::array{i, j, 16 + j}, std::array{i, 16 + j, 16 + i}, std::array{j, i, 32},
+                          std::array{16 + i, 16 + j, 33}})
+      prism.triangles.push_back(t);
+  }
+  EXPECT_LT(surface_of(prism).deviation(), 3 * radius);
+}
+
 TEST(Unfolding, SharesTheAnglesOutUntilTangentsFollowEachOther) {
   // A plane hexagon; the tangent of the second spoke, at 60 degrees, is turned to 140 degrees, beyond the third one.
   FlatMesh mesh;

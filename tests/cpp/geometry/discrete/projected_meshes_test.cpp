@@ -139,6 +139,37 @@ TEST(ProjectedMeshes, WhatNoPlaneShowsIsMadeByEdits) {
   EXPECT_FALSE(made_of(fins, 0.1).in_planes);
 }
 
+// A spindle by degrees of longitude and latitude, with a tip of .04 at which the sizes of .1 cannot turn: a cut that
+// slides over the tip leaves .09 of it out.
+TEST(ProjectedMeshes, ThinPartsKeepTheirEnds) {
+  constexpr std::int32_t rings = 60, around = 90;
+  FlatMesh spindle;
+  spindle.vertices.push_back({1, 0, 0});
+  for (int i = 1; i < rings; ++i)
+    for (int j = 0; j < around; ++j) {
+      const double a = std::numbers::pi * i / rings, b = 2 * std::numbers::pi * j / around;
+      spindle.vertices.push_back({std::cos(a), 0.2 * std::sin(a) * std::sin(b), 0.2 * std::sin(a) * std::cos(b)});
+    }
+  spindle.vertices.push_back({-1, 0, 0});
+  const auto at = [](std::int32_t i, std::int32_t j) { return 1 + (i - 1) * around + j % around; };
+  const auto last = static_cast<std::int32_t>(spindle.vertices.size()) - 1;
+  for (std::int32_t j = 0; j < around; ++j) {
+    spindle.triangles.push_back({0, at(1, j), at(1, j + 1)});
+    spindle.triangles.push_back({last, at(rings - 1, j + 1), at(rings - 1, j)});
+    for (std::int32_t i = 1; i + 1 < rings; ++i) {
+      spindle.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      spindle.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  const double size = 0.1;
+  const MadeInPlanes made = made_of(spindle, size);
+  EXPECT_TRUE(made.in_planes);
+  double first = 0, end = 0;
+  for (const Vec3& p : made.mesh.vertices) first = std::min(first, p.x()), end = std::max(end, p.x());
+  EXPECT_LT(first, -1 + size / 2);
+  EXPECT_GT(end, 1 - size / 2);
+}
+
 /// The atlas of a surface as it is given.
 struct Atlas {
   explicit Atlas(const FlatMesh& triangles)
@@ -182,7 +213,7 @@ void expect_charts(const Atlas& atlas, const ProjectedCharts& found, double cosi
 TEST(ProjectedCharts, ChartsOfASphereAreConnectedAndLeanLittle) {
   Atlas atlas(sphere(12));
   ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
-  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(std::ranges::count(found.kept, 1), 0);
   EXPECT_GE(static_cast<double>(found.axis.size()), 2 / (1 - loose_cosine));
   EXPECT_LE(found.axis.size(), 16U);
   expect_charts(atlas, found, loose_cosine);
@@ -193,6 +224,21 @@ TEST(ProjectedCharts, ChartsOfASphereAreConnectedAndLeanLittle) {
   merge_charts(atlas.flat, merge_cosine, {}, found, atlas.silent);
   EXPECT_LT(found.axis.size(), 2 * before);
   expect_charts(atlas, found, loose_cosine);
+}
+
+// Charts around them fall into pieces, and nothing joins them.
+TEST(ProjectedCharts, KeptTrianglesAreChartsOfTheirOwn) {
+  Atlas atlas(sphere(6));
+  ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
+  std::vector<char> some(found.chart.size(), 0);
+  for (std::size_t t = 0; t < some.size(); t += 7) some[t] = 1;
+  EXPECT_TRUE(keep_triangles(atlas.flat, some, found));
+  EXPECT_FALSE(keep_triangles(atlas.flat, some, found));
+  expect_charts(atlas, found, loose_cosine);
+  merge_charts(atlas.flat, merge_cosine, {}, found, atlas.silent);
+  expect_charts(atlas, found, loose_cosine);
+  EXPECT_EQ(found.kept, some);
+  for (std::size_t t = 0; t < some.size(); t += 7) EXPECT_EQ(std::ranges::count(found.chart, found.chart[t]), 1);
 }
 
 TEST(ProjectedCharts, FacesOfACubeAreOneChartEach) {
@@ -227,7 +273,9 @@ TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
     for (const char exact : {char{1}, most_exact}) {
       const std::vector<double> sizes(n, size);
       const std::vector<char> all(found.axis.size(), exact);
-      const auto borders = cut_borders({atlas.flat, found, {}, {}, sizes, all, {}, *atlas.built.cad}, atlas.silent);
+      const std::vector<char> kept(n, 0);
+      const auto borders =
+          cut_borders({atlas.flat, found, {}, {}, sizes, all, kept, {}, *atlas.built.cad}, atlas.silent);
       ASSERT_TRUE(borders);
       double expected = 0;
       for (std::int32_t t = 0; t < atlas.flat.triangles(); ++t)
