@@ -9,7 +9,7 @@
 #include "geometry/atlas/blended_surface.h"
 #include "guard.h"
 #include "io/exr.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 
 using carreau::InvalidArgument;
 using carreau::Vec2;

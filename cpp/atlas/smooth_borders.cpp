@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "atlas/thresholds.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 
 namespace carreau::atlas {
 namespace {

@@ -7,7 +7,7 @@
 #include "control_space/quadratic_fit.h"
 #include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 #include "support/infinity.h"
 
 namespace carreau::detail {

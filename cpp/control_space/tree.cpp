@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "control_space/thresholds.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 
 namespace carreau::detail {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "gradation/thresholds.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 
 namespace carreau {
 

@@ -9,7 +9,7 @@
 #include "io/grid/grid_text.h"
 #include "io/text.h"
 #include "io/words.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 #include "support/error.h"
 #include "support/format.h"
 

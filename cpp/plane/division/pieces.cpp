@@ -9,7 +9,7 @@
 
 #include "plane/kernel/triangulation.h"
 #include "plane/thresholds.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 
 namespace carreau::plane {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 #include "support/infinity.h"
 #include "surface/projected/thresholds.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "curve/unit_discretisation.h"
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 #include "support/infinity.h"
 #include "surface/projected/borders.h"
 #include "surface/projected/thresholds.h"

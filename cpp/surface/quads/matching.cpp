@@ -5,7 +5,7 @@
 #include <array>
 #include <numeric>
 
-#include "support/clamped_int.h"
+#include "predicates/clamped_int.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
