@@ -224,8 +224,9 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_plane_domain
 
-    !> The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles
-    !! are the curves, .data or .g (BL2D; with the sizes of a .hg beside it).
+    !> The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb
+    !! or .bl2d of dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with the sizes of a
+    !! .hg beside it).
     function c_load_plane_domain(session, path, sizes, corner_angle) result(status) &
         bind(c, name="carreau_load_plane_domain")
       import :: c_char, c_double, c_int32_t, c_ptr
