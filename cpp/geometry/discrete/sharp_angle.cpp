@@ -73,7 +73,9 @@ class RoundEdges {
     const Vec3 here = turn(from), place = middle(from);
     const double angle = bends_[offset(e)];
     const Vec3 axis = here / angle;
-    const auto [first, last] = std::ranges::equal_range(sides_, facet_[offset(from.triangle)], {}, &FacetSide::facet);
+    const std::size_t facet = facet_[offset(from.triangle)];
+    const auto first = std::ranges::lower_bound(sides_, facet, {}, &FacetSide::facet);
+    const auto last = std::ranges::upper_bound(sides_, facet, {}, &FacetSide::facet);
     if (last - first > (angle > thresholds::chamfer_angle ? thresholds::max_sides_beside_chamfer : thresholds::max_sides_of_facet))
       return {};
     std::optional<double> nearest;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <ranges>
 #include <tuple>
 
 #include "io/plane/plane_files.h"
@@ -175,7 +174,9 @@ PlaneDomainInput read_node_text(std::string_view text, const std::string& name) 
       side.name = std::to_string(input.curves.size());
     }
   };
-  chain(order), chain(order | std::views::reverse);
+  chain(order);
+  std::ranges::reverse(order);
+  chain(order);
   return input;
 }
 
