@@ -38,6 +38,14 @@ void make_finer(CompositeRun& run, const RefinementPlan& plan, std::int64_t most
     run.finer[f].insert(run.finer[f].end(), plan.sources[f].begin(), plan.sources[f].end());
 }
 
+// The pairs of triangles of an earlier mesh, without those of faces that were found to meet since.
+std::int64_t avoidable(const CrossingRequests& earlier, const FacePairs& meeting) {
+  std::int64_t pairs = 0;
+  for (const CrossingRequest& request : earlier.requests)
+    if (!meeting.contains(request.faces)) pairs += request.pairs;
+  return pairs;
+}
+
 // The faces of a plane domain lie beside one another, and the triangles of each are turned the same way.
 bool covers_a_plane_once(const CompositeRun& run) {
   const std::vector<FaceMesh>& faces = run.result.mesh.faces;
@@ -57,7 +65,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
   Intersections kept = now.found;
   FacePairs meeting;
   CrossingRequests requests = find_requests(run, now, meeting);
-  std::int64_t fewest = requests.avoidable;
+  CrossingRequests fewest = requests;
   Attempts attempts(run, mesh_again);
   const std::int64_t allowed = run.options.max_triangles;
   double budget = std::max(work_of_mesh(run), least_budget) / work_of_varied_sizes;
@@ -69,8 +77,8 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     budget -= work_of_faces(run, plan.faces);
     now = Crossings(run);
     requests = find_requests(run, now, meeting);
-    if (!attempts.keep_if(requests.avoidable < fewest)) continue;
-    fewest = requests.avoidable;
+    if (!attempts.keep_if(requests.avoidable < avoidable(fewest, meeting))) continue;
+    fewest = requests;
     kept = now.found;
   }
   attempts.finish();

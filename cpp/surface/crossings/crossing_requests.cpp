@@ -62,11 +62,10 @@ class RequestFinder {
       const FaceTriangle &s = triangle(pair.triangles[0]), &t = triangle(pair.triangles[1]);
       if (!s.is_sound() || !t.is_sound()) continue;
       const FaceGap gap = measure_gap(run_.cad, s, t, pair.place);
-      const double share = share_of(gap);
-      if (share >= least_share)
+      const double share = share_of(gap), longest = std::max(s.longest_edge(), t.longest_edge());
+      if (share >= least_share && gap.width >= least_width * gap.slope * longest)
         add(pair, std::min(share, most_share), request);
-      else if (faces.first != faces.second &&
-               !shared.any_within(std::max(s.longest_edge(), t.longest_edge()), gap.place))
+      else if (faces.first != faces.second && !shared.any_within(longest, gap.place))
         return {};
     }
     return request;

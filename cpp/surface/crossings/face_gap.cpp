@@ -62,6 +62,7 @@ FaceGap measure_gap(Cad& cad, const FaceTriangle& s, const FaceTriangle& t, cons
   }
   const PointPair nearest = nearest_points(cad, s, t, start);
   gap.width = nearest.distance();
+  gap.slope = norm(cross(nearest.p.normal, nearest.q.normal));
   gap.place = nearest.middle();
   return gap;
 }

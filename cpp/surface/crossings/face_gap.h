@@ -12,6 +12,7 @@ namespace carreau {
 struct FaceGap {
   double width = 0;    ///< least distance found between the two pieces of the faces; 0: they meet
   double sagitta = 0;  ///< largest distance between the triangles and their faces, at the place and at centroids
+  double slope = 0;    ///< sine between both normals there
   Vec3 place;          ///< between the points of that distance
 };
 
