@@ -258,15 +258,19 @@ TEST(WrongTurns, OuterLoopsAreTurnedRound) {
     }
 }
 
-// Whether the outside of a loop on a closed surface is the face, the loop alone does not say.
-TEST(WrongTurns, LoopsOnClosedSurfacesStay) {
+// The outside of a loop on a sphere has a seam and poles. A face without them is the inside.
+TEST(WrongTurns, LoopsOnASphereWithoutASeamBoundTheirInside) {
   const Handle(Geom_Surface) sphere = new Geom_SphericalSurface(gp_Ax3(), 1);
   const BRep_Builder builder;
   TopoDS_Face face;
   builder.MakeFace(face, sphere, 1e-7);
   builder.Add(face, square_on(sphere, 0.3, 0.9, true));
   carreau_occ::BrepHost host(file_of(face));
-  EXPECT_NE(adapters::mesh_and_measure(host, 0.1).trouble(false), "");
+  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.1);
+  EXPECT_EQ(mesh.trouble(false), "");
+  const double inside = 0.6 * (std::sin(0.9) - std::sin(0.3));
+  EXPECT_NEAR(mesh.quality.area, inside, 2e-3 * inside);
+  EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 1);  // a disc
 }
 
 /// The round face of a cylinder of radius 1 and height 2, whose upper circle and one of whose seams lie a period before
