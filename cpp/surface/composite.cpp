@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "surface/assembly/cracks.h"
-#include "surface/improve/adjacent_lengths.h"
-#include "surface/improve/adjacent_sizes.h"
+#include "surface/inspector.h"
+#include "surface/mesh_rounds.h"
 #include "surface/parts/shares.h"
 #include "surface/run.h"
 #include "surface/team/same_hosts.h"
-#include "surface/thresholds.h"
 
 namespace carreau {
 
@@ -19,38 +20,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void mesh_discretised(CompositeRun& run) {
-  refine_boundaries(run);
-  if (run.options.crossing_rounds > 0 || run.options.element != Element::p1) run.cut_curves = run.curves;
-  mesh_patches(run);
-  assemble_patches(run);
-}
-
-// Neighbours of faces that are to vanish are meshed without their end caps. Where some face cannot vanish all are
-// meshed, end caps too, and as many vanish as can.
-void mesh_without_narrow(CompositeRun& run) {
-  const std::vector<DiscreteCurve> before = run.curves;
-  mesh_discretised(run);
-  if (collapse_narrow_together(run)) return;
-  run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
-  run.narrow.vanishing = {};
-  run.curves = before;
-  mesh_discretised(run);
-  collapse_narrow_one_by_one(run);
-}
-
-// What the gradation promises of neighbouring edges is kept on the assembled mesh, too.
-void even_out(CompositeRun& run) {
-  const CompositeOptions& options = run.options;
-  if (run.slope() == 0) return;
-  if (run.rules.uses_metrics())
-    even_out_sizes(tolerated_gradation * options.gradation,
-                   options.size.geo_guarantee ? geometric_limits(options.size) : GeometricLimits{}, run.rules, run.cad,
-                   run.result, run.monitor);
-  else
-    even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
 }
 
 // Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.
@@ -91,6 +60,18 @@ bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
 
+// Crossings first: elements are made of the triangles that are left.
+std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
+  std::vector<std::unique_ptr<Inspector>> inspectors;
+  if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
+  if (run.options.independent && any_prescribed(run))
+    run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
+  else if (run.options.independent)
+    inspectors.push_back(make_free_mesh_inspector());
+  if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
+  return inspectors;
+}
+
 }  // namespace
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
@@ -103,24 +84,9 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   discretise_curves(run);
   find_narrow(run);
   if (run.options.parts) refuse_narrow_parts(run.narrow);
-  const NarrowModel narrow = run.narrow;
-  const auto mesh = [&] {
-    run.narrow = narrow;
-    if (narrow.vanishing.curve.empty())
-      mesh_discretised(run);
-    else
-      mesh_without_narrow(run);
-    even_out(run);
-  };
-  mesh();
-  part_crossing_triangles(run, mesh);
-  run.known.end();
-  bool is_free = false;
-  if (options.independent && any_prescribed(run))
-    run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
-  else
-    is_free = options.independent && make_free(run, mesh);
-  if (!is_free) make_elements(run, mesh);
+  MeshRounds rounds(run);
+  rounds.mesh_first();
+  for (const std::unique_ptr<Inspector>& inspector : inspectors_of(run)) rounds.refine(*inspector);
   place_on_curves(run);
   tell_prescribed(run);
   if (options.cracks) open_cracks(run.result);

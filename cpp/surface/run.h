@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -43,6 +42,8 @@ struct CompositeRun {
   void say_kept(int curve, const std::string& what_wants_others);
   /// Here or, where patches stay, with another process.
   [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
+  /// Whether an inspector may request a finer mesh.
+  [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
   /// The face has no mesh; others go on.
   void fail(std::size_t face, const std::string& why);
 
@@ -66,8 +67,7 @@ struct CompositeRun {
   std::vector<int> keeper;
   std::map<std::size_t, std::string> remarks;     ///< the same; what is to be known of a face that was meshed
   CompositeResult result;                         ///< assemble_patches()
-  /// What part_crossing_triangles() goes on from, and what it has done: the curves that the mesh was made with, and by
-  /// face what sizes inside grow from.
+  /// The input of the mesh, which the next round refines: its curves, and by face what sizes inside grow from.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
   KnownPatches known;          ///< mesh_patches(), where rounds may follow
@@ -75,7 +75,7 @@ struct CompositeRun {
   bool trying = false;
 };
 
-/// The steps, in their order; composite.cpp calls them. Each throws what the host throws, LimitError and Cancelled.
+/// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws what the host throws, LimitError and Cancelled.
 
 /// Grades the prescribed sizes of the whole model, where a gradation is asked for. One size everywhere obeys any.
 void grade_sizes(CompositeRun& run);
@@ -94,18 +94,5 @@ void assemble_patches(CompositeRun& run);
 [[nodiscard]] bool collapse_narrow_together(CompositeRun& run);
 /// As many as can vanish, where all were meshed, end caps too.
 void collapse_narrow_one_by_one(CompositeRun& run);
-/// Where chords of two close faces cross and the surfaces do not, curves and faces get smaller triangles there, and
-/// all is meshed again, in options.crossing_rounds rounds, as long as fewer pairs of triangles cross and no more faces
-/// fail. What the geometry itself lets cross, or has twice at one place, stays.
-void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again);
-
-/// Frees the mesh of the borders of its patches, and makes its elements; where edges of curves are too long for valid ones they are
-/// halved, and all is meshed again. False, and nothing is done, where the mesh stays as its patches made it.
-[[nodiscard]] bool make_free(CompositeRun& run, const std::function<void()>& mesh_again);
-/// Halves edges of curves: {curve, segment} of run.cut_curves, ascending, each once.
-void divide_segments(CompositeRun& run, const std::vector<std::pair<std::int32_t, int>>& coarse);
-/// Quadrilaterals, and nodes on edges, as options.element wants them (surface/elements). Where edges of curves are so
-/// long that no valid element of second order holds them they are halved, and all is meshed again.
-void make_elements(CompositeRun& run, const std::function<void()>& mesh_again);
 
 }  // namespace carreau

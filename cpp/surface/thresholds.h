@@ -72,7 +72,7 @@ inline constexpr double least_shared = 250'000;
 
 namespace carreau::thresholds::crossings {
 
-// Triangles that cross (crossing_step). [CloseWalls.*]
+// Triangles that cross (crossing_inspector). [CloseWalls.*]
 
 /// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them
 /// again.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elements other than straight triangles, made of the whole mesh.
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "support/format.h"
-#include "surface/attempts.h"
 #include "surface/elements/quadratic.h"
 #include "surface/elements/thresholds.h"
+#include "surface/inspector.h"
 #include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
 
@@ -48,23 +51,16 @@ std::size_t count(const QuadraticReport& report) {
   return sum;
 }
 
-// Smaller elements inside faces, too.
-void divide_faces(CompositeRun& run, const QuadraticReport& report) {
-  run.finer.resize(report.finer.size());
-  for (std::size_t f = 0; f < report.finer.size(); ++f)
-    run.finer[f].insert(run.finer[f].end(), report.finer[f].begin(), report.finer[f].end());
-}
-
-// Quadrilaterals may have divided the edges of curves: those before are meant.
-void divide_curves(CompositeRun& run, const std::vector<CurveEdge>& coarse) {
+// Quadrilaterals may have divided the edges of curves: the edges before are meant.
+std::vector<std::pair<std::int32_t, int>> segments_of(const CompositeRun& run, const std::vector<CurveEdge>& coarse) {
   std::vector<std::pair<std::int32_t, int>> segments;
   for (const CurveEdge& edge : coarse) {
-    if (edge.curve >= std::ssize(run.cut_curves)) continue;  // what a vanished face has left
+    if (edge.curve >= std::ssize(run.cut_curves)) continue;  // a vanished face has left it
     const int before = run.cut_curves[edge.curve].segments(), now = run.curves[edge.curve].segments();
     segments.emplace_back(edge.curve, static_cast<int>(std::int64_t{edge.segment} * before / now));
   }
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
-  divide_segments(run, segments);
+  return segments;
 }
 
 void tell(CompositeRun& run, const QuadraticReport& report) {
@@ -80,32 +76,39 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
   }
 }
 
+class ElementInspector final : public Inspector {
+ public:
+  void inspect(CompositeRun& run) override {
+    if (run.result.mesh.independent) return;  // it has its elements
+    now_ = make_once(run);
+    if (first_ == 0) first_ = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+  }
+
+  [[nodiscard]] bool is_better(const CompositeRun& /*run*/) const override { return count(now_) < count(best_); }
+  void keep() override { best_ = now_; }
+
+  [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
+    const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
+    if (round_++ == rounds || count(now_) == 0) return {};
+    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first_) return {};
+    return RefinementRequests{.segments = segments_of(run, now_.coarse), .sizes = now_.finer};
+  }
+
+  void report(CompositeRun& run) override {
+    if (run.result.mesh.independent) return;
+    run.result.report.crossings = -1;  // those of straight triangles are not those of these elements
+    run.result.crossings.clear();
+    tell(run, best_);
+  }
+
+ private:
+  QuadraticReport now_, best_;
+  double first_ = 0;  // triangles of the first mesh
+  int round_ = 0;
+};
+
 }  // namespace
 
-void divide_segments(CompositeRun& run, const std::vector<std::pair<std::int32_t, int>>& coarse) {
-  std::vector<DiscreteCurve> curves = run.cut_curves;
-  for (auto edge = coarse.rbegin(); edge != coarse.rend(); ++edge)
-    (void)split_segment(curves[edge->first], edge->second, run.curve_model);
-  run.curves = std::move(curves);
-  if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, run.curves);
-}
-
-void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
-  if (run.options.element == Element::p1) return;
-  QuadraticReport now = make_once(run), best = now;
-  Attempts attempts(run, mesh_again);
-  const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
-  const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
-  for (int round = 0; round < rounds && count(now) > 0; ++round) {
-    if (!attempts.again([&] { divide_curves(run, now.coarse), divide_faces(run, now); })) break;
-    now = make_once(run);
-    if (attempts.keep_if(count(now) < count(best))) best = now;
-    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first) break;
-  }
-  attempts.finish();
-  run.result.report.crossings = -1;  // those of straight triangles say nothing of these
-  run.result.crossings.clear();
-  tell(run, best);
-}
+std::unique_ptr<Inspector> make_element_inspector() { return std::make_unique<ElementInspector>(); }
 
 }  // namespace carreau
