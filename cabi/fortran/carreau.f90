@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran 2003 face of cabi/include/carreau.h: the same names, the same order of arguments, the status last. What each
+! wrappers.py writes this file from carreau.f90.in: do not edit it.
+!> Fortran 2003 interface of cabi/include/carreau.h: the same names, the same order of arguments, the status last. What each
 !> routine means, its units and its errors are written there. Different here:
 !>   - vertices, triangles, edges, faces and parameters count from 1;
 !>   - arrays of results are allocated by the call, column by column: xyz(3, n), triangles(3, m), uv(2, 3, m); after an
@@ -124,23 +125,22 @@ module carreau
 
   type :: carreau_parameter
     character(len=:), allocatable :: name, help, default_text, choices
-    integer(c_int32_t) :: type = 0
     real(c_double) :: minimum = 0, maximum = 0, default_number = 0
+    integer(c_int32_t) :: type = 0
     logical :: diag_relative = .false.
   end type carreau_parameter
 
   type :: carreau_report
     real(c_double) :: diag = 0
-    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0
-    integer(c_int64_t) :: curv0_calls = 0, curv1_calls = 0, curv2_calls = 0, size_calls = 0
+    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, curv0_calls = 0, curv1_calls = 0, &
+      curv2_calls = 0, size_calls = 0
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type carreau_report
 
   type :: carreau_interface
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
-    logical :: boundary = .false., glued = .false., degenerate = .false.
+    logical :: boundary = .false., glued = .false., degenerate = .false., loose = .false.
     real(c_double) :: gap = 0
-    logical :: loose = .false.
   end type carreau_interface
 
   type :: carreau_background_report
@@ -152,16 +152,16 @@ module carreau
   type :: carreau_estimator
     integer(c_int32_t) :: source = CARREAU_HESSIAN, shape = CARREAU_ISOTROPIC
     logical :: relative = .false.
-    real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
     integer(c_int32_t) :: recovery = CARREAU_FIT
+    real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
   end type carreau_estimator
 
   type :: carreau_adaptation_report
     integer(c_int32_t) :: iterations = 0
     logical :: converged = .false.
     integer(c_int64_t) :: vertices = 0, triangles = 0, triangles_before = 0
-    real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0
-    real(c_double) :: size_min = 0, stretch_max = 0
+    real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0, size_min = 0, &
+      stretch_max = 0
     integer(c_int64_t) :: outside = 0
   end type carreau_adaptation_report
 
@@ -173,14 +173,13 @@ module carreau
 
   !> text: all lines, with line feeds (achar(10)) between.
   type :: carreau_delivered
-    integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0
-    integer(c_int64_t) :: short_edges = 0, long_edges = 0, folded_triangles = 0
+    integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0, short_edges = 0, long_edges = 0, &
+      folded_triangles = 0
     real(c_double) :: in_range = 0
     integer(c_int64_t) :: not_met = 0
     character(len=:), allocatable :: text
     integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, size_calls = 0
-    real(c_double) :: seconds = 0
-    real(c_double) :: input_distance = 0, input_bound = 0, input_back_distance = 0, input_back_bound = 0
+    real(c_double) :: seconds = 0, input_distance = 0, input_bound = 0, input_back_distance = 0, input_back_bound = 0
   end type carreau_delivered
 
   type :: carreau_measure
@@ -200,23 +199,21 @@ module carreau
 
   type :: carreau_quality
     integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
-    real(c_double) :: q1_mean = 0, q1_min = 0, q1_p1 = 0, q1_max = 0
-    real(c_double) :: q2_mean = 0, q2_min = 0, q2_p1 = 0, q2_max = 0
-    real(c_double) :: angle_min = 0, angle_max = 0, area = 0
-    real(c_double) :: edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
+    real(c_double) :: q1_mean = 0, q1_min = 0, q1_p1 = 0, q1_max = 0, q2_mean = 0, q2_min = 0, q2_p1 = 0, q2_max = 0, &
+      angle_min = 0, angle_max = 0, area = 0, edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
   end type carreau_quality
 
   !> Of a mesh in parts.
   type :: carreau_part_counts
     integer(c_int32_t) :: rank = 0, size = 0
-    integer(c_int64_t) :: own_vertices = 0, own_triangles = 0, all_vertices = 0, all_triangles = 0, all_edges = 0, crossings = 0
+    integer(c_int64_t) :: own_vertices = 0, own_triangles = 0, all_vertices = 0, all_triangles = 0, all_edges = 0, &
+      crossings = 0
   end type carreau_part_counts
 
   type :: carreau_cell_quality
     integer(c_int64_t) :: triangles3 = 0, triangles6 = 0, quads4 = 0, quads8 = 0, invalid = 0
-    real(c_double) :: shape_mean = 0, shape_min = 0, scaled_jacobian_mean = 0, scaled_jacobian_min = 0
-    real(c_double) :: least_jacobian_mean = 0, least_jacobian_min = 0
-    real(c_double) :: angle_min = 0, angle_max = 0, area = 0, triangle_share = 0
+    real(c_double) :: shape_mean = 0, shape_min = 0, scaled_jacobian_mean = 0, scaled_jacobian_min = 0, &
+      least_jacobian_mean = 0, least_jacobian_min = 0, angle_min = 0, angle_max = 0, area = 0, triangle_share = 0
   end type carreau_cell_quality
 
   ! The routines of cad_m, by reference (RT-0232 sec. 3.1).
@@ -555,10 +552,10 @@ contains
     session%handle = c_null_ptr
   end subroutine carreau_session_free
 
-  function carreau_last_error(session) result(sentence)
+  function carreau_last_error(session) result(error)
     type(carreau_session), intent(in) :: session
-    character(len=:), allocatable :: sentence
-    sentence = carreau_string(c_last_error(session%handle))
+    character(len=:), allocatable :: error
+    error = carreau_string(c_last_error(session%handle))
   end function carreau_last_error
 
   subroutine carreau_last_error_place(session, place, status)
@@ -569,7 +566,13 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_last_error_place(session%handle, c)
     if (status /= CARREAU_OK) return
-    place = carreau_error_place(c%face, c%ic, c%curve, c%point, c%line, c%uv, c%t)
+    place%face = c%face
+    place%ic = c%ic
+    place%curve = c%curve
+    place%point = c%point
+    place%line = c%line
+    place%uv = c%uv
+    place%t = c%t
   end subroutine carreau_last_error_place
 
   ! ---- Geometry ----
@@ -682,7 +685,7 @@ contains
     integer(c_int32_t), intent(in) :: error
     character(len=*), intent(in) :: sentence
     integer(c_int32_t), intent(out) :: status
-    status = c_set_error(session%handle, error, trim(sentence)//c_null_char)
+    status = c_set_error(session%handle, error, c_text(sentence))
   end subroutine carreau_set_error
 
   !> Those that are left out do not answer. Of either kind of geometry.
@@ -816,7 +819,9 @@ contains
     type(carreau_session), intent(in) :: session
     integer(c_int64_t), intent(out) :: faces, curves, points
     integer(c_int32_t), intent(out) :: status
-    faces = 0; curves = 0; points = 0
+    faces = 0
+    curves = 0
+    points = 0
     status = c_model_count(session%handle, faces, curves, points)
   end subroutine carreau_model_count
 
@@ -876,10 +881,10 @@ contains
     parameter%help = carreau_string(c%help)
     parameter%default_text = carreau_string(c%default_text)
     parameter%choices = carreau_string(c%choices)
-    parameter%type = c%type
     parameter%minimum = c%minimum
     parameter%maximum = c%maximum
     parameter%default_number = c%default_number
+    parameter%type = c%type
     parameter%diag_relative = c%diag_relative /= 0
   end subroutine carreau_parameter_info
 
@@ -1021,17 +1026,28 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_session_report(session%handle, c)
     if (status /= CARREAU_OK) return
-    report = carreau_report(c%diag, c%surf0_calls, c%surf1_calls, c%surf2_calls, c%curv0_calls, c%curv1_calls, &
-      c%curv2_calls, c%size_calls, c%seconds_curves, c%seconds_sampling, c%seconds_plane, c%seconds_lift, &
-      c%seconds_total)
+    report%diag = c%diag
+    report%surf0_calls = c%surf0_calls
+    report%surf1_calls = c%surf1_calls
+    report%surf2_calls = c%surf2_calls
+    report%curv0_calls = c%curv0_calls
+    report%curv1_calls = c%curv1_calls
+    report%curv2_calls = c%curv2_calls
+    report%size_calls = c%size_calls
+    report%seconds_curves = c%seconds_curves
+    report%seconds_sampling = c%seconds_sampling
+    report%seconds_plane = c%seconds_plane
+    report%seconds_lift = c%seconds_lift
+    report%seconds_total = c%seconds_total
   end subroutine carreau_session_report
 
   ! ---- Interfaces ----
 
   subroutine carreau_session_interface_count(session, count, status)
     type(carreau_session), intent(in) :: session
-    integer(c_int64_t), intent(inout) :: count
+    integer(c_int64_t), intent(out) :: count
     integer(c_int32_t), intent(out) :: status
+    count = 0
     status = c_session_interface_count(session%handle, count)
   end subroutine carreau_session_interface_count
 
@@ -1045,8 +1061,17 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_session_interface(session%handle, index - 1, c)
     if (status /= CARREAU_OK) return
-    interface = carreau_interface(c%curve, c%uses, c%face, c%ic, c%other_face, c%other_ic, c%boundary /= 0, &
-      c%glued /= 0, c%degenerate /= 0, c%gap, c%loose /= 0)
+    interface%curve = c%curve
+    interface%uses = c%uses
+    interface%face = c%face
+    interface%ic = c%ic
+    interface%other_face = c%other_face
+    interface%other_ic = c%other_ic
+    interface%boundary = c%boundary /= 0
+    interface%glued = c%glued /= 0
+    interface%degenerate = c%degenerate /= 0
+    interface%loose = c%loose /= 0
+    interface%gap = c%gap
   end subroutine carreau_session_interface
 
   ! ---- What was delivered ----
@@ -1067,6 +1092,7 @@ contains
     delivered%folded_triangles = c%folded_triangles
     delivered%in_range = c%in_range
     delivered%not_met = c%not_met
+    delivered%text = carreau_string(c%text)
     delivered%surf0_calls = c%surf0_calls
     delivered%surf1_calls = c%surf1_calls
     delivered%surf2_calls = c%surf2_calls
@@ -1076,7 +1102,6 @@ contains
     delivered%input_bound = c%input_bound
     delivered%input_back_distance = c%input_back_distance
     delivered%input_back_bound = c%input_back_bound
-    delivered%text = carreau_string(c%text)
   end subroutine carreau_session_delivered
 
   subroutine carreau_delivered_measure(session, kind, measure, status)
@@ -1194,10 +1219,10 @@ contains
     mesh%handle = c_null_ptr
   end subroutine carreau_mesh_free
 
-  function carreau_mesh_last_error(mesh) result(sentence)
+  function carreau_mesh_last_error(mesh) result(error)
     type(carreau_mesh), intent(in) :: mesh
-    character(len=:), allocatable :: sentence
-    sentence = carreau_string(c_mesh_last_error(mesh%handle))
+    character(len=:), allocatable :: error
+    error = carreau_string(c_mesh_last_error(mesh%handle))
   end function carreau_mesh_last_error
 
   subroutine carreau_mesh_read(mesh, path, status)
@@ -1304,8 +1329,14 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_mesh_part_count(part%handle, c)
     if (status /= CARREAU_OK) return
-    counts = carreau_part_counts(c%rank, c%size, c%own_vertices, c%own_triangles, c%all_vertices, c%all_triangles, &
-      c%all_edges, c%crossings)
+    counts%rank = c%rank
+    counts%size = c%size
+    counts%own_vertices = c%own_vertices
+    counts%own_triangles = c%own_triangles
+    counts%all_vertices = c%all_vertices
+    counts%all_triangles = c%all_triangles
+    counts%all_edges = c%all_edges
+    counts%crossings = c%crossings
   end subroutine carreau_mesh_part_count
 
   !> Of the whole mesh.
@@ -1317,21 +1348,39 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_mesh_part_quality(part%handle, c)
     if (status /= CARREAU_OK) return
-    quality = carreau_quality(c%vertices, c%triangles, c%edges, c%open_edges, c%q1_mean, c%q1_min, c%q1_p1, &
-      c%q1_max, c%q2_mean, c%q2_min, c%q2_p1, c%q2_max, c%angle_min, c%angle_max, c%area, c%edge_min, c%edge_mean, &
-      c%edge_max, c%degree6)
+    quality%vertices = c%vertices
+    quality%triangles = c%triangles
+    quality%edges = c%edges
+    quality%open_edges = c%open_edges
+    quality%q1_mean = c%q1_mean
+    quality%q1_min = c%q1_min
+    quality%q1_p1 = c%q1_p1
+    quality%q1_max = c%q1_max
+    quality%q2_mean = c%q2_mean
+    quality%q2_min = c%q2_min
+    quality%q2_p1 = c%q2_p1
+    quality%q2_max = c%q2_max
+    quality%angle_min = c%angle_min
+    quality%angle_max = c%angle_max
+    quality%area = c%area
+    quality%edge_min = c%edge_min
+    quality%edge_mean = c%edge_mean
+    quality%edge_max = c%edge_max
+    quality%degree6 = c%degree6
   end subroutine carreau_mesh_part_quality
 
   !> numbers and rows count from 0
   subroutine carreau_mesh_part_vertices(part, numbers, owners, rows, status)
     type(carreau_mesh), intent(in) :: part
-    integer(c_int64_t), allocatable, intent(out) :: numbers(:), rows(:)
+    integer(c_int64_t), allocatable, intent(out) :: numbers(:)
     integer(c_int32_t), allocatable, intent(out) :: owners(:)
+    integer(c_int64_t), allocatable, intent(out) :: rows(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(part, n, m, k, f, status)
-    allocate (numbers(n), owners(n), rows(n))
-    if (status == CARREAU_OK) status = c_mesh_part_vertices(part%handle, n, numbers, owners, rows)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(part, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (numbers(vertices), owners(vertices), rows(vertices))
+    status = c_mesh_part_vertices(part%handle, vertices, numbers, owners, rows)
   end subroutine carreau_mesh_part_vertices
 
   !> numbers count from 0
@@ -1340,17 +1389,21 @@ contains
     integer(c_int64_t), allocatable, intent(out) :: numbers(:)
     integer(c_int32_t), allocatable, intent(out) :: owners(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(part, n, m, k, f, status)
-    allocate (numbers(m), owners(m))
-    if (status == CARREAU_OK) status = c_mesh_part_triangles(part%handle, m, numbers, owners)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(part, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (numbers(triangles), owners(triangles))
+    status = c_mesh_part_triangles(part%handle, triangles, numbers, owners)
   end subroutine carreau_mesh_part_triangles
 
   subroutine carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: vertices, triangles, edges, faces
     integer(c_int32_t), intent(out) :: status
-    vertices = 0; triangles = 0; edges = 0; faces = 0
+    vertices = 0
+    triangles = 0
+    edges = 0
+    faces = 0
     status = c_mesh_count(mesh%handle, vertices, triangles, edges, faces)
   end subroutine carreau_mesh_count
 
@@ -1366,33 +1419,33 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     real(c_double), allocatable, intent(out) :: xyz(:, :)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (xyz(3, n))
-    status = c_mesh_vertices(mesh%handle, n, xyz)
+    allocate (xyz(3, vertices))
+    status = c_mesh_vertices(mesh%handle, vertices, xyz)
   end subroutine carreau_mesh_vertices
 
   subroutine carreau_mesh_vertex_refs(mesh, refs, status)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: refs(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (refs(n))
-    status = c_mesh_vertex_refs(mesh%handle, n, refs)
+    allocate (refs(vertices))
+    status = c_mesh_vertex_refs(mesh%handle, vertices, refs)
   end subroutine carreau_mesh_vertex_refs
 
   subroutine carreau_mesh_vertex_sizes(mesh, sizes, status)
     type(carreau_mesh), intent(in) :: mesh
     real(c_double), allocatable, intent(out) :: sizes(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (sizes(n))
-    status = c_mesh_vertex_sizes(mesh%handle, n, sizes)
+    allocate (sizes(vertices))
+    status = c_mesh_vertex_sizes(mesh%handle, vertices, sizes)
     if (status /= CARREAU_OK) deallocate (sizes)
   end subroutine carreau_mesh_vertex_sizes
 
@@ -1401,11 +1454,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: vertices(:, :)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices_count, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices_count, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (vertices(3, m))
-    status = c_mesh_triangles(mesh%handle, m, vertices)
+    allocate (vertices(3, triangles))
+    status = c_mesh_triangles(mesh%handle, triangles, vertices)
     vertices = vertices + 1
   end subroutine carreau_mesh_triangles
 
@@ -1413,11 +1466,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: refs(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (refs(m))
-    status = c_mesh_triangle_refs(mesh%handle, m, refs)
+    allocate (refs(triangles))
+    status = c_mesh_triangle_refs(mesh%handle, triangles, refs)
   end subroutine carreau_mesh_triangle_refs
 
   !> uv(2, 3, m)
@@ -1425,11 +1478,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     real(c_double), allocatable, intent(out) :: uv(:, :, :)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (uv(2, 3, m))
-    status = c_mesh_corner_uv(mesh%handle, m, uv)
+    allocate (uv(2, 3, triangles))
+    status = c_mesh_corner_uv(mesh%handle, triangles, uv)
     if (status /= CARREAU_OK) deallocate (uv)
   end subroutine carreau_mesh_corner_uv
 
@@ -1438,11 +1491,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: refs(:, :)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (refs(3, m))
-    status = c_mesh_corner_faces(mesh%handle, m, refs)
+    allocate (refs(3, triangles))
+    status = c_mesh_corner_faces(mesh%handle, triangles, refs)
     if (status /= CARREAU_OK) deallocate (refs)
   end subroutine carreau_mesh_corner_faces
 
@@ -1451,11 +1504,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: vertices(:, :)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices_count, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices_count, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (vertices(2, k))
-    status = c_mesh_edges(mesh%handle, k, vertices)
+    allocate (vertices(2, edges))
+    status = c_mesh_edges(mesh%handle, edges, vertices)
     vertices = vertices + 1
   end subroutine carreau_mesh_edges
 
@@ -1463,11 +1516,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: refs(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (refs(k))
-    status = c_mesh_edge_refs(mesh%handle, k, refs)
+    allocate (refs(edges))
+    status = c_mesh_edge_refs(mesh%handle, edges, refs)
   end subroutine carreau_mesh_edge_refs
 
   !> Nodes between the ends of edges, from 1; 0: the edge is straight.
@@ -1475,11 +1528,11 @@ contains
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: vertices(:)
     integer(c_int32_t), intent(out) :: status
-    integer(c_int64_t) :: n, m, k, f
-    call carreau_mesh_count(mesh, n, m, k, f, status)
+    integer(c_int64_t) :: vertices_count, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices_count, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
-    allocate (vertices(k))
-    status = c_mesh_edge_mids(mesh%handle, k, vertices)
+    allocate (vertices(edges))
+    status = c_mesh_edge_mids(mesh%handle, edges, vertices)
     vertices = vertices + 1
   end subroutine carreau_mesh_edge_mids
 
@@ -1548,9 +1601,21 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_mesh_cell_quality(mesh%handle, c)
     if (status /= CARREAU_OK) return
-    quality = carreau_cell_quality(c%triangles3, c%triangles6, c%quads4, c%quads8, c%invalid, c%shape_mean, &
-      c%shape_min, c%scaled_jacobian_mean, c%scaled_jacobian_min, c%least_jacobian_mean, c%least_jacobian_min, &
-      c%angle_min, c%angle_max, c%area, c%triangle_share)
+    quality%triangles3 = c%triangles3
+    quality%triangles6 = c%triangles6
+    quality%quads4 = c%quads4
+    quality%quads8 = c%quads8
+    quality%invalid = c%invalid
+    quality%shape_mean = c%shape_mean
+    quality%shape_min = c%shape_min
+    quality%scaled_jacobian_mean = c%scaled_jacobian_mean
+    quality%scaled_jacobian_min = c%scaled_jacobian_min
+    quality%least_jacobian_mean = c%least_jacobian_mean
+    quality%least_jacobian_min = c%least_jacobian_min
+    quality%angle_min = c%angle_min
+    quality%angle_max = c%angle_max
+    quality%area = c%area
+    quality%triangle_share = c%triangle_share
   end subroutine carreau_mesh_cell_quality
 
   !> index: from 1.
@@ -1579,9 +1644,25 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_mesh_quality(mesh%handle, c)
     if (status /= CARREAU_OK) return
-    quality = carreau_quality(c%vertices, c%triangles, c%edges, c%open_edges, c%q1_mean, c%q1_min, c%q1_p1, &
-      c%q1_max, c%q2_mean, c%q2_min, c%q2_p1, c%q2_max, c%angle_min, c%angle_max, c%area, c%edge_min, c%edge_mean, &
-      c%edge_max, c%degree6)
+    quality%vertices = c%vertices
+    quality%triangles = c%triangles
+    quality%edges = c%edges
+    quality%open_edges = c%open_edges
+    quality%q1_mean = c%q1_mean
+    quality%q1_min = c%q1_min
+    quality%q1_p1 = c%q1_p1
+    quality%q1_max = c%q1_max
+    quality%q2_mean = c%q2_mean
+    quality%q2_min = c%q2_min
+    quality%q2_p1 = c%q2_p1
+    quality%q2_max = c%q2_max
+    quality%angle_min = c%angle_min
+    quality%angle_max = c%angle_max
+    quality%area = c%area
+    quality%edge_min = c%edge_min
+    quality%edge_mean = c%edge_mean
+    quality%edge_max = c%edge_max
+    quality%degree6 = c%degree6
   end subroutine carreau_mesh_quality
 
   subroutine carreau_mesh_defects(mesh, closed, limit, count, text, status)
@@ -1920,7 +2001,10 @@ contains
     type(c_background_report) :: c
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_session_background(session%handle, c)
-    if (status == CARREAU_OK) report = carreau_background_report(c%asked, c%outside, c%farthest)
+    if (status /= CARREAU_OK) return
+    report%asked = c%asked
+    report%outside = c%outside
+    report%farthest = c%farthest
   end subroutine carreau_session_background
 
   ! ---- Adaptation ----
