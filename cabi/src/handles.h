@@ -10,16 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "carreau.h"
 #include "cad/cad.h"
+#include "carreau.h"
 #include "geometry/discrete/discrete_cad.h"
 #include "geometry/discrete/side_by_side.h"
 #include "geometry/molecule/molecule.h"
 #include "mesh/flat_mesh.h"
 #include "model/model.h"
+#include "pipeline/parts/part_mesh.h"
 #include "session/session.h"
 #include "support/monitor.h"
-#include "surface/parts/part_mesh.h"
 #include "variable/remesh.h"
 
 namespace carreau::abi {

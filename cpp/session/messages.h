@@ -5,8 +5,8 @@
 #include "measure/mesh_evaluation.h"
 #include "mesh/quality.h"
 #include "model/model.h"
+#include "pipeline/parts/part_mesh.h"
 #include "support/monitor.h"
-#include "surface/parts/part_mesh.h"
 #include "surface/result.h"
 #include "surface/supports.h"
 

@@ -10,6 +10,8 @@
 #include "geometry/discrete/discrete_cad.h"
 #include "io/pardom.h"
 #include "model/geometries.h"
+#include "pipeline/faces/same_hosts.h"
+#include "pipeline/parts/part_mesh.h"
 #include "session/derivatives.h"
 #include "session/file_adaptation.h"
 #include "session/left_out.h"
@@ -20,8 +22,6 @@
 #include "support/part_monitor.h"
 #include "surface/discrete/beside_patches.h"
 #include "surface/discrete/discrete_run.h"
-#include "surface/parts/part_mesh.h"
-#include "surface/team/same_hosts.h"
 
 namespace carreau {
 

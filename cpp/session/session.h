@@ -18,14 +18,14 @@
 #include "mesh/surface_mesh.h"
 #include "metric/prescription.h"
 #include "model/model.h"
+#include "pipeline/mesh_model.h"
+#include "pipeline/parts/part_mesh.h"
 #include "session/gluing.h"
 #include "session/parameters.h"
 #include "size/background.h"
 #include "support/monitor.h"
 #include "support/ranks/crew.h"
 #include "support/ranks/team.h"
-#include "surface/composite.h"
-#include "surface/parts/part_mesh.h"
 
 namespace carreau {
 
@@ -83,7 +83,7 @@ class Session {
 
   /// The same by all processes of the team, each of which keeps its part: patches stay where they were made, and the mesh is that of
   /// make_mesh(), numbers and all, which no process holds. mesh() stays what it was. Throws InvalidArgument without a team, and where
-  /// something is wanted that needs the whole mesh (surface/parts).
+  /// something is wanted that needs the whole mesh (pipeline/parts).
   [[nodiscard]] PartMesh make_part();
 
   /// Throws InvalidArgument before the first make_mesh().

@@ -67,7 +67,7 @@ struct CompositeOptions {
   int threads = 1;
   /// Processes that make the mesh together, null: this one alone. The mesh does not depend on it.
   Team* team = nullptr;
-  /// Patches stay with the process of the team that has meshed them: no process has the whole mesh (surface/parts). What needs it
+  /// Patches stay with the process of the team that has meshed them: no process has the whole mesh (pipeline/parts). What needs it
   /// is refused.
   bool parts = false;
 };

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "io/mesh_files.h"
-#include "surface/parts/part_mesh.h"
+#include "pipeline/parts/part_mesh.h"
 
 namespace carreau {
 

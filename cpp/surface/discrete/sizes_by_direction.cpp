@@ -17,7 +17,7 @@ namespace {
 using discrete::RefinedMesh;
 
 /// Tangent of the angle by which triangles may lean where long sizes are bounded for it, as on patches
-/// (surface/thresholds.h).
+/// (pipeline/base/thresholds.h).
 constexpr double most_lean = 0.5;
 /// Ratio of sizes in two directions below which all count as of none.
 constexpr double least_ratio = 1 + 1e-6;

@@ -124,7 +124,7 @@ inline constexpr double guarded_factor = 1e4;
 /// known as well as that.
 inline constexpr double least_anisotropy = 1.05;
 /// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
-/// against the surface; patches bound it, too (surface/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
+/// against the surface; patches bound it, too (pipeline/base/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
 inline constexpr double leaning_angle = 35;
 /// Times that triangles beyond tolerances are worked at, each time with what has crossed guarded.
 inline constexpr int most_certifications = 3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The distance between two faces over triangles that cross.
-#include "surface/crossings/face_gap.h"
+#include "pipeline/inspect/face_gap.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A face that is asked the same again gets its patch of the round before; one that is asked anything else does not.
-#include "surface/known_patches.h"
+#include "pipeline/base/known_patches.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The loop over whole meshes: what inspectors request is meshed, and the best mesh stays.
-#include "surface/mesh_rounds.h"
+#include "pipeline/mesh_rounds.h"
 
 #include <gtest/gtest.h>
 

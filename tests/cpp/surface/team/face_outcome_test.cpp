@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/team/face_outcome.h"
+#include "pipeline/base/face_outcome.h"
 
 #include <gtest/gtest.h>
 

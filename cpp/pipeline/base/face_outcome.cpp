@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/base/face_outcome.h"
+
+#include "support/ranks/triangle_packet.h"
+#include "surface/lift/excess_packet.h"
+
+namespace carreau {
+
+namespace {
+
+void put(PacketWriter& packet, const PatchMesh& patch) {
+  packet.put(patch.plane.vertices);
+  put_triangles(packet, patch.plane.triangles);
+  packet.put(patch.xyz);
+  packet.put(patch.size);
+  put_excesses(packet, patch.excesses);
+  packet.put(patch.normal);
+}
+
+PatchMesh patch_of(PacketReader& packet) {
+  PatchMesh patch;
+  patch.plane.vertices = packet.plane_points();
+  patch.plane.triangles = triangles_of(packet);
+  patch.xyz = packet.points();
+  patch.size = packet.reals();
+  patch.excesses = excesses_of(packet);
+  patch.normal = packet.points();
+  return patch;
+}
+
+LimitError limit_of(PacketReader& packet) {
+  const Where where = packet.where();
+  const std::string sentence = packet.text(), prefix = where.prefix();
+  return {where, sentence.starts_with(prefix) ? sentence.substr(prefix.size()) : sentence};
+}
+
+}  // namespace
+
+void FaceOutcome::put(PacketWriter& packet) const {
+  packet.put(patch.has_value());
+  if (patch) carreau::put(packet, *patch);
+  packet.put(elsewhere.has_value());
+  if (elsewhere) packet.put(std::int64_t{elsewhere->rank}), packet.put(elsewhere->triangles);
+  packet.put(space.has_value());
+  if (space) space->put(packet);
+  packet.put(std::string_view(failure));
+  packet.put(std::string_view(remark));
+  packet.put(beyond_limit.has_value());
+  if (beyond_limit) packet.put(beyond_limit->where()), packet.put(std::string_view(beyond_limit->what()));
+  packet.put(seconds_sampling), packet.put(seconds_plane), packet.put(seconds_lift);
+  packet.put(std::int64_t{corrections});
+}
+
+FaceOutcome FaceOutcome::from(PacketReader& packet) {
+  FaceOutcome outcome;
+  if (packet.flag()) outcome.patch = patch_of(packet);
+  if (packet.flag()) {
+    const auto rank = static_cast<int>(packet.integer());
+    outcome.elsewhere = PatchElsewhere{rank, packet.integer()};
+  }
+  if (packet.flag()) outcome.space = ControlSpace::from(packet);
+  outcome.failure = packet.text();
+  outcome.remark = packet.text();
+  if (packet.flag()) outcome.beyond_limit = limit_of(packet);
+  outcome.seconds_sampling = packet.real(), outcome.seconds_plane = packet.real(), outcome.seconds_lift = packet.real();
+  outcome.corrections = static_cast<int>(packet.integer());
+  return outcome;
+}
+
+FaceOutcome FaceOutcome::without_patch(int rank) const {
+  FaceOutcome told;
+  if (patch) told.elsewhere = PatchElsewhere{rank, static_cast<std::int64_t>(patch->plane.triangles.size())};
+  told.failure = failure, told.remark = remark, told.beyond_limit = beyond_limit;
+  told.seconds_sampling = seconds_sampling, told.seconds_plane = seconds_plane, told.seconds_lift = seconds_lift;
+  told.corrections = corrections;
+  return told;
+}
+
+}  // namespace carreau

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/base/run.h"
+
+#include <algorithm>
+
+#include "gradation/gradation.h"
+#include "support/ranks/team.h"
+#include "surface/quads/quadrilaterals.h"
+
+#if defined(__unix__)
+#include <unistd.h>
+
+#include "pipeline/base/thresholds.h"
+#endif
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::patches;
+
+std::int64_t triangles_by_memory() {
+#if defined(__unix__)
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (pages > 0 && page > 0)
+    return static_cast<std::int64_t>(0.8 * static_cast<double>(pages) * static_cast<double>(page) / bytes_per_triangle);
+#endif
+  return INT64_C(50'000'000);
+}
+
+// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked
+// for.
+constexpr double usual_growth = 1.5;
+
+}  // namespace
+
+CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topology,
+                           const ModelSupports& given_supports, Cad& given_cad, const CompositeOptions& given_options,
+                           Monitor& given_monitor)
+    : model(given_model),
+      topology(given_topology),
+      supports(given_supports),
+      cad(given_cad),
+      options(given_options),
+      monitor(given_monitor),
+      rules(model, topology, cad, enlarged(options.size, enlargement_for(options.element))),
+      curve_model{model, topology, supports.of_face, cad} {
+  options.size = enlarged(options.size, enlargement_for(options.element));
+  if (options.max_triangles <= 0)
+    options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4) * (options.parts ? options.team->size() : 1);
+  result.report.diag = supports.diag;
+}
+
+double CompositeRun::slope_of_edges() const {
+  return slope_of_gradation(options.edge_gradation > 0 ? options.edge_gradation : usual_growth);
+}
+
+void CompositeRun::fail(std::size_t face, const std::string& why) {
+  result.mesh.faces[face].status = FaceStatus::failed;
+  result.mesh.faces[face].why = why;
+  say(Level::error, why);
+}
+
+void CompositeRun::say_kept(int curve, const std::string& what_wants_others) {
+  say(Level::warning, Where{.curve = topology.curves[static_cast<std::size_t>(curve)].ref}.prefix() +
+                          "the edges prescribed on it stay, although " + what_wants_others + " would have others");
+}
+
+void CompositeRun::say(Level level, const std::string& what) {
+  if (!trying && told.insert(what).second) monitor.message(level, what);
+}
+
+}  // namespace carreau

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run over a composite surface: what its steps hand to one another. Private to surface/.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curve/discrete_curve.h"
+#include "gradation/edge_sizes.h"
+#include "pipeline/base/known_patches.h"
+#include "surface/grade/size_grading.h"
+#include "surface/narrow/narrow_faces.h"
+#include "surface/options.h"
+#include "surface/refine/boundary_refinement.h"
+#include "surface/result.h"
+#include "surface/supports.h"
+
+namespace carreau {
+
+/// CompositeRun::keeper.
+inline constexpr int no_process = -1, all_have = 0;
+
+/// What is given, what steps have made so far, and the result. Keeps references to all that is given.
+struct CompositeRun {
+  CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,
+               Cad& given_cad, const CompositeOptions& given_options, Monitor& given_monitor);
+
+  [[nodiscard]] double slope() const noexcept { return graded.field ? graded.field->slope() : 0; }
+  /// By which sizes grow from short edges, and from triangles that are to be smaller.
+  [[nodiscard]] double slope_of_edges() const;
+  [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
+  /// Progress; `share` of what comes after the gradation.
+  void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
+  /// Says something once; nothing while a mesh is tried that may be given up.
+  void say(Level level, const std::string& what);
+  /// Says that the prescribed edges of a curve stay although something wants others.
+  void say_kept(int curve, const std::string& what_wants_others);
+  /// Here or, where patches stay, with another process.
+  [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
+  /// Whether an inspector may request a finer mesh.
+  [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
+  /// The face has no mesh; others go on.
+  void fail(std::size_t face, const std::string& why);
+
+  const Model& model;
+  const Topology& topology;
+  const ModelSupports& supports;
+  Cad& cad;
+  CompositeOptions options;
+  Monitor& monitor;
+  SizeRules rules;
+  CurveModel curve_model;
+
+  GradedModel graded;                             ///< grade_sizes()
+  double begin = 0;                               ///< share of the run that was over before the curves
+  std::vector<DiscreteCurve> curves;              ///< discretise_curves(); by curve of the topology
+  NarrowModel narrow;                             ///< find_narrow()
+  RefinedDomains domains;                         ///< refine_boundaries()
+  std::vector<NarrowPatch> between;               ///< the same; of narrow.strips
+  std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
+  /// The process that keeps each patch, which is empty elsewhere: all_have where patches do not stay; no_process: there is none.
+  std::vector<int> keeper;
+  std::map<std::size_t, std::string> remarks;     ///< the same; what is to be known of a face that was meshed
+  CompositeResult result;                         ///< assemble_patches()
+  /// The input of the mesh, which the next round refines: its curves, and by face what sizes inside grow from.
+  std::vector<DiscreteCurve> cut_curves;
+  std::vector<std::vector<EdgeSizes::Source>> finer;
+  KnownPatches known;          ///< mesh_patches(), where rounds may follow
+  std::set<std::string> told;  ///< once, however often something is meshed
+  bool trying = false;
+};
+
+/// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws what the host throws, LimitError and Cancelled.
+
+/// Grades the prescribed sizes of the whole model, where a gradation is asked for. One size everywhere obeys any.
+void grade_sizes(CompositeRun& run);
+/// Unit discretisation of every curve, once for all faces.
+void discretise_curves(CompositeRun& run);
+/// Faces narrower than their triangles, and vertices at the same places on both of their sides.
+void find_narrow(CompositeRun& run);
+/// Curves are cut until every domain can be meshed. A narrow face that is to stay and cannot be meshed between its
+/// sides is one like others, and all is refined again.
+void refine_boundaries(CompositeRun& run);
+/// Sample, mesh, lift of every face, on several threads.
+void mesh_patches(CompositeRun& run);
+/// One mesh of all patches; statuses and sentences of its faces.
+void assemble_patches(CompositeRun& run);
+/// Narrow faces vanish all together. False, and nothing done, where some cannot.
+[[nodiscard]] bool collapse_narrow_together(CompositeRun& run);
+/// As many as can vanish, where all were meshed, end caps too.
+void collapse_narrow_one_by_one(CompositeRun& run);
+
+}  // namespace carreau

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What processes agree on, and whether their hosts say the same.
+#pragma once
+
+#include <cstdint>
+
+#include "mesh/surface_mesh.h"
+#include "pipeline/base/run.h"
+#include "support/ranks/team.h"
+
+namespace carreau {
+
+/// The least of what the processes allow: machines differ in memory, and the mesh must not depend on the one that made it.
+[[nodiscard]] std::int64_t least_of(Team& team, std::int64_t most_triangles);
+
+/// Throws Error, which names process and curve, where a process has cut one in another way than the first process: its
+/// callbacks or parameters are others.
+void require_same_curves(Team& team, const CompositeRun& run);
+
+/// The same of what hosts say at a few vertices of each patch: their positions and prescribed sizes.
+void require_same_surfaces(Team& team, const CompositeRun& run);
+
+/// The same of what a face that all make together was sampled as: its pieces fit together only where it is the same.
+void require_same_samples(Team& team, int face, const ControlSpace& space);
+
+/// The same of the whole mesh: steps after the patches are made by every process, from what its own host says.
+void require_same_mesh(Team& team, const SurfaceMesh& mesh);
+
+}  // namespace carreau

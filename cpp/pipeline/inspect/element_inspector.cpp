@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elements other than straight triangles, made of the whole mesh.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipeline/base/inspector.h"
+#include "pipeline/base/run.h"
+#include "support/format.h"
+#include "surface/elements/quadratic.h"
+#include "surface/elements/thresholds.h"
+#include "surface/quads/quadrilaterals.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::elements;
+
+bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
+  bool any = false;
+  for (std::size_t f = 0; f < report.quads.size(); ++f) {
+    if (report.quads[f].empty()) continue;
+    part_quads(mesh.faces[f], report.quads[f]);
+    any = true;
+  }
+  return any;
+}
+
+QuadraticReport make_once(CompositeRun& run) {
+  const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
+  QuadraticReport report;
+  if (has_quads(run.options.element)) report = make_quadrilaterals(work);
+  if (!is_quadratic(run.options.element)) return report;
+  report = make_quadratic(work);
+  const std::vector<CuspEnd> cusps = report.cusps;
+  if (!cusps.empty()) report = make_quadratic(work, cusps);
+  // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
+  for (int round = 0; round < most_partings && run.options.element == Element::q2_0; ++round) {
+    if (!part_invalid_quads(report, run.result.mesh)) break;
+    report = make_quadratic(work, cusps);
+  }
+  return report;
+}
+
+std::size_t count(const QuadraticReport& report) {
+  std::size_t sum = 0;
+  for (const InvalidElements& invalid : report.invalid) sum += invalid.count;
+  return sum;
+}
+
+// Quadrilaterals may have divided the edges of curves: the edges before are meant.
+std::vector<std::pair<std::int32_t, int>> segments_of(const CompositeRun& run, const std::vector<CurveEdge>& coarse) {
+  std::vector<std::pair<std::int32_t, int>> segments;
+  for (const CurveEdge& edge : coarse) {
+    if (edge.curve >= std::ssize(run.cut_curves)) continue;  // a vanished face has left it
+    const int before = run.cut_curves[edge.curve].segments(), now = run.curves[edge.curve].segments();
+    segments.emplace_back(edge.curve, static_cast<int>(std::int64_t{edge.segment} * before / now));
+  }
+  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  return segments;
+}
+
+void tell(CompositeRun& run, const QuadraticReport& report) {
+  for (const InvalidElements& invalid : report.invalid) {
+    FaceMesh& face = run.result.mesh.faces[invalid.face];
+    const std::string what =
+        Where{.face = face.ref, .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
+        (invalid.count == 1 ? " element has" : " elements have") +
+        " a Jacobian that is not positive everywhere";
+    face.status = FaceStatus::mended;
+    face.why += (face.why.empty() ? "" : "; ") + what;
+    run.say(Level::warning, what);
+  }
+}
+
+class ElementInspector final : public Inspector {
+ public:
+  void inspect(CompositeRun& run) override {
+    if (run.result.mesh.independent) return;  // it has its elements
+    now_ = make_once(run);
+    if (first_ == 0) first_ = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+  }
+
+  [[nodiscard]] bool is_better(const CompositeRun& /*run*/) const override { return count(now_) < count(best_); }
+  void keep() override { best_ = now_; }
+
+  [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
+    const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
+    if (round_++ == rounds || count(now_) == 0) return {};
+    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first_) return {};
+    return RefinementRequests{.segments = segments_of(run, now_.coarse), .sizes = now_.finer};
+  }
+
+  void report(CompositeRun& run) override {
+    if (run.result.mesh.independent) return;
+    run.result.report.crossings = -1;  // those of straight triangles are not those of these elements
+    run.result.crossings.clear();
+    tell(run, best_);
+  }
+
+ private:
+  QuadraticReport now_, best_;
+  double first_ = 0;  // triangles of the first mesh
+  int round_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Inspector> make_element_inspector() { return std::make_unique<ElementInspector>(); }
+
+}  // namespace carreau

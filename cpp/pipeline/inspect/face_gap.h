@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance between two faces over triangles that cross. Private to surface/.
+#pragma once
+
+#include "cad/cad.h"
+#include "pipeline/inspect/face_triangle.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Over one place where two triangles cross.
+struct FaceGap {
+  double width = 0;    ///< least distance found between the two pieces of the faces; 0: they meet
+  double sagitta = 0;  ///< largest distance between the triangles and their faces, at the place and at centroids
+  double slope = 0;    ///< sine between both normals there
+  Vec3 place;          ///< between the points of that distance
+};
+
+/// Looks for a common point first, by Newton's method on both tangent planes. If there is none over the two triangles,
+/// projects points of one face to the other by turns. Throws what the host throws.
+FaceGap measure_gap(Cad& cad, const FaceTriangle& s, const FaceTriangle& t, const Vec3& place);
+
+}  // namespace carreau

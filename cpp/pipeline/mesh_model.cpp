@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/mesh_model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "pipeline/base/inspector.h"
+#include "pipeline/base/run.h"
+#include "pipeline/faces/same_hosts.h"
+#include "pipeline/mesh_rounds.h"
+#include "pipeline/parts/shares.h"
+#include "surface/assembly/cracks.h"
+
+namespace carreau {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.
+void place_on_curves(CompositeRun& run) {
+  const SurfaceMesh& mesh = run.result.mesh;
+  if (!mesh.independent) run.result.curve_parameters.assign(mesh.curves.size(), {});
+  for (std::size_t c = 0; c < run.curves.size(); ++c) {
+    if (mesh.independent && !mesh.curves[c].loose) continue;  // known already
+    const DiscreteCurve& curve = run.curves[c];
+    const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
+    if (chain.size() < 2 || chain.size() != curve.xyz.size()) continue;
+    const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) { return mesh.vertices[v] == xyz; };
+    if (!std::equal(chain.begin(), chain.end(), curve.xyz.begin(), stays)) continue;
+    const auto owner = static_cast<std::size_t>(curve.owner);
+    const CurveUse& use = run.topology.curves[c].uses[owner];
+    run.result.curve_parameters[c] = {run.curve_model.face_ref(use), use.curve + 1, curve.t_of_use[owner]};
+  }
+}
+
+// Elements that are halved, and faces that vanish, change edges of curves: not without a word where these were told.
+void tell_prescribed(CompositeRun& run) {
+  const SurfaceMesh& mesh = run.result.mesh;
+  for (const DiscreteCurve& curve : run.curves) {
+    if (!curve.prescribed) continue;
+    const std::vector<std::int32_t>& chain = mesh.curves[static_cast<std::size_t>(curve.curve)].vertices;
+    const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) {
+      return mesh.vertices[static_cast<std::size_t>(v)] == xyz;
+    };
+    if (chain.empty() || std::equal(chain.begin(), chain.end(), curve.xyz.begin(), curve.xyz.end(), stays)) continue;
+    run.say(Level::warning, Where{.curve = run.topology.curves[static_cast<std::size_t>(curve.curve)].ref}.prefix() +
+                                "the mesh has " + std::to_string(chain.size() - 1) + " edges on it, and not the " +
+                                std::to_string(curve.segments()) +
+                                " that are prescribed: its elements or narrow faces need others");
+  }
+}
+
+bool any_prescribed(const CompositeRun& run) {
+  return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
+}
+
+// Crossings first: elements are made of the triangles that are left.
+std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
+  std::vector<std::unique_ptr<Inspector>> inspectors;
+  if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
+  if (run.options.independent && any_prescribed(run))
+    run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
+  else if (run.options.independent)
+    inspectors.push_back(make_free_mesh_inspector());
+  if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
+  return inspectors;
+}
+
+}  // namespace
+
+CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
+                               const CompositeOptions& options, Monitor& monitor) {
+  const auto start = std::chrono::steady_clock::now();
+  CompositeRun run(model, topology, supports, cad, options, monitor);
+  if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
+  if (run.options.parts) refuse_parts(run.options, run.rules);
+  grade_sizes(run);
+  discretise_curves(run);
+  find_narrow(run);
+  if (run.options.parts) refuse_narrow_parts(run.narrow);
+  MeshRounds rounds(run);
+  rounds.mesh_first();
+  for (const std::unique_ptr<Inspector>& inspector : inspectors_of(run)) rounds.refine(*inspector);
+  place_on_curves(run);
+  tell_prescribed(run);
+  if (options.cracks) open_cracks(run.result);
+  run.result.report.calls = cad.counts();
+  run.result.report.seconds_total = seconds_since(start);
+  return std::move(run.result);
+}
+
+}  // namespace carreau
