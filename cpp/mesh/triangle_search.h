@@ -47,8 +47,15 @@ class TriangleSearch {
 
  private:
   void look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept;
+  /// Triangles of the things of a leaf, some more than once.
+  template <typename Look>
+  void each_of(const BoxTree::Node& leaf, const Look& look) const {
+    for (const std::int32_t thing : tree_.things(leaf))
+      look(triangle_.empty() ? thing : triangle_[static_cast<std::size_t>(thing)]);
+  }
 
   std::vector<std::array<Vec3, 3>> corners_;
+  std::vector<std::int32_t> triangle_;  // by thing of the tree; empty: things are triangles
   BoxTree tree_;
 };
 
