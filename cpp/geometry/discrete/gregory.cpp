@@ -172,12 +172,19 @@ void keep_near(GregoryTriangle& patch) noexcept {
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) most = std::max(most, bulge(&patch.border[4 * i], patch.border[4 * ((i + 1) % 3)]));
   most *= thresholds::max_inner_bulge;
+  const Vec3 &a = patch.border[0], &b = patch.border[4], &c = patch.border[8];
+  const Vec3 normal = cross(b - a, c - a);
+  const double area2 = norm(normal), longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+  const double most_in_plane = area2 > 0 ? thresholds::max_inner_shift * area2 / longest : most;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     const Vec3 flat = 0.5 * patch.border[4 * i] + 0.25 * patch.border[4 * j] + 0.25 * patch.border[4 * k];
     for (Vec3* const point : {&patch.inner[2 * i], &patch.inner[2 * k + 1]}) {
-      const Vec3 off = *point - flat;
-      if (const double far = norm(off); far > most) *point = flat + (most / far) * off;
+      Vec3 off = *point - flat;
+      if (const double far = norm(off); far > most) off *= most / far, *point = flat + off;
+      if (!(area2 > 0)) continue;
+      const Vec3 up = dot(off, normal) / (area2 * area2) * normal, in_plane = off - up;
+      if (const double far = norm(in_plane); far > most_in_plane) *point = flat + up + (most_in_plane / far) * in_plane;
     }
   }
 }

@@ -172,7 +172,7 @@ Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
 }
 
 /// The inner points of the curve of a sharp edge no farther inside the triangles of the edge than halfway to the other
-/// side at the same end. A curve beyond that side would fold the patches around its end, or bend long edges there.
+/// sides. A curve beyond these would fold patches, or bend long edges there.
 Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept {
   for (const Side& side : mesh.sides(e)) {
     const std::int32_t first = mesh.corner(side.triangle, side.side);
@@ -184,7 +184,9 @@ Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept 
       const Vec3 u = unit(q - p), inside = unit(other - p - dot(other - p, u) * u);
       Vec3& point = z[forward == (end == 0) ? 1 : 2];
       const Vec3 along = dot(point - p, u) * u, off = point - p - along;
-      const double allowed = std::tan(mesh.angle(side.triangle, k % 3) / 2) * std::max(dot(along, u), 0.0);
+      const double from = std::clamp(dot(along, u), 0.0, norm(q - p));
+      const double allowed = std::min(std::tan(mesh.angle(side.triangle, k % 3) / 2) * from,
+                                      std::tan(mesh.angle(side.triangle, (side.side + 1 - end) % 3) / 2) * (norm(q - p) - from));
       if (const double far = dot(off, inside); far > allowed) point = p + along + (allowed / far) * off;
     }
   }
