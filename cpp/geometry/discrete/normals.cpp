@@ -179,14 +179,14 @@ Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept 
     const bool forward = mesh.edges[index(e)][0] == first;
     for (const int end : {0, 1}) {
       const int k = side.side + end;
-      const Vec3 &p = mesh.at(mesh.corner(side.triangle, k)), &q = mesh.at(mesh.corner(side.triangle, side.side + 1 - end)),
-                 &other = mesh.at(mesh.corner(side.triangle, side.side + 2));
+      const Vec3 &p = mesh.at(mesh.corner(side.triangle, k)),
+                 &q = mesh.at(mesh.corner(side.triangle, side.side + 1 - end)), &other = mesh.at(mesh.corner(side.triangle, side.side + 2));
       const Vec3 u = unit(q - p), inside = unit(other - p - dot(other - p, u) * u);
       Vec3& point = z[forward == (end == 0) ? 1 : 2];
       const Vec3 along = dot(point - p, u) * u, off = point - p - along;
       const double from = std::clamp(dot(along, u), 0.0, norm(q - p));
-      const double allowed = std::min(std::tan(mesh.angle(side.triangle, k % 3) / 2) * from,
-                                      std::tan(mesh.angle(side.triangle, (side.side + 1 - end) % 3) / 2) * (norm(q - p) - from));
+      const double here = mesh.angle(side.triangle, k % 3), there = mesh.angle(side.triangle, (side.side + 1 - end) % 3);
+      const double allowed = std::min(std::tan(here / 2) * from, std::tan(there / 2) * (norm(q - p) - from));
       if (const double far = dot(off, inside); far > allowed) point = p + along + (allowed / far) * off;
     }
   }

@@ -56,7 +56,7 @@ inline constexpr double clear_turn = 0.087;
 /// beside roundings it does, in noise it does not.
 inline constexpr double lower_lift = 0.5;
 /// Times the largest bulge of the borders of a patch: no inner point is farther from its place in the flat triangle. On
-/// bunny.off it is 2.2 at the 99th percentile, on spot.obj 2 at most; on needles it is up to their ratio of sides.
+/// bunny.off it is 2.2 at the 99th percentile, on spot.obj 2 at most; on needles it is up to the ratio of sides.
 inline constexpr double max_inner_bulge = 3;
 /// Heights of the triangle: no inner point of a patch is shifted farther along the triangle. They lie a quarter of it away
 /// from the sides.
