@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/infinity.h"
 #include "support/segment.h"
@@ -18,6 +19,48 @@ Box box_of(const std::array<Vec3, 3>& corners) noexcept {
   Box box;
   for (const Vec3& p : corners) box.add(p);
   return box;
+}
+
+double surface_of(const Box& box) noexcept {
+  const Vec3 d = box.high - box.low;
+  return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+}
+
+/// Boxes of a triangle at most, and the surface of a box in areas of its triangle from which on there are several. A
+/// triangle of good shape has about six at most [time only].
+constexpr int most_boxes = 16;
+constexpr double large_box = 12;
+
+/// Slices of equal length along the longest side.
+int slices_of(const std::array<Vec3, 3>& c, const Box& box) noexcept {
+  const double area = 0.5 * norm(cross(c[1] - c[0], c[2] - c[0]));
+  const double ratio = surface_of(box) / large_box;
+  if (!(ratio > area)) return 1;
+  return ratio < most_boxes * area ? static_cast<int>(std::ceil(ratio / area)) : most_boxes;
+}
+
+// Boxes of the slices; widened, since their corners are rounded.
+void add_slices(const std::array<Vec3, 3>& corners, int slices, std::vector<Box>& boxes) {
+  constexpr double rounding = 1e-14;
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (norm(corners[(i + 1) % 3] - corners[i]) > norm(corners[(longest + 1) % 3] - corners[longest])) longest = i;
+  const Vec3 &a = corners[longest], &b = corners[(longest + 1) % 3], &c = corners[(longest + 2) % 3];
+  const double top = fraction_on_segment(c, a, b);
+  const auto other = [&](double s) -> Vec3 {
+    if (s <= top) return top > 0 ? lerp(a, c, s / top) : c;
+    return lerp(c, b, (s - top) / (1 - top));
+  };
+  const Vec3 room = rounding * (a.cwiseAbs() + b.cwiseAbs() + c.cwiseAbs());
+  for (int k = 0; k < slices; ++k) {
+    const double from = static_cast<double>(k) / slices, to = k + 1 < slices ? (k + 1.0) / slices : 1;
+    Box box;
+    for (const double s : {from, to}) box.add(lerp(a, b, s)), box.add(other(s));
+    if (from <= top && top <= to) box.add(c);
+    if (top <= 0 && k == 0) box.add(a);
+    box.low -= room, box.high += room;
+    boxes.push_back(box);
+  }
 }
 
 // Between the planes of each pair of sides, widened by rounding.
@@ -37,6 +80,13 @@ bool meets(const Box& box, const Vec3& p, const Vec3& q) noexcept {
     to = std::min(to, std::max(s, t));
   }
   return from <= to;
+}
+
+// Sorts and drops repetitions from a rank on.
+void each_once(std::vector<std::int32_t>& triangles, std::size_t first) {
+  const auto from = triangles.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(from, triangles.end());
+  triangles.erase(std::unique(from, triangles.end()), triangles.end());
 }
 
 /// Weights of the point of a triangle that is nearest to p.
@@ -95,6 +145,25 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
         }
       },
       monitor != nullptr ? *monitor : silent);
+  std::vector<Box> slices;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const int count = slices_of(corners_[k], boxes[k]);
+    if (count == 1 && slices.empty()) continue;
+    if (slices.empty()) {
+      slices.assign(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(k));
+      for (std::size_t j = 0; j < k; ++j) triangle_.push_back(static_cast<std::int32_t>(j));
+    }
+    if (count == 1)
+      slices.push_back(boxes[k]);
+    else
+      add_slices(corners_[k], count, slices);
+    triangle_.resize(slices.size(), static_cast<std::int32_t>(k));
+  }
+  if (!triangle_.empty()) {
+    boxes = std::move(slices);
+    centres.clear();
+    for (const Box& box : boxes) centres.emplace_back(0.5 * (box.low + box.high));
+  }
   tree_ = BoxTree(boxes, centres, monitor, threads);
 }
 
@@ -121,27 +190,31 @@ NearestOnMesh TriangleSearch::nearest(const Vec3& p, std::int32_t guess) const n
   tree_.nearest_first([&](std::int32_t n) { return tree_.node(static_cast<std::size_t>(n)).box.squared_distance(p); },
                       [&](double squared) { return !(squared > best.distance); },
                       [&](const BoxTree::Node& leaf) {
-                        for (const std::int32_t t : tree_.things(leaf)) look_at(t, p, best);
+                        each_of(leaf, [&](std::int32_t t) { look_at(t, p, best); });
                       });
   best.distance = std::sqrt(best.distance);
   return best;
 }
 
 void TriangleSearch::beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const {
+  const std::size_t before = triangles.size();
   tree_.all_that_meet([&](const Box& box) { return meets(box, p, q); },
                       [&](const BoxTree::Node& leaf) {
-                        const auto things = tree_.things(leaf);
-                        triangles.insert(triangles.end(), things.begin(), things.end());
+                        each_of(leaf, [&](std::int32_t t) { triangles.push_back(t); });
                       });
+  if (!triangle_.empty()) each_once(triangles, before);
 }
 
 void TriangleSearch::beside_box(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& triangles) const {
   const Box asked{low, high};
+  const std::size_t before = triangles.size();
   tree_.all_that_meet([&](const Box& box) { return !box.is_apart(asked); },
                       [&](const BoxTree::Node& leaf) {
-                        for (const std::int32_t t : tree_.things(leaf))
+                        each_of(leaf, [&](std::int32_t t) {
                           if (!box_of(corners_[static_cast<std::size_t>(t)]).is_apart(asked)) triangles.push_back(t);
+                        });
                       });
+  if (!triangle_.empty()) each_once(triangles, before);
 }
 
 double TriangleSearch::longest_edge(std::int32_t triangle) const noexcept {

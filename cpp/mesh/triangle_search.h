@@ -40,15 +40,23 @@ class TriangleSearch {
   [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
   /// Adds the triangles that a segment may meet: all those whose boxes it meets, and some others beside.
   void beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const;
-  /// Adds the triangles whose own boxes have a point in common with the closed box from `low` to `high`, exactly.
+  /// Adds triangles whose own boxes have a point in common with the closed box from `low` to `high`, each once: all but
+  /// some long ones that have no point in it themselves.
   void beside_box(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& triangles) const;
   /// Longest edge of a triangle.
   [[nodiscard]] double longest_edge(std::int32_t triangle) const noexcept;
 
  private:
   void look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept;
+  /// Triangles of the things of a leaf, some more than once.
+  template <typename Look>
+  void each_of(const BoxTree::Node& leaf, const Look& look) const {
+    for (const std::int32_t thing : tree_.things(leaf))
+      look(triangle_.empty() ? thing : triangle_[static_cast<std::size_t>(thing)]);
+  }
 
   std::vector<std::array<Vec3, 3>> corners_;
+  std::vector<std::int32_t> triangle_;  // by thing of the tree; empty: things are triangles
   BoxTree tree_;
 };
 

@@ -158,6 +158,37 @@ std::array<Vec3, 2> ribbon(const Cubic& z, const Vec3& n_start, const Vec3& n_en
           Vec3((2 * l1 * w[1] + l0 * w[2] + 2 * m1 * a1 + m0 * a2) / 3)};
 }
 
+/// How far a border leaves its chord at its inner points.
+double bulge(const Vec3* border, const Vec3& end) noexcept {
+  double most = 0;
+  for (std::size_t n = 1; n < 4; ++n)
+    most = std::max(most, norm(border[n] - lerp(border[0], end, static_cast<double>(n) / 4)));
+  return most;
+}
+
+// Ribbons of needles grow with the ratio of the sides. Beyond the shares of the largest bulge that triangles of usual
+// shape need they fold the patch, which may lie in one plane.
+void keep_near(GregoryTriangle& patch) noexcept {
+  double most = 0;
+  for (std::size_t i = 0; i < 3; ++i) most = std::max(most, bulge(&patch.border[4 * i], patch.border[4 * ((i + 1) % 3)]));
+  most *= thresholds::max_inner_bulge;
+  const Vec3 &a = patch.border[0], &b = patch.border[4], &c = patch.border[8];
+  const Vec3 normal = cross(b - a, c - a);
+  const double area2 = norm(normal), longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+  const double most_in_plane = area2 > 0 ? thresholds::max_inner_shift * area2 / longest : most;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vec3 flat = 0.5 * patch.border[4 * i] + 0.25 * patch.border[4 * j] + 0.25 * patch.border[4 * k];
+    for (Vec3* const point : {&patch.inner[2 * i], &patch.inner[2 * k + 1]}) {
+      Vec3 off = *point - flat;
+      if (const double far = norm(off); far > most) off *= most / far, *point = flat + off;
+      if (!(area2 > 0)) continue;
+      const Vec3 up = dot(off, normal) / (area2 * area2) * normal, in_plane = off - up;
+      if (const double far = norm(in_plane); far > most_in_plane) *point = flat + up + (most_in_plane / far) * in_plane;
+    }
+  }
+}
+
 }  // namespace
 
 Vec3 point_of(const Cubic& z, double t) noexcept {
@@ -189,6 +220,7 @@ GregoryTriangle gregory_triangle(const std::array<Cubic, 3>& sides, const std::a
     patch.inner[2 * i] = 0.5 * (p[1] + p[2]) + d1;
     patch.inner[2 * i + 1] = 0.5 * (p[2] + p[3]) + d2;
   }
+  keep_near(patch);
   return patch;
 }
 

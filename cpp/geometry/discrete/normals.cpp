@@ -171,6 +171,28 @@ Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
   return z;
 }
 
+/// The inner points of the curve of a sharp edge no farther inside the triangles of the edge than halfway to the other
+/// sides. A curve beyond these would fold patches, or bend long edges there.
+Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept {
+  for (const Side& side : mesh.sides(e)) {
+    const std::int32_t first = mesh.corner(side.triangle, side.side);
+    const bool forward = mesh.edges[index(e)][0] == first;
+    for (const int end : {0, 1}) {
+      const int k = side.side + end;
+      const Vec3 &p = mesh.at(mesh.corner(side.triangle, k)),
+                 &q = mesh.at(mesh.corner(side.triangle, side.side + 1 - end)), &other = mesh.at(mesh.corner(side.triangle, side.side + 2));
+      const Vec3 u = unit(q - p), inside = unit(other - p - dot(other - p, u) * u);
+      Vec3& point = z[forward == (end == 0) ? 1 : 2];
+      const Vec3 along = dot(point - p, u) * u, off = point - p - along;
+      const double from = std::clamp(dot(along, u), 0.0, norm(q - p));
+      const double here = mesh.angle(side.triangle, k % 3), there = mesh.angle(side.triangle, (side.side + 1 - end) % 3);
+      const double allowed = std::min(std::tan(here / 2) * from, std::tan(there / 2) * (norm(q - p) - from));
+      if (const double far = dot(off, inside); far > allowed) point = p + along + (allowed / far) * off;
+    }
+  }
+  return z;
+}
+
 /// By vertex: the shortest sharp edge.
 std::vector<double> shortest_sharp(const Triangulation& mesh, const SharpLines& lines) {
   std::vector<double> shortest(mesh.vertices.size(), infinity);
@@ -239,8 +261,10 @@ std::vector<Cubic> find_curves(const Triangulation& mesh, const SharpLines& line
   const std::vector<double> shortest = shortest_sharp(mesh, lines);
   for (std::size_t e = 0; e < curves.size(); ++e)
     if (const auto& [p, q] = mesh.edges[e]; lines.sharp[e] != 0)
-      curves[e] = kept_near(line_curve(mesh.at(p), mesh.at(q), frames.tangent[index(p)], frames.tangent[index(q)]),
-                            shortest[index(p)], shortest[index(q)]);
+      curves[e] = kept_outside(
+          mesh, static_cast<std::int32_t>(e),
+          kept_near(line_curve(mesh.at(p), mesh.at(q), frames.tangent[index(p)], frames.tangent[index(q)]),
+                    shortest[index(p)], shortest[index(q)]));
   set_corner_planes(mesh, lines, curves, frames);
   for (std::size_t e = 0; e < curves.size(); ++e) {
     if (lines.sharp[e] != 0) continue;

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "common/thread_team.h"
 #include "mesh/triangle_search.h"
@@ -230,6 +232,43 @@ TEST(SurfaceDistance, OfNothingIsNothingAndAStopIsObeyed) {
   Monitor stopped;
   stopped.request_stop();
   EXPECT_THROW((void)bound_distance(sphere.view(), sphere.view(), {}, 1, stopped), Cancelled);
+}
+
+// Needles lie askew, so that several boxes hold each one: 200 needles of ratio 50 and 500 points, seed 7.
+TEST(TriangleSearches, FindTheNearestOfNeedles) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> in(-1, 1);
+  const auto any = [&] { return Vec3{in(random), in(random), in(random)}; };
+  Soup soup;
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 p = any();
+    soup.add(p, p + any(), p + 0.02 * any());
+  }
+  const TriangleSearch search(soup.vertices, soup.triangles);
+  for (int k = 0; k < 500; ++k) {
+    const Vec3 p = any();
+    NearestOnMesh best;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const NearestOnMesh found =
+          nearest_on_triangle(p, {soup.vertices[3 * t], soup.vertices[3 * t + 1], soup.vertices[3 * t + 2]});
+      if (found.distance < best.distance) best = found, best.triangle = static_cast<std::int32_t>(t);
+    }
+    const NearestOnMesh found = search.nearest(p);
+    EXPECT_EQ(found.triangle, best.triangle);
+    EXPECT_EQ(found.distance, best.distance);
+    const Vec3 room = Vec3::Constant(0.1), low = p - room, high = p + room;
+    std::vector<std::int32_t> beside;
+    search.beside_box(low, high, beside);
+    std::ranges::sort(beside);
+    EXPECT_EQ(std::ranges::adjacent_find(beside), beside.end());
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const Vec3* const c = &soup.vertices[3 * t];
+      const bool listed = std::ranges::binary_search(beside, static_cast<std::int32_t>(t));
+      const Vec3 least = c[0].cwiseMin(c[1]).cwiseMin(c[2]), most = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
+      EXPECT_TRUE(listed || (nearest_on_triangle(p, {c[0], c[1], c[2]}).point - p).cwiseAbs().maxCoeff() > 0.1);
+      EXPECT_TRUE(!listed || ((least.array() <= high.array()).all() && (most.array() >= low.array()).all()));
+    }
+  }
 }
 
 }  // namespace

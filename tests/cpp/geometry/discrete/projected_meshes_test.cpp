@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -33,14 +34,20 @@ using namespace carreau::thresholds::projected;
 /// What a run says, and whether it was made in planes.
 class Listener final : public Monitor {
  public:
-  void message(Level, std::string_view text) override { in_planes = in_planes || text.starts_with("made in planes"); }
-  bool in_planes = false;
+  void message(Level, std::string_view text) override {
+    if (text.starts_with("made in planes")) in_planes = true, ++times;
+    if (text.starts_with("the mesh is made by edits")) in_planes = false;
+    crossed = crossed || text.ends_with("pairs of triangles cross");
+  }
+  bool in_planes = false, crossed = false;
+  int times = 0;
 };
 
 struct MadeInPlanes {
   SurfaceMesh mesh;
   Delivery length;
-  bool in_planes = false;
+  bool in_planes = false, crossed = false;  ///< crossed: triangles did at first
+  int times = 0;                            ///< that it was made in planes
 };
 
 MadeInPlanes made_of(const FlatMesh& triangles, double size, int threads = 1, std::shared_ptr<TeamLink> team = nullptr) {
@@ -56,7 +63,7 @@ MadeInPlanes made_of(const FlatMesh& triangles, double size, int threads = 1, st
   session.set_team(std::move(team));
   session.make_mesh();
   EXPECT_EQ(find_defects(session.mesh(), {.closed = false}), std::vector<std::string>{});
-  return {session.mesh(), session.delivered()[EvaluationKind::length], listener.in_planes};
+  return {session.mesh(), session.delivered()[EvaluationKind::length], listener.in_planes, listener.crossed, listener.times};
 }
 
 double mean_quality(const FlatMesh& mesh) {
@@ -168,6 +175,57 @@ TEST(ProjectedMeshes, ThinPartsKeepTheirEnds) {
   for (const Vec3& p : made.mesh.vertices) first = std::min(first, p.x()), end = std::max(end, p.x());
   EXPECT_LT(first, -1 + size / 2);
   EXPECT_GT(end, 1 - size / 2);
+}
+
+std::int64_t crossings_of(const SurfaceMesh& mesh) {
+  const FlatMesh flat = flatten(mesh, false);
+  Monitor silent;
+  return find_intersections(flat.vertices, flat.triangles, {}, silent).count;
+}
+
+/// The sphere about a centre on the x axis.
+void add_sphere(double radius, double x, bool inside_out, FlatMesh& to) {
+  const FlatMesh unit = sphere(24);
+  const auto first = static_cast<std::int32_t>(to.vertices.size());
+  for (const Vec3& p : unit.vertices) to.vertices.push_back(radius * p + Vec3{x, 0, 0});
+  for (const auto& [a, b, c] : unit.triangles)
+    to.triangles.push_back({first + a, first + (inside_out ? c : b), first + (inside_out ? b : c)});
+}
+
+// A hole of radius .6 comes within .01 of the unit sphere, whose triangles of .3 leave it by .015: edges are halved there.
+TEST(ProjectedMeshes, TrianglesThatCrossAreUntangled) {
+  FlatMesh shell;
+  add_sphere(1, 0, false, shell), add_sphere(0.6, 0.39, true, shell);
+  const MadeInPlanes made = made_of(shell, 0.3);
+  EXPECT_TRUE(made.in_planes);
+  EXPECT_TRUE(made.crossed);
+  EXPECT_EQ(made.times, 1);
+  EXPECT_EQ(crossings_of(made.mesh), 0);
+}
+
+// Teeth of .004 to .016 whose flanks bend by 10 degrees, with fans of needles as bottom and top: curves over the flanks may not
+// turn the needles over. No triangle leaves the two planes.
+TEST(ProjectedMeshes, NeedlesOfPlaneFacesAreNotFolded) {
+  constexpr int teeth = 40, around = 8 * teeth;
+  constexpr std::array<double, 8> height{0, 0, 0, 0.083, 0.1, 0.1, 0.083, 0.042};
+  constexpr double top = 0.1;
+  FlatMesh gear;
+  for (int i = 0; i < around; ++i)
+    for (const double z : {0.0, top}) {
+      const double angle = 2 * std::numbers::pi * i / around, r = 0.2 + height[static_cast<std::size_t>(i % 8)];
+      gear.vertices.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+  gear.vertices.push_back({0, 0, 0}), gear.vertices.push_back({0, 0, top});
+  for (std::int32_t i = 0; i < around; ++i) {
+    const std::int32_t a = 2 * i, b = 2 * ((i + 1) % around), middle = 2 * around;
+    gear.triangles.push_back({a, b, b + 1}), gear.triangles.push_back({a, b + 1, a + 1});
+    gear.triangles.push_back({middle, b, a}), gear.triangles.push_back({middle + 1, a + 1, b + 1});
+  }
+  const MadeInPlanes made = made_of(gear, 0.06);
+  EXPECT_TRUE(made.in_planes);
+  EXPECT_EQ(crossings_of(made.mesh), 0);
+  const DiscreteSurface surface = surface_of(gear, {});
+  EXPECT_LT(surface.deviation(), 0.004);
 }
 
 /// The atlas of a surface as it is given.
