@@ -187,7 +187,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -201,7 +201,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     else if (is_report(path))
       write_text(path, page_of(run));
     else
-      require(run.mesh, carreau_mesh_write(run.mesh, path.c_str()));
+      write_mesh(run.mesh, path);
   }
 }
 
@@ -252,6 +252,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (ranks != nullptr) suffixes.emplace_back(".pvtu");
   const std::vector<std::string> files = ranks != nullptr ? ranks->all_files(options.outputs) : options.outputs;
   OutputFiles outputs(files, suffixes, read);
+  require_writers(files);
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   std::string names = options.input;
