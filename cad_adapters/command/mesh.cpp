@@ -240,6 +240,8 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   options.outputs = adaptation.with_fields(given.outputs);
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
+  if (options.plane.field > 0 && map.mesh_file().empty() && options.adapt.sol.empty() && options.plane.sizes.empty())
+    throw Failure("--sol-field chooses a field of a file .sol, and no option names one.");
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
   std::vector<std::string> suffixes = written_meshes;
@@ -262,6 +264,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const Stopwatch reading;
   const std::unique_ptr<CadInput> input = opened(options, progress);
   const SessionHandle session = make_session();
+  if (options.plane.field > 0) require(session.get(), carreau_set_integer(session.get(), "sol_field", options.plane.field));
   if (ranks != nullptr && !options.parts) ranks->attach(session.get());
   Ranks::Part part;
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
