@@ -296,7 +296,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     const std::string line = part != nullptr ? "" : input->of_mesh(run.session);
     for (const std::string& before : part != nullptr ? part_lines(run, ranks->size()) : summary_lines(run)) progress.line(before);
     if (!line.empty()) progress.line(line);
-    progress.attention("crossing", crossing_lines(run.crossings, *input));  // last: nobody is to miss it
+    progress.attention("crossing", part != nullptr ? crossing_lines_of_parts(run) : crossing_lines(run.crossings, *input));  // last: nobody is to miss it
   }
   run.warnings = progress.warnings();
   if (options.json) print_json(run);
