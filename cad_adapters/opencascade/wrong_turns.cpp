@@ -22,7 +22,8 @@ constexpr double largest_gap = 1e-3;
 double turned_area_of(const std::vector<EdgeImage>& loop) {
   const LoopArea found = area_of(loop);
   const double perimeter = found.perimeter;
-  const bool in_doubt = found.gap > largest_gap * perimeter || std::abs(found.area) < least_area * perimeter * perimeter;
+  const bool in_doubt =
+      found.gap > largest_gap * perimeter || std::abs(found.area) < least_area * perimeter * perimeter;
   return in_doubt ? 0 : found.area;
 }
 

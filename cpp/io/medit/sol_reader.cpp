@@ -44,13 +44,15 @@ struct Record {
 
 /// Reads the list of types behind their number, and chooses a field. next() gives an integer, fail(sentence) does not
 /// return.
-Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution& solution, const auto& next, const auto& fail) {
+Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution& solution, const auto& next,
+                  const auto& fail) {
   const auto fail_number = [&](const std::string& list) {
     fail("there are " + std::to_string(how_many) + " values at each vertex" + list);
   };
   const bool any = choice.use == SolutionUse::fields;
   if (how_many < 1 || how_many > most_fields)
-    fail_number(any ? "; 1 to " + std::to_string(most_fields) + " are wanted" : "; one size, field or metric is wanted");
+    fail_number(any ? "; 1 to " + std::to_string(most_fields) + " are wanted"
+                    : "; one size, field or metric is wanted");
   std::vector<ValueType> types;
   Record record;
   for (std::int32_t i = 0; i < how_many; ++i) {
@@ -65,7 +67,8 @@ Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution&
     return record;
   }
   if (choice.field == 0 && how_many > 1)
-    fail_number(" (" + list_of(types) + "); one size, field or metric is wanted, which the parameter sol_field chooses");
+    fail_number(" (" + list_of(types) +
+                "); one size, field or metric is wanted, which the parameter sol_field chooses");
   const auto chosen = static_cast<std::size_t>(choice.field > 0 ? choice.field - 1 : 0);
   if (chosen >= types.size())
     fail("sol_field chooses field " + std::to_string(choice.field) + ", but these are there: " + list_of(types));
@@ -97,7 +100,8 @@ std::string refusal_of_values(const Solution& solution, std::size_t vertex, Solu
 
 class TextReader {
  public:
-  TextReader(std::string_view text, const std::string& name, const SolutionChoice& choice) : in_(text, name), choice_(choice) {}
+  TextReader(std::string_view text, const std::string& name, const SolutionChoice& choice)
+      : in_(text, name), choice_(choice) {}
 
   Solution read() {
     in_.header("a solution file");
@@ -132,7 +136,8 @@ class TextReader {
       for (std::size_t k = 0; k < record.all; ++k)
         if (const double value = in_.real("a value"); k >= record.first && k < record.first + each)
           solution_.values[v * each + k - record.first] = value;
-      if (const std::string why = refusal_of_values(solution_, v, choice_.use); !why.empty()) in_.fail(in_.position(), why);
+      if (const std::string why = refusal_of_values(solution_, v, choice_.use); !why.empty())
+        in_.fail(in_.position(), why);
     }
   }
 
@@ -144,7 +149,8 @@ class TextReader {
 
 class BinaryReader {
  public:
-  BinaryReader(std::string_view bytes, const std::string& name, const SolutionChoice& choice) : in_(bytes, name), choice_(choice) {}
+  BinaryReader(std::string_view bytes, const std::string& name, const SolutionChoice& choice)
+      : in_(bytes, name), choice_(choice) {}
 
   Solution read() {
     in_.header();
@@ -215,7 +221,8 @@ Solution read_solution_binary(std::string_view bytes, const std::string& name, c
 
 Solution read_solution(const std::string& path, const SolutionChoice& choice) {
   const std::string content = read_file(path);
-  return starts_as_gmf(content) ? read_solution_binary(content, path, choice) : read_solution_text(content, path, choice);
+  return starts_as_gmf(content) ? read_solution_binary(content, path, choice)
+                                : read_solution_text(content, path, choice);
 }
 
 }  // namespace carreau

@@ -83,8 +83,7 @@ void VtuReader::add_array(const std::string& section, VtuArray array) {
   const std::string shown_name = array.shown_name();
   if (section != "FieldData" && pieces_.empty()) return;
   Arrays& arrays = section == "FieldData" ? field_data_ : pieces_.back().sections[section];
-  if (!arrays.emplace(name, std::move(array)).second)
-    tags_.fail(at, shown_name + " of " + section + " is given twice");
+  if (!arrays.emplace(name, std::move(array)).second) tags_.fail(at, shown_name + " of " + section + " is given twice");
 }
 
 /// Bytes of the numbers between the tags of an array. Tags inside it (InformationKey of VTK) end the numbers, and are
@@ -134,7 +133,8 @@ std::size_t VtuReader::piece_count(const Piece& piece, const char* attribute) co
   return static_cast<std::size_t>(n);
 }
 
-/// A point at the place of one of an earlier piece is the same vertex: pieces of one mesh repeat the points between them.
+/// A point at the place of one of an earlier piece is the same vertex: pieces of one mesh repeat the points between
+/// them.
 void VtuReader::add_points(VtuArrays& numbers, Piece& piece) {
   piece.first_point = vertex_of_.size();
   piece.points = piece_count(piece, "NumberOfPoints");
@@ -194,7 +194,8 @@ void VtuReader::add_cells(VtuArrays& numbers, Piece& piece) {
     corners.clear();
     for (; begin < end; ++begin) corners.push_back(index(piece, corners_array, all[static_cast<std::size_t>(begin)]));
     if (skipped[c] != 0) continue;
-    if (const std::string wrong = elements_.add(types[c], corners, piece.first_cell + c, mesh_.vertices); !wrong.empty())
+    if (const std::string wrong = elements_.add(types[c], corners, piece.first_cell + c, mesh_.vertices);
+        !wrong.empty())
       tags_.fail(array(piece, "Cells", "types").tag.at, wrong);
   }
 }
@@ -218,7 +219,8 @@ void VtuReader::add_cell_field(const std::string& name, int components, const st
       for (std::size_t k = 0; k < n; ++k) list.push_back(values[cell * n + k]);
     return std::all_of(list.begin(), list.end(), [](double value) { return std::isnan(value); });
   };
-  const bool no_triangle = take(elements_.cell_of_triangle(), field.values), no_edge = take(elements_.cell_of_edge(), field.edge_values);
+  const bool no_triangle = take(elements_.cell_of_triangle(), field.values),
+             no_edge = take(elements_.cell_of_edge(), field.edge_values);
   if (no_edge)
     field.edge_values.clear();
   else if (no_triangle)
