@@ -164,7 +164,8 @@ void use_background(carreau_session& session, std::shared_ptr<carreau::Backgroun
 carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path, const char* sol_path) {
   return guarded(session, [&] {
     use_background(*session, carreau::read_background(required(mesh_path, "mesh_path"), required(sol_path, "sol_path"),
-                                                      session->model().plane));
+                                                      session->model().plane,
+                                                      session->session.parameters().integer("sol_field")));
   });
 }
 

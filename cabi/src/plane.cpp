@@ -147,9 +147,9 @@ bool is_bl2d(const std::string& path) {
   return suffix == ".h" || suffix == ".hc" || suffix == ".hg";
 }
 
-carreau::Solution sizes_of(const std::string& path) {
+carreau::Solution sizes_of(const std::string& path, std::int32_t field) {
   return is_bl2d(path) ? carreau::read_bl2d_sizes_text(carreau::read_file(path), path)
-                       : carreau::read_solution(path, carreau::SolutionUse::prescription);
+                       : carreau::read_solution(path, {carreau::SolutionUse::prescription, field});
 }
 
 }  // namespace
@@ -173,10 +173,11 @@ carreau_status carreau_load_plane_domain(carreau_session* session, const char* p
     check_empty(*session);
     PlaneDomainInput input = carreau::read_plane_domain(path);
     std::shared_ptr<carreau::BackgroundField> background;
+    const std::int32_t field = session->session.parameters().integer("sol_field");
     if (sizes != nullptr && input.is_mesh)
-      background = carreau::read_background(path, sizes, true);
+      background = carreau::read_background(path, sizes, true, field);
     else if (sizes != nullptr)
-      set_point_sizes(input, sizes_of(sizes), sizes);
+      set_point_sizes(input, sizes_of(sizes, field), sizes);
     if (input.arrange) arrange(*session, input);
     if (corner_angle > 0)
       smooth_polygons(input, corner_angle);

@@ -38,8 +38,18 @@ void read(carreau_cad_file& file, const char* path, const carreau_cad_options* g
   file = std::move(fresh);
 }
 
+/// Sets eps_match unless it has a value already: of the caller, or of a file before.
+carreau_status set_match(carreau_session* session, double match) {
+  double given = 0;
+  const carreau_status status = carreau_get_real(session, "eps_match", &given);
+  return status != CARREAU_OK || given > 0 || !(match > 0) ? status : carreau_set_real(session, "eps_match", match);
+}
+
 /// The sentence is in the session already when `status` is an error of a call on it.
-carreau_status add(carreau_cad_file& file, carreau_session* session) { return host_of(file).add_to(session); }
+carreau_status add(carreau_cad_file& file, carreau_session* session) {
+  const carreau_status status = host_of(file).add_to(session);
+  return status == CARREAU_OK ? set_match(session, host_of(file).match_tolerance()) : status;
+}
 
 }  // namespace
 

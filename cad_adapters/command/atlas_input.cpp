@@ -12,6 +12,7 @@
 #include "built_input.h"
 #include "failure.h"
 #include "mesh_file.h"
+#include "readable_mesh.h"
 #include "triangles_input.h"
 
 namespace command {
@@ -38,7 +39,7 @@ MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
   options.struct_size = sizeof options, options.ignore_references = 1;
   carreau_mesh* made = nullptr;
   const bool is_made =
-      carreau_load_triangles(session.get(), &options, path.c_str()) == CARREAU_OK &&
+      carreau_load_triangles(session.get(), &options, ReadableMesh(path).path().c_str()) == CARREAU_OK &&
       carreau_set_real(session.get(), "hphydef", std::sqrt(4 / std::sqrt(3.) * quality.area / count)) == CARREAU_OK &&
       carreau_mesh_generate(session.get()) == CARREAU_OK && carreau_session_mesh(session.get(), &made) == CARREAU_OK;
   return is_made ? arrays_of(made) : MeshArrays{};

@@ -110,7 +110,6 @@ class CadFileInput final : public CadInput {
   [[nodiscard]] double diagonal() const override { return content_.diagonal > 0 ? content_.diagonal : 1; }
   [[nodiscard]] double glue_tolerance() const override { return content_.glue_tolerance; }
   [[nodiscard]] double open_tolerance() const override { return content_.open_tolerance; }
-  [[nodiscard]] double match_tolerance() const override { return content_.match_tolerance; }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   bool set_face_size(const std::string& face, double size) override {

@@ -35,8 +35,6 @@ class CadInput {
   [[nodiscard]] virtual double glue_tolerance() const { return 0; }
   /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
-  /// How far uses of one curve, and ends at one point, may be apart; 0: the library's own.
-  [[nodiscard]] virtual double match_tolerance() const { return 0; }
   /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
   [[nodiscard]] virtual double ends_tolerance() const { return 0; }
   /// Faces are divided by curves that mean nothing, and may be crooked: edges on them are not cut for the sake of the

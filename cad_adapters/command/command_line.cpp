@@ -19,13 +19,13 @@
 namespace command {
 namespace {
 
-constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply, .vtk or .tri";
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply, .vtk, .tri or .med";
 constexpr const char* several_files =
     "; several files of triangles, patches (.bpt), grids and molecules are meshed together";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
     ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
-    ".stl, .off, .obj, .ply, .mesh, .meshb, .vtu, .vtk, .msh, .inp, .bdf, .unv, .su2, .tri, or a surface: "
+    ".stl, .off, .obj, .ply, .mesh, .meshb, .vtu, .vtk, .msh, .inp, .bdf, .unv, .su2, .tri, .med, or a surface: "
     "'z = ...' in x and y, or 'x = ...; y = ...; z = ...' in u and v";
 constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
 constexpr int most_listed = 1'000'000;

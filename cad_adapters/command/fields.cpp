@@ -39,6 +39,7 @@ bool is_picture(const std::string& path) { return suffix_of(path) == ".png"; }
 std::string mesh_option_of(const MeshOptions& m) {
   const std::pair<const char*, bool> given[] = {{"--size", !m.size.empty()},
                                                 {"--size-map", !m.size_map.empty()},
+                                                {"--sol-field", m.plane.field > 0},
                                                 {"--angle", m.angle > 0},
                                                 {"--chord", !m.chord.empty()},
                                                 {"--gradation", m.gradation.has_value()},
@@ -157,6 +158,7 @@ int fields(const FieldsOptions& options) {
   std::unique_ptr<CadInput> shape;  // outlives the session
   const SessionHandle handle = make_session();
   carreau_session* session = handle.get();
+  if (options.mesh.plane.field > 0) require(session, carreau_set_integer(session, "sol_field", options.mesh.plane.field));
   carreau_status status = CARREAU_OK;
   if (is_env(options)) {
     const SharedHost host(options.mesh.host);

@@ -187,7 +187,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -201,7 +201,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     else if (is_report(path))
       write_text(path, page_of(run));
     else
-      require(run.mesh, carreau_mesh_write(run.mesh, path.c_str()));
+      write_mesh(run.mesh, path);
   }
 }
 
@@ -240,6 +240,8 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   options.outputs = adaptation.with_fields(given.outputs);
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
+  if (options.plane.field > 0 && map.mesh_file().empty() && options.adapt.sol.empty() && options.plane.sizes.empty())
+    throw Failure("--sol-field chooses a field of a file .sol, and no option names one.");
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
   std::vector<std::string> suffixes = written_meshes;
@@ -252,6 +254,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (ranks != nullptr) suffixes.emplace_back(".pvtu");
   const std::vector<std::string> files = ranks != nullptr ? ranks->all_files(options.outputs) : options.outputs;
   OutputFiles outputs(files, suffixes, read);
+  require_writers(files);
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   std::string names = options.input;
@@ -261,6 +264,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const Stopwatch reading;
   const std::unique_ptr<CadInput> input = opened(options, progress);
   const SessionHandle session = make_session();
+  if (options.plane.field > 0) require(session.get(), carreau_set_integer(session.get(), "sol_field", options.plane.field));
   if (ranks != nullptr && !options.parts) ranks->attach(session.get());
   Ranks::Part part;
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
@@ -292,7 +296,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     const std::string line = part != nullptr ? "" : input->of_mesh(run.session);
     for (const std::string& before : part != nullptr ? part_lines(run, ranks->size()) : summary_lines(run)) progress.line(before);
     if (!line.empty()) progress.line(line);
-    progress.attention("crossing", crossing_lines(run.crossings, *input));  // last: nobody is to miss it
+    progress.attention("crossing", part != nullptr ? crossing_lines_of_parts(run) : crossing_lines(run.crossings, *input));  // last: nobody is to miss it
   }
   run.warnings = progress.warnings();
   if (options.json) print_json(run);

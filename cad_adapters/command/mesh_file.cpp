@@ -3,14 +3,30 @@
 
 #include <algorithm>
 
+#include "med_file.h"
+#include "readable_mesh.h"
+#include "text_file.h"
+
 namespace command {
 
 MeshHandle read_mesh(const std::string& path) {
   carreau_mesh* raw = nullptr;
   if (carreau_mesh_create(&raw) != CARREAU_OK) throw Failure("Out of memory.");
   MeshHandle mesh(raw);
-  require(raw, carreau_mesh_read(raw, path.c_str()));
+  const ReadableMesh file(path);
+  if (carreau_mesh_read(raw, file.path().c_str()) != CARREAU_OK)
+    throw Failure(file.in_terms_of_file(carreau_mesh_last_error(raw)));
   return mesh;
+}
+
+void write_mesh(carreau_mesh* mesh, const std::string& path) {
+  if (suffix_of(path) == ".med") return write_med(mesh, path);
+  require(mesh, carreau_mesh_write(mesh, path.c_str()));
+}
+
+void require_writers(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths)
+    if (suffix_of(path) == ".med") require_med();
 }
 
 void require(carreau_mesh* mesh, carreau_status status) {

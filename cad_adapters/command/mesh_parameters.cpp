@@ -295,7 +295,6 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
     set(session, "eps_glue", tolerance);
     set(session, "eps_glue_open", input.open_tolerance());
   }
-  if (const double match = input.match_tolerance(); match > 0) set(session, "eps_match", match);
   if (const double ends = input.ends_tolerance(); ends > 0) set(session, "eps_ends", ends);
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);

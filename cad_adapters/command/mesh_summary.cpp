@@ -243,6 +243,14 @@ std::string crossings_of_parts(const MeshRun& run) {
   return crossings_count(pairs) + ", and smaller ones do, too: faces cross in the geometry itself, or lie at one place";
 }
 
+std::vector<std::string> crossing_lines_of_parts(const MeshRun& run) {
+  const std::int64_t pairs = counts_of(run.mesh).crossings;
+  if (pairs <= 0) return {};
+  return {crossings_count(pairs) + ": faces touch or overlap",
+          "  No process has the whole mesh, so that the faces are not known: carreau check names them in the file.",
+          "  A mesh of volumes needs them apart or with common faces."};
+}
+
 std::vector<std::string> part_lines(const MeshRun& run, int processes) {
   std::vector<std::string> lines = first_lines(run);
   const carreau_part_counts counts = counts_of(run.mesh);

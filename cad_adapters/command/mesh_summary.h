@@ -53,6 +53,8 @@ std::vector<std::string> part_lines(const MeshRun& run, int processes);
 /// Sentences about such a mesh: that it has free edges although the file closes, and that triangles cross; "": not so.
 std::string free_edges_of_parts(const MeshRun& run);
 std::string crossings_of_parts(const MeshRun& run);
+/// Counts the pairs of triangles that cross, and names the command that finds their faces. Empty when nothing crosses.
+std::vector<std::string> crossing_lines_of_parts(const MeshRun& run);
 
 /// Everything about a run that a program may want, without its format: what `carreau mesh --json` prints. `delivered`: with
 /// what was delivered, for which the mesh is measured when it has not been.

@@ -49,6 +49,10 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                   "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
       ->check(not_empty)
       ->type_name(kind::file);
+  app->add_option("--sol-field", options.plane.field,
+                  "Field of a .sol(b) with several, from 1; 0: all that adapt estimates, else the only one")
+      ->check(CLI::Range(0, 64))
+      ->type_name(kind::number);
   app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
       ->check(CLI::Range(0.01, 89.0))
       ->type_name(kind::number);

@@ -12,6 +12,7 @@ namespace command {
 namespace {
 
 carreau_status load(carreau_session* session, const std::string& path, const PlaneChoice& choice) {
+  if (const carreau_status status = carreau_set_integer(session, "sol_field", choice.field); status != CARREAU_OK) return status;
   return carreau_load_plane_domain(session, path.c_str(), choice.sizes.empty() ? nullptr : choice.sizes.c_str(),
                                    choice.corner_angle);
 }

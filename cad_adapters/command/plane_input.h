@@ -13,6 +13,7 @@ class CadInput;
 struct PlaneChoice {
   bool is_plane = false;    ///< the input is a plane domain
   std::string sizes;        ///< file of sizes or metrics at its vertices; empty: none
+  int field = 0;            ///< of a file of sizes with several fields, from 1; 0: the only one
   double corner_angle = 0;  ///< degrees; polygons are smoothed between corners; 0: they are not
 };
 

@@ -14,13 +14,14 @@ namespace command {
 int refine(const RefineOptions& options) {
   catch_signals();
   OutputFiles outputs(options.outputs, written_meshes, {options.input});
+  require_writers(options.outputs);
   if (!is_triangles(options.input)) throw Failure(unknown_triangles(options.input));
   const MeshHandle mesh =
       refined_triangles(options.input, options.triangles, options.angle, options.depth, options.quiet);
   std::int64_t vertices = 0, triangles = 0, edges = 0, faces = 0;
   require(mesh.get(), carreau_mesh_count(mesh.get(), &vertices, &triangles, &edges, &faces));
   outputs.write([&](const std::vector<std::string>& hidden) {
-    for (const std::string& path : hidden) require(mesh.get(), carreau_mesh_write(mesh.get(), path.c_str()));
+    for (const std::string& path : hidden) write_mesh(mesh.get(), path);
   });
   if (options.json)
     print_json("refine", {{"input", options.input},

@@ -17,7 +17,7 @@ namespace command {
 namespace {
 
 /// Suffixes that no formula has.
-constexpr std::array other_meshes{".vtu", ".msh", ".msh2", ".stl"};
+constexpr std::array other_meshes{".vtu", ".msh", ".msh2", ".stl", ".med"};
 
 bool exists(const std::string& path) { return access(path.c_str(), F_OK) == 0; }
 

@@ -13,6 +13,7 @@
 #include "built_input.h"
 #include "failure.h"
 #include "json_output.h"
+#include "readable_mesh.h"
 #include "tessellated_step.h"
 #include "text_file.h"
 
@@ -31,7 +32,12 @@ carreau_triangles_options options_of(const TrianglesChoice& choice) {
 
 carreau_status load(carreau_session* session, const std::string& path, const TrianglesChoice& choice) {
   const carreau_triangles_options options = options_of(choice);
-  if (!is_tessellated_step(path)) return carreau_load_triangles(session, &options, path.c_str());
+  if (!is_tessellated_step(path)) {
+    const ReadableMesh file(path);
+    const carreau_status status = carreau_load_triangles(session, &options, file.path().c_str());
+    if (status != CARREAU_OK && file.is_translated()) throw Failure(file.in_terms_of_file(carreau_last_error(session)));
+    return status;
+  }
   const Tessellation faces = read_tessellation(path);
   carreau_triangles given{};
   given.struct_size = sizeof given;

@@ -24,7 +24,7 @@ struct TrianglesChoice {
 };
 
 inline constexpr const char* triangles_suffixes[] = {".stl", ".off",  ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".vtk",
-                                                     ".msh", ".msh2", ".inp", ".bdf", ".unv",  ".su2",   ".tri"};
+                                                     ".msh", ".msh2", ".inp", ".bdf", ".unv",  ".su2",   ".tri", ".med"};
 /// Whether the suffix is that of a file of triangles, or a STEP file has no other faces.
 bool is_triangles(const std::string& path);
 

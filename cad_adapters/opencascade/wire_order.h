@@ -29,9 +29,11 @@ inline gp_Pnt2d end_of(const EdgeImage& image) {
 
 /// Orders edges one after the other (Hierholzer's circuit through all of them); empty when there is no such order.
 std::vector<EdgeImage> in_order(const std::vector<EdgeImage>& loop);
-/// The area that a loop encloses in the parameter plane, by chords, and its box.
+/// The area that a loop encloses in the parameter plane, by chords, and its box. The order of its edges does not matter.
 struct LoopArea {
-  double area = 0;  ///< negative when it is clockwise
+  double area = 0;            ///< negative when it is clockwise
+  double perimeter = 0;
+  double gap = 0;             ///< length of the sum of all chords
   double width = 0, height = 0;
 };
 LoopArea area_of(const std::vector<EdgeImage>& loop);

@@ -89,20 +89,27 @@ void move(EdgeImage& image, gp_Vec2d by) {
 }
 
 LoopArea area_of(const std::vector<EdgeImage>& loop) {
-  constexpr int chords = 16;  // of a curve
+  constexpr int chords = 16;  // of a curve: the polygon of a circle that is one edge has its area within 3 %
   LoopArea found;
-  if (loop.empty()) return found;
-  const gp_XY origin = start_of(loop.front()).XY();
-  gp_XY before(0, 0), low(0, 0), high(0, 0);
-  for (const EdgeImage& image : loop)
+  gp_XY origin, low(0, 0), high(0, 0), sum(0, 0);
+  bool any = false;
+  for (const EdgeImage& image : loop) {
+    if (!bounds(image)) continue;
+    if (!any) origin = start_of(image).XY();
+    any = true;
+    gp_XY before = start_of(image).XY() - origin;
     for (int i = 0; i <= chords; ++i) {
       const double share = static_cast<double>(is_forward(image) ? i : chords - i) / chords;
       const gp_XY at = image.curve->Value(image.first + share * (image.last - image.first)).XY() - origin;
       found.area += (before ^ at) / 2;
+      found.perimeter += (at - before).Modulus();
+      sum += at - before;
       before = at;
       low.SetCoord(std::min(low.X(), at.X()), std::min(low.Y(), at.Y()));
       high.SetCoord(std::max(high.X(), at.X()), std::max(high.Y(), at.Y()));
     }
+  }
+  found.gap = sum.Modulus();
   found.width = high.X() - low.X(), found.height = high.Y() - low.Y();
   return found;
 }

@@ -7,42 +7,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wire_order.h"
+
 namespace carreau_occ {
 namespace {
 
-// Of each edge: the polygon of a circle that is one edge has its area within 3 %.
-constexpr int pieces = 16;
 // Share of the squared perimeter, which is 4 pi times the area of a circle. The area between two arcs is uncertain by
 // 4e-4 of it.
 constexpr double least_area = 1e-3;
 // Share of the perimeter.
 constexpr double largest_gap = 1e-3;
 
-/// Area on the left of a loop, whatever the order of its edges; 0 when it does not close, or when the sign is in doubt.
+/// Area on the left of a loop; 0 when it does not close, or when the sign is in doubt.
 double turned_area_of(const std::vector<EdgeImage>& loop) {
-  double twice_area = 0, perimeter = 0;
-  gp_Vec2d gap(0, 0);
-  gp_Pnt2d origin;
-  bool any = false;
-  for (const EdgeImage& image : loop) {
-    const TopAbs_Orientation orientation = image.edge.Orientation();
-    if (orientation != TopAbs_FORWARD && orientation != TopAbs_REVERSED) continue;
-    const double sign = orientation == TopAbs_FORWARD ? 1 : -1;
-    gp_Pnt2d from = image.curve->Value(image.first);
-    if (!any) origin = from;
-    any = true;
-    for (int i = 1; i <= pieces; ++i) {
-      const gp_Pnt2d to = image.curve->Value(image.first + (image.last - image.first) * i / pieces);
-      const gp_Vec2d step(from, to);
-      twice_area += sign * gp_Vec2d(origin, from).Crossed(step);
-      perimeter += step.Magnitude();
-      gap += sign * step;
-      from = to;
-    }
-  }
+  const LoopArea found = area_of(loop);
+  const double perimeter = found.perimeter;
   const bool in_doubt =
-      gap.Magnitude() > largest_gap * perimeter || std::abs(twice_area) / 2 < least_area * perimeter * perimeter;
-  return in_doubt ? 0 : twice_area / 2;
+      found.gap > largest_gap * perimeter || std::abs(found.area) < least_area * perimeter * perimeter;
+  return in_doubt ? 0 : found.area;
 }
 
 bool is_open(const Handle(Geom_Surface) & surface) {

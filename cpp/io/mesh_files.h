@@ -78,7 +78,7 @@ FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name);
 FlatMesh read_mesh_vtk(std::string_view content, const std::string& name);
 /// Cart3D's triangulations, ASCII: numbers of vertices and triangles, both, components of triangles as references.
 FlatMesh read_mesh_tri(std::string_view text, const std::string& name);
-/// VTK XML: one piece, arrays as text, base64 or raw bytes, not compressed. Cells are triangles and quadrilaterals of
+/// VTK XML: arrays as text, base64 or raw bytes, also compressed by zlib. Pieces share the vertices that lie at one place. Cells are triangles and quadrilaterals of
 /// order 1 or 2 (vtk_cells.h), lines and solids; points are skipped, others and mixed orders are errors.
 FlatMesh read_mesh_vtu(std::string_view content, const std::string& name);
 

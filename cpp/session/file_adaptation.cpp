@@ -197,9 +197,9 @@ void keep_triangles(FlatMesh& mesh) {
 }
 
 /// Fields of a file at the vertices of a mesh.
-Solution read_fields(const std::string& path, const FlatMesh& mesh, const std::string& mesh_name) {
+Solution read_fields(const std::string& path, const FlatMesh& mesh, const std::string& mesh_name, std::int32_t field = 0) {
   if (mesh.triangles.empty()) throw FileError({.file = mesh_name}, "a mesh with a field needs triangles or tetrahedra; it has none");
-  Solution fields = read_solution(path, SolutionUse::fields);
+  Solution fields = read_solution(path, {SolutionUse::fields, field});
   check_count(fields, path, mesh.vertices.size(), mesh_name);
   return fields;
 }
@@ -238,8 +238,8 @@ std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, 
 }
 
 /// Metrics of a file of fields, checked as prescriptions are. Throws FileError with the line.
-VertexValues metrics_of(const std::string& sol_path, int dimension, const std::string& mesh_name) {
-  const Solution metrics = read_solution(sol_path, SolutionUse::prescription);
+VertexValues metrics_of(const std::string& sol_path, int dimension, const std::string& mesh_name, std::int32_t field) {
+  const Solution metrics = read_solution(sol_path, {SolutionUse::prescription, field});
   if (metrics.dimension != dimension)
     throw FileError({.file = sol_path}, "its dimension is " + std::to_string(metrics.dimension) + ", but that of " +
                                             mesh_name + " is " + std::to_string(dimension));
@@ -278,10 +278,10 @@ std::int64_t write_transferred(Session& session, const SurfaceMesh& from, const 
   return moved.outside;
 }
 
-Solution read_prescription(const std::string& path) {
+Solution read_prescription(const std::string& path, std::int32_t field = 0) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".h" || suffix == ".hc" || suffix == ".hg") return read_bl2d_sizes_text(read_file(path), path);
-  return read_solution(path, SolutionUse::prescription);
+  return read_solution(path, {SolutionUse::prescription, field});
 }
 
 }  // namespace
@@ -304,9 +304,9 @@ std::vector<Metric3> read_metrics(const std::string& sol_path, std::size_t verti
 }
 
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
-                                                 bool one_plane) {
+                                                 bool one_plane, std::int32_t field) {
   const FlatMesh flat = straight_over_nodes(read_mesh(mesh_path));
-  const Solution solution = read_prescription(sol_path);
+  const Solution solution = read_prescription(sol_path, field);
   check_elements(flat, mesh_path);
   if (solution.dimension != flat.dimension)
     throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +
@@ -321,8 +321,9 @@ std::shared_ptr<BackgroundField> background_of_fields_here(Session& session, con
                                                            const std::string& sol_path) {
   FlatMesh mesh = straight_over_nodes(read_carrier(mesh_path));
   const bool one_plane = session.model().plane;
-  const Solution fields = read_fields(sol_path, mesh, mesh_path);
-  if (is_metric(fields)) return field_of(mesh, one_plane, metrics_of(sol_path, mesh.dimension, mesh_path));
+  const std::int32_t field = session.parameters().integer("sol_field");
+  const Solution fields = read_fields(sol_path, mesh, mesh_path, field);
+  if (is_metric(fields)) return field_of(mesh, one_plane, metrics_of(sol_path, mesh.dimension, mesh_path, field));
   VertexValues values = values_on(mesh.dimension, estimate_fields(session, mesh, fields, sol_path));
   keep_triangles(mesh);
   return field_of(mesh, one_plane, std::move(values));
@@ -373,7 +374,7 @@ Start start_of(Session& session) {
     throw InvalidArgument("call adapt needs a mesh: none was made yet, and the parameter adapt_mesh names no file");
   start.own = mesh_path.empty();
   const FlatMesh mesh = start.own ? flatten(session.mesh(), false) : read_carrier(mesh_path);
-  start.fields = read_fields(start.sol_path, mesh, start.own ? "the mesh made last" : mesh_path);
+  start.fields = read_fields(start.sol_path, mesh, start.own ? "the mesh made last" : mesh_path, parameters.integer("sol_field"));
   start.from = start.own ? session.mesh() : surface_of(mesh, session.model());
   start.values = start.own ? start.fields.values : with_nodes_on_edges(mesh, start.fields.values, start.fields.components());
   start.mesh = straight_over_nodes(mesh);
@@ -384,7 +385,7 @@ Start start_of(Session& session) {
 VertexPrescriptions wanted_by(Session& session, const Start& start) {
   if (!is_metric(start.fields)) return estimate_fields(session, start.mesh, start.fields, start.sol_path);
   VertexPrescriptions wanted;
-  wanted.metrics = metrics_of(start.sol_path, 3, "the model").space;
+  wanted.metrics = metrics_of(start.sol_path, 3, "the model", session.parameters().integer("sol_field")).space;
   return wanted;
 }
 
@@ -400,7 +401,7 @@ void adapt_by_files(Session& session, const Crew& crew, Monitor& monitor) {
   const bool in_space = start.own || start.mesh.dimension == 3;
   const NoBackgroundAfterwards afterwards(session);
   if (is_metric(start.fields) && !in_space) {
-    session.set_background(field_of(start.mesh, plane, metrics_of(start.sol_path, 2, "its mesh")));
+    session.set_background(field_of(start.mesh, plane, metrics_of(start.sol_path, 2, "its mesh", parameters.integer("sol_field"))));
     session.make_mesh();
   } else {
     const VertexPrescriptions wanted = wanted_by(session, start);

@@ -15,9 +15,9 @@ namespace carreau {
 /// A mesh file (`.mesh`, `.meshb`, ...) with a file of sizes or metrics (`.sol`, `.solb`; BL2D's `.h`). A mesh of dimension 3
 /// is one of space, of triangles, tetrahedra or edges of curves; the triangles of one of dimension 2 lie in the parameter planes of the faces that their
 /// references name (0: any); with `one_plane` all faces lie in one, whatever references say. Throws FileError; names the
-/// file, and the line or byte where there is one.
+/// file, and the line or byte where there is one. `field`: see SolutionChoice.
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
-                                                 bool one_plane = false);
+                                                 bool one_plane = false, std::int32_t field = 0);
 
 /// Sizes or metrics of a file (as above) at so many vertices, as metrics of space; those of dimension 2 have the smaller
 /// size across. Throws FileError.

@@ -34,7 +34,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
 // the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
-// stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
+// sol_field, stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
 // metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
@@ -136,6 +136,8 @@ constexpr std::array kTable = {
     integer_row("shape_trials", 0, 1, 0,
                 "1: changes of the mesh around its worst triangles are tried, the best is kept"),
     real_row("sharp_angle", 0, 180, 1, "patches independent: borders whose normals differ by more are sharp, degrees"),
+    integer_row("sol_field", 0, 64, 0,
+                "field of a .sol or .solb with several, from 1 (0: all fields that an adaptation estimates, else the only one)"),
     integer_row("stagger_strips", 0, 1, 0,
                 "1: vertices of one side of a strip of one layer face the middles of the other side's edges"),
     integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),

@@ -88,7 +88,7 @@ std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
   if (mesh.empty() != sol.empty())
     throw InvalidArgument(std::string("background_mesh and background_sol name two files of one field, but only ") +
                           (mesh.empty() ? "background_sol" : "background_mesh") + " is set");
-  return mesh.empty() ? set : read_background(mesh, sol, one_plane);
+  return mesh.empty() ? set : read_background(mesh, sol, one_plane, parameters.integer("sol_field"));
 }
 
 }  // namespace carreau

@@ -105,6 +105,23 @@ TEST(CadLibrary, MeshesAnInchCube) {
   EXPECT_EQ(quality.open_edges, 0);
 }
 
+TEST(CadLibrary, SetsTheToleranceOfSharedEdges) {
+  const std::string path = shapes() + "/inch.step";
+  Session by_file, by_caller;
+  File file;
+  EXPECT_OK(by_file, carreau_cad_open(by_file, path.c_str(), nullptr, &file.handle));
+  auto content = empty<carreau_cad_content>();
+  EXPECT_OK(file, carreau_cad_info(file, &content));
+  double match = 0;
+  EXPECT_OK(by_file, carreau_get_real(by_file, "eps_match", &match));
+  EXPECT_GT(match, 0);
+  EXPECT_EQ(match, content.match_tolerance);
+  EXPECT_OK(by_caller, carreau_set_real(by_caller, "eps_match", 0.5));
+  EXPECT_OK(by_caller, carreau_cad_open(by_caller, path.c_str(), nullptr, nullptr));
+  EXPECT_OK(by_caller, carreau_get_real(by_caller, "eps_match", &match));
+  EXPECT_EQ(match, 0.5);
+}
+
 TEST(CadLibrary, TellsWhatAFileHolds) {
   Session session;
   File file;

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 CMAKE, SOURCE, WORK = sys.argv[1:4]
-BARE = ["-DCMAKE_Fortran_COMPILER=NOTFOUND", "-DCARREAU_MUPARSER=OFF"] + [
+BARE = ["-DCMAKE_Fortran_COMPILER=NOTFOUND", "-DCARREAU_MUPARSER=OFF", "-DCARREAU_MED=OFF"] + [
     f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("GTest", "OpenEXR", "TBB", "OpenCASCADE", "MPI")]
 
 
@@ -39,7 +39,7 @@ assert status == 0, errors
 rows = left_out(lines)
 print(rows)
 for what, word in ((".exr files", "libopenexr-dev"), ("oneTBB", "libtbb-dev"), ("libcarreau_mpi (mpirun carreau mesh)", "libopenmpi-dev"), ("Fortran modules and examples", "gfortran"),
-                   ("libcarreau_cad (STEP, IGES and BREP files)", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), ("tests", "CARREAU_TESTS is OFF")):
+                   ("libcarreau_cad (STEP, IGES and BREP files)", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), (".med files", "CARREAU_MED is OFF"), ("tests", "CARREAU_TESTS is OFF")):
     assert word in rows[what], (what, rows)
 assert os.path.exists(os.path.join(build, "build.ninja"))
 targets = subprocess.run([CMAKE, "--build", build, "--target", "help"], check=True, capture_output=True, text=True).stdout

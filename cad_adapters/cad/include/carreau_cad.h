@@ -51,7 +51,8 @@ typedef struct carreau_cad_options {
 } carreau_cad_options;
 
 /* Reads a file and adds all of its faces to a session. *out_file gets the file, to ask it; out_file may be NULL.
- * `options` may be NULL, which means all zero. Faces that cannot be meshed are left out with a reason
+ * `options` may be NULL, which means all zero. The parameter eps_match becomes carreau_cad_content.match_tolerance when
+ * it is 0. Faces that cannot be meshed are left out with a reason
  * (carreau_model_leave_out_face). On an error the session is as before, and carreau_last_error has the sentence.
  * Errors: ARGUMENT, FILE, CANCELLED, MEMORY, SEQUENCE (as carreau_geometry_begin), MODEL (the references are too
  * large). */

@@ -58,12 +58,20 @@ enum class SolutionUse {
   fields,        ///< any number of fields of finite numbers, of any types
 };
 
+/// A use, and the field of a file with several.
+struct SolutionChoice {
+  SolutionUse use = SolutionUse::field;
+  std::int32_t field = 0;  ///< from 1; 0: all of SolutionUse::fields, otherwise the only one
+
+  SolutionChoice(SolutionUse what = SolutionUse::field, std::int32_t which = 0) : use(what), field(which) {}
+};
+
 /// Reads SolAtVertices of a `.sol` (ASCII, versions 0 to 4) or `.solb` (GMF binary, versions 1 to 4, either byte
 /// order), told apart by the content; other sections are skipped. Throws FileError, with file and line or byte, for
-/// anything but one finite scalar or symmetric tensor a vertex (SolutionUse::fields: up to 64 fields), and for values that the use does not allow.
-Solution read_solution(const std::string& path, SolutionUse use = SolutionUse::field);
-Solution read_solution_text(std::string_view text, const std::string& name, SolutionUse use = SolutionUse::field);
-Solution read_solution_binary(std::string_view bytes, const std::string& name, SolutionUse use = SolutionUse::field);
+/// anything but one finite scalar or symmetric tensor a vertex (SolutionUse::fields: up to 64 fields), and for values that the use does not allow. A wrong choice lists the fields.
+Solution read_solution(const std::string& path, const SolutionChoice& choice = {});
+Solution read_solution_text(std::string_view text, const std::string& name, const SolutionChoice& choice = {});
+Solution read_solution_binary(std::string_view bytes, const std::string& name, const SolutionChoice& choice = {});
 
 /// The tensor of a vertex (from 0) of a solution of dimension 2 or 3.
 Metric2 plane_tensor(const Solution& solution, std::size_t vertex) noexcept;

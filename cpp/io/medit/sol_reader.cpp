@@ -15,11 +15,8 @@ namespace {
 
 constexpr std::int32_t most_fields = 64;  // a file of more is no solution, but a mistake
 
-/// Empty when the list of types is one that is wanted, else what is wrong with it. Only the first type is looked at
-/// when there are several: that alone is wrong then.
-std::string refusal_of(std::int32_t how_many, std::int32_t type) {
-  if (how_many != 1)
-    return "there are " + std::to_string(how_many) + " values at each vertex; one size, field or metric is wanted";
+/// Empty when values of the type can be a size, a field or a metric, else what is wrong with it.
+std::string refusal_of(std::int32_t type) {
   switch (static_cast<ValueType>(type)) {
     case ValueType::scalar:
     case ValueType::symmetric:
@@ -32,30 +29,60 @@ std::string refusal_of(std::int32_t how_many, std::int32_t type) {
   return "type " + std::to_string(type) + " is none of 1 (scalar), 2 (vector), 3 (symmetric tensor), 4 (tensor)";
 }
 
-/// The same where fields of all types are wanted.
-std::string refusal_of_field(std::int32_t type) {
-  return type >= 1 && type <= 4 ? "" : refusal_of(1, type);
-}
-std::string refusal_of_number(std::int32_t how_many) {
-  if (how_many >= 1 && how_many <= most_fields) return {};
-  return "there are " + std::to_string(how_many) + " values at each vertex; 1 to " + std::to_string(most_fields) +
-         " are wanted";
+std::string list_of(const std::vector<ValueType>& fields) {
+  constexpr const char* names[] = {"scalar", "vector", "symmetric tensor", "tensor"};
+  std::string text;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    text += (i > 0 ? ", " : "") + std::to_string(i + 1) + " " + names[static_cast<std::size_t>(fields[i]) - 1];
+  return text;
 }
 
-/// Reads the list of types behind their number. next() gives an integer, fail(sentence) does not return.
-void read_types(std::int32_t how_many, SolutionUse use, Solution& solution, const auto& next, const auto& fail) {
-  if (use != SolutionUse::fields) {
-    const std::int32_t type = how_many == 1 ? next() : 0;
-    if (const std::string why = refusal_of(how_many, type); !why.empty()) fail(why);
-    solution.tensor = static_cast<ValueType>(type) == ValueType::symmetric;
-    return;
-  }
-  if (const std::string why = refusal_of_number(how_many); !why.empty()) fail(why);
+/// The numbers of each vertex that are read, among all of its record.
+struct Record {
+  std::size_t first = 0, width = 0, all = 0;
+};
+
+/// Reads the list of types behind their number, and chooses a field. next() gives an integer, fail(sentence) does not
+/// return.
+Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution& solution, const auto& next,
+                  const auto& fail) {
+  const auto fail_number = [&](const std::string& list) {
+    fail("there are " + std::to_string(how_many) + " values at each vertex" + list);
+  };
+  const bool any = choice.use == SolutionUse::fields;
+  if (how_many < 1 || how_many > most_fields)
+    fail_number(any ? "; 1 to " + std::to_string(most_fields) + " are wanted"
+                    : "; one size, field or metric is wanted");
+  std::vector<ValueType> types;
+  Record record;
   for (std::int32_t i = 0; i < how_many; ++i) {
     const std::int32_t type = next();
-    if (const std::string why = refusal_of_field(type); !why.empty()) fail(why);
-    solution.fields.push_back(static_cast<ValueType>(type));
+    if (type < 1 || type > 4) fail(refusal_of(type));
+    types.push_back(static_cast<ValueType>(type));
+    record.all += components_of(types.back(), solution.dimension);
   }
+  if (any && choice.field == 0) {
+    solution.fields = std::move(types);
+    record.width = record.all;
+    return record;
+  }
+  if (choice.field == 0 && how_many > 1)
+    fail_number(" (" + list_of(types) +
+                "); one size, field or metric is wanted, which the parameter sol_field chooses");
+  const auto chosen = static_cast<std::size_t>(choice.field > 0 ? choice.field - 1 : 0);
+  if (chosen >= types.size())
+    fail("sol_field chooses field " + std::to_string(choice.field) + ", but these are there: " + list_of(types));
+  const ValueType type = types[chosen];
+  for (std::size_t i = 0; i < chosen; ++i) record.first += components_of(types[i], solution.dimension);
+  record.width = components_of(type, solution.dimension);
+  if (any) {
+    solution.fields = {type};
+    return record;
+  }
+  if (const std::string why = refusal_of(static_cast<std::int32_t>(type)); !why.empty())
+    fail(types.size() > 1 ? why + "; the fields are: " + list_of(types) : why);
+  solution.tensor = type == ValueType::symmetric;
+  return record;
 }
 
 /// Empty when the values of a vertex (from 0) can be used.
@@ -73,7 +100,8 @@ std::string refusal_of_values(const Solution& solution, std::size_t vertex, Solu
 
 class TextReader {
  public:
-  TextReader(std::string_view text, const std::string& name, SolutionUse use) : in_(text, name), use_(use) {}
+  TextReader(std::string_view text, const std::string& name, const SolutionChoice& choice)
+      : in_(text, name), choice_(choice) {}
 
   Solution read() {
     in_.header("a solution file");
@@ -96,29 +124,33 @@ class TextReader {
     const char* number = in_.position();
     in_.integer("the number of vertices");
     const std::int32_t how_many = in_.integer("the number of values at a vertex");
-    read_types(
-        how_many, use_, solution_, [&] { return in_.integer("the type of the values"); },
+    const Record record = read_types(
+        how_many, choice_, solution_, [&] { return in_.integer("the type of the values"); },
         [&](const std::string& why) { in_.fail(in_.position(), why); });
     const char* start = in_.position();
     in_.go_back(number);  // count() compares with the rest of the text
-    const std::size_t each = solution_.components(), n = in_.count("vertices", each);
+    const std::size_t each = record.width, n = in_.count("vertices", record.all);
     in_.go_back(start);
     solution_.values.resize(n * each);
     for (std::size_t v = 0; v < n; ++v) {
-      for (std::size_t k = 0; k < each; ++k) solution_.values[v * each + k] = in_.real("a value");
-      if (const std::string why = refusal_of_values(solution_, v, use_); !why.empty()) in_.fail(in_.position(), why);
+      for (std::size_t k = 0; k < record.all; ++k)
+        if (const double value = in_.real("a value"); k >= record.first && k < record.first + each)
+          solution_.values[v * each + k - record.first] = value;
+      if (const std::string why = refusal_of_values(solution_, v, choice_.use); !why.empty())
+        in_.fail(in_.position(), why);
     }
   }
 
   MeditWords in_;
-  SolutionUse use_;
+  SolutionChoice choice_;
   Solution solution_;
   bool has_values_ = false;
 };
 
 class BinaryReader {
  public:
-  BinaryReader(std::string_view bytes, const std::string& name, SolutionUse use) : in_(bytes, name), use_(use) {}
+  BinaryReader(std::string_view bytes, const std::string& name, const SolutionChoice& choice)
+      : in_(bytes, name), choice_(choice) {}
 
   Solution read() {
     in_.header();
@@ -146,21 +178,23 @@ class BinaryReader {
     const std::int64_t announced = in_.announced();
     const std::size_t types = in_.position();
     const std::int32_t how_many = in_.integer();
-    read_types(
-        how_many, use_, solution_, [&] { return in_.integer(); },
+    const Record record = read_types(
+        how_many, choice_, solution_, [&] { return in_.integer(); },
         [&](const std::string& why) { in_.fail(types, why); });
-    const std::size_t each = solution_.components();
-    const std::size_t n = in_.checked_count(announced, at, "values", each * in_.sizes().real);
+    const std::size_t each = record.width;
+    const std::size_t n = in_.checked_count(announced, at, "values", record.all * in_.sizes().real);
     solution_.values.resize(n * each);
     for (std::size_t v = 0; v < n; ++v) {
-      const std::size_t record = in_.position();
-      for (std::size_t k = 0; k < each; ++k) solution_.values[v * each + k] = in_.real("a value");
-      if (const std::string why = refusal_of_values(solution_, v, use_); !why.empty()) in_.fail(record, why);
+      const std::size_t start = in_.position();
+      for (std::size_t k = 0; k < record.all; ++k)
+        if (const double value = in_.real("a value"); k >= record.first && k < record.first + each)
+          solution_.values[v * each + k - record.first] = value;
+      if (const std::string why = refusal_of_values(solution_, v, choice_.use); !why.empty()) in_.fail(start, why);
     }
   }
 
   GmfSections in_;
-  SolutionUse use_;
+  SolutionChoice choice_;
   Solution solution_;
   bool has_dimension_ = false, has_values_ = false;
 };
@@ -177,17 +211,18 @@ Metric3 space_tensor(const Solution& solution, std::size_t vertex) noexcept {
   return {.xx = m[0], .xy = m[1], .xz = m[3], .yy = m[2], .yz = m[4], .zz = m[5]};
 }
 
-Solution read_solution_text(std::string_view text, const std::string& name, SolutionUse use) {
-  return TextReader(without_byte_order_mark(text), name, use).read();
+Solution read_solution_text(std::string_view text, const std::string& name, const SolutionChoice& choice) {
+  return TextReader(without_byte_order_mark(text), name, choice).read();
 }
 
-Solution read_solution_binary(std::string_view bytes, const std::string& name, SolutionUse use) {
-  return BinaryReader(bytes, name, use).read();
+Solution read_solution_binary(std::string_view bytes, const std::string& name, const SolutionChoice& choice) {
+  return BinaryReader(bytes, name, choice).read();
 }
 
-Solution read_solution(const std::string& path, SolutionUse use) {
+Solution read_solution(const std::string& path, const SolutionChoice& choice) {
   const std::string content = read_file(path);
-  return starts_as_gmf(content) ? read_solution_binary(content, path, use) : read_solution_text(content, path, use);
+  return starts_as_gmf(content) ? read_solution_binary(content, path, choice)
+                                : read_solution_text(content, path, choice);
 }
 
 }  // namespace carreau

@@ -2,11 +2,10 @@
 // VTK's legacy format, version 3.0, which every reader takes: UNSTRUCTURED_GRID as text or in big-endian binary form.
 #include <bit>
 #include <cmath>
-#include <limits>
 
-#include "io/element_lists.h"
 #include "io/mesh_writers.h"
 #include "io/raw_numbers.h"
+#include "io/vtk/vtk_output.h"
 #include "support/format.h"
 
 namespace carreau {
@@ -49,49 +48,6 @@ class LegacyFile {
   std::string text_;
 };
 
-int vtk_type_of(CellKind kind) {
-  switch (kind) {
-    case CellKind::triangle3:
-      return 5;
-    case CellKind::triangle6:
-      return 22;
-    case CellKind::quad4:
-      return 9;
-    default:
-      return 23;
-  }
-}
-
-/// An element or an edge of a curve, with its first triangle.
-struct Record {
-  std::vector<std::int32_t> nodes;
-  int type = 0;
-  std::int32_t ref = 0;
-  std::ptrdiff_t triangle = -1, edge = -1;
-  bool halves = false;
-};
-
-std::vector<Record> records_of(const FlatMesh& mesh) {
-  std::vector<Record> records;
-  const auto triangle_ref = [&](std::size_t t) { return ref_of(mesh.triangle_refs, t); };
-  std::size_t t = 0;
-  for (const Cell& cell : mesh.cells) {
-    const bool quad = corner_count(cell.kind) == 4;
-    records.push_back({{cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind)}, vtk_type_of(cell.kind),
-                       triangle_ref(t), static_cast<std::ptrdiff_t>(t), -1, quad});
-    t += quad ? 2 : 1;
-  }
-  for (; mesh.cells.empty() && t < mesh.triangles.size(); ++t)
-    records.push_back({{mesh.triangles[t].begin(), mesh.triangles[t].end()}, 5, triangle_ref(t), static_cast<std::ptrdiff_t>(t), -1, false});
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    Record& record = records.emplace_back();
-    record.nodes = {mesh.edges[e][0], mesh.edges[e][1]}, record.type = 3;
-    if (!mesh.edge_mids.empty()) record.nodes.push_back(mesh.edge_mids[e]), record.type = 21;
-    record.ref = ref_of(mesh.edge_refs, e), record.edge = static_cast<std::ptrdiff_t>(e);
-  }
-  return records;
-}
-
 /// Blanks would end the name.
 std::string legacy_name(const std::string& name) {
   std::string text = name.empty() ? "field" : name;
@@ -99,27 +55,21 @@ std::string legacy_name(const std::string& name) {
   return text;
 }
 
-double cell_value(const MeshField& field, const Record& record, std::size_t k) {
-  const auto n = static_cast<std::size_t>(field.components);
-  const std::vector<double>& values = record.edge >= 0 ? field.edge_values : field.values;
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const std::size_t at = static_cast<std::size_t>(record.edge >= 0 ? record.edge : record.triangle) * n + k;
-  return record.halves ? 0.5 * (values[at] + values[at + n]) : values[at];
-}
-
-void add_fields(LegacyFile& file, const FlatMesh& mesh, const std::vector<Record>& records, bool on_vertices) {
+void add_fields(LegacyFile& file, const VtkOutput& cells, bool on_vertices) {
+  const FlatMesh& mesh = cells.mesh();
   std::size_t count = 0;
   for (const MeshField& field : mesh.fields) count += field.on_vertices == on_vertices ? 1 : 0;
   if (count == 0) return;
   file.line("FIELD FieldData " + std::to_string(count));
-  const std::size_t tuples = on_vertices ? mesh.vertices.size() : records.size();
+  const std::size_t tuples = on_vertices ? mesh.vertices.size() : cells.size();
   for (const MeshField& field : mesh.fields) {
     if (field.on_vertices != on_vertices) continue;
     const auto n = static_cast<std::size_t>(field.components);
     file.line(legacy_name(field.name) + " " + std::to_string(n) + " " + std::to_string(tuples) + " double");
+    const std::vector<double> of_cells = on_vertices ? std::vector<double>{} : cells.values(field);
+    const std::vector<double>& values = on_vertices ? field.values : of_cells;
     for (std::size_t i = 0; i < tuples; ++i) {
-      for (std::size_t k = 0; k < n; ++k)
-        file.number(on_vertices ? field.values[i * n + k] : cell_value(field, records[i], k));
+      for (std::size_t k = 0; k < n; ++k) file.number(values[i * n + k]);
       file.end_record();
     }
     file.end_section();
@@ -130,35 +80,37 @@ void add_fields(LegacyFile& file, const FlatMesh& mesh, const std::vector<Record
 
 std::string vtk_text(const FlatMesh& mesh, bool ascii) {
   LegacyFile file(ascii);
-  const std::vector<Record> records = records_of(mesh);
+  const VtkOutput cells(mesh);
   file.line("POINTS " + std::to_string(mesh.vertices.size()) + " double");
   for (const Vec3& p : mesh.vertices) {
     file.number(p.x()), file.number(p.y()), file.number(mesh.dimension == 3 ? p.z() : 0.0);
     file.end_record();
   }
   file.end_section();
-  std::size_t size = records.size();
-  for (const Record& record : records) size += record.nodes.size();
-  file.line("CELLS " + std::to_string(records.size()) + " " + std::to_string(size));
-  for (const Record& record : records) {
-    file.number(static_cast<std::int32_t>(record.nodes.size()));
-    for (const std::int32_t v : record.nodes) file.number(v);
+  std::vector<std::int32_t> nodes;
+  for (std::size_t c = 0; c < cells.size(); ++c) cells.append_nodes(c, nodes);
+  file.line("CELLS " + std::to_string(cells.size()) + " " + std::to_string(cells.size() + nodes.size()));
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    nodes.clear();
+    cells.append_nodes(c, nodes);
+    file.number(static_cast<std::int32_t>(nodes.size()));
+    for (const std::int32_t v : nodes) file.number(v);
     file.end_record();
   }
   file.end_section();
-  file.line("CELL_TYPES " + std::to_string(records.size()));
-  for (const Record& record : records) file.number(std::int32_t{record.type}), file.end_record();
+  file.line("CELL_TYPES " + std::to_string(cells.size()));
+  for (std::size_t c = 0; c < cells.size(); ++c) file.number(std::int32_t{cells.type(c)}), file.end_record();
   file.end_section();
   file.line("POINT_DATA " + std::to_string(mesh.vertices.size()));
   file.line("SCALARS reference int 1\nLOOKUP_TABLE default");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) file.number(ref_of(mesh.vertex_refs, v)), file.end_record();
   file.end_section();
-  add_fields(file, mesh, records, true);
-  file.line("CELL_DATA " + std::to_string(records.size()));
+  add_fields(file, cells, true);
+  file.line("CELL_DATA " + std::to_string(cells.size()));
   file.line("SCALARS reference int 1\nLOOKUP_TABLE default");
-  for (const Record& record : records) file.number(record.ref), file.end_record();
+  for (std::size_t c = 0; c < cells.size(); ++c) file.number(cells.ref(c)), file.end_record();
   file.end_section();
-  add_fields(file, mesh, records, false);
+  add_fields(file, cells, false);
   return file.take();
 }
 

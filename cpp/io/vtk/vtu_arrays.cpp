@@ -33,7 +33,7 @@ VtuArrays::VtuArrays(std::string_view content, const std::string& name, const Xm
     fail(root, "the type of the file is " + shown(root.attribute("type")) + " instead of 'UnstructuredGrid'");
   if (const std::string compressor = root.attribute("compressor"); !compressor.empty()) {
     if (compressor != "vtkZLibDataCompressor")
-      fail(root, "its arrays are compressed by " + shown(compressor) + "; only vtkZLibDataCompressor is known");
+      fail(root, "its arrays are compressed by " + shown(compressor) + "; only vtkZLibDataCompressor is known: write the file anew with compressor type ZLib or none");
     compressed_ = true;
   }
   const std::string order = root.attribute("byte_order"), header = root.attribute("header_type");

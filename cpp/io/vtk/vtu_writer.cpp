@@ -3,52 +3,14 @@
 // length in bytes; `offset` counts from the byte after the underscore.
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <map>
 
 #include "io/mesh_writers.h"
+#include "io/vtk/vtk_output.h"
 
 namespace carreau {
 
 namespace {
-
-constexpr std::uint8_t vtk_line = 3, vtk_quadratic_edge = 21;
-
-/// Of a kind of elements; nodes have VTK's order already.
-std::uint8_t vtk_type(CellKind kind) noexcept {
-  switch (kind) {
-    case CellKind::triangle3:
-      return 5;
-    case CellKind::triangle6:
-      return 22;
-    case CellKind::quad4:
-      return 9;
-    case CellKind::quad8:
-      return 23;
-  }
-  return 0;
-}
-
-/// The elements of a mesh and the first triangle of each.
-struct VtuCells {
-  explicit VtuCells(const FlatMesh& flat) : mesh(flat) {
-    std::int32_t t = 0;
-    for (const Cell& cell : flat.cells) {
-      first.push_back(t);
-      t += corner_count(cell.kind) == 4 ? 2 : 1;
-    }
-    if (flat.cells.empty())
-      for (; t < static_cast<std::int32_t>(flat.triangles.size()); ++t) first.push_back(t);
-  }
-  [[nodiscard]] std::size_t size() const { return first.size(); }
-  [[nodiscard]] std::size_t with_edges() const { return first.size() + mesh.edges.size(); }
-  [[nodiscard]] bool is_quad(std::size_t c) const {
-    return !mesh.cells.empty() && corner_count(mesh.cells[c].kind) == 4;
-  }
-
-  const FlatMesh& mesh;
-  std::vector<std::int32_t> first;
-};
 
 template <typename T>
 struct VtkType;
@@ -131,30 +93,17 @@ std::vector<std::int32_t> all_refs(const std::vector<std::int32_t>& refs, std::s
   return refs.empty() ? std::vector<std::int32_t>(count, 0) : refs;
 }
 
-/// Elements come first, so that the number of an element is that of its cell.
-void add_cells(VtuFile& file, const VtuCells& cells) {
-  const FlatMesh& mesh = cells.mesh;
+void add_cells(VtuFile& file, const VtkOutput& cells) {
+  const FlatMesh& mesh = cells.mesh();
   std::vector<std::int32_t> connectivity;
   connectivity.reserve(3 * mesh.triangles.size() + 2 * mesh.edges.size());
   std::vector<std::int64_t> offsets;
-  offsets.reserve(cells.with_edges());
+  offsets.reserve(cells.size());
   std::vector<std::uint8_t> types;
-  const auto end_cell = [&](std::uint8_t type) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    cells.append_nodes(c, connectivity);
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-    types.push_back(type);
-  };
-  for (const Cell& cell : mesh.cells) {
-    connectivity.insert(connectivity.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
-    end_cell(vtk_type(cell.kind));
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size() && mesh.cells.empty(); ++t) {
-    connectivity.insert(connectivity.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    end_cell(vtk_type(CellKind::triangle3));
-  }
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    connectivity.insert(connectivity.end(), mesh.edges[e].begin(), mesh.edges[e].end());
-    if (!mesh.edge_mids.empty()) connectivity.push_back(mesh.edge_mids[e]);
-    end_cell(mesh.edge_mids.empty() ? vtk_line : vtk_quadratic_edge);
+    types.push_back(cells.type(c));
   }
   file.xml("<Cells>\n");
   file.array("connectivity", 1, connectivity);
@@ -165,18 +114,18 @@ void add_cells(VtuFile& file, const VtuCells& cells) {
 
 /// For each cell what programs that look at cells only would not find: the status of its face (edges: 0), and its
 /// colour when any face has one.
-void add_face_data(VtuFile& file, const VtuCells& all) {
-  const FlatMesh& mesh = all.mesh;
+void add_face_data(VtuFile& file, const VtkOutput& all) {
+  const FlatMesh& mesh = all.mesh();
   if (mesh.faces.empty()) return;
   std::map<std::int32_t, const FlatFace*> by_ref;
   bool coloured = false;
   for (const FlatFace& face : mesh.faces) by_ref.emplace(face.ref, &face), coloured = coloured || face.rgb >= 0;
   constexpr std::int32_t grey = 0xC0C0C0;  // of cells without a colour
-  const std::size_t cells = all.with_edges();
+  const std::size_t cells = all.size();
   std::vector<std::uint8_t> status(cells, 0), rgb;
   for (std::size_t c = 0; c < cells; ++c) {
     const auto face =
-        c < all.size() ? by_ref.find(ref_of(mesh.triangle_refs, static_cast<std::size_t>(all.first[c]))) : by_ref.end();
+        c < all.elements() ? by_ref.find(all.ref(c)) : by_ref.end();
     const bool known = face != by_ref.end();
     if (known) status[c] = static_cast<std::uint8_t>(face->second->status);
     const std::int32_t colour = known && face->second->rgb >= 0 ? face->second->rgb : grey;
@@ -186,37 +135,15 @@ void add_face_data(VtuFile& file, const VtuCells& all) {
   if (coloured) file.array("rgb", 3, rgb);
 }
 
-/// Values of triangles as those of elements: of a quadrilateral the mean of its halves.
-std::vector<double> of_cells(const VtuCells& cells, const std::vector<double>& values, std::size_t components) {
-  std::vector<double> result;
-  for (std::size_t c = 0; c < cells.size() && !values.empty(); ++c)
-    for (std::size_t k = 0; k < components; ++k) {
-      const std::size_t at = static_cast<std::size_t>(cells.first[c]) * components + k;
-      result.push_back(cells.is_quad(c) ? 0.5 * (values[at] + values[at + components]) : values[at]);
-    }
-  return result;
-}
-
-void add_cell_data(VtuFile& file, const VtuCells& cells) {
-  const FlatMesh& mesh = cells.mesh;
+void add_cell_data(VtuFile& file, const VtkOutput& cells) {
   std::vector<std::int32_t> refs;
-  for (const std::int32_t t : cells.first) refs.push_back(ref_of(mesh.triangle_refs, static_cast<std::size_t>(t)));
-  const std::vector<std::int32_t> edge_refs = all_refs(mesh.edge_refs, mesh.edges.size());
-  refs.insert(refs.end(), edge_refs.begin(), edge_refs.end());
+  for (std::size_t c = 0; c < cells.size(); ++c) refs.push_back(cells.ref(c));
   file.xml("<CellData Scalars=\"reference\">\n");
   file.array("reference", 1, refs);
   add_face_data(file, cells);
-  for (const MeshField& field : mesh.fields) {
-    if (field.on_vertices) continue;
-    // VTK wants a value for every cell; NaN says that a cell has none and is left out of colour ranges.
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const auto components = static_cast<std::size_t>(field.components);
-    std::vector<double> values = of_cells(cells, field.values, components);
-    values.resize(cells.size() * components, none);
-    values.insert(values.end(), field.edge_values.begin(), field.edge_values.end());
-    values.resize(cells.with_edges() * components, none);
-    file.array(field.name, field.components, values);
-  }
+  // VTK wants a value for every cell; NaN says that a cell has none and is left out of colour ranges.
+  for (const MeshField& field : cells.mesh().fields)
+    if (!field.on_vertices) file.array(field.name, field.components, cells.values(field));
   file.xml("</CellData>\n");
 }
 
@@ -262,11 +189,11 @@ std::string vtu_bytes(const FlatMesh& mesh) {
 
 void write_vtu(const FlatMesh& mesh, const ByteSink& sink) {
   VtuFile file;
-  const VtuCells cells(mesh);
+  const VtkOutput cells(mesh);
   const std::string order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   file.xml("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" + order +
            "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-           std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(cells.with_edges()) + "\">\n");
+           std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(cells.size()) + "\">\n");
   file.xml("<PointData Scalars=\"reference\">\n");
   file.array("reference", 1, all_refs(mesh.vertex_refs, mesh.vertices.size()));
   for (const MeshField& field : mesh.fields)

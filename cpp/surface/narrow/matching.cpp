@@ -7,6 +7,7 @@
 #include "surface/narrow/narrow_faces.h"
 #include "surface/narrow/side_ruler.h"
 #include "surface/narrow/thresholds.h"
+#include "support/error.h"
 
 namespace carreau {
 
@@ -25,8 +26,11 @@ class SideMatcher {
   }
 
   // What one face inserts in a curve another one that has the curve must follow: there are no more rounds than faces in
-  // a row.
+  // a row. A vertex has one place at most on each curve: a curve with more than all vertices together takes images of
+  // images, whose number may double in each round.
   std::vector<int> complete_all() {
+    most_vertices_ = 0;
+    for (const DiscreteCurve& curve : curves_) most_vertices_ += curve.r.size();
     for (std::size_t round = 0; round <= faces_.size() + 1; ++round) {
       bool any = false;
       for (const NarrowFace& narrow : faces_)
@@ -152,12 +156,22 @@ class SideMatcher {
     place(curve, std::move(inside));
   }
 
+  void check_count(const NarrowFace& narrow, const SideRuler& side) const {
+    for (std::size_t p = 0; p < side.parts(); ++p)
+      if (curves_[side.curve(p)].r.size() > most_vertices_)
+        throw DomainError(Where{.face = model_.model.faces[static_cast<std::size_t>(narrow.face)].ref,
+                                .curve = model_.curve(side.curve(p)).ref},
+                          "the sides of the narrow face get more vertices without end: places along them disagree");
+  }
+
   bool complete(const NarrowFace& narrow) {
     const SideRuler one(model_, narrow.face, narrow.side[0]), other(model_, narrow.face, narrow.side[1]);
     const Fractions in_other = missing(narrow, vertices(one, narrow.ring), other, vertices(other, narrow.ring));
     insert(in_other);
+    check_count(narrow, other);
     const Fractions in_one = missing(narrow, vertices(other, narrow.ring), one, vertices(one, narrow.ring));
     insert(in_one);
+    check_count(narrow, one);
     return !in_one.empty() || !in_other.empty();
   }
 
@@ -165,6 +179,7 @@ class SideMatcher {
   std::span<const NarrowFace> faces_;
   std::vector<DiscreteCurve>& curves_;
   std::vector<char> placed_, changed_;  // by curve
+  std::size_t most_vertices_ = 0;       // of one curve
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "io/mesh_files.h"
 #include "io_test_support.h"
@@ -463,7 +464,8 @@ TEST(MeshReaders, VtuErrorsNameTheLine) {
   EXPECT_EQ(sentence("UnstructuredGrid", "PolyData"),
             "x.vtu, line 3: the type of the file is 'PolyData' instead of 'UnstructuredGrid'");
   EXPECT_EQ(sentence("version=\"0.1\"", "compressor=\"vtkLZ4DataCompressor\""),
-            "x.vtu, line 3: its arrays are compressed by 'vtkLZ4DataCompressor'; only vtkZLibDataCompressor is known");
+            "x.vtu, line 3: its arrays are compressed by 'vtkLZ4DataCompressor'; only vtkZLibDataCompressor is known: "
+            "write the file anew with compressor type ZLib or none");
   EXPECT_EQ(sentence("NumberOfPoints='4'", "NumberOfPoints='400000000'"),
             "x.vtu, line 11: array '' has 12 numbers instead of 1200000000");
   EXPECT_EQ(sentence("format='ascii'>\n0 0 0 1 0 0\n0 1 0 0 0 1</DataArray>", "format='ascii'/>"),
@@ -477,7 +479,42 @@ TEST(MeshReaders, VtuErrorsNameTheLine) {
   EXPECT_EQ(sentence("'offsets' format='ascii'", "'offsets' format='appended' offset='0'"),
             "x.vtu, line 17: array 'offsets' lies in AppendedData, which the file does not have");
   EXPECT_EQ(sentence("Name='types'", "Name='kinds'"), "x.vtu, line 5: Cells has no array 'types'");
-  EXPECT_EQ(sentence("</Piece>", "<Piece>"), "x.vtu, line 20: the file has several pieces; one is wanted");
+  EXPECT_EQ(sentence("</Piece>", "<Piece>"), "x.vtu, line 20: NumberOfPoints is '' instead of a number of 32 bits");
+}
+
+// A unit square in two pieces, each with two triangles and a copy of one triangle of the other.
+TEST(MeshReaders, VtuPiecesShareTheirBorder) {
+  const auto piece = [](const std::string& points, const std::string& corners, const std::string& ghosts,
+                        const std::string& refs, const std::string& height) {
+    const auto array = [](const std::string& type, const std::string& name, const std::string& numbers) {
+      return "<DataArray type='" + type + "' Name='" + name + "' format='ascii'>" + numbers + "</DataArray>\n";
+    };
+    return "<Piece NumberOfPoints='5' NumberOfCells='3'>\n<PointData>" + array("Float64", "height", height) +
+           array("Int32", "reference", "1 1 1 1 1") + "</PointData><CellData>" + array("UInt8", "vtkGhostType", ghosts) +
+           array("Int32", "reference", refs) + "</CellData><Points>" + array("Float64", "P", points) + "</Points><Cells>" +
+           array("Int32", "connectivity", corners) + array("Int32", "offsets", "3 6 9") + array("UInt8", "types", "5 5 5") +
+           "</Cells></Piece>\n";
+  };
+  const std::string text =
+      "<?xml version='1.0'?>\n<VTKFile type='UnstructuredGrid' version='0.1' byte_order='LittleEndian'>\n<UnstructuredGrid>\n" +
+      piece("0 0 0 .5 0 0 .5 1 0 0 1 0 1 0 0", "0 1 2 0 2 3 1 4 2", "0 0 1", "1 2 9", "0 .5 .5 0 1") +
+      piece(".5 0 0 1 0 0 1 1 0 .5 1 0 0 0 0", "0 1 3 1 2 3 4 0 3", "0 0 1", "3 4 9", ".5 1 1 .5 0") +
+      "</UnstructuredGrid>\n</VTKFile>\n";
+  const FlatMesh mesh = read_mesh_vtu(text, "x.vtu");
+  EXPECT_EQ(mesh.vertices.size(), 6u);
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{1, 2, 3, 4}));
+  EXPECT_EQ(mesh.vertex_refs, std::vector<std::int32_t>(6, 1));
+  double area = 0;
+  std::map<std::pair<std::int32_t, std::int32_t>, int> sides;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[1]] - mesh.vertices[t[0]], b = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+    area += (a.x() * b.y() - a.y() * b.x()) / 2;
+    for (int k = 0; k < 3; ++k) ++sides[std::minmax(t[k], t[(k + 1) % 3])];
+  }
+  EXPECT_DOUBLE_EQ(area, 1);
+  EXPECT_EQ(std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second == 2; }), 3);
+  ASSERT_EQ(mesh.fields.size(), 1u);
+  for (std::size_t v = 0; v < 6; ++v) EXPECT_EQ(mesh.fields[0].values[v], mesh.vertices[v].x());
 }
 
 }  // namespace

@@ -137,7 +137,8 @@ TEST(Solution, NamesTheLineOfEveryViolation) {
   EXPECT_EQ(error_of(header + "SolAtVertices 1000000000\n1 3\n1 0 1"),
             "x.sol, line 3: 1000000000 vertices are announced, but the rest of the file has room for at most 0");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n2 1 1\n1 2\nEnd"),
-            "x.sol, line 4: there are 2 values at each vertex; one size, field or metric is wanted");
+            "x.sol, line 4: there are 2 values at each vertex (1 scalar, 2 scalar); one size, field or metric is wanted, which the "
+            "parameter sol_field chooses");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n1 2\n1 2 3\nEnd"),
             "x.sol, line 4: the values are vectors (type 2); scalars (1) or symmetric tensors (3) are wanted");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n1 7\n1\nEnd"),
@@ -158,8 +159,34 @@ TEST(Solution, NamesTheByteOfEveryViolation) {
             "x.solb: byte 40: a value is not finite");
   EXPECT_EQ(after(Bytes().i32(62).i32(48).i32(1).i32(1).i32(2).f64(1)),
             "x.solb: byte 32: the values are vectors (type 2); scalars (1) or symmetric tensors (3) are wanted");
-  EXPECT_EQ(after(Bytes().i32(62).i32(48).i32(1).i32(2).i32(1).f64(1)),
-            "x.solb: byte 32: there are 2 values at each vertex; one size, field or metric is wanted");
+  EXPECT_EQ(after(Bytes().i32(62).i32(48).i32(1).i32(2).i32(1).i32(2).f64(1)),
+            "x.solb: byte 32: there are 2 values at each vertex (1 scalar, 2 vector); one size, field or metric is wanted, "
+            "which the parameter sol_field chooses");
+}
+
+TEST(Solution, OneFieldOfSeveralIsChosen) {
+  // A scalar, a vector, a metric and a scalar at each of two vertices: the numbers count from 1.
+  const std::string text = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n2\n4 1 2 3 1\n"
+                           "1 2 3 4 5 6 7 8 9 10 11\n-12 13 14 15 16 0 17 0 0 18 19\nEnd\n";
+  const auto chosen = [&](SolutionUse use, int field) { return read_solution_text(text, "x.sol", {use, field}); };
+  EXPECT_EQ(chosen(SolutionUse::prescription, 4).values, (std::vector<double>{11, 19}));
+  EXPECT_EQ(chosen(SolutionUse::field, 1).values, (std::vector<double>{1, -12}));
+  const Solution metric = chosen(SolutionUse::field, 3);
+  EXPECT_TRUE(metric.tensor);
+  EXPECT_EQ(metric.values, (std::vector<double>{5, 6, 7, 8, 9, 10, 16, 0, 17, 0, 0, 18}));
+  const Solution vector = chosen(SolutionUse::fields, 2);
+  EXPECT_EQ(vector.fields, (std::vector<ValueType>{ValueType::vector}));
+  EXPECT_EQ(vector.values, (std::vector<double>{2, 3, 4, 13, 14, 15}));
+  EXPECT_EQ(chosen(SolutionUse::fields, 0).components(), 11u);
+  const std::string list = "1 scalar, 2 vector, 3 symmetric tensor, 4 scalar";
+  for (const int field : {0, 2, 5}) try {
+      chosen(SolutionUse::prescription, field);
+      ADD_FAILURE() << field;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find(list), std::string::npos) << error.what();
+    }
+  // The values of other fields do not count; the chosen ones do.
+  EXPECT_THROW(chosen(SolutionUse::prescription, 1), FileError);
 }
 
 TEST(Solution, SizesAndMetricsThatCannotBeUsedAreNamedWithTheirPlace) {
