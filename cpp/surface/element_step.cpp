@@ -94,13 +94,13 @@ void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.element == Element::p1) return;
   QuadraticReport now = make_once(run), best = now;
   Attempts attempts(run, mesh_again);
-  const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+  double left = most_growth * std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
   const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
-  for (int round = 0; round < rounds && count(now) > 0; ++round) {
+  for (int round = 0; round < rounds && count(now) > 0 && left >= 0; ++round) {
     if (!attempts.again([&] { divide_curves(run, now.coarse), divide_faces(run, now); })) break;
     now = make_once(run);
+    left -= static_cast<double>(run.result.mesh.triangle_count());
     if (attempts.keep_if(count(now) < count(best))) best = now;
-    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first) break;
   }
   attempts.finish();
   run.result.report.crossings = -1;  // those of straight triangles say nothing of these

@@ -72,7 +72,7 @@ class FreeStep {
     const bool is_free = make_once(From::remeshing);
     messages_of_best_ = messages_;
     if (is_free) best_ = now_;
-    first_ = std::max(few_triangles, static_cast<double>(run_.result.mesh.triangle_count()));
+    growth_ = most_growth * std::max(few_triangles, static_cast<double>(run_.result.mesh.triangle_count()));
     if (is_free) make_finer(From::remeshing);
     if (has_quads(run_.options.element)) try_patches(crossings);
     attempts_.finish();
@@ -129,21 +129,23 @@ class FreeStep {
     return true;
   }
 
-  // As long as fewer elements are invalid or cross, and the mesh does not grow too much for them.
+  // As long as fewer elements are invalid or cross, and the meshes do not grow too much for them.
   void make_finer(From from) {
-    for (int round = 0; round < most_divisions && now_.faults() > 0; ++round) {
+    double left = growth_;
+    for (int round = 0; round < most_divisions && now_.faults() > 0 && left >= 0; ++round) {
       if (!again(from, [&] { divide(); })) return;
       lower_sizes();
       if (!make_once(from)) return;
+      left -= static_cast<double>(run_.result.mesh.triangle_count());
       (void)keep_if(now_.faults() < best_->faults());
-      if (static_cast<double>(run_.result.mesh.triangle_count()) > thresholds::elements::most_growth * first_) return;
     }
   }
 
   // Where borders of patches are not much shorter than elements, quadrilaterals of theirs are more regular than pairs of isotropic
   // triangles. `crossings`: of the patches' own.
   void try_patches(const std::vector<CrossingPlace>& crossings) {
-    for (int round = 0; round <= thresholds::free_elements::most_rounds_of_patches; ++round) {
+    double left = growth_;
+    for (int round = 0; round <= thresholds::free_elements::most_rounds_of_patches && left >= 0; ++round) {
       const bool done = again(From::patches, [&] {
         if (round == 0)
           run_.curves = start_, run_.finer = finer_;
@@ -153,8 +155,9 @@ class FreeStep {
       if (!done) return;
       lower_sizes();
       if (!make_once(From::patches)) return;
+      left -= static_cast<double>(run_.result.mesh.triangle_count());
       (void)keep_if(is_better(crossings));
-      if (now_.faults() == 0 || is_hopeless() || static_cast<double>(run_.result.mesh.triangle_count()) > thresholds::elements::most_growth * first_) return;
+      if (now_.faults() == 0 || is_hopeless()) return;
     }
   }
   // What is valid already is better, whatever becomes of what is not.
@@ -232,7 +235,7 @@ class FreeStep {
   Messages messages_;         // the same
   std::optional<Made> best_;  // empty: no mesh is free
   Messages messages_of_best_;
-  double first_ = 0;  // triangles of the first mesh
+  double growth_ = 0;  // triangles that finer meshes may have together
 };
 
 }  // namespace
