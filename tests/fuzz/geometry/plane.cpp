@@ -32,8 +32,9 @@ struct Graph {
 /// A closed polygon around a place. If it need not be valid, its corners may be out of order, twice, or a segment is missing.
 void add_loop(Random& random, double x, double y, double radius, bool valid, Graph& graph) {
   const int n = 3 + random.below(12);
-  const double wobble = random.chance(0.4) ? 0 : random.uniform(0, 0.95), stretch = random.chance(0.8) ? 1 : random.power(-6, 0);
-  const bool turned = random.chance(0.2), lattice = random.chance(0.2);
+  const double wobble = random.chance(0.4) ? 0 : random.uniform(0, valid ? 0.6 : 0.95),
+               stretch = valid || random.chance(0.8) ? 1 : random.power(-6, 0);
+  const bool turned = random.chance(0.2), lattice = !valid && random.chance(0.2);
   std::vector<std::int32_t> loop;
   for (int i = 0; i < n; ++i) {
     const double a = 2 * std::numbers::pi * i / n * (turned ? -1 : 1), r = radius * (1 - wobble * random.uniform());
