@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <vector>
 
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
@@ -43,6 +44,36 @@ void part_equal_halves(FaceMesh& face) {
       one = {b, c, d}, other = {b, d, a};
     }
     met.insert(corners(one)), met.insert(corners(other));
+  }
+}
+
+std::array<std::int32_t, 2> in_space(const FaceMesh& face, std::int32_t a, std::int32_t b) {
+  const auto [low, high] = std::minmax(face.vertex[a], face.vertex[b]);
+  return {low, high};
+}
+
+// Quadrilaterals may meet in two edges at a fixed vertex, and others beside a fold: a diagonal that is an edge of the face, or a
+// diagonal of another quadrilateral, would be an edge of four triangles. The other diagonal takes its place.
+void part_equal_diagonals(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quads,
+                          std::span<const std::array<std::int32_t, 3>> triangles) {
+  std::vector<std::array<std::int32_t, 2>> edges;
+  edges.reserve(4 * quads.size() + 3 * triangles.size());
+  const auto add_sides = [&](const auto& cell) {
+    for (std::size_t i = 0; i < cell.size(); ++i) edges.push_back(in_space(face, cell[i], cell[(i + 1) % cell.size()]));
+  };
+  for (const auto& quad : quads) add_sides(quad);
+  for (const auto& triangle : triangles) add_sides(triangle);
+  std::ranges::sort(edges);
+  std::set<std::array<std::int32_t, 2>> diagonals;
+  const auto is_taken = [&](const std::array<std::int32_t, 2>& edge) {
+    return diagonals.contains(edge) || std::ranges::binary_search(edges, edge);
+  };
+  for (std::size_t q = 0; q < quads.size(); ++q) {
+    const auto [a, b, c, d] = face.quad(q);
+    const std::array<std::int32_t, 2> one = in_space(face, a, c), other = in_space(face, b, d);
+    const bool turns = is_taken(one) && !is_taken(other);
+    if (turns) face.triangles[2 * q] = {b, c, d}, face.triangles[2 * q + 1] = {b, d, a};
+    diagonals.insert(turns ? other : one);
   }
 }
 
@@ -94,7 +125,10 @@ void set_cells(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quad
       face.triangles.push_back({a, c, d});
     }
   }
-  if (!face.flattened.empty()) part_equal_halves(face);
+  if (face.flattened.empty())
+    part_equal_diagonals(face, quads, triangles);
+  else
+    part_equal_halves(face);
   face.triangles.insert(face.triangles.end(), triangles.begin(), triangles.end());
 }
 

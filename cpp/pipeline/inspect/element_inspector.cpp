@@ -81,7 +81,11 @@ class ElementInspector final : public Inspector {
   void inspect(CompositeRun& run) override {
     if (run.result.mesh.independent) return;  // it has its elements
     now_ = make_once(run);
-    if (first_ == 0) first_ = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+    const auto triangles = static_cast<double>(run.result.mesh.triangle_count());
+    if (!left_)
+      left_ = most_growth * std::max(few_triangles, triangles);
+    else
+      *left_ -= triangles;
   }
 
   [[nodiscard]] bool is_better(const CompositeRun& /*run*/) const override { return count(now_) < count(best_); }
@@ -89,8 +93,7 @@ class ElementInspector final : public Inspector {
 
   [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
     const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
-    if (round_++ == rounds || count(now_) == 0) return {};
-    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first_) return {};
+    if (round_++ == rounds || count(now_) == 0 || *left_ < 0) return {};
     return RefinementRequests{.segments = segments_of(run, now_.coarse), .sizes = now_.finer};
   }
 
@@ -103,7 +106,7 @@ class ElementInspector final : public Inspector {
 
  private:
   QuadraticReport now_, best_;
-  double first_ = 0;  // triangles of the first mesh
+  std::optional<double> left_;  // triangles that finer meshes may have together; empty before the first mesh
   int round_ = 0;
 };
 

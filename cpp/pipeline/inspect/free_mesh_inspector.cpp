@@ -69,7 +69,11 @@ class FreeMeshInspector final : public Inspector {
     else
       lower_sizes(run);
     is_free_ = make_once(run);
-    if (is_first_) first_ = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+    const auto triangles = static_cast<double>(run.result.mesh.triangle_count());
+    if (is_first_)
+      growth_ = left_ = most_growth * std::max(few_triangles, triangles);
+    else
+      left_ -= triangles;
     is_first_ = false;
   }
 
@@ -84,8 +88,8 @@ class FreeMeshInspector final : public Inspector {
   }
 
   [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
-    if (from_ == From::remeshing && !remeshing_continues(run)) return first_of_patches(run);
-    if (from_ == From::patches && !patches_continue(run)) return {};
+    if (from_ == From::remeshing && !remeshing_continues()) return first_of_patches(run);
+    if (from_ == From::patches && !patches_continue()) return {};
     ++round_;
     return divide(run);
   }
@@ -134,24 +138,20 @@ class FreeMeshInspector final : public Inspector {
   }
 
   // As long as fewer elements are invalid or cross, and the mesh does not grow too much for them.
-  [[nodiscard]] bool remeshing_continues(const CompositeRun& run) const {
-    return is_free_ && round_ < most_divisions && now_.faults() > 0 && !has_grown(run);
+  [[nodiscard]] bool remeshing_continues() const {
+    return is_free_ && round_ < most_divisions && now_.faults() > 0 && left_ >= 0;
   }
 
   // Where borders of patches are not much shorter than elements, quadrilaterals of patches are more regular than pairs of isotropic
   // triangles.
   std::optional<RefinementRequests> first_of_patches(const CompositeRun& run) {
     if (!has_quads(run.options.element)) return {};
-    from_ = From::patches, round_ = 0;
+    from_ = From::patches, round_ = 0, left_ = growth_;
     return RefinementRequests{.first_curves = true, .patch_elements = true};
   }
 
-  [[nodiscard]] bool patches_continue(const CompositeRun& run) const {
-    return is_free_ && round_ < thresholds::free_elements::most_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && !has_grown(run);
-  }
-
-  [[nodiscard]] bool has_grown(const CompositeRun& run) const {
-    return static_cast<double>(run.result.mesh.triangle_count()) > thresholds::elements::most_growth * first_;
+  [[nodiscard]] bool patches_continue() const {
+    return is_free_ && round_ < thresholds::free_elements::most_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
   }
 
   // What is valid already is better, whatever becomes of what is not.
@@ -231,7 +231,7 @@ class FreeMeshInspector final : public Inspector {
   std::optional<Made> best_;  // empty: no mesh is free
   Messages messages_of_best_;
   std::vector<CrossingPlace> crossings_of_patches_;  // of straight triangles, before anything was freed
-  double first_ = 0;                                 // triangles of the first mesh
+  double growth_ = 0, left_ = 0;                     // triangles that finer meshes may have together, and may still have
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/cells.h"
+#include "mesh/local_search.h"
 #include "support/infinity.h"
 #include "support/monitor.h"
 #include "surface/elements/thresholds.h"
@@ -25,7 +26,8 @@ inline std::size_t coefficient_at(CellKind kind, int corner) {
 
 /// A pattern search over the nodes of elements below thresholds::elements::good_jacobian: nodes of edges first, then
 /// corners, with half their way for the nodes beside. Elements that are invalid at a corner whatever free nodes do are left as
-/// they are, and nothing moves for them. Nodes are those of `cells`, corners before the nodes of edges. What a place is, and
+/// they are, and nothing moves for them. The search ends when it has tried as many places as thresholds::elements allow.
+/// Nodes are those of `cells`, corners before the nodes of edges. What a place is, and
 /// where nodes may go, Derived says:
 ///   Way, Trial (with a member `node`);
 ///   double score(const Cell&)                          least Jacobian over its mean
@@ -67,17 +69,19 @@ class Mender {
     using namespace thresholds::elements;
     if (bad_.empty()) return;
     find_cells_of_nodes();
+    in_vain_.assign(static_cast<std::size_t>(nodes_), 0);
+    trials_ = Budget(most_trials + most_trials_of_element * std::ssize(cells_));
     hopeless_.assign(cells_.size(), 0);
     for (const std::int32_t c : bad_) hopeless_[c] = static_cast<char>(is_hopeless(cells_[c]));
     std::erase_if(bad_, [&](std::int32_t c) { return hopeless_[c] != 0; });
     for (int round = 0; round < most_rounds; ++round) {
       const std::size_t before = moves_;
-      for (std::size_t i = 0, n = bad_.size(); i < n; ++i) {
+      for (std::size_t i = 0, n = bad_.size(); i < n && !trials_.is_spent(); ++i) {
         monitor_.checkpoint();
         mend(cells_[bad_[i]]);
       }
       std::erase_if(bad_, [&](std::int32_t c) { return self().score(cells_[c]) >= good_jacobian; });
-      if (moves_ == before || bad_.empty()) break;
+      if (moves_ == before || bad_.empty() || trials_.is_spent()) break;
     }
   }
 
@@ -185,6 +189,7 @@ class Mender {
   template <typename Places>
   double judge(const Places& trials) {
     const std::int32_t node = trials.front().node;
+    trials_.spend();
     Places back;
     std::vector<double> sides;
     for (const auto& trial : trials) back.push_back(self().trial_of(trial.node));
@@ -199,9 +204,10 @@ class Mender {
   // Eight directions, halved steps.
   void search(std::int32_t node) {
     using namespace thresholds::elements;
-    if (fixed_[node] != 0) return;
+    if (fixed_[node] != 0 || in_vain_[node] != 0) return;
+    in_vain_[node] = 1;
     double best = worst(node);
-    for (double step = first_step; step >= last_step && best < good_jacobian;) {
+    for (double step = first_step; step >= last_step && best < good_jacobian && !trials_.is_spent();) {
       decltype(self().places(Trials{})) chosen;
       for (const Way& way : self().ways(node, step)) {
         auto trials = self().places(moves_with(node, way));
@@ -216,16 +222,19 @@ class Mender {
       }
       for (const auto& trial : chosen) self().put(trial);
       ++moves_;
-      note_bad(node);
+      note_move(node);
     }
   }
 
-  // What was good may be bad now, as long as something beside was worse.
-  void note_bad(std::int32_t node) {
-    for (const std::int32_t c : around(node))
+  // A good element may be bad now, as long as an element beside was worse. Nodes beside are worth a search again.
+  void note_move(std::int32_t node) {
+    for (const std::int32_t c : around(node)) {
+      for (const std::int32_t beside : cells_[c].nodes)
+        if (beside >= 0) in_vain_[beside] = 0;
       if (hopeless_[c] == 0 && self().score(cells_[c]) < thresholds::elements::good_jacobian &&
           std::find(bad_.begin(), bad_.end(), c) == bad_.end())
         bad_.push_back(c);
+    }
   }
 
   std::vector<Cell> cells_;
@@ -234,7 +243,9 @@ class Mender {
   std::vector<char> hopeless_;  // by cell
   Monitor& monitor_;
   std::vector<std::int32_t> bad_, first_, of_node_;
+  std::vector<char> in_vain_;  // by node: a search has moved nothing, and no node beside has moved since
   std::size_t moves_ = 0;
+  Budget trials_;
 };
 
 }  // namespace carreau

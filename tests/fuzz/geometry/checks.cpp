@@ -92,11 +92,11 @@ std::string fault_of(carreau_session* session, carreau_status status, const char
 }
 
 void set_parameters(carreau_session* session, double diagonal, Random& random) {
-  const double size = diagonal * random.power(-1.1, 0.3);
+  const double size = diagonal * random.power(random.is_small() ? -0.6 : -1.1, 0.3);
   carreau_set_real(session, "hphydef", size);
   carreau_set_real(session, "hphymin", random.chance(0.5) ? size : 0.1 * size);
   carreau_set_real(session, "hphymax", 10 * size);
-  carreau_set_integer(session, "max_triangles", 4000);
+  carreau_set_integer(session, "max_triangles", random.is_small() ? 1000 : 4000);
   if (random.chance(0.3)) carreau_set_word(session, "failing_faces", "leave_out");
   if (random.chance(0.6)) return;
   if (random.chance(0.3)) carreau_set_integer(session, "hgeo_flag", 1), carreau_set_real(session, "hgeomin", 0.2 * size);

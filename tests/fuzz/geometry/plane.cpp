@@ -29,11 +29,12 @@ struct Graph {
   }
 };
 
-/// A closed polygon around a place; a share of its corners is out of order.
-void add_loop(Random& random, double x, double y, double radius, Graph& graph) {
+/// A closed polygon around a place. If it need not be valid, its corners may be out of order, twice, or a segment is missing.
+void add_loop(Random& random, double x, double y, double radius, bool valid, Graph& graph) {
   const int n = 3 + random.below(12);
-  const double wobble = random.chance(0.4) ? 0 : random.uniform(0, 0.95), stretch = random.chance(0.8) ? 1 : random.power(-6, 0);
-  const bool turned = random.chance(0.2), lattice = random.chance(0.2);
+  const double wobble = random.chance(0.4) ? 0 : random.uniform(0, valid ? 0.6 : 0.95),
+               stretch = valid || random.chance(0.8) ? 1 : random.power(-6, 0);
+  const bool turned = random.chance(0.2), lattice = !valid && random.chance(0.2);
   std::vector<std::int32_t> loop;
   for (int i = 0; i < n; ++i) {
     const double a = 2 * std::numbers::pi * i / n * (turned ? -1 : 1), r = radius * (1 - wobble * random.uniform());
@@ -41,10 +42,10 @@ void add_loop(Random& random, double x, double y, double radius, Graph& graph) {
     if (lattice) px = std::round(8 * px) / 8, py = std::round(8 * py) / 8;
     loop.push_back(graph.add(px, py));
   }
-  if (random.chance(0.15)) std::swap(loop[0], loop[static_cast<std::size_t>(random.below(n))]);
-  if (random.chance(0.1)) loop.push_back(loop[static_cast<std::size_t>(random.below(n))]);
+  if (!valid && random.chance(0.15)) std::swap(loop[0], loop[static_cast<std::size_t>(random.below(n))]);
+  if (!valid && random.chance(0.1)) loop.push_back(loop[static_cast<std::size_t>(random.below(n))]);
   const bool one_curve = random.chance(0.6);
-  const std::int32_t kind = random.chance(0.75) ? CARREAU_SEGMENTS : random.chance(0.5) ? CARREAU_SPLINE : CARREAU_ARCS;
+  const std::int32_t kind = random.chance(valid ? 0.95 : 0.75) ? CARREAU_SEGMENTS : random.chance(0.5) ? CARREAU_SPLINE : CARREAU_ARCS;
   loop.push_back(loop.front());
   if (one_curve) {
     graph.along.insert(graph.along.end(), loop.begin(), loop.end());
@@ -52,7 +53,7 @@ void add_loop(Random& random, double x, double y, double radius, Graph& graph) {
     return;
   }
   for (std::size_t i = 0; i + 1 < loop.size(); ++i) {
-    if (random.chance(0.03)) continue;  // a gap
+    if (!valid && random.chance(0.03)) continue;  // a gap
     graph.along.push_back(loop[i]), graph.along.push_back(loop[i + 1]);
     graph.end_curve(CARREAU_SEGMENTS);
   }
@@ -73,18 +74,20 @@ void add_open(Random& random, Graph& graph) {
 Outcome run_plane(std::uint64_t seed) {
   Random random(seed);
   Graph graph;
-  add_loop(random, 0, 0, 1, graph);
+  const bool valid = random.chance(0.7);
+  add_loop(random, 0, 0, 1, valid, graph);
   for (int n = random.below(3); n > 0; --n) {
-    const double x = random.uniform(-0.7, 0.7), y = random.uniform(-0.7, 0.7), radius = random.power(-3, 0);
-    add_loop(random, x, y, radius, graph);
+    const double reach = valid ? 0.03 : 0.7, x = random.uniform(-reach, reach), y = random.uniform(-reach, reach);
+    const double radius = random.power(-3, valid ? -1.5 : 0);
+    add_loop(random, x + (valid ? 0.1 * n - 0.15 : 0), y, radius, valid, graph);
   }
-  for (int n = random.chance(0.5) ? 0 : random.below(4); n > 0; --n) add_open(random, graph);
+  for (int n = valid || random.chance(0.5) ? 0 : random.below(4); n > 0; --n) add_open(random, graph);
   for (int n = random.chance(0.7) ? 0 : random.below(3); n > 0; --n) {
     graph.seeds.push_back(random.uniform(-1, 1)), graph.seeds.push_back(random.uniform(-1, 1));
     graph.seed_refs.push_back(random.chance(0.5) ? -1 : 1 + random.below(3));
   }
   const auto count = graph.points.size() / 2;
-  if (random.chance(0.1)) {  // two points at one place, or nearly
+  if (!valid && random.chance(0.1)) {  // two points at one place, or nearly
     const std::size_t a = static_cast<std::size_t>(random.below(static_cast<int>(count))),
                       b = static_cast<std::size_t>(random.below(static_cast<int>(count)));
     for (std::size_t k = 0; k < 2; ++k)

@@ -24,6 +24,7 @@ namespace {
 struct Options {
   std::string kind;
   std::uint64_t first = 1, count = 100;
+  std::vector<std::uint64_t> seeds;  // run before the others
   unsigned seconds = 60;
   int jobs = 1;
 };
@@ -38,7 +39,7 @@ struct Shared {
 
 Shared* of_process = nullptr;
 
-constexpr std::uint64_t seeds_of_process = 50;
+constexpr std::uint64_t seeds_of_process = 1000;
 
 // Time of the processor, which does not depend on other work of the machine; a run that waits for ever uses none.
 void limit(unsigned seconds) {
@@ -108,7 +109,10 @@ class Runner {
     Job& job = jobs_[j];
     if (job.next >= job.end) {
       const std::uint64_t last = options_.first + options_.count;
-      job.next = next_, job.end = next_ = std::min(last, next_ + seeds_of_process);
+      if (listed_ < options_.seeds.size())
+        job.next = options_.seeds[listed_++], job.end = job.next + 1;
+      else
+        job.next = next_, job.end = next_ = std::min(last, next_ + seeds_of_process);
     }
     job.process = -1;
     if (job.next >= job.end) return;
@@ -151,7 +155,7 @@ class Runner {
     const auto faults = static_cast<unsigned long long>(all.faults + killed_);
     const auto of = [&](Result r) { return static_cast<unsigned long long>(all.results[static_cast<int>(r)]); };
     std::printf("%s: %llu runs, %llu whole, %llu partial, %llu rejected, %llu faults\n", kind_.name.c_str(),
-                static_cast<unsigned long long>(options_.count), of(Result::whole), of(Result::partial),
+                static_cast<unsigned long long>(options_.count + options_.seeds.size()), of(Result::whole), of(Result::partial),
                 of(Result::rejected), faults);
     return faults == 0 ? 0 : 1;
   }
@@ -159,12 +163,22 @@ class Runner {
   const Kind& kind_;
   const Options& options_;
   std::uint64_t next_, killed_ = 0;
+  std::size_t listed_ = 0;  // seeds of the list that have begun
   Shared* shared_;
   std::vector<Job> jobs_;
 };
 
+std::vector<std::uint64_t> list_of(const char* text) {
+  std::vector<std::uint64_t> list;
+  for (char* end = nullptr; *text != '\0'; text = *end == ',' ? end + 1 : end) {
+    list.push_back(std::strtoull(text, &end, 10));
+    if (end == text) std::fputs("--seeds requires numbers with commas between them\n", stderr), std::exit(2);
+  }
+  return list;
+}
+
 int usage(const std::vector<Kind>& kinds) {
-  std::fputs("KIND [--first SEED] [--count N] [--seconds-per-run S] [--jobs N], with a KIND of:", stderr);
+  std::fputs("KIND [--first SEED] [--count N] [--seeds SEED,SEED,...] [--seconds-per-run S] [--jobs N], with a KIND of:", stderr);
   for (const Kind& kind : kinds) std::fprintf(stderr, " %s", kind.name.c_str());
   std::fputs("\n", stderr);
   return 2;
@@ -189,6 +203,8 @@ int main_of(const std::vector<Kind>& kinds, int argc, char** argv) {
       options.first = value();
     else if (word == "--count")
       options.count = value();
+    else if (word == "--seeds")
+      options.seeds = list_of(i + 1 < argc ? argv[++i] : "");
     else if (word == "--seconds-per-run")
       options.seconds = static_cast<unsigned>(value());
     else if (word == "--jobs")
