@@ -47,12 +47,12 @@ class ContactFinder {
   }
 
   SolidContacts run() {
-    for (const auto& [a, b] : pairs_of_boxes()) {
+    for (const auto& pair : pairs_of_boxes()) {
       if (classifications_ >= most_classifications) {
         ++found_.untested;
         continue;
       }
-      guard([&] { compare(a, b); });
+      guard([&] { compare(pair.first, pair.second); });
     }
     std::sort(found_.contacts.begin(), found_.contacts.end(),
               [](const SolidContact& p, const SolidContact& q) { return p.solids < q.solids; });
