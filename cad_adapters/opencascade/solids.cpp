@@ -52,7 +52,7 @@ class ContactFinder {
         ++found_.untested;
         continue;
       }
-      guard([&] { compare(pair.first, pair.second); });
+      guard([&] { compare(pair[0], pair[1]); });
     }
     std::sort(found_.contacts.begin(), found_.contacts.end(),
               [](const SolidContact& p, const SolidContact& q) { return p.solids < q.solids; });
