@@ -78,7 +78,7 @@ void say_what_is_remarkable(CompositeRun& run) {
     if (mesh.status != FaceStatus::meshed && mesh.status != FaceStatus::mended) continue;
     mesh.status = FaceStatus::mended;
     mesh.why += (mesh.why.empty() ? "" : "; ") + what;
-    run.say(Level::warning, what);
+    run.report(Level::warning, what);
   }
 }
 
@@ -96,7 +96,7 @@ std::vector<FaceCollapse> collapses(CompositeRun& run) {
 }  // namespace
 
 void assemble_patches(CompositeRun& run) {
-  run.tell(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
+  run.show_progress(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
   separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads,
                   run.options.parts ? run.options.team : nullptr, run.monitor);
   refuse_degenerate(run);

@@ -49,7 +49,7 @@ void keep_to_curves(CompositeRun& run) {
       bool any = false;
       for (int k = curve.segments() - 1; k >= 0; --k) {
         const bool off = is_off(k);
-        if (off && curve.prescribed) run.say_kept(curve.curve, "geo_guarantee");
+        if (off && curve.prescribed) run.report_kept(curve.curve, "geo_guarantee");
         any = (off && split_segment(curve, k, run.curve_model)) || any;
       }
       if (!any) break;
@@ -57,11 +57,11 @@ void keep_to_curves(CompositeRun& run) {
   }
 }
 
-// Matched sides have vertices at the same places, which those of prescribed edges need not be.
+// Matched sides have vertices at the same places. Vertices of prescribed edges may lie elsewhere.
 bool keeps_prescribed(CompositeRun& run, int face) {
   for (const int c : run.topology.curve_of[face]) {
     if (!run.curves[c].prescribed) continue;
-    run.say_kept(c, "narrow_faces");
+    run.report_kept(c, "narrow_faces");
     return true;
   }
   return false;
@@ -85,7 +85,7 @@ void discretise_curves(CompositeRun& run) {
   const auto start = std::chrono::steady_clock::now();
   const std::size_t n = run.topology.curves.size();
   run.curves.resize(n);
-  // Rules remember what they were told at points, unless there is nothing to ask.
+  // Rules keep the sizes of points for later, unless there is one size everywhere.
   const bool alone = !run.rules.constant() || !asks_from_threads(run.options, run.cad);
   const std::size_t at_once = alone ? 1 : curves_at_once;
   const std::int64_t most = run.options.max_triangles;
@@ -93,7 +93,7 @@ void discretise_curves(CompositeRun& run) {
   for (std::size_t begin = 0; begin < n; begin += at_once) {
     const std::size_t end = std::min(begin + at_once, n);
     run.monitor.checkpoint();
-    run.tell(Phase::curves, run.topology.curves[begin].ref,
+    run.show_progress(Phase::curves, run.topology.curves[begin].ref,
              curves_share * static_cast<double>(begin) / static_cast<double>(n));
     run_each(
         end - begin, alone, run.options.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i); },
@@ -141,7 +141,7 @@ void refine_boundaries(CompositeRun& run) {
     run.narrow.strips.swap(sound);
   }
   for (const int c : run.domains.kept)
-    run.say_kept(c, "the checks of boundaries (edges that cross, are close or uneven)");
+    run.report_kept(c, "the checks of boundaries (edges that cross, are close or uneven)");
   run.result.report.seconds_curves += seconds_since(start);
 }
 

@@ -22,7 +22,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.
+// Parameters of vertices on curves. Sides of narrow faces that have become one curve have none: their vertices have moved.
 void place_on_curves(CompositeRun& run) {
   const SurfaceMesh& mesh = run.result.mesh;
   if (!mesh.independent) run.result.curve_parameters.assign(mesh.curves.size(), {});
@@ -39,8 +39,8 @@ void place_on_curves(CompositeRun& run) {
   }
 }
 
-// Elements that are halved, and faces that vanish, change edges of curves: not without a word where these were told.
-void tell_prescribed(CompositeRun& run) {
+// Halved elements and vanishing faces change edges of curves. A warning names the curves whose edges were prescribed.
+void report_prescribed(CompositeRun& run) {
   const SurfaceMesh& mesh = run.result.mesh;
   for (const DiscreteCurve& curve : run.curves) {
     if (!curve.prescribed) continue;
@@ -49,7 +49,7 @@ void tell_prescribed(CompositeRun& run) {
       return mesh.vertices[static_cast<std::size_t>(v)] == xyz;
     };
     if (chain.empty() || std::equal(chain.begin(), chain.end(), curve.xyz.begin(), curve.xyz.end(), stays)) continue;
-    run.say(Level::warning, Where{.curve = run.topology.curves[static_cast<std::size_t>(curve.curve)].ref}.prefix() +
+    run.report(Level::warning, Where{.curve = run.topology.curves[static_cast<std::size_t>(curve.curve)].ref}.prefix() +
                                 "the mesh has " + std::to_string(chain.size() - 1) + " edges on it, and not the " +
                                 std::to_string(curve.segments()) +
                                 " that are prescribed: its elements or narrow faces need others");
@@ -65,7 +65,7 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   std::vector<std::unique_ptr<Inspector>> inspectors;
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
-    run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
+    run.report(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
   else if (run.options.independent)
     inspectors.push_back(make_free_mesh_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
@@ -88,7 +88,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   rounds.mesh_first();
   for (const std::unique_ptr<Inspector>& inspector : inspectors_of(run)) rounds.refine(*inspector);
   place_on_curves(run);
-  tell_prescribed(run);
+  report_prescribed(run);
   if (options.cracks) open_cracks(run.result);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);

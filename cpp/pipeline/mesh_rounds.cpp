@@ -153,7 +153,7 @@ void MeshRounds::restore() {
   run_.trying = false;
   run_.known.end();
   for (const FaceMesh& face : run_.result.mesh.faces)
-    if (face.status == FaceStatus::failed) run_.say(Level::error, face.why);
+    if (face.status == FaceStatus::failed) run_.report(Level::error, face.why);
 }
 
 }  // namespace carreau

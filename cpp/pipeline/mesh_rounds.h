@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop of a run: mesh, inspect, refine, and mesh again or end. Private to surface/.
+// The loop of a run: mesh, inspect, refine, and mesh again or end. Private to pipeline/.
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,7 @@ namespace {
 
 using namespace thresholds::patches;
 
-// Of all curves, or of those whose edges are prescribed.
+// Short edges of all curves, or only of curves whose edges are prescribed.
 std::vector<EdgeSizes::Source> short_edges(const CompositeRun& run, const FaceDomain& domain,
                                            const std::vector<Vec3>& xyz, bool of_all) {
   std::vector<EdgeSizes::Source> edges;
@@ -82,7 +82,7 @@ void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
     refuse_triangles(Where{.face = run.model.faces[f].ref}, static_cast<double>(most - work.left), most);
 }
 
-// Of a round before this one.
+// Takes the patch of the round before.
 bool keep_known(PatchJobs& work, std::size_t f, const PatchInput& input, const std::vector<EdgeSizes::Source>& grow_from) {
   std::optional<FaceOutcome> known = work.run.known.find(f, input, grow_from);
   if (!known) return false;
@@ -91,7 +91,7 @@ bool keep_known(PatchJobs& work, std::size_t f, const PatchInput& input, const s
   return true;
 }
 
-// Of the faces whose domains could be made and that have no mesh yet.
+// Makes a job of each face that has a domain and no mesh yet.
 void make_jobs(PatchJobs& work) {
   CompositeRun& run = work.run;
   const bool reentrant = asks_from_threads(run.options, run.cad);
@@ -116,7 +116,7 @@ std::vector<std::size_t> order_of_jobs(const PatchJobs& work) {
   return order;
 }
 
-/// By job, judged by boundaries.
+/// Expected triangles by job, estimated from boundaries.
 std::vector<double> expected_triangles(const PatchJobs& work) {
   std::vector<double> triangles;
   for (const std::size_t f : work.face_of) {
@@ -137,7 +137,7 @@ std::vector<std::size_t> faces_to_share(const std::vector<double>& triangles, in
 
 void tell_progress(PatchJobs& work, std::size_t next) {
   if (next == work.jobs.size()) return;
-  work.run.tell(Phase::patches, work.run.model.faces[work.face_of[next]].ref,
+  work.run.show_progress(Phase::patches, work.run.model.faces[work.face_of[next]].ref,
                 curves_share + patches_share * static_cast<double>(next) / static_cast<double>(work.jobs.size()));
 }
 
@@ -168,7 +168,7 @@ void mesh_here(PatchJobs& work) {
               run.monitor);
 }
 
-// Progress is that of the faces begun, by whichever process: outcomes come all at once.
+// Progress counts the faces that any process has begun: outcomes come all at once.
 void mesh_in_team(PatchJobs& work, Team& team) {
   CompositeRun& run = work.run;
   require_same_curves(team, run);
@@ -186,7 +186,7 @@ void mesh_in_team(PatchJobs& work, Team& team) {
               .parts = run.options.parts,
               .on_begun =
                   [&](std::size_t i, std::size_t begun) {
-                    run.tell(Phase::patches, run.model.faces[work.face_of[i]].ref,
+                    run.show_progress(Phase::patches, run.model.faces[work.face_of[i]].ref,
                              curves_share + patches_share * static_cast<double>(begun) / static_cast<double>(work.jobs.size()));
                   },
               .on_finished = [&](std::size_t i, FaceOutcome outcome) { finish(work, i, std::move(outcome)); }},
@@ -243,7 +243,7 @@ void mesh_patches(CompositeRun& run) {
     if (!run.domains.domain[f] && !run.domains.failure[f].empty() && !run.model.faces[f].discrete) run.fail(f, run.domains.failure[f]);
   PatchJobs work{.run = run};
   work.left = run.options.max_triangles;
-  // Narrow faces may be meshed twice in a round, and spaces are those of the second time.
+  // Narrow faces may be meshed twice in a round, and the spaces belong to the second mesh.
   if (run.options.crossing_rounds > 0 && run.narrow.empty() && run.options.team == nullptr)
     run.known.begin(run.model.faces.size());
   else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes of one face: made here or by another process. Private to surface/.
+// The outcome of one face, made here or by another process. Private to pipeline/.
 #pragma once
 
 #include <optional>
@@ -23,17 +23,17 @@ struct FaceOutcome {
   std::optional<PatchElsewhere> elsewhere = {};  ///< set: the patch stays with a process, and is empty for all others
   std::optional<ControlSpace> space;       ///< what was meshed in; empty when it could not be sampled
   std::string failure;                     ///< why the domain could not be meshed; empty when it was
-  std::string remark;                      ///< what is to be known of a mesh that could only be made in another way
+  std::string remark;                      ///< a remark on a mesh that was made in another way
   std::optional<LimitError> beyond_limit;  ///< set when it failed because its mesh has too many triangles
-  /// Of CompositeReport.
+  /// Members of CompositeReport.
   double seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
   int corrections = 0;
 
-  /// As bytes for another process, and back. The second throws Error for bytes that are no outcome.
+  /// Packs the outcome for another process, and unpacks it. The second throws Error for bytes that are no outcome.
   void put(PacketWriter& packet) const;
   static FaceOutcome from(PacketReader& packet);
 
-  /// What others are told when the patch stays with process `rank`: all but the patch and its control space.
+  /// Packs all but the patch and its control space, for a patch that stays with process `rank`.
   [[nodiscard]] FaceOutcome without_patch(int rank) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inspectors look at the assembled mesh and return requests for a finer one. None of them meshes. Private to surface/.
+// Inspectors look at the assembled mesh and return requests for a finer one. None of them meshes. Private to pipeline/.
 #pragma once
 
 #include <cstdint>

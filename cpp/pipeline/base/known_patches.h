@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Patches of an earlier round of a run: a face that is asked the same gets the same mesh, which need not be made again.
-// Private to surface/.
+// Patches of an earlier round of a run: a face with the same input has the same mesh.
+// Private to pipeline/.
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,21 @@
 
 namespace carreau {
 
-/// By face. The control spaces stay in the result of the round.
+/// Patches by face. The control spaces stay in the result of the round.
 class KnownPatches {
  public:
-  /// For every round; without it nothing is kept.
+  /// Begins a round; without it nothing is kept.
   void begin(std::size_t faces) { known_.resize(over_ ? 0 : faces); }
-  /// What the face was asked last, and what came of it. `grow_from`: what input.limits.edges was made of.
+  /// Keeps the last input of the face, and its outcome. `grow_from`: the sources of input.limits.edges.
   void keep(std::size_t face, const PatchInput& input, std::vector<EdgeSizes::Source> grow_from);
   void keep(std::size_t face, const FaceOutcome& outcome);
-  /// The control spaces of the round before this one, by face. They may go after that round's patches were asked for.
+  /// The control spaces of the round before this one, by face. They may go after that round's patches were found.
   void rely_on(const std::vector<std::optional<ControlSpace>>* spaces) noexcept { spaces_ = spaces; }
-  /// What came of the face in the round before, when it was asked the same then; a copy.
+  /// A copy of the outcome of the round before, if the face had the same input then.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
   void clear() { known_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::most_known; }
-  /// Later rounds are others: nothing is kept any more.
+  /// Ends the keeping: later rounds mesh with other options.
   void end() { clear(), over_ = true; }
 
  private:

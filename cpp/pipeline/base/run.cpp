@@ -28,8 +28,7 @@ std::int64_t triangles_by_memory() {
   return INT64_C(50'000'000);
 }
 
-// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked
-// for.
+// Ratio by which sizes grow from triangles that requests make smaller, and from prescribed edges, if no growth is given.
 constexpr double usual_growth = 1.5;
 
 }  // namespace
@@ -58,16 +57,16 @@ double CompositeRun::slope_of_edges() const {
 void CompositeRun::fail(std::size_t face, const std::string& why) {
   result.mesh.faces[face].status = FaceStatus::failed;
   result.mesh.faces[face].why = why;
-  say(Level::error, why);
+  report(Level::error, why);
 }
 
-void CompositeRun::say_kept(int curve, const std::string& what_wants_others) {
-  say(Level::warning, Where{.curve = topology.curves[static_cast<std::size_t>(curve)].ref}.prefix() +
-                          "the edges prescribed on it stay, although " + what_wants_others + " would have others");
+void CompositeRun::report_kept(int curve, const std::string& what_requires_others) {
+  report(Level::warning, Where{.curve = topology.curves[static_cast<std::size_t>(curve)].ref}.prefix() +
+                          "the edges prescribed on it stay, although " + what_requires_others + " requires others");
 }
 
-void CompositeRun::say(Level level, const std::string& what) {
-  if (!trying && told.insert(what).second) monitor.message(level, what);
+void CompositeRun::report(Level level, const std::string& what) {
+  if (!trying && reported.insert(what).second) monitor.message(level, what);
 }
 
 }  // namespace carreau

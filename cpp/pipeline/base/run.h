@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run over a composite surface: what its steps hand to one another. Private to surface/.
+// A run over a composite surface: the data that its steps share. Private to pipeline/.
 #pragma once
 
 #include <cstdint>
@@ -25,24 +25,24 @@ namespace carreau {
 /// CompositeRun::keeper.
 inline constexpr int no_process = -1, all_have = 0;
 
-/// What is given, what steps have made so far, and the result. Keeps references to all that is given.
+/// The input of a run, the results of its steps so far, and its mesh. Keeps references to the input.
 struct CompositeRun {
   CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,
                Cad& given_cad, const CompositeOptions& given_options, Monitor& given_monitor);
 
   [[nodiscard]] double slope() const noexcept { return graded.field ? graded.field->slope() : 0; }
-  /// By which sizes grow from short edges, and from triangles that are to be smaller.
+  /// Slope by which sizes grow from short edges, and from triangles that requests make smaller.
   [[nodiscard]] double slope_of_edges() const;
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
-  /// Progress; `share` of what comes after the gradation.
-  void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
-  /// Says something once; nothing while a mesh is tried that may be given up.
-  void say(Level level, const std::string& what);
-  /// Says that the prescribed edges of a curve stay although something wants others.
-  void say_kept(int curve, const std::string& what_wants_others);
-  /// Here or, where patches stay, with another process.
+  /// Shows progress; `share` counts from the end of the gradation.
+  void show_progress(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
+  /// Reports a sentence once; nothing while a mesh may still be given up.
+  void report(Level level, const std::string& what);
+  /// Reports that the prescribed edges of a curve stay although a rule requires others.
+  void report_kept(int curve, const std::string& what_requires_others);
+  /// The patch is here or, if patches stay, with another process.
   [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
-  /// Whether an inspector may request a finer mesh.
+  /// True if an inspector may request a finer mesh.
   [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
   /// The face has no mesh; others go on.
   void fail(std::size_t face, const std::string& why);
@@ -65,19 +65,19 @@ struct CompositeRun {
   std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
   /// The process that keeps each patch, which is empty elsewhere: all_have where patches do not stay; no_process: there is none.
   std::vector<int> keeper;
-  std::map<std::size_t, std::string> remarks;     ///< the same; what is to be known of a face that was meshed
+  std::map<std::size_t, std::string> remarks;     ///< the same; remarks on faces that were meshed
   CompositeResult result;                         ///< assemble_patches()
   /// The input of the mesh, which the next round refines: its curves, and by face what sizes inside grow from.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
   KnownPatches known;          ///< mesh_patches(), where rounds may follow
-  std::set<std::string> told;  ///< once, however often something is meshed
+  std::set<std::string> reported;  ///< once, however often something is meshed
   bool trying = false;
 };
 
 /// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws what the host throws, LimitError and Cancelled.
 
-/// Grades the prescribed sizes of the whole model, where a gradation is asked for. One size everywhere obeys any.
+/// Grades the prescribed sizes of the whole model if a gradation is given. One size everywhere keeps every gradation.
 void grade_sizes(CompositeRun& run);
 /// Unit discretisation of every curve, once for all faces.
 void discretise_curves(CompositeRun& run);
@@ -86,13 +86,13 @@ void find_narrow(CompositeRun& run);
 /// Curves are cut until every domain can be meshed. A narrow face that is to stay and cannot be meshed between its
 /// sides is one like others, and all is refined again.
 void refine_boundaries(CompositeRun& run);
-/// Sample, mesh, lift of every face, on several threads.
+/// Samples, meshes and lifts every face, on several threads.
 void mesh_patches(CompositeRun& run);
-/// One mesh of all patches; statuses and sentences of its faces.
+/// Makes one mesh of all patches, with statuses and sentences of its faces.
 void assemble_patches(CompositeRun& run);
-/// Narrow faces vanish all together. False, and nothing done, where some cannot.
+/// Lets all narrow faces vanish. False, and nothing done, if one cannot.
 [[nodiscard]] bool collapse_narrow_together(CompositeRun& run);
-/// As many as can vanish, where all were meshed, end caps too.
+/// Lets as many narrow faces vanish as can, after all faces were meshed with their end caps.
 void collapse_narrow_one_by_one(CompositeRun& run);
 
 }  // namespace carreau

@@ -87,7 +87,7 @@ inline constexpr double meets_within = 1e-6, least_slope = 0.1;
 /// Projections from one face to the other and back. The first one finds the distance of parallel faces.
 /// [FaceGap.OfConcentricCylindersIsTheDifferenceOfTheirRadii]
 inline constexpr int projections = 3;
-/// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
+/// Share of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
 inline constexpr double no_sagitta = 1e-12;
 /// Share of the gap that the larger sagitta may fill. [CloseWalls.ThatCrossByTheirChordsAreParted]
 inline constexpr double sagitta_share = 0.5;

@@ -21,7 +21,7 @@ constexpr std::int64_t packet_version = 4;
 
 using Message = std::pair<Level, std::string>;
 
-/// Keeps what one face says.
+/// Keeps the messages of one face.
 class FaceMonitor final : public Monitor {
  public:
   explicit FaceMonitor(std::vector<Message>& messages) : messages_(messages) {}
@@ -35,7 +35,7 @@ class FaceMonitor final : public Monitor {
   Monitor* of_step_ = nullptr;
 };
 
-/// What this process sends. Used by several threads.
+/// Packets that this process sends. Several threads use it.
 class Sent {
  public:
   explicit Sent(const DealtFaces& faces) : parts_(faces.parts), rank_(faces.team.rank()) {}
@@ -49,7 +49,7 @@ class Sent {
     outcome.space.reset();
     kept_.emplace(job, std::move(*outcome.patch));
   }
-  /// Of a job that this process has done and of which the others have been told; once.
+  /// Takes the outcome of a job that this process has done and has sent to the others; once.
   void give_kept(std::size_t job, FaceOutcome& outcome) {
     const auto found = kept_.find(job);
     if (found == kept_.end()) return;
@@ -106,12 +106,12 @@ class Sent {
   std::atomic<std::size_t> first_failed_{static_cast<std::size_t>(-1)};
 };
 
-/// What samples promise of the faces that this process has sampled, beside what their boundaries did. Used by several threads.
+/// Expected triangles by the samples of this process, beside the estimates by boundaries. Several threads use it.
 class Promises {
  public:
   explicit Promises(const DealtFaces& faces)
       : faces_(faces), all_(std::accumulate(faces.expected.begin(), faces.expected.end(), 0.0)) {}
-  /// Whether the job is more than a process's share of all, reckoned as those known so far are.
+  /// True if the job is more than a process's share of all, by the estimates so far.
   bool too_large(std::size_t job, double promised) {
     const std::scoped_lock lock(mutex_);
     promised_ += promised, expected_ += faces_.expected[job];
@@ -192,7 +192,7 @@ class Taker final : public SteppedTask {
   bool done_ = false;
 };
 
-// The error that is nobody's but this process's; none when all went on to the end.
+// The error of this process alone; none if all faces ended.
 SharedError mesh_own_share(const DealtFaces& faces, Sent& sent, Monitor& monitor) {
   try {
     Promises promises(faces);
@@ -213,9 +213,9 @@ struct ReceivedFace {
   std::optional<FaceOutcome> outcome;  ///< none with an error
 };
 
-/// What all processes have sent.
+/// Packets that all processes have sent.
 struct Received {
-  std::vector<std::optional<ReceivedFace>> faces;  ///< by job; none where nobody has meshed it
+  std::vector<std::optional<ReceivedFace>> faces;  ///< by job; none if no process has meshed it
   std::vector<std::size_t> aside;                  ///< jobs that all are to make together
 };
 
@@ -288,7 +288,7 @@ void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, s
   }
 }
 
-void say(const std::vector<Message>& messages, Monitor& monitor) {
+void report(const std::vector<Message>& messages, Monitor& monitor) {
   for (const auto& [level, text] : messages) monitor.message(level, text);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces dealt out to the processes of a team. Private to surface/.
+// Faces dealt out to the processes of a team. Private to pipeline/.
 #pragma once
 
 #include <functional>
@@ -13,12 +13,12 @@
 
 namespace carreau {
 
-/// What all processes know of the faces to mesh; the same in each of them.
+/// The faces to mesh, with their order; the same in all processes.
 struct DealtFaces {
   Team& team;
   std::span<std::unique_ptr<SteppedTask>> jobs;  ///< FaceJob; one that this process has meshed is null afterwards
   std::vector<std::size_t> shared;               ///< indices of jobs that all processes make together, ascending
-  std::vector<std::size_t> order;                ///< those of the others, longest first
+  std::vector<std::size_t> order;                ///< the other jobs, longest first
   std::vector<double> expected;                  ///< triangles, by job, judged by boundaries
   double least_shared = 0;                       ///< triangles of a face that all make together
   int threads = 1;

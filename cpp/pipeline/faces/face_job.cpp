@@ -26,7 +26,7 @@ namespace {
 
 using namespace thresholds::patches;
 
-/// Whether the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
+/// True if the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
 /// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
@@ -133,7 +133,7 @@ void FaceJob::sample(Monitor& monitor) {
   next_ = Step::mesh;
 }
 
-// Of a plane domain all is known: to evaluate it takes no longer than to hear of it from another process.
+// A plane domain costs no more to evaluate than to receive from another process.
 ControlSpace FaceJob::sampled(Monitor& monitor, SampledFacts* facts) const {
   return sample_face(input_, *cad_, *rules_, probe_points_, monitor, facts, asking_samples());
 }
@@ -195,7 +195,7 @@ void FaceJob::lift(Monitor& monitor) {
   check_agreement(doubtful, monitor);
 }
 
-// Where triangles lean, the patch is meshed again in bounded rounds, and the best mesh stays.
+// If triangles lean, the patch is meshed again in bounded rounds, and the best mesh stays.
 void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor) {
   const SurfaceAgreement agreement = measure_agreement(input_, *cad_, doubtful, *mesh_, monitor);
   if (bounded_rounds_ == 0) prescribed_ = agreement;
@@ -294,7 +294,7 @@ void FaceJob::return_to_host(Monitor& monitor) {
                " turned over in (u, v), not in space");
 }
 
-// Whether the mesh has missed places that the control space rightly knows. Others are added to `places`.
+// True if the mesh has missed places that the control space knows correctly. Other places are added to `places`.
 bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   const std::size_t vertices = mesh_->plane.vertices.size();
   if (refills_ == most_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
@@ -309,7 +309,7 @@ bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   return true;
 }
 
-// What the vertices have found is sampled; whether that was news.
+// Samples the places that the vertices have found. True if the control space changes.
 bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
   probe_points_.insert(probe_points_.end(), places.begin(), places.end());
@@ -329,7 +329,7 @@ void FaceJob::refuse_unsound(Monitor& monitor) const {
   for (const Vec3& q : p) extent2 = std::max(extent2, dot(q - p.front(), q - p.front()));
   for (const auto& [a, b, c] : mesh_->plane.triangles) {
     area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
-    if (area > no_area * extent2) break;  // a few triangles tell
+    if (area > no_area * extent2) break;  // a few triangles suffice
   }
   if (!(area > no_area * extent2)) {
     const auto& sides = input_.domain->plane.edges;
@@ -358,7 +358,7 @@ void FaceJob::refuse_jumps(std::size_t most, Monitor& monitor) const {
 }
 
 void FaceJob::refuse_beyond_limit(double expected) const {
-  // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
+  // Twice the expectation: an estimate must not reject a mesh that would have fitted.
   if (expected > 2 * static_cast<double>(options_.max_triangles))
     refuse_triangles(Where{.face = input_.ref}, expected, options_.max_triangles);
 }

@@ -19,7 +19,7 @@
 
 namespace carreau {
 
-/// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
+/// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. The mesh step alone calls no host.
 class FaceJob final : public SteppedTask {
  public:
   /// Keeps references to `cad` and `options`.
@@ -44,7 +44,7 @@ class FaceJob final : public SteppedTask {
     return next_ == Step::mesh && space_ && !mesh_ && !best_ && !squares_ ? space_->measure() : 0;
   }
 
-  /// What came of the face. After a finish, once.
+  /// Takes the outcome of the face, once, after it has finished.
   FaceOutcome take_outcome();
 
  private:
@@ -72,7 +72,7 @@ class FaceJob final : public SteppedTask {
   void return_to_host(Monitor& monitor);
   [[nodiscard]] Vec2 host_uv(const Vec2& p) const { return even_ ? even_->map.to_host(p) : p; }
 
-  /// What is asked and meshed in other parameters than the host's.
+  /// The face in other parameters than the host's.
   struct Even {
     Reparametrisation map;
     FaceDomain domain;
@@ -90,7 +90,7 @@ class FaceJob final : public SteppedTask {
   const CompositeOptions& options_;
   bool reentrant_;
   double given_slope_;
-  EdgeSizes bounded_edges_;  // in place of those of input_, where these are too small
+  EdgeSizes bounded_edges_;  // in place of the edges of input_ if these are too small
   std::optional<LimitError> beyond_limit_;
   Step next_ = Step::sample;
   int corrections_ = 0, refills_ = 0;

@@ -22,7 +22,7 @@ std::string checksum_of(const DiscreteCurve& curve) {
   return checksum(packet.bytes());
 }
 
-/// Of two lists of checksums the first that differs; the length of the shorter one when none does.
+/// Index of the first checksum in which two lists differ; the length of the shorter list if none does.
 std::size_t first_other(const std::string& a, const std::string& b) {
   const auto differ = std::mismatch(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
   return static_cast<std::size_t>(differ.first - a.begin()) / digits;
@@ -37,7 +37,7 @@ std::vector<Vec2> places_in(const PatchMesh& patch, std::size_t imposed) {
   return places;
 }
 
-// What the host says at these places, as bytes. Its error, too, is the same everywhere or not.
+// Packs the answers of the host at these places. An error counts as an answer.
 std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Vec2>& uv) {
   PacketWriter packet;
   try {
@@ -64,7 +64,7 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
   return packet.take();
 }
 
-/// By face.
+/// Checksums by face.
 std::vector<std::vector<Vec2>> places_in_patches(Team& team, const CompositeRun& run) {
   std::vector<std::vector<Vec2>> places(run.patches.size());
   PacketWriter packet;

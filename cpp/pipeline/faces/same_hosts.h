@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What processes agree on, and whether their hosts say the same.
+// Checks that processes agree, and that their hosts give the same answers.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace carreau {
 /// callbacks or parameters are others.
 void require_same_curves(Team& team, const CompositeRun& run);
 
-/// The same of what hosts say at a few vertices of each patch: their positions and prescribed sizes.
+/// The same for the answers of hosts at a few vertices of each patch: positions and prescribed sizes.
 void require_same_surfaces(Team& team, const CompositeRun& run);
 
 /// The same of what a face that all make together was sampled as: its pieces fit together only where it is the same.
 void require_same_samples(Team& team, int face, const ControlSpace& space);
 
-/// The same of the whole mesh: steps after the patches are made by every process, from what its own host says.
+/// The same for the whole mesh: every process makes the steps after the patches, from answers of its own host.
 void require_same_mesh(Team& team, const SurfaceMesh& mesh);
 
 }  // namespace carreau

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is to be finer where triangles of a mesh cross although their faces do not. Private to surface/.
+// Requests for smaller triangles where triangles cross although their faces are apart. Private to pipeline/.
 #pragma once
 
 #include <cstdint>

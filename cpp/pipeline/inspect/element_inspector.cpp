@@ -63,7 +63,7 @@ std::vector<std::pair<std::int32_t, int>> segments_of(const CompositeRun& run, c
   return segments;
 }
 
-void tell(CompositeRun& run, const QuadraticReport& report) {
+void report_invalid(CompositeRun& run, const QuadraticReport& report) {
   for (const InvalidElements& invalid : report.invalid) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
     const std::string what =
@@ -72,7 +72,7 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
         " a Jacobian that is not positive everywhere";
     face.status = FaceStatus::mended;
     face.why += (face.why.empty() ? "" : "; ") + what;
-    run.say(Level::warning, what);
+    run.report(Level::warning, what);
   }
 }
 
@@ -99,9 +99,9 @@ class ElementInspector final : public Inspector {
 
   void report(CompositeRun& run) override {
     if (run.result.mesh.independent) return;
-    run.result.report.crossings = -1;  // those of straight triangles are not those of these elements
+    run.result.report.crossings = -1;  // straight triangles cross elsewhere than these elements
     run.result.crossings.clear();
-    tell(run, best_);
+    report_invalid(run, best_);
   }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance between two faces over triangles that cross. Private to surface/.
+// The distance between two faces over triangles that cross. Private to pipeline/.
 #pragma once
 
 #include "cad/cad.h"

@@ -65,7 +65,7 @@ FaceTriangle::FaceTriangle(const SurfaceMesh& mesh, int face, int local, const C
   sagitta_ = norm(evaluate(model.cad, nearest(position_of(centroid))).jet.s - centroid);
 }
 
-// A seam has two uses in its face: the one whose ends are those of the side.
+// A seam has two uses in its face. The use with the ends of the side counts.
 void FaceTriangle::add_side(const SurfaceMesh& mesh, int face, std::size_t side, const SegmentOfCurve& segment,
                             const std::vector<DiscreteCurve>& curves, const CurveModel& model) {
   const DiscreteCurve& curve = curves[static_cast<std::size_t>(segment.curve)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The piece of a face over one triangle of its mesh. Private to surface/.
+// The piece of a face over one triangle of its mesh. Private to pipeline/.
 #pragma once
 
 #include <cstdint>

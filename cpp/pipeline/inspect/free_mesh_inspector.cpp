@@ -29,7 +29,7 @@ namespace {
 
 using namespace thresholds::elements;
 
-/// What is said of a mesh that may be given up.
+/// Holds the messages on a mesh that may be given up.
 class HeldMonitor final : public Monitor {
  public:
   explicit HeldMonitor(Monitor& to) : to_(to) {}
@@ -44,20 +44,20 @@ class HeldMonitor final : public Monitor {
   std::vector<std::pair<Level, std::string>> held_;
 };
 
-/// Where the triangles come from that elements are made of.
+/// Source of the triangles that elements are made of.
 enum class From {
-  remeshing,  ///< lengths and shapes are those of isotropic triangles, whatever the patches
+  remeshing,  ///< isotropic triangles, whatever the patches
   patches     ///< placed for quadrilaterals by patches: regular ones, whose lengths know the borders
 };
 
-/// What there is to choose by.
+/// Figures by which a mesh is chosen.
 struct Made {
   std::size_t invalid = 0;
   ElementCrossings crossings;
   double shape = 0;            ///< mean
   double elements = 0;
 
-  /// What smaller elements may mend.
+  /// Faults that smaller elements may mend.
   [[nodiscard]] std::size_t faults() const noexcept { return invalid + crossings.fresh.size(); }
 };
 
@@ -137,12 +137,12 @@ class FreeMeshInspector final : public Inspector {
     return true;
   }
 
-  // As long as fewer elements are invalid or cross, and the mesh does not grow too much for them.
+  // Rounds go on while faults are left and the finer meshes stay within their bound.
   [[nodiscard]] bool remeshing_continues() const {
     return is_free_ && round_ < most_divisions && now_.faults() > 0 && left_ >= 0;
   }
 
-  // Where borders of patches are not much shorter than elements, quadrilaterals of patches are more regular than pairs of isotropic
+  // If borders of patches are not much shorter than elements, quadrilaterals of patches are more regular than pairs of isotropic
   // triangles.
   std::optional<RefinementRequests> first_of_patches(const CompositeRun& run) {
     if (!has_quads(run.options.element)) return {};
@@ -154,7 +154,7 @@ class FreeMeshInspector final : public Inspector {
     return is_free_ && round_ < thresholds::free_elements::most_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
   }
 
-  // What is valid already is better, whatever becomes of what is not.
+  // A mesh that is valid already is better than one with faults, even if that one may improve.
   [[nodiscard]] bool is_hopeless() const {
     using thresholds::free_elements::most_of_patches;
     return best_ && best_->faults() == 0 && (now_.shape <= best_->shape || now_.elements > most_of_patches * best_->elements);
@@ -172,14 +172,14 @@ class FreeMeshInspector final : public Inspector {
     RefinementRequests requests{.segments = segments_under(run, invalid_.coarse),
                                 .sizes = invalid_.finer,
                                 .patch_elements = from_ == From::patches};
-    // Sizes are asked of the mesh that is cut, if one is.
+    // Sizes describe the mesh that is cut, if elements are cut.
     const double share = has_quads_only(run.options.element) ? 1 : 0.5;
     for (const CrossingPlace& p : now_.crossings.fresh)
       for (const std::int32_t f : p.faces) requests.sizes[f].push_back({p.place, p.place, share * p.size});
     return requests;
   }
 
-  /// Those that are as long as what is to be divided, or nearly so.
+  /// Segments of curves that are about as long as the edges to divide.
   [[nodiscard]] static std::vector<std::pair<std::int32_t, int>> segments_under(const CompositeRun& run, const std::vector<CoarseEdge>& coarse) {
     std::map<std::pair<int, int>, std::int32_t> curve_of;
     for (std::size_t c = 0; c < run.topology.curves.size(); ++c)
@@ -202,7 +202,7 @@ class FreeMeshInspector final : public Inspector {
     return segments;
   }
 
-  // Patches have smaller sizes beside borders that are shorter than the size, for the sake of their shapes. Nobody asked for these.
+  // Patches have smaller sizes beside borders that are shorter than the size, for the sake of their shapes. The user did not prescribe these.
   static void raise_sizes(CompositeRun& run) {
     const std::optional<double> size = run.rules.constant();
     if (!size || run.graded.field || std::ranges::any_of(run.curves, &DiscreteCurve::prescribed)) return;
@@ -210,7 +210,7 @@ class FreeMeshInspector final : public Inspector {
     lower_sizes(run);
   }
 
-  // Curves and their vertices know nothing of what is to be finer.
+  // Requests lower the sizes of faces alone; the vertices of curves follow here.
   static void lower_sizes(CompositeRun& run) {
     CompositeResult& result = run.result;
     for (std::size_t f = 0; f < run.finer.size(); ++f) {

@@ -77,10 +77,10 @@ struct OwnTriangles {
     std::iota(numbers.begin(), numbers.end(), 0);
     order = spatial_order(mesh.vertices, corners, std::move(numbers), run.monitor, run.options.threads);
   }
-  /// Of the k-th in the order.
+  /// Box of the k-th triangle in the order.
   [[nodiscard]] Box box(std::size_t k) const { return box_of(vertices_, corners[static_cast<std::size_t>(order[k])]); }
 
-  /// Divides what is from `begin` to before `end` in the order.
+  /// Divides the triangles from `begin` to before `end` in the order.
   void divide(std::size_t begin, std::size_t end, std::size_t most, double widest, Groups& groups) const {
     double limit = 0;
     std::size_t first = begin;
@@ -103,7 +103,7 @@ struct OwnTriangles {
   const std::vector<Vec3>& vertices_;
 };
 
-/// Parts of the groups that meet those of other processes.
+/// Parts of the groups that meet groups of other processes.
 Groups small_groups(const CompositeRun& run, const OwnTriangles& own, const Groups& groups, const std::vector<Box>& others) {
   Groups small;
   const BoxTree tree = tree_of(others, run);
@@ -125,7 +125,7 @@ std::string packed(const std::vector<Box>& boxes) {
   return packet.take();
 }
 
-/// What is wanted of those of other processes.
+/// Requests for triangles of other processes.
 std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::vector<Box>& own, const std::function<bool(int)>& wanted) {
   std::vector<Box> boxes;
   const std::vector<std::string> all = team.exchange(step, packed(own));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of this process, and those of others that may cross them. Private to pipeline/parts.
+// Triangles of this process, and triangles of others that may cross them. Private to pipeline/parts.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace carreau {
 
 /// In the order of the whole mesh.
 struct NearTriangles {
-  std::vector<Vec3> vertices;  ///< those of this process first
+  std::vector<Vec3> vertices;  ///< vertices of this process first
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<char> own;                            ///< by triangle: 1: it is kept here
   std::vector<std::int32_t> first;                  ///< by face, and one more: its first triangle
@@ -23,7 +23,7 @@ struct NearTriangles {
   [[nodiscard]] TriangleOfFace origin(std::int32_t triangle) const;
 };
 
-/// Of two processes one looks for what crosses between them: each triangle of the other that may cross one of its own reaches it. All
+/// One of two processes searches for crossings between them: each triangle of the other that may cross one of its own reaches it. All
 /// processes call it.
 NearTriangles near_triangles(const CompositeRun& run);
 

@@ -101,7 +101,7 @@ struct Corner {
 };
 using TriangleCorners = std::array<Corner, 3>;
 
-/// By triangle of the list.
+/// Faces by triangle of the list.
 std::vector<TriangleCorners> corners_of_all(const CompositeRun& run, const std::vector<TriangleOfFace>& triangles) {
   std::vector<TriangleCorners> all(triangles.size());
   for (const std::string& of_rank : run.options.team->exchange("corners of triangles that cross", corners_here(run, triangles)))
@@ -115,7 +115,7 @@ std::vector<TriangleCorners> corners_of_all(const CompositeRun& run, const std::
   return all;
 }
 
-// What nobody asks of the faces stays behind.
+// Leaves out members of faces that no caller reads.
 SurfaceMesh empty_faces(const CompositeRun& run) {
   SurfaceMesh mesh;
   const SurfaceMesh& whole = run.result.mesh;

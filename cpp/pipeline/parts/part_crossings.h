@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that cross in a mesh that several processes keep in parts. Private to surface/.
+// Triangles that cross in a mesh that several processes keep in parts. Private to pipeline/.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t not_here = -1;
 
-/// By vertex of curves: whether faces of two processes meet there.
+/// True by vertex of curves if faces of two processes meet there.
 std::vector<bool> vertices_between_parts(const SurfaceMesh& mesh, const MeshShares& shares) {
   std::vector<int> one(static_cast<std::size_t>(shares.on_curves), -1);
   std::vector<bool> between(one.size(), false);
@@ -32,7 +32,7 @@ std::vector<bool> vertices_between_parts(const SurfaceMesh& mesh, const MeshShar
   return between;
 }
 
-/// Numbers of vertices in which those of each process are consecutive, those on curves first.
+/// Numbers of vertices, consecutive for each process; vertices on curves come first.
 class Rows {
  public:
   Rows(const std::vector<int>& owner_on_curves, const MeshShares& shares) : of_curve_(owner_on_curves.size()), of_face_(shares.of_face.size()) {
@@ -47,7 +47,7 @@ class Rows {
         of_face_[f] = std::exchange(next[static_cast<std::size_t>(share.rank)], next[static_cast<std::size_t>(share.rank)] + share.vertices);
   }
   [[nodiscard]] std::int64_t on_curve(std::size_t vertex) const { return of_curve_[vertex]; }
-  /// Of the first vertex inside a face.
+  /// Number of the first vertex inside a face.
   [[nodiscard]] std::int64_t of_face(std::size_t face) const { return of_face_[face]; }
 
  private:
@@ -215,7 +215,7 @@ class PartMaker {
     add_triangle(corners, mesh_.faces[f].shown_ref(), shares_.of_face[f].first_triangle + ghost.which.local, shares_.of_face[f].rank);
   }
 
-  // Of each curve the least process that keeps a face of it has the edges; rank 0 those of no face.
+  // The least process that keeps a face of a curve has its edges; rank 0 has edges of no face.
   void add_edges() {
     for (const CurveMesh& curve : mesh_.curves) {
       int owner = shares_.processes;

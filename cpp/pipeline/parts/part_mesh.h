@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one process keeps of a mesh that no process has as a whole: from its patches to its part, with ghosts.
+// The part of a mesh that one process keeps when no process has the whole: from its patches to its part, with ghosts.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ struct PartMesh {
   std::int64_t own_vertices = 0, own_triangles = 0;
   std::vector<std::int64_t> vertex_number, triangle_number;  ///< in the whole mesh, from 0
   std::vector<std::int32_t> vertex_owner, triangle_owner;    ///< ranks
-  std::vector<std::int64_t> vertex_row;  ///< numbers of vertices in which those of each process are consecutive
+  std::vector<std::int64_t> vertex_row;  ///< numbers of vertices; each process has consecutive ones
 
-  // Of the whole mesh.
+  // Counts of the whole mesh.
   std::int64_t vertices = 0, triangles = 0, curve_edges = 0;
   std::int64_t loose_edges = 0;  ///< of those, on curves of no face
   std::vector<WholeFace> faces;  ///< with the triangles of all processes
   QualitySummary quality;        ///< sums are rounded otherwise than in one process
-  std::int64_t crossings = -1;   ///< pairs of triangles that cross; -1: nobody has looked
+  std::int64_t crossings = -1;   ///< pairs of triangles that cross; -1: not searched
   /// Those that a file has, by vertices of the whole mesh, with their references: of curves without faces, or of all. Rank 0 alone has
   /// them, and all their number.
   std::int64_t file_edges = 0;
@@ -37,7 +37,7 @@ struct PartMesh {
   std::vector<std::int32_t> file_edge_refs;
 };
 
-/// The sentence that refuses something of a mesh in parts.
+/// The sentence that rejects an option for a mesh in parts.
 inline std::string needs_whole_mesh(const std::string& what) {
   return "a mesh that several processes keep in parts cannot have " + what + ": that needs the whole mesh";
 }

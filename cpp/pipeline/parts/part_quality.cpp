@@ -166,7 +166,7 @@ class Edges {
     }
   }
 
-  // Of edges between vertices of curves: rank 0 counts them, and all vertices of curves.
+  // Rank 0 counts the edges between vertices of curves, and all vertices of curves.
   void add_curves(Team& team) {
     PacketWriter packet;
     for (const auto& [edge, triangles] : of_curves_) packet.put(std::int64_t{edge[0]}), packet.put(std::int64_t{edge[1]}), packet.put(triangles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who keeps what of a mesh in parts. Private to surface/.
+// Processes that keep the faces and vertices of a mesh in parts. Private to pipeline/.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace carreau {
 
-/// Throws InvalidArgument where the options want something that needs the whole mesh. Before anything is made.
+/// Throws InvalidArgument if an option requires the whole mesh. Callers check before they mesh.
 void refuse_parts(const CompositeOptions& options, const SizeRules& rules);
 
 /// The same where narrow faces are to vanish: before a face is meshed.
 void refuse_narrow_parts(const NarrowModel& narrow);
 
-/// What each process says of its own faces reaches all: `of_face` is "" for faces of others before.
+/// Sends the sentences on each process's own faces to all. Before, `of_face` is "" for faces of other processes.
 void share_sentences(Team& team, std::vector<std::string>& of_face);
 
 /// The shares of all processes, after assemble(): numbers are those that one process gives. All processes call it.
 MeshShares share_out(const CompositeRun& run);
 
-/// Numbers in the whole mesh of the vertices that this process has, those on curves first, then those of its faces.
+/// Numbers in the whole mesh of the vertices that this process has: vertices on curves first, then vertices of its faces.
 class PartVertices {
  public:
   explicit PartVertices(const MeshShares& shares);
@@ -34,7 +34,7 @@ class PartVertices {
   std::vector<Run> runs_;  // ascending
 };
 
-/// By vertex of curves: the least rank that keeps a face of one of its curves; 0 for vertices of no face.
+/// The least rank that keeps a face of one of the curves of a vertex, by vertex of curves; 0 for vertices of no face.
 std::vector<int> owners_on_curves(const SurfaceMesh& mesh, const MeshShares& shares);
 
 }  // namespace carreau

@@ -19,10 +19,10 @@ struct TriangleOfFace {
   friend auto operator<=>(const TriangleOfFace&, const TriangleOfFace&) = default;
 };
 
-/// As bytes: vertices that are not on curves once, with their places, then the triangles.
+/// Packs vertices that are not on curves once, with their places, then the triangles.
 std::string show_triangles(const SurfaceMesh& mesh, const MeshShares& shares, std::span<const TriangleOfFace> triangles);
 
-/// One that another process shows. Numbers are those of the whole mesh.
+/// A triangle that another process shows. Its numbers count in the whole mesh.
 struct ShownTriangle {
   struct Corner {
     std::int64_t number = 0;

@@ -184,7 +184,7 @@ TEST(PrescribedCurves, OfNarrowFacesKeepThemFromCollapsing) {
     if (prescribed) model.faces[0].curves[1].edges = told(Progression::equal, 4);
     run.make(model);
     EXPECT_EQ(run.session.mesh().faces[1].status == FaceStatus::collapsed, !prescribed);
-    EXPECT_EQ(run.monitor.says("although narrow_faces would have others"), prescribed);
+    EXPECT_EQ(run.monitor.says("although narrow_faces requires others"), prescribed);
     if (prescribed) {
       EXPECT_EQ(run.lengths(2).size(), 4U);
     }
