@@ -308,13 +308,13 @@ void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
   make_together(faces, all.aside, faces.jobs.size() - all.aside.size(), shared, monitor);
   for (std::size_t i = 0; i < all.faces.size(); ++i) {
     if (const auto found = shared.find(i); found != shared.end()) {
-      say(found->second.messages, monitor);
+      report(found->second.messages, monitor);
       faces.on_finished(i, *std::exchange(found->second.outcome, std::nullopt));
       continue;
     }
     if (!all.faces[i]) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
     ReceivedFace face = *std::exchange(all.faces[i], std::nullopt);
-    say(face.messages, monitor);
+    report(face.messages, monitor);
     if (!face.outcome) face.error.raise();
     sent.give_kept(i, *face.outcome);
     faces.on_finished(i, std::move(*face.outcome));
