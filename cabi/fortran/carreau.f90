@@ -123,10 +123,11 @@ module carreau
     real(c_double) :: uv(2) = 0, t = 0
   end type carreau_error_place
 
+  ! The order of members is older than that of C.
   type :: carreau_parameter
     character(len=:), allocatable :: name, help, default_text, choices
-    real(c_double) :: minimum = 0, maximum = 0, default_number = 0
     integer(c_int32_t) :: type = 0
+    real(c_double) :: minimum = 0, maximum = 0, default_number = 0
     logical :: diag_relative = .false.
   end type carreau_parameter
 
@@ -137,10 +138,12 @@ module carreau
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type carreau_report
 
+  ! The order of members is older than that of C.
   type :: carreau_interface
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
-    logical :: boundary = .false., glued = .false., degenerate = .false., loose = .false.
+    logical :: boundary = .false., glued = .false., degenerate = .false.
     real(c_double) :: gap = 0
+    logical :: loose = .false.
   end type carreau_interface
 
   type :: carreau_background_report
@@ -149,11 +152,12 @@ module carreau
   end type carreau_background_report
 
   !> Zeros stand for the defaults in carreau.h.
+  ! The order of members is older than that of C.
   type :: carreau_estimator
     integer(c_int32_t) :: source = CARREAU_HESSIAN, shape = CARREAU_ISOTROPIC
     logical :: relative = .false.
-    integer(c_int32_t) :: recovery = CARREAU_FIT
     real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
+    integer(c_int32_t) :: recovery = CARREAU_FIT
   end type carreau_estimator
 
   type :: carreau_adaptation_report

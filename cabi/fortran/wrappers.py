@@ -13,6 +13,7 @@ A template is Fortran, with lines that stand for what the header says:
                                    a(n)?       it is not allocated after an error
   !@ type carreau_x                the type of a struct. After the name, logical:a,b names the members that are flags, and
                                    a=1 a first value other than zero
+  !@ flags carreau_x a b           the members of a type, which the template has, that are flags
 Arguments stand in the order of C. Arguments that C returns through pointers lose out_. The status is the last one. Handles
 of sessions and meshes, texts, indices from 1 and sizes of arrays are converted.
 """
@@ -208,7 +209,7 @@ class Template:
     def expand(self, text):
         lines = []
         for number, line in enumerate(text.split("\n"), 1):
-            directive = re.fullmatch(r"\s*!@ (wrap|type) (\w+)\s*(.*)", line)
+            directive = re.fullmatch(r"\s*!@ (wrap|type|flags) (\w+)\s*(.*)", line)
             if not directive:
                 lines.append(line)
                 continue
@@ -217,6 +218,9 @@ class Template:
                 words = re.findall(r"\w+\([^()]*(?:\(\w+\)[^()]*)?\)\S*|\S+", rest)
                 if name not in (self.header.functions if kind == "wrap" else self.header.structs):
                     raise TemplateError(f"the header has no {name}")
+                if kind == "flags":
+                    self.flags[name] = words
+                    continue
                 lines += (Wrapper(self, name, [Array(w) for w in words]).lines() if kind == "wrap" else self.type(name, words))
             except TemplateError as error:
                 raise SystemExit(f"line {number}: {error}") from error
