@@ -19,7 +19,9 @@ std::string bytes_of_step(const std::string& path) {
   return text;
 }
 
-StepRecords::StepRecords(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) { find(); }
+StepRecords::StepRecords(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {
+  find();
+}
 
 void StepRecords::fail(int number, const std::string& why) const {
   throw Failure("'" + path_ + "', #" + std::to_string(number) + ": " + why + ".");

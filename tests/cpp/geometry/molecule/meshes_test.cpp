@@ -192,14 +192,16 @@ const std::vector<Ball> with_tips{{{0, 0, 0}, 1.7}, {{5.6, 0, 0}, 1.7}, {{2.8, 1
 const std::vector<Ball> with_many_tips{
     {{0, 0, 0}, 1.7}, {{5.6, 0, 0}, 1.7}, {{2.8, 2.5, 0}, 1.7}, {{2.8, -2.6, 0.3}, 1.5}};
 
-/// A ball that a lower one and three others cover but for a triangle; `gap` is the radius of its inscribed circle, an angle.
+/// A ball that a lower one and three others cover but for a triangle; `gap` is the radius of its inscribed circle, an
+/// angle.
 std::vector<Ball> ball_with_a_small_triangle(double gap, const std::array<double, 3>& azimuths) {
   constexpr double radius = 1.5, distance = 2, polar = pi / 3;
   std::vector<Ball> balls{{{0, 0, 0}, radius}};
   const double r = std::sqrt(radius * radius + distance * distance - 2 * radius * distance * std::cos(polar - gap));
   for (const double degrees : azimuths) {
     const double a = degrees * pi / 180;
-    balls.push_back({distance * Vec3{std::sin(polar) * std::cos(a), std::sin(polar) * std::sin(a), std::cos(polar)}, r});
+    const Vec3 axis{std::sin(polar) * std::cos(a), std::sin(polar) * std::sin(a), std::cos(polar)};
+    balls.push_back({distance * axis, r});
   }
   balls.push_back({{0, 0, -1.5}, 2.9});
   return balls;
