@@ -20,7 +20,8 @@ struct Tessellation {
 bool is_tessellated_step(const std::string& path);
 
 /// Reads the faces of all TESSELLATED_SHELL and TESSELLATED_SOLID, or those outside of them where there is none:
-/// TRIANGULATED_FACE and COMPLEX_TRIANGULATED_FACE. Throws Failure with the file and the entity.
+/// TRIANGULATED_FACE and COMPLEX_TRIANGULATED_FACE. A component of an assembly is read once for each of its places
+/// (tessellated_assembly.h). Throws Failure with the file and the entity.
 Tessellation read_tessellation(const std::string& path);
 
 }  // namespace command

@@ -130,9 +130,11 @@ ShapeFile read_shape(const std::string& path, const ReadingProgress& progress) {
     refuse(path, std::string("OpenCASCADE cannot read it: ") + failure.GetMessageString());
   }
   if (indicator->stopped()) refuse(path, "was not read to its end: it was asked to stop");
-  if (file.shape.IsNull() || !TopExp_Explorer(file.shape, TopAbs_EDGE).More())
+  if (file.shape.IsNull() || !TopExp_Explorer(file.shape, TopAbs_EDGE).More()) {
+    if (format == Format::step) refuse_tessellated(path);
     refuse(path, std::string("holds no face and no edge") +
                      (file.losses.empty() ? "" : " that can be read (" + file.losses.front() + ")"));
+  }
   return file;
 }
 

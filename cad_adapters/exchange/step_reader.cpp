@@ -268,7 +268,10 @@ void carreau_translate_step(const std::string& path, const Message_ProgressRange
   file.losses = check.losses();
   file.losses.insert(file.losses.end(), translation.losses().begin(), translation.losses().end());
   if (const std::string note = check.passed_over(); !note.empty()) file.notes.push_back(note);
-  if (!translated) refuse_untranslated(path, "STEP", file);
+  if (!translated) {
+    refuse_tessellated(path);
+    refuse_untranslated(path, "STEP", file);
+  }
   file.doubtful = check.doubtful();
   file.doubtful.insert(file.doubtful.end(), translation.doubtful().begin(), translation.doubtful().end());
   document.write(file);

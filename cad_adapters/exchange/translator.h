@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Message_ProgressRange.hxx>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -20,6 +21,15 @@ Translator& iges_translator();
 
 [[noreturn]] inline void refuse(const std::string& path, const std::string& why) {
   throw std::runtime_error(path + ": " + why);
+}
+
+/// Throws when a STEP file that gave no face has tessellated ones: OpenCASCADE 7.6 translates none of them.
+inline void refuse_tessellated(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  for (std::string line; std::getline(stream, line);)
+    if (line.find("TRIANGULATED_FACE") != std::string::npos)
+      refuse(path, "holds no faces but tessellated ones (TRIANGULATED_FACE), which this library does not read; carreau "
+                   "mesh reads them in files of AP242, and carreau_add_triangles takes triangles");
 }
 
 [[noreturn]] inline void refuse_untranslated(const std::string& path, const char* kind, const ShapeFile& file) {

@@ -62,7 +62,14 @@ void say_what_is_narrow(CompositeRun& run) {
   for (const int f : run.narrow.folded) {
     FaceMesh& mesh = run.result.mesh.faces[f];
     mesh.status = FaceStatus::collapsed;
-    mesh.why = Where{.face = mesh.ref}.prefix() + "the face has no width: its sides are the same curves";
+    const std::vector<int>& curves = run.topology.curve_of[static_cast<std::size_t>(f)];
+    const bool point = std::all_of(curves.begin(), curves.end(), [&](int c) {
+      return run.topology.curves[static_cast<std::size_t>(c)].degenerate;
+    });
+    mesh.why = Where{.face = mesh.ref}.prefix() +
+               (point ? "the face is a point of space: each of its sides is so short beside the model (a "
+                        "hundred-thousandth) that it counts as one"
+                      : "the face has no width: its sides are the same curves");
   }
   for (const NarrowFace& face : run.narrow.strips) {
     FaceMesh& mesh = run.result.mesh.faces[face.face];

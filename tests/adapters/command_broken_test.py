@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """command_broken_test.py CARREAU MAKE_SHAPES: `carreau mesh` on files that are broken: a sentence and a status each."""
+import itertools
 import json
+import math
 import os
 import re
 import shutil
@@ -192,6 +194,17 @@ class Broken(unittest.TestCase):
             counts.append(summary["mesh"]["vertices"])
         self.assertEqual(counts[1], counts[0] + 31)
 
+    @staticmethod
+    def vertices(path):
+        with open(path) as file:
+            words = file.read().split("Vertices", 1)[1].split()
+        return [tuple(float(x) for x in words[4 * i + 1:4 * i + 4]) for i in range(int(words[0]))]
+
+    @staticmethod
+    def box(points):
+        """Corners, to nine places."""
+        return tuple(tuple(round(pick(p[k] for p in points), 9) for k in range(3)) for pick in (min, max))
+
     def test_files_to_which_an_assembly_refers(self):
         parts = [name for name in os.listdir(SHAPES) if name.startswith("outside")]
         self.assertEqual(len(parts), 3)
@@ -202,6 +215,17 @@ class Broken(unittest.TestCase):
         done = subprocess.run(command, capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, ALL_FACES, done.stderr)
         self.assertEqual(len(json.loads(done.stdout)["faces"]), 13)  # of two blocks and a ball
+        # The blocks are 1 x 2 x 3, the ball has radius 1: each stands where the assembly puts it.
+        points = self.vertices(out)
+        for low, high in (((10, 0, 0), (11, 2, 3)), ((20, 0, 0), (21, 2, 3))):
+            block = [p for p in points if low[0] - 1 < p[0] < high[0] + 1]
+            self.assertEqual(self.box(block), (low, high))
+            for corner in itertools.product(*zip(low, high)):
+                self.assertLess(min(math.dist(corner, p) for p in block), 1e-9)
+        ball = [p for p in points if p[0] < 5]
+        self.assertEqual(len(points) - len(ball), len([p for p in points if 9 < p[0] < 22]))
+        for p in ball:
+            self.assertAlmostEqual(math.dist(p, (0, 0, 10)), 1, places=9)
         missing = next(name for name in parts if "block" in name)
         os.remove(os.path.join(self.folder, missing))
         done = subprocess.run(command, capture_output=True, text=True, timeout=60)
@@ -236,6 +260,69 @@ END-ISO-10303-21;
                          ("#1=COORDINATES_LIST", "#1=CARTESIAN_POINT")):
             self.assertIn(old, self.TESSELLATED)
             self.refused("cube.stp", self.TESSELLATED.replace(old, new), "#")
+
+    # Cubes of 1 cm: turned, so that its x, y, z are the assembly's -y, -z, x, and moved by 5 cm; moved by -7 cm, with the
+    # assembly's representation first.
+    ASSEMBLY = """#10=PRODUCT_DEFINITION('whole','',$,$);
+#11=PRODUCT_DEFINITION_SHAPE('','',#10);
+#12=SHAPE_REPRESENTATION('',(#40,#41,#42),$);
+#13=SHAPE_DEFINITION_REPRESENTATION(#11,#12);
+#20=PRODUCT_DEFINITION('cube','',$,$);
+#21=PRODUCT_DEFINITION_SHAPE('','',#20);
+#22=SHAPE_REPRESENTATION('',(#40),$);
+#23=SHAPE_DEFINITION_REPRESENTATION(#21,#22);
+#24=TESSELLATED_SHAPE_REPRESENTATION('',(#5),$);
+#25=SHAPE_REPRESENTATION_RELATIONSHIP('','',#22,#24);
+#30=NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','','',#10,#20,$);
+#31=PRODUCT_DEFINITION_SHAPE('','',#30);
+#32=ITEM_DEFINED_TRANSFORMATION('','',#40,#41);
+#33=(REPRESENTATION_RELATIONSHIP('(','',#22,#12)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#32)SHAPE_REPRESENTATION_RELATIONSHIP());
+#34=CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#33,#31);
+#35=NEXT_ASSEMBLY_USAGE_OCCURRENCE('2','','',#10,#20,$);
+#36=PRODUCT_DEFINITION_SHAPE('','',#35);
+#37=ITEM_DEFINED_TRANSFORMATION('','',#42,#40);
+#38=(REPRESENTATION_RELATIONSHIP('','',#12,#22)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#37)SHAPE_REPRESENTATION_RELATIONSHIP());
+#39=CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#38,#36);
+#40=AXIS2_PLACEMENT_3D('',#50,$,$);
+#41=AXIS2_PLACEMENT_3D('',#51,#53,#54);
+#42=AXIS2_PLACEMENT_3D('',#52,$,$);
+#50=CARTESIAN_POINT('',(0.,0.,0.));
+#51=CARTESIAN_POINT('',(5.,0.,0.));
+#52=CARTESIAN_POINT('',(0.,0.,-7.));
+#53=DIRECTION('',(1.,0.,0.));
+#54=DIRECTION('',(0.,-2.,0.));
+"""
+
+    def assembly(self, old="", new=""):
+        self.assertIn(old, self.ASSEMBLY)
+        return self.TESSELLATED.replace("#6=(LENGTH", self.ASSEMBLY.replace(old, new) + "#6=(LENGTH")
+
+    def test_tessellated_components_stand_where_their_assembly_puts_them(self):
+        path, out = os.path.join(self.folder, "two.stp"), os.path.join(self.folder, "two.mesh")
+        with open(path, "w") as file:
+            file.write(self.assembly())
+        done = subprocess.run([PROGRAM, "mesh", path, "-o", out, "--size", "20%", "--json"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, ALL_FACES, done.stderr)
+        summary, points = json.loads(done.stdout), self.vertices(out)
+        self.assertEqual((len(summary["faces"]), summary["closed"]), (6, True))
+        self.assertAlmostEqual(summary["mesh"]["area"], 1200, places=6)
+        self.assertEqual(self.box([p for p in points if p[0] > 25]), ((50, -10, -10), (60, 0, 0)))
+        self.assertEqual(self.box([p for p in points if p[0] < 25]), ((0, 0, -70), (10, 10, -60)))
+
+    def test_other_schemas_have_no_tessellated_shapes(self):
+        self.refused("old.stp", self.TESSELLATED.replace("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF", "AUTOMOTIVE_DESIGN"),
+                     "holds no faces but tessellated ones")
+        self.refused("old.stp", self.assembly().replace("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF", "AUTOMOTIVE_DESIGN"),
+                     "holds no faces but tessellated ones")
+
+    def test_tessellated_assemblies_without_sense(self):
+        for old, new, sentence in (("#10,#20,$);\n#31", "#10,#10,$);\n#31", "#30: the assembly is a part of itself"),
+                                   ("ITEM_DEFINED_TRANSFORMATION('','',#40,#41)", "CARTESIAN_TRANSFORMATION_OPERATOR_3D('',$,$,#50,$,$)", "#32: only"),
+                                   ("(0.,-2.,0.)", "(2.,0.,0.)", "#41: its two directions are parallel"),
+                                   ("(0.,-2.,0.)", "(0.,0.,0.)", "#54: the direction has no length"),
+                                   ("#41=AXIS2_PLACEMENT_3D('',#51", "#41=AXIS2_PLACEMENT_3D('',#99", "it refers to #99"),
+                                   ("(5.,0.,0.)", "(1.E999,0.,0.)", "#51: a coordinate is not finite")):
+            self.refused("two.stp", self.assembly(old, new), sentence)
 
     def test_brep_files_without_a_table_say_so_on_standard_error_only(self):
         for table in ("Surfaces", "Curves ", "TShapes"):

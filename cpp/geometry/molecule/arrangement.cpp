@@ -128,6 +128,34 @@ double share_of(int ball, int round) {
   return static_cast<double>((hash ^ (hash >> 31)) >> 11) * 0x1p-53;
 }
 
+/// Marks arcs of at most a millionth of the smaller radius. A small loop that has a longer arc, or one of another such
+/// loop, keeps all of its arcs: the others would not close.
+void mark_tiny_arcs(Arrangement& a) {
+  constexpr double tiny = 1e-6, small_loop = 1e3;  // small_loop: longest arc of a loop, in lengths of a tiny one
+  std::vector<double> share;                       // of the length of a tiny arc
+  for (const Arc& arc : a.arcs) {
+    const Circle& c = a.circles[arc.circle];
+    share.push_back(c.radius * (arc.b - arc.a) / (tiny * std::min(a.balls[c.i].radius, a.balls[c.j].radius)));
+  }
+  std::vector<char> kept(a.arcs.size());
+  std::transform(share.begin(), share.end(), kept.begin(), [](double s) { return s > 1 ? 1 : 0; });
+  std::vector<const Loop*> small;
+  for (const Component& component : a.components)
+    for (const Loop& loop : component.loops)
+      if (std::all_of(loop.begin(), loop.end(), [&](const ArcUse& use) { return share[use.arc] <= small_loop; }))
+        small.push_back(&loop);
+  for (bool changed = true; changed;) {
+    const auto whole = std::partition(small.begin(), small.end(), [&](const Loop* loop) {
+      return std::none_of(loop->begin(), loop->end(), [&](const ArcUse& use) { return kept[use.arc] != 0; });
+    });
+    changed = whole != small.end();
+    for (auto loop = whole; loop != small.end(); ++loop)
+      for (const ArcUse& use : **loop) kept[use.arc] = 1;
+    small.erase(whole, small.end());
+  }
+  for (std::size_t k = 0; k < a.arcs.size(); ++k) a.arcs[k].tiny = kept[k] == 0;
+}
+
 /// True when all decisions are sure.
 bool decide(Arrangement& a, int threads, Monitor& monitor, Doubts& doubts) {
   const Neighbours neighbours(a.balls);
@@ -137,16 +165,12 @@ bool decide(Arrangement& a, int threads, Monitor& monitor, Doubts& doubts) {
   a.vertices = all_vertices(a.balls, neighbours, threads, monitor, doubts);
   if (!doubts.none()) return false;
   find_arcs(neighbours, a, doubts);
-  return doubts.none() && find_components(neighbours, a);
+  if (!doubts.none() || !find_components(neighbours, a)) return false;
+  mark_tiny_arcs(a);
+  return true;
 }
 
 }  // namespace
-
-bool Arrangement::is_tiny(const Arc& arc) const {
-  constexpr double tiny = 1e-6;
-  const Circle& c = circles[arc.circle];
-  return c.radius * (arc.b - arc.a) <= tiny * std::min(balls[c.i].radius, balls[c.j].radius);
-}
 
 SpaceLoop Arrangement::space_loop(const Loop& loop) const {
   SpaceLoop arcs_in_space;

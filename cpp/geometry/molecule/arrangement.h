@@ -41,6 +41,9 @@ struct Arc {
   int circle = 0;
   int start = -1, end = -1;  ///< vertices; -1: the whole circle
   double a = 0, b = 0;
+  /// At most a millionth of the smaller radius long, and none of a small loop that has longer arcs: a model has a point
+  /// in its place.
+  bool tiny = false;
 
   [[nodiscard]] bool whole() const { return start < 0; }
 };
@@ -74,8 +77,6 @@ struct Arrangement {
     const Circle& c = circle_of(use);
     return {c.centre, c.e1, c.e2, c.radius, arcs[use.arc].a, arcs[use.arc].b, !use.forward};
   }
-  /// Shorter than a millionth of the smaller radius: a model has a point in its place.
-  [[nodiscard]] bool is_tiny(const Arc& arc) const;
   [[nodiscard]] SpaceLoop space_loop(const Loop& loop) const;
   /// Of the union's boundary, from its components, arcs and vertices.
   [[nodiscard]] int euler_number() const;

@@ -23,7 +23,7 @@ class References {
   explicit References(const Arrangement& a) : first_curve_(a.arcs.size(), 0), points_(a.vertices.size()) {
     for (std::size_t k = 0; k < a.arcs.size(); ++k) {
       const Arc& arc = a.arcs[k];
-      if (a.is_tiny(arc)) {
+      if (arc.tiny) {
         if (!arc.whole()) points_.merge(static_cast<std::size_t>(arc.start), static_cast<std::size_t>(arc.end));
         continue;
       }

@@ -241,6 +241,28 @@ bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int fa
   return true;
 }
 
+/// Whether the face is one point of space: each side is, and its middle is no farther from them than they extend. A
+/// closed surface whose whole border is one point is none.
+bool is_point_of_space(const CurveModel& model, int face) {
+  Vec2 middle{0, 0};
+  std::vector<Vec3> border;
+  const std::vector<int>& curve_of = model.topology.curve_of[face];
+  for (std::size_t c = 0; c < curve_of.size(); ++c) {
+    if (!model.curve(curve_of[c]).degenerate) return false;
+    const CurveUse use{face, static_cast<int>(c), false};
+    for (const double r : {0.0, 0.5, 1.0}) {
+      const Vec2 uv = model.cad.curve(model.face_ref(use), use.curve + 1, want_position, parameter_at(model, use, r)).c;
+      middle += uv / (3 * static_cast<double>(curve_of.size()));
+      border.push_back(surface_at(model.cad, model.face_ref(use), want_position, uv).s);
+    }
+  }
+  if (border.empty()) return false;
+  const Vec3 p = surface_at(model.cad, model.model.faces[face].ref, want_position, middle).s;
+  double extent = folded_share * norm(p);
+  for (const Vec3& q : border) extent = std::max(extent, norm(q - border.front()));
+  return norm(p - border.front()) <= extent;
+}
+
 }  // namespace
 
 std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves) {
@@ -258,7 +280,7 @@ std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<Di
       is_folded = here.size() == 2 && is_folded_along(model, curves[c], f, {here[0], here[1]});
       if (!is_folded) break;
     }
-    if (is_folded) folded.push_back(f);
+    if (is_folded || is_point_of_space(model, f)) folded.push_back(f);
   }
   return folded;
 }

@@ -50,8 +50,8 @@ struct NarrowModel {
 };
 
 /// Faces whose whole boundary is there and back along the same curves, with no more between them than the gap of those:
-/// slivers below the tolerance of their file. A closed surface along its seam is none. Indices in Model::faces,
-/// ascending.
+/// slivers below the tolerance of their file. A closed surface along its seam is none. Faces all of whose sides are
+/// degenerate, and that lie where their sides do, are among them. Indices in Model::faces, ascending.
 std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
 
 /// Fills `vanishing`. A face whose curves are a whole loop of another one, a small hole, is left out of the lists: the

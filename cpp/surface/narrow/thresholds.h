@@ -21,7 +21,8 @@ inline constexpr int probes = 12;
 /// Gaps. A face is without width where its surface, halfway between two uses of a curve, is no farther from them,
 /// [Folded.FaceWithoutWidthIsNoFailure]
 inline constexpr double folded_gap = 4;
-/// Share of their length. or than this. [Folded.SeamsAreNot]
+/// Share of their length. or than this. Beside a point of space: share of its coordinates, for rounding.
+/// [Folded.SeamsAreNot]
 inline constexpr double folded_share = 1e-9;
 /// Widths. Vertices on two sides stand for one place when they are as near along the sides: farther apart, triangles
 /// between them would be the worse for it, and a collapse would move them more than it must.

@@ -113,7 +113,7 @@ class ExcludedBuilder {
       sets.merge(static_cast<std::size_t>(p), static_cast<std::size_t>(q));
     };
     for (const Sweep& s : sweeps_) {
-      if (!a_.is_tiny(a_.arcs[s.arc])) continue;
+      if (!a_.arcs[s.arc].tiny) continue;
       merge(points, s.from.low, s.to.low), merge(points, s.from.high, s.to.high);
       merge(curves, s.from.curve, s.to.curve), merge(curves, s.from.second_curve, s.to.second_curve);
     }
@@ -142,7 +142,7 @@ class ExcludedBuilder {
 
   /// A contact circle as the border of a convex part: the circle of the grown balls drawn to the centre.
   void add_contacts(const ArcUse& use, double share, Face& face, std::vector<SpaceArc>& border) {
-    if (a_.is_tiny(a_.arcs[use.arc])) return;
+    if (a_.arcs[use.arc].tiny) return;
     SpaceArc arc = a_.space_arc(use);
     const Vec3& centre = a_.balls[use.forward ? a_.circle_of(use).j : a_.circle_of(use).i].centre;
     arc.centre = centre + share * (arc.centre - centre), arc.radius *= share;
@@ -194,7 +194,7 @@ class ExcludedBuilder {
     measures_.ball_torus[static_cast<std::size_t>(c.j)] += m.area - of_i;
     measures_.torus += m.area;
     measures_.volume += m.flux / 3;
-    if (kept_arc_[sweep.arc] == 0 || a_.is_tiny(a_.arcs[sweep.arc])) return;
+    if (kept_arc_[sweep.arc] == 0 || a_.arcs[sweep.arc].tiny) return;
     Face face;
     face.curves = std::move(curves);
     faces_.add_own(c.i, std::move(face), std::make_unique<TorusPatch>(c, tube, a, b, low, high));

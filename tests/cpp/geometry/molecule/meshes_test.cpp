@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -190,6 +191,33 @@ const std::vector<Ball> with_hole{{{0, 0, 0}, 1.7}, {{5, 0, 0}, 1.7}, {{2.5, 4.3
 const std::vector<Ball> with_tips{{{0, 0, 0}, 1.7}, {{5.6, 0, 0}, 1.7}, {{2.8, 1.5, 0}, 1.7}};
 const std::vector<Ball> with_many_tips{
     {{0, 0, 0}, 1.7}, {{5.6, 0, 0}, 1.7}, {{2.8, 2.5, 0}, 1.7}, {{2.8, -2.6, 0.3}, 1.5}};
+
+/// A ball that a lower one and three others cover but for a triangle; `gap` is the radius of its inscribed circle, an
+/// angle.
+std::vector<Ball> ball_with_a_small_triangle(double gap, const std::array<double, 3>& azimuths) {
+  constexpr double radius = 1.5, distance = 2, polar = pi / 3;
+  std::vector<Ball> balls{{{0, 0, 0}, radius}};
+  const double r = std::sqrt(radius * radius + distance * distance - 2 * radius * distance * std::cos(polar - gap));
+  for (const double degrees : azimuths) {
+    const double a = degrees * pi / 180;
+    const Vec3 axis{std::sin(polar) * std::cos(a), std::sin(polar) * std::sin(a), std::cos(polar)};
+    balls.push_back({distance * axis, r});
+  }
+  balls.push_back({{0, 0, -1.5}, 2.9});
+  return balls;
+}
+
+// A hundred-thousandth of the diagonal, and a millionth of the radius, lie between the shortest and the longest side of
+// some of these triangles.
+TEST(MolecularSurfaces, PartsWhoseSidesShrinkToPointsVanish) {
+  for (const std::array<double, 3>& azimuths : {std::array{0., 60., 210.}, {0., 100., 215.}})
+    for (double gap = 2e-5; gap > 1e-7; gap /= 1.07) {
+      const std::vector<Ball> balls = ball_with_a_small_triangle(gap, azimuths);
+      const SurfaceMesh mesh = mesh_of(built(balls, SurfaceKind::vws), 2);
+      EXPECT_EQ(euler_number_of(mesh), 2) << gap;
+      for (const FaceMesh& face : mesh.faces) EXPECT_NE(face.status, FaceStatus::failed) << gap << ": " << face.why;
+    }
+}
 
 TEST(SolventExcluded, TwoBallsHaveTheAreasOfTheirParts) {
   MoleculeSummary summary;
