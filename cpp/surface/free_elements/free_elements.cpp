@@ -236,9 +236,14 @@ class ElementRounds {
     KeptTriangles kept;
     for (int round = 1;; ++round) {
       make_all(kept);
-      if (kept.all) break;
       const std::vector<std::int32_t> wrong = find_wrong_joints(made_.mesh);
       if (wrong.size() <= wrong_before) break;
+      if (kept.all) {
+        fail_wrong_joints(made_);
+        break;
+      }
+      monitor_.message(Level::detail, "elements are joined wrongly at " + std::to_string(wrong.size()) +
+                                          " vertices: triangles around them stay");
       for (const std::int32_t v : wrong)
         kept.near.push_back({made_.mesh.vertices[v], kept_sizes * std::exp2(round) * made_.vertex_size[v], {}});
       kept.all = round == most_keeps;
