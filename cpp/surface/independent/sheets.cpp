@@ -13,19 +13,19 @@ namespace carreau {
 namespace {
 
 /// A side of a cell, as the cell runs.
-struct Side {
+struct CellSide {
   PlacedCorner from, to;
   std::size_t cell = 0;
   int rank = 0;
-  friend auto operator<=>(const Side&, const Side&) = default;
-  [[nodiscard]] bool runs_as(const Side& other) const { return from == other.from && to == other.to; }
+  friend auto operator<=>(const CellSide&, const CellSide&) = default;
+  [[nodiscard]] bool runs_as(const CellSide& other) const { return from == other.from && to == other.to; }
 };
 
-std::vector<Side> sides_of(const std::vector<PlacedCell>& cells, const std::function<bool(const Side&)>& counts) {
-  std::vector<Side> sides;
+std::vector<CellSide> sides_of(const std::vector<PlacedCell>& cells, const std::function<bool(const CellSide&)>& counts) {
+  std::vector<CellSide> sides;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (int i = 0; i < cells[c].count; ++i) {
-      const Side side{cells[c].corners[i], cells[c].corners[(i + 1) % cells[c].count], c, i};
+      const CellSide side{cells[c].corners[i], cells[c].corners[(i + 1) % cells[c].count], c, i};
       if (counts(side)) sides.push_back(side);
     }
   std::ranges::sort(sides);
@@ -56,20 +56,20 @@ class SheetFinder {
 
   // Over edges of two cells that run along them in opposite ways.
   void join() {
-    const std::vector<Side> sides = sides_of(cells_, [](const Side&) { return true; });
-    const auto only = [&](const PlacedCorner& from, const PlacedCorner& to) -> const Side* {
-      const auto first = std::ranges::lower_bound(sides, Side{from, to, 0, 0});
+    const std::vector<CellSide> sides = sides_of(cells_, [](const CellSide&) { return true; });
+    const auto only = [&](const PlacedCorner& from, const PlacedCorner& to) -> const CellSide* {
+      const auto first = std::ranges::lower_bound(sides, CellSide{from, to, 0, 0});
       if (first == sides.end() || first->from != from || first->to != to) return nullptr;
       return first + 1 == sides.end() || !(first + 1)->runs_as(*first) ? &*first : nullptr;
     };
-    for (const Side& side : sides) {
-      const Side *here = only(side.from, side.to), *beyond = only(side.to, side.from);
+    for (const CellSide& side : sides) {
+      const CellSide *here = only(side.from, side.to), *beyond = only(side.to, side.from);
       if (here == nullptr || beyond == nullptr) continue;
       join(corner(*here, 0), corner(*beyond, 1));
       join(corner(*here, 1), corner(*beyond, 0));
     }
   }
-  [[nodiscard]] std::size_t corner(const Side& side, int end) const {
+  [[nodiscard]] std::size_t corner(const CellSide& side, int end) const {
     return 4 * side.cell + static_cast<std::size_t>((side.rank + end) % cells_[side.cell].count);
   }
 
@@ -93,8 +93,8 @@ class SheetFinder {
 }  // namespace
 
 void part_sheets(std::vector<PlacedCell>& cells, const std::function<bool(std::int32_t)>& may_be_of_several) {
-  const std::vector<Side> on_lines =
-      sides_of(cells, [&](const Side& s) { return may_be_of_several(s.from.vertex) && may_be_of_several(s.to.vertex); });
+  const std::vector<CellSide> on_lines =
+      sides_of(cells, [&](const CellSide& s) { return may_be_of_several(s.from.vertex) && may_be_of_several(s.to.vertex); });
   std::vector<PlacedCorner> ends;
   for (std::size_t k = 1; k < on_lines.size(); ++k)
     if (on_lines[k].runs_as(on_lines[k - 1])) ends.push_back(on_lines[k].from), ends.push_back(on_lines[k].to);
