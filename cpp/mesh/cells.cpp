@@ -2,6 +2,8 @@
 #include "mesh/cells.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -47,35 +49,80 @@ void part_equal_halves(FaceMesh& face) {
   }
 }
 
-std::array<std::int32_t, 2> in_space(const FaceMesh& face, std::int32_t a, std::int32_t b) {
+using Edge = std::array<std::int32_t, 2>;
+
+Edge in_space(const FaceMesh& face, std::int32_t a, std::int32_t b) {
   const auto [low, high] = std::minmax(face.vertex[a], face.vertex[b]);
   return {low, high};
 }
 
-// Quadrilaterals may meet in two edges at a fixed vertex, and others beside a fold: a diagonal that is an edge of the face, or a
-// diagonal of another quadrilateral, would be an edge of four triangles. The other diagonal takes its place.
-void part_equal_diagonals(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quads,
-                          std::span<const std::array<std::int32_t, 3>> triangles) {
-  std::vector<std::array<std::int32_t, 2>> edges;
-  edges.reserve(4 * quads.size() + 3 * triangles.size());
-  const auto add_sides = [&](const auto& cell) {
-    for (std::size_t i = 0; i < cell.size(); ++i) edges.push_back(in_space(face, cell[i], cell[(i + 1) % cell.size()]));
-  };
-  for (const auto& quad : quads) add_sides(quad);
-  for (const auto& triangle : triangles) add_sides(triangle);
-  std::ranges::sort(edges);
-  std::set<std::array<std::int32_t, 2>> diagonals;
-  const auto is_taken = [&](const std::array<std::int32_t, 2>& edge) {
-    return diagonals.contains(edge) || std::ranges::binary_search(edges, edge);
-  };
-  for (std::size_t q = 0; q < quads.size(); ++q) {
-    const auto [a, b, c, d] = face.quad(q);
-    const std::array<std::int32_t, 2> one = in_space(face, a, c), other = in_space(face, b, d);
-    const bool turns = is_taken(one) && !is_taken(other);
-    if (turns) face.triangles[2 * q] = {b, c, d}, face.triangles[2 * q + 1] = {b, d, a};
-    diagonals.insert(turns ? other : one);
+/// Turns diagonals that are edges of other cells. A side of two cells is listed twice, a diagonal once.
+class EqualDiagonals {
+ public:
+  explicit EqualDiagonals(std::vector<FaceMesh>& faces) : faces_(faces) {}
+
+  void part() {
+    list_edges();
+    find_shared();
+    for (bool any = !shared_.empty(); any;) {
+      any = false;
+      for (const Quad& quad : shared_) any = turn(quad) || any;
+    }
   }
-}
+
+ private:
+  struct Quad {
+    std::size_t face, rank;
+  };
+  struct Diagonal {
+    Edge edge;
+    Quad quad;
+  };
+
+  void list_edges() {
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const FaceMesh& face = faces_[f];
+      const auto halves = 2 * static_cast<std::size_t>(face.quads);
+      for (std::size_t t = 0; t < face.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const bool diagonal = t < halves && i == (t % 2 == 0 ? 2U : 0U);
+          if (diagonal && t % 2 != 0) continue;
+          edges_.push_back(in_space(face, face.triangles[t][i], face.triangles[t][(i + 1) % 3]));
+          if (diagonal && face.flattened.empty()) diagonals_.push_back({edges_.back(), {f, t / 2}});
+        }
+    }
+    std::ranges::sort(edges_);
+  }
+
+  // The last ones turn first, so that the first quadrilateral keeps its better halves.
+  void find_shared() {
+    for (const Diagonal& d : diagonals_)
+      if (uses(d.edge) > 1) shared_.push_back(d.quad);
+    std::ranges::reverse(shared_);
+  }
+
+  [[nodiscard]] std::ptrdiff_t uses(const Edge& edge) const {
+    const auto [first, last] = std::ranges::equal_range(edges_, edge);
+    const auto turned = turned_.find(edge);
+    return last - first + (turned == turned_.end() ? 0 : turned->second);
+  }
+
+  bool turn(const Quad& quad) {
+    FaceMesh& face = faces_[quad.face];
+    const auto [a, b, c, d] = face.quad(quad.rank);
+    const Edge now = in_space(face, a, c), other = in_space(face, b, d);
+    if (uses(now) == 1 || uses(other) > 0 || other[0] == other[1]) return false;
+    face.triangles[2 * quad.rank] = {b, c, d}, face.triangles[2 * quad.rank + 1] = {b, d, a};
+    --turned_[now], ++turned_[other];
+    return true;
+  }
+
+  std::vector<FaceMesh>& faces_;
+  std::vector<Edge> edges_;  // ascending
+  std::vector<Diagonal> diagonals_;
+  std::vector<Quad> shared_;
+  std::map<Edge, std::ptrdiff_t> turned_;  // uses that have come, less those that have gone
+};
 
 }  // namespace
 
@@ -125,11 +172,10 @@ void set_cells(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quad
       face.triangles.push_back({a, c, d});
     }
   }
-  if (face.flattened.empty())
-    part_equal_diagonals(face, quads, triangles);
-  else
-    part_equal_halves(face);
+  if (!face.flattened.empty()) part_equal_halves(face);
   face.triangles.insert(face.triangles.end(), triangles.begin(), triangles.end());
 }
+
+void part_equal_diagonals(SurfaceMesh& mesh) { EqualDiagonals(mesh.faces).part(); }
 
 }  // namespace carreau

@@ -17,9 +17,7 @@ class DefectFinder {
   DefectFinder(const SurfaceMesh& mesh, const DefectOptions& options) : mesh_(mesh), options_(options) {}
 
   std::vector<std::string> run() {
-    check_vertices();
-    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) check_face(f);
-    check_curves_in_range();
+    check_indices();
     if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) check_triangles(f);
     check_duplicates();
@@ -28,6 +26,17 @@ class DefectFinder {
     if (defects_.empty())
       for (const std::string& sentence : find_cell_defects(mesh_)) add(sentence);
     return std::move(defects_);
+  }
+
+  std::vector<std::int32_t> run_joints() {
+    check_indices();
+    if (!defects_.empty()) return {};
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) check_triangles(f);
+    check_duplicates();
+    check_edges();
+    std::ranges::sort(at_joints_);
+    at_joints_.erase(std::unique(at_joints_.begin(), at_joints_.end()), at_joints_.end());
+    return std::move(at_joints_);
   }
 
  private:
@@ -51,6 +60,18 @@ class DefectFinder {
     return "triangle " + std::to_string(t) + " of face " + std::to_string(face.ref) + ": ";
   }
   static Key ordered(std::int32_t a, std::int32_t b) { return a < b ? Key{a, b} : Key{b, a}; }
+
+  template <typename Vertices>
+  void add_joint(const std::string& sentence, const Vertices& vertices) {
+    add(sentence);
+    at_joints_.insert(at_joints_.end(), vertices.begin(), vertices.end());
+  }
+
+  void check_indices() {
+    check_vertices();
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) check_face(f);
+    check_curves_in_range();
+  }
 
   void check_vertices() {
     if (mesh_.vertex_ref.size() != mesh_.vertices.size()) add("vertices and vertex references differ in number");
@@ -106,8 +127,9 @@ class DefectFinder {
     bucket_sort(directed, face.uv.size(), [](const Key& edge) { return edge[0]; });
     for (std::size_t i = 1; i < directed.size(); ++i)
       if (directed[i] == directed[i - 1])
-        add("face " + std::to_string(face.ref) + ": two triangles run along one edge the same way, near u = " +
-            std::to_string(face.uv[directed[i][0]].x()) + ", v = " + std::to_string(face.uv[directed[i][0]].y()));
+        add_joint("face " + std::to_string(face.ref) + ": two triangles run along one edge the same way, near u = " +
+                      std::to_string(face.uv[directed[i][0]].x()) + ", v = " + std::to_string(face.uv[directed[i][0]].y()),
+                  Key{face.vertex[directed[i][0]], face.vertex[directed[i][1]]});
   }
 
   void check_duplicates() {
@@ -122,8 +144,9 @@ class DefectFinder {
     bucket_sort(sorted, mesh_.vertices.size(), [](const auto& corners) { return corners[0]; });
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i] == sorted[i - 1])
-        add("two triangles have the same vertices " + std::to_string(sorted[i][0]) + ", " +
-            std::to_string(sorted[i][1]) + ", " + std::to_string(sorted[i][2]));
+        add_joint("two triangles have the same vertices " + std::to_string(sorted[i][0]) + ", " +
+                      std::to_string(sorted[i][1]) + ", " + std::to_string(sorted[i][2]),
+                  sorted[i]);
   }
 
   void check_unused() {
@@ -178,9 +201,9 @@ class DefectFinder {
       const std::string name = "edge " + std::to_string(edge.key[0]) + " - " + std::to_string(edge.key[1]) +
                                " of face " + std::to_string(mesh_.faces[edge.face].ref) + ": ";
       if (want > 0)
-        add(name + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want));
+        add_joint(name + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want), edge.key);
       else
-        add(name + std::to_string(have) + " triangles away from any curve");
+        add_joint(name + std::to_string(have) + " triangles away from any curve", edge.key);
     }
     if (mesh_.independent) check_edges_between(found, expected);
     if (options_.closed) check_closed(found);
@@ -192,8 +215,9 @@ class DefectFinder {
       std::size_t j = i;
       while (j < found.size() && found[j].key == found[i].key) ++j;
       if (j - i != 2 && !std::ranges::binary_search(expected, found[i].key, {}, &EdgeUse::key))
-        add("edge " + std::to_string(found[i].key[0]) + " - " + std::to_string(found[i].key[1]) + ": " +
-            std::to_string(j - i) + " triangles away from any curve");
+        add_joint("edge " + std::to_string(found[i].key[0]) + " - " + std::to_string(found[i].key[1]) + ": " +
+                      std::to_string(j - i) + " triangles away from any curve",
+                  found[i].key);
       i = j;
     }
   }
@@ -211,6 +235,7 @@ class DefectFinder {
   const SurfaceMesh& mesh_;
   const DefectOptions& options_;
   std::vector<std::string> defects_;
+  std::vector<std::int32_t> at_joints_;
 };
 
 }  // namespace
@@ -218,5 +243,7 @@ class DefectFinder {
 std::vector<std::string> find_defects(const SurfaceMesh& mesh, const DefectOptions& options) {
   return DefectFinder(mesh, options).run();
 }
+
+std::vector<std::int32_t> find_wrong_joints(const SurfaceMesh& mesh) { return DefectFinder(mesh, {}).run_joints(); }
 
 }  // namespace carreau

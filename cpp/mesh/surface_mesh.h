@@ -102,6 +102,11 @@ std::vector<Cell> cells_of(const SurfaceMesh& mesh, const FaceMesh& face);
 void set_cells(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quads,
                std::span<const std::array<std::int32_t, 3>> triangles, std::span<const Vec3> vertices);
 
+/// Quadrilaterals may meet in two edges at a fixed vertex, others beside a fold or across a border of faces. A diagonal that is an edge
+/// of another cell, or the diagonal of another quadrilateral, would be an edge of four triangles: cuts these quadrilaterals along
+/// the other diagonal, if no cell has that edge. Elements are of first order. Faces with triangles in `flattened` keep their diagonals.
+void part_equal_diagonals(SurfaceMesh& mesh);
+
 struct DefectOptions {
   bool closed = false;  ///< an edge with one triangle is a defect
   std::size_t limit = 20;
@@ -114,5 +119,9 @@ struct DefectOptions {
 /// is independent of them; triangles of several charts have no area in (u, v)). Faces that are not meshed are passed
 /// over.
 std::vector<std::string> find_defects(const SurfaceMesh& mesh, const DefectOptions& options = {});
+
+/// The vertices of edges that two triangles of a face run along the same way, of edges with a wrong number of triangles, and of
+/// triangles that are there twice, ascending. None if indices are out of range.
+std::vector<std::int32_t> find_wrong_joints(const SurfaceMesh& mesh);
 
 }  // namespace carreau

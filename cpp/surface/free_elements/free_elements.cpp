@@ -31,10 +31,16 @@ using namespace thresholds::free_elements;
 /// Vertices no farther from a place stay while quadrilaterals are made better.
 using HeldPlaces = std::vector<CrossingPlace>;
 
+/// Triangles that stay triangles: with an edge between vertices no farther from a place, or all.
+struct KeptTriangles {
+  HeldPlaces near = {};
+  bool all = false;
+};
+
 class FreeElements {
  public:
   FreeElements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options, Cad& cad,
-               FreedMesh& made, Monitor& monitor)
+               const KeptTriangles& kept, FreedMesh& made, Monitor& monitor)
       : before_(before),
         frame_(frame),
         options_(options),
@@ -43,12 +49,14 @@ class FreeElements {
         surface_(*frame.charts, cad),
         vertices_(*made.free),
         lines_(surface_, vertices_, lines_left(frame, *made.free), made.worked, monitor),
-        cells_(free_cells(surface_, vertices_, lines_, triangles_of(*made.free), monitor)) {}
+        cells_(free_cells(surface_, vertices_, lines_, triangles_of(*made.free), monitor)) {
+    mark(kept);
+  }
 
   /// Straight ones. `gently`: triangles are joined, and nothing else is changed.
   void make_straight(const HeldPlaces& held, bool gently) {
     held_ = held, gently_ = gently;
-    turn_ears(cells_.quads, [&](std::int32_t a, std::int32_t b) { return is_imposed(cells_, lines_, a, b); });
+    turn_ears(cells_.quads, [&](std::int32_t a, std::int32_t b) { return stays(a, b); });
     if (has_quads(options_.element)) {
       pair();
       if (has_quads_only(options_.element))
@@ -81,6 +89,21 @@ class FreeElements {
     return left;
   }
 
+  void mark(const KeptTriangles& kept) {
+    if (!kept.all && kept.near.empty()) return;
+    for (std::size_t v = 0; v < cells_.quads.vertices(); ++v) {
+      const auto is_near = [&](const CrossingPlace& p) { return norm(cells_.quads.place(v).xyz - p.place) <= p.size; };
+      of_triangles_.push_back(static_cast<char>(kept.all || std::ranges::any_of(kept.near, is_near)));
+    }
+  }
+  /// No edit removes the edge.
+  [[nodiscard]] bool stays(std::int32_t a, std::int32_t b) const {
+    const auto is_of_triangles = [&](std::int32_t v) {
+      return static_cast<std::size_t>(v) < of_triangles_.size() && of_triangles_[v] != 0;
+    };
+    return (is_of_triangles(a) && is_of_triangles(b)) || is_imposed(cells_, lines_, a, b);
+  }
+
   [[nodiscard]] double least_in_space() const {
     return surface_.by_direction() ? 0 : thresholds::quads::least_jacobian;
   }
@@ -88,7 +111,7 @@ class FreeElements {
   void pair() {
     using namespace thresholds::quads;
     SpaceQuads& quads = cells_.quads;
-    const ImposedEdges imposed = [&](std::int32_t a, std::int32_t b) { return is_imposed(cells_, lines_, a, b); };
+    const ImposedEdges imposed = [&](std::int32_t a, std::int32_t b) { return stays(a, b); };
     const double turn = turns_per_edge * options_.size.angle_mesh * std::numbers::pi / 180;
     const PairRules rules{imposed, [&](std::int32_t v) { return quads.place(v).xyz; },
                           turn * enlargement_for(options_.element), least_in_space()};
@@ -193,46 +216,84 @@ class FreeElements {
   LineMiddles lines_;
   FreeCells cells_;
   HeldPlaces held_;
-  std::vector<std::size_t> stay_;  // of them
+  std::vector<std::size_t> stay_;   // of them
+  std::vector<char> of_triangles_;  // by local vertex that triangles had; empty: none of those that stay
   bool gently_ = false;
+};
+
+/// Makes elements until they are joined as the triangles are.
+class ElementRounds {
+ public:
+  ElementRounds(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options, Cad& cad, FreedMesh& made,
+                Monitor& monitor)
+      : before_(before), frame_(frame), options_(options), cad_(cad), made_(made), monitor_(monitor) {
+    for (const WorkedLine& line : made.worked) left_.push_back(line.left);
+  }
+
+  ElementCrossings run() {
+    if (has_quads(options_.element)) crossings_before_ = find_crossing_places(made_, options_.threads, monitor_);
+    const std::size_t wrong_before = find_wrong_joints(made_.mesh).size();
+    KeptTriangles kept;
+    for (int round = 1;; ++round) {
+      make_all(kept);
+      const std::vector<std::int32_t> wrong = find_wrong_joints(made_.mesh);
+      if (wrong.size() <= wrong_before) break;
+      if (kept.all) {
+        fail_wrong_joints(made_);
+        break;
+      }
+      monitor_.message(Level::detail, "elements are joined wrongly at " + std::to_string(wrong.size()) +
+                                          " vertices: triangles around them stay");
+      for (const std::int32_t v : wrong)
+        kept.near.push_back({made_.mesh.vertices[v], kept_sizes * std::exp2(round) * made_.vertex_size[v], {}});
+      kept.all = round == most_keeps;
+    }
+    if (!has_quads(options_.element)) return {};
+    if (!fresh_.empty())
+      monitor_.message(Level::warning, std::to_string(fresh_.size()) +
+                                           " pairs of triangles cross, of straight halves of elements: sizes are too large there");
+    return {find_crossing_places(made_, options_.threads, monitor_), std::move(fresh_)};
+  }
+
+ private:
+  void make_all(const KeptTriangles& kept) {
+    HeldPlaces held, held_by_best;
+    std::size_t fewest = 0;
+    for (int attempt = 0; attempt < most_holds; ++attempt) {
+      make(held, kept, kept.all);
+      if (attempt == 0 || fresh_.size() < fewest) fewest = fresh_.size(), held_by_best = held;
+      if (fresh_.empty() || kept.all) break;
+      for (const CrossingPlace& p : fresh_) held.push_back({p.place, held_sizes * std::exp2(attempt) * p.size, {}});
+    }
+    if (fewest > 0 && !kept.all) make({}, kept, true);
+    if (fewest > 0 && !fresh_.empty() && !kept.all) make(held_by_best, kept, false);
+    elements_->finish();
+  }
+
+  void make(const HeldPlaces& held, const KeptTriangles& kept, bool gently) {
+    for (std::size_t k = 0; k < left_.size(); ++k) made_.worked[k].left = left_[k];
+    elements_ = std::make_unique<FreeElements>(before_, frame_, options_, cad_, kept, made_, monitor_);
+    elements_->make_straight(held, gently);
+    fresh_.clear();
+    if (has_quads(options_.element)) fresh_ = new_places(crossings_before_, find_crossing_places(made_, options_.threads, monitor_));
+  }
+
+  const SurfaceMesh& before_;
+  const RemeshingFrame& frame_;
+  const CompositeOptions& options_;
+  Cad& cad_;
+  FreedMesh& made_;
+  Monitor& monitor_;
+  std::vector<std::vector<LineNode>> left_;  // by line, of the triangles
+  std::vector<CrossingPlace> crossings_before_, fresh_;
+  std::unique_ptr<FreeElements> elements_;
 };
 
 }  // namespace
 
 ElementCrossings make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
                                     Cad& cad, FreedMesh& made, Monitor& monitor) {
-  if (!has_quads(options.element)) {
-    FreeElements elements(before, frame, options, cad, made, monitor);
-    elements.make_straight({}, false);
-    elements.finish();
-    return {};
-  }
-  const std::vector<CrossingPlace> before_them = find_crossing_places(made, options.threads, monitor);
-  std::vector<std::vector<LineNode>> left;
-  for (const WorkedLine& line : made.worked) left.push_back(line.left);
-  std::vector<CrossingPlace> fresh;
-  std::unique_ptr<FreeElements> elements;
-  const auto make = [&](const HeldPlaces& held, bool gently) {
-    for (std::size_t k = 0; k < left.size(); ++k) made.worked[k].left = left[k];
-    elements = std::make_unique<FreeElements>(before, frame, options, cad, made, monitor);
-    elements->make_straight(held, gently);
-    fresh = new_places(before_them, find_crossing_places(made, options.threads, monitor));
-  };
-  HeldPlaces held, held_by_best;
-  std::size_t fewest = 0;
-  for (int attempt = 0; attempt < most_holds; ++attempt) {
-    make(held, false);
-    if (attempt == 0 || fresh.size() < fewest) fewest = fresh.size(), held_by_best = held;
-    if (fresh.empty()) break;
-    for (const CrossingPlace& p : fresh) held.push_back({p.place, held_sizes * std::exp2(attempt) * p.size, {}});
-  }
-  if (fewest > 0) make({}, true);
-  if (fewest > 0 && !fresh.empty()) make(held_by_best, false);
-  elements->finish();
-  if (!fresh.empty())
-    monitor.message(Level::warning,
-                    std::to_string(fresh.size()) + " pairs of triangles cross, of straight halves of elements: sizes are too large there");
-  return {find_crossing_places(made, options.threads, monitor), std::move(fresh)};
+  return ElementRounds(before, frame, options, cad, made, monitor).run();
 }
 
 }  // namespace carreau

@@ -105,4 +105,23 @@ void tell_invalid(SurfaceMesh& mesh) {
   }
 }
 
+void fail_wrong_joints(SizedMesh& made) {
+  const std::vector<std::int32_t> wrong = find_wrong_joints(made.mesh);
+  for (std::size_t f = 0; f < made.mesh.faces.size(); ++f) {
+    FaceMesh& face = made.mesh.faces[f];
+    const auto is_wrong = [&](std::int32_t v) { return std::ranges::binary_search(wrong, face.vertex[v]); };
+    const auto found = std::ranges::find_if(face.triangles, [&](const auto& t) { return std::ranges::count_if(t, is_wrong) > 1; });
+    if (found == face.triangles.end()) continue;
+    const Vec3 at = made.mesh.vertices[face.vertex[*std::ranges::find_if(*found, is_wrong)]];
+    const std::string why = Where{.face = face.ref}.prefix() + "elements would run along one edge more than once, near x = " +
+                            std::to_string(at[0]) + ", y = " + std::to_string(at[1]) + ", z = " + std::to_string(at[2]);
+    FaceMesh failed;
+    failed.ref = face.ref, failed.name = face.name, failed.rgb = face.rgb, failed.part_of = face.part_of;
+    failed.status = FaceStatus::failed, failed.why = why;
+    face = std::move(failed);
+    if (f < made.feet.size()) made.feet[f].clear();
+    if (f < made.mid_feet.size()) made.mid_feet[f].clear();
+  }
+}
+
 }  // namespace carreau

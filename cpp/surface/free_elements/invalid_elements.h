@@ -33,4 +33,7 @@ struct InvalidInSpace {
 /// Says so in their faces, which are `mended`.
 void tell_invalid(SurfaceMesh& mesh);
 
+/// Faces with an edge between wrong joints (find_wrong_joints) become `failed`, with a place of such a joint, and lose their elements.
+void fail_wrong_joints(SizedMesh& made);
+
 }  // namespace carreau

@@ -12,6 +12,11 @@ inline constexpr double near_foot = 1e-2;
 inline constexpr double held_sizes = 2;
 /// Times that it is, before triangles are joined and nothing else is done.
 inline constexpr int most_holds = 3;
+/// Where elements join in a way that their triangles do not, triangles so many sizes around stay when all is made again, twice as many
+/// the next time. An element reaches over two sizes. [geometry_fuzz triangles 139, 1000019]
+inline constexpr double kept_sizes = 1;
+/// Times that they are kept around; the last time all triangles stay.
+inline constexpr int most_keeps = 3;
 /// Times as many elements as of isotropic triangles. Where patches force more their sizes are not those that were asked for, however
 /// well the elements are shaped.
 inline constexpr double most_of_patches = 1.25;

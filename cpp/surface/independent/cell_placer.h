@@ -15,9 +15,10 @@ namespace carreau {
 /// Corners of a cell; the last one of a triangle is -1.
 using FreeCell = std::array<std::int32_t, 4>;
 
-/// A vertex of a cell, and which of its places.
+/// A vertex of a cell, and which of its places. Cells of several sheets of a face that meet along an edge may have one place there: the
+/// sheet tells their corners apart.
 struct PlacedCorner {
-  std::int32_t vertex = -1, place = 0;
+  std::int32_t vertex = -1, place = 0, sheet = 0;
   friend auto operator<=>(const PlacedCorner&, const PlacedCorner&) = default;
 };
 

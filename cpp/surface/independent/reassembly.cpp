@@ -10,6 +10,7 @@
 #include "support/error.h"
 #include "support/stepped_tasks.h"
 #include "surface/independent/cell_placer.h"
+#include "surface/independent/sheets.h"
 
 namespace carreau {
 
@@ -33,7 +34,13 @@ class Reassembler {
     result_.feet.resize(before_.faces.size());
     result_.mid_feet.resize(before_.faces.size());
     result_.mesh.faces.resize(before_.faces.size());
-    run_each(before_.faces.size(), false, workers_.threads, [&](std::size_t f, Monitor&) { add_face(f); }, monitor_);
+    locals_.resize(before_.faces.size());
+    const auto each_face = [&](const auto& work) {
+      run_each(before_.faces.size(), false, workers_.threads, [&](std::size_t f, Monitor&) { work(f); }, monitor_);
+    };
+    each_face([&](std::size_t f) { add_face(f); });
+    part_equal_diagonals(result_.mesh);
+    if (!in_space_.nodes.empty()) each_face([&](std::size_t f) { add_nodes(f); });
     add_curves(lines);
     place_on_curves(worked);
     return std::move(result_);
@@ -117,7 +124,8 @@ class Reassembler {
       return;
     }
     std::vector<std::int32_t>& feet = result_.feet[f];
-    std::vector<PlacedCorner> locals;
+    part_sheets(of_face_[f], [&](std::int32_t v) { return !free_.is_free(v); });
+    std::vector<PlacedCorner>& locals = locals_[f];
     for (const PlacedCell& c : of_face_[f]) locals.insert(locals.end(), c.corners.begin(), c.corners.begin() + c.count);
     sort_uniquely(locals);
     for (const PlacedCorner& c : locals) {
@@ -128,7 +136,6 @@ class Reassembler {
       feet.push_back(p.foot.triangle);
     }
     add_cells(of_face_[f], locals, face);
-    if (!in_space_.nodes.empty()) add_nodes(of_face_[f], locals, face, result_.mid_feet[f]);
   }
 
   template <typename T>
@@ -157,8 +164,11 @@ class Reassembler {
   }
 
   // An edge of a face has the same node from both of its sides.
-  void add_nodes(const std::vector<PlacedCell>& cells, const std::vector<PlacedCorner>& locals, FaceMesh& face,
-                 std::vector<std::int32_t>& feet) const {
+  void add_nodes(std::size_t f) {
+    const std::vector<PlacedCell>& cells = of_face_[f];
+    const std::vector<PlacedCorner>& locals = locals_[f];
+    FaceMesh& face = result_.mesh.faces[f];
+    std::vector<std::int32_t>& feet = result_.mid_feet[f];
     std::vector<PlacedCorner> nodes;
     std::map<std::array<std::int32_t, 2>, PlacedCorner> on_edge;  // by local corners, as the cell runs
     for (const PlacedCell& c : cells)
@@ -299,6 +309,7 @@ class Reassembler {
   std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
   std::vector<std::int32_t> node_number_;          // of those that are nodes on edges
   std::vector<std::vector<PlacedCell>> of_face_;
+  std::vector<std::vector<PlacedCorner>> locals_;  // by face, ascending
   std::map<MeshEdge, Beside> beside_;
   std::vector<CurveMesh> more_;
   std::vector<std::int32_t> old_curve_;  // by curve: that of before

@@ -227,6 +227,7 @@ void put_back(std::vector<FaceQuads>& faces, CompositeResult& result) {
   }
   const std::vector<std::int32_t> now = drop(gone, result);
   for (FaceQuads& quads : faces) put_back(quads, now, result);
+  part_equal_diagonals(result.mesh);
 }
 
 }  // namespace carreau

@@ -13,6 +13,7 @@
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
 #include "session_of_size.h"
+#include "surface/free_elements/invalid_elements.h"
 
 namespace carreau {
 namespace {
@@ -216,6 +217,29 @@ TEST(FreeElements, StopWhereverTheyAreAskedAndLeaveNothing) {
     EXPECT_THROW(session->make_mesh(), Cancelled) << k;
     EXPECT_FALSE(session->has_mesh()) << k;
   }
+}
+
+// Three faces of one triangle; two of them have the same corners.
+TEST(FreeElements, FacesWithWrongJointsFail) {
+  SizedMesh made;
+  made.mesh.independent = true;
+  made.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  made.mesh.vertex_ref.assign(6, 0);
+  for (int ref = 1; ref <= 3; ++ref) {
+    const std::int32_t first = ref == 2 ? 3 : 0;
+    FaceMesh& face = made.mesh.faces.emplace_back();
+    face.ref = ref, face.status = FaceStatus::meshed;
+    face.uv = {{0, 0}, {1, 0}, {0, 1}}, face.vertex = {first, first + 1, first + 2}, face.triangles = {{0, 1, 2}};
+    made.feet.push_back({0, 0, 0});
+  }
+  made.mesh.curves = {{1, {0, 1, 2, 0}, {{0, false}, {2, false}}}, {2, {3, 4, 5, 3}, {{1, false}}}};
+  fail_wrong_joints(made);
+  for (const FaceMesh& face : made.mesh.faces) {
+    EXPECT_EQ(face.status, face.ref == 2 ? FaceStatus::meshed : FaceStatus::failed) << face.ref;
+    EXPECT_EQ(face.triangles.size(), face.ref == 2 ? 1U : 0U);
+    EXPECT_EQ(face.why.find("face " + std::to_string(face.ref)) != std::string::npos, face.ref != 2) << face.why;
+  }
+  EXPECT_TRUE(find_wrong_joints(made.mesh).empty());
 }
 
 }  // namespace
