@@ -21,7 +21,8 @@ bool is_body(std::string_view type) { return type == "TESSELLATED_SHELL" || type
 /// Millimetres of the file's unit of length.
 double unit_of(const StepRecords& records) {
   double unit = 1;
-  for (const auto& [number, record] : records.all()) {
+  for (const auto& entry : records.all()) {
+    const auto& record = entry.second;
     if (!record.type.empty() || record.arguments.find("LENGTH_UNIT") == std::string_view::npos) continue;
     if (record.arguments.find("CONVERSION_BASED_UNIT") != std::string_view::npos)
       return record.arguments.find("'INCH") != std::string_view::npos ? millimetres_of_inch : unit;
