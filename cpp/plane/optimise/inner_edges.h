@@ -52,7 +52,7 @@ inline void prefetch_beyond(const Triangulation& mesh, const std::vector<HalfEdg
   if (k + far < edges.size()) {
     const HalfEdge he = edges[k + far];
     const Triangle& T = mesh.triangles[he >> 2];
-    prefetch(&mesh.triangles[T.n[he & 3] >> 2]);
+    if (const HalfEdge beyond = T.n[he & 3]; beyond >= 0) prefetch(&mesh.triangles[beyond >> 2]);
     for (const std::int32_t v : T.v) prefetch(&mesh.vertices[v]);
   }
   if (k + near < edges.size()) {
