@@ -9,7 +9,7 @@
 
 #include "surface/free_elements/element_vertices.h"
 #include "surface/free_elements/line_middles.h"
-#include "surface/independent/cell_placer.h"
+#include "surface/independent/cells/cell_placer.h"
 #include "surface/quads/space_quads.h"
 
 namespace carreau {

@@ -9,8 +9,8 @@
 
 #include "support/error.h"
 #include "support/stepped_tasks.h"
-#include "surface/independent/cell_placer.h"
-#include "surface/independent/sheets.h"
+#include "surface/independent/cells/cell_placer.h"
+#include "surface/independent/cells/sheets.h"
 
 namespace carreau {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/independent/cell_placer.h"
+#include "surface/independent/cells/cell_placer.h"
 #include "surface/independent/division/divided_remeshing.h"
 #include "surface/independent/free_mesh.h"
 #include "surface/independent/line_remeshing.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "surface/independent/bounds/triangle_bound.h"
-#include "surface/independent/cell_placer.h"
+#include "surface/independent/cells/cell_placer.h"
 #include "surface/independent/free_mesh.h"
 
 namespace carreau {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/independent/sheets.h"
+#include "surface/independent/cells/sheets.h"
 
 namespace carreau {
 namespace {

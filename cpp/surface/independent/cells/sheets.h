@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "surface/independent/cell_placer.h"
+#include "surface/independent/cells/cell_placer.h"
 
 namespace carreau {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/independent/sheets.h"
+#include "surface/independent/cells/sheets.h"
 
 #include <algorithm>
 #include <compare>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/independent/cell_placer.h"
+#include "surface/independent/cells/cell_placer.h"
 
 #include <algorithm>
 #include <cmath>
