@@ -102,7 +102,7 @@ class EqualDiagonals {
   }
 
   [[nodiscard]] std::ptrdiff_t uses(const Edge& edge) const {
-    const auto [first, last] = std::ranges::equal_range(edges_, edge);
+    const auto [first, last] = std::equal_range(edges_.begin(), edges_.end(), edge);
     const auto turned = turned_.find(edge);
     return last - first + (turned == turned_.end() ? 0 : turned->second);
   }
