@@ -172,22 +172,26 @@ class Writer:
         return "\n".join(self.lines) + "\n"
 
 
+def written(text, check, paths):
+    """Writes the text to the last path, or compares it with the file there. Returns the exit status: 1 if they differ."""
+    if not check:
+        with open(paths[-1], "w", encoding="utf-8") as module:
+            module.write(text)
+        return 0
+    with open(paths[-1], encoding="utf-8") as module:
+        if module.read() == text:
+            return 0
+    print(f"{paths[-1]} is older than {' or '.join(paths[:-1])}. Write it again:\n  python3 {sys.argv[0]} {' '.join(paths)}")
+    return 1
+
+
 def main():
     check = sys.argv[1] == "--check"
     header_path, module_path = sys.argv[-2:]
     name = os.path.basename(header_path).removesuffix(".h")
     folder = "cad_adapters/cad/" if name == "carreau_cad" else "cabi/"
     text = Writer(Header(header_path), folder).module(name)
-    if not check:
-        with open(module_path, "w", encoding="utf-8") as module:
-            module.write(text)
-        return 0
-    with open(module_path, encoding="utf-8") as module:
-        if module.read() == text:
-            return 0
-    print(f"{module_path} is not what {name}.h says. Write it anew:\n"
-          f"  python3 {sys.argv[0]} {header_path} {module_path}")
-    return 1
+    return written(text, check, [header_path, module_path])
 
 
 if __name__ == "__main__":

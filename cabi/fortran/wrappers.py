@@ -22,7 +22,7 @@ import re
 import sys
 
 from c_header import Header
-from generate import WIDTH, fortran_name, grouped, in_lines
+from generate import WIDTH, fortran_name, grouped, in_lines, written
 
 HANDLES = ("carreau_session", "carreau_mesh")
 KINDS = {"int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)", "double": "real(c_double)",
@@ -236,16 +236,7 @@ def main():
     too_long = [line for line in text.split("\n") if len(line) > 132]
     if too_long:
         raise SystemExit(f"longer than Fortran allows: {too_long[0]}")
-    if not check:
-        with open(module, "w", encoding="utf-8") as file:
-            file.write(text)
-        return 0
-    with open(module, encoding="utf-8") as file:
-        if file.read() == text:
-            return 0
-    print(f"{module} is not what the header and {template} say. Write it anew:\n"
-          f"  python3 {sys.argv[0]} {header} {template} {module}")
-    return 1
+    return written(text, check, [header, template, module])
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace command {
 
@@ -37,6 +38,7 @@ Placement Placement::inverse() const {
 namespace {
 
 constexpr int most_components = 1'000'000;  // a cycle is found before; nested patterns multiply
+constexpr std::size_t most_levels = 1'000;     // of assemblies in assemblies; the walk over them recurs
 constexpr double parallel = 1e-9;           // sine of the angle between two directions
 
 using Record = StepRecords::Record;
@@ -85,8 +87,10 @@ class Assembly {
 
   /// Representations, and products that they define: all of them are one thing in one frame.
   int set_of(int number) {
-    int& parent = parent_.try_emplace(number, number).first->second;
-    return parent == number ? number : parent = set_of(parent);
+    int root = parent_.try_emplace(number, number).first->second;
+    while (parent_.at(root) != root) root = parent_.at(root);
+    while (number != root) number = std::exchange(parent_.at(number), root);
+    return root;
   }
   void join(int a, int b) {
     if (a != 0 && b != 0) parent_[set_of(a)] = set_of(b);
@@ -209,6 +213,7 @@ class Assembly {
     open_.insert(set), reached_.insert(set);
     for (const Component& component : found->second) {
       if (open_.count(component.child) != 0) fail_as_cycle(component);
+      if (open_.size() > most_levels) records_.fail(component.entity, "assemblies are nested over a thousand times");
       if (++count_ > most_components) records_.fail(component.entity, "the assembly has over a million components");
       place(component.child, placement * component.placement);
     }

@@ -62,6 +62,7 @@ class EqualDiagonals {
   explicit EqualDiagonals(std::vector<FaceMesh>& faces) : faces_(faces) {}
 
   void part() {
+    if (std::ranges::all_of(faces_, [](const FaceMesh& face) { return face.quads == 0; })) return;
     list_edges();
     find_shared();
     for (bool any = !shared_.empty(); any;) {

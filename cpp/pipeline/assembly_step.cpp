@@ -17,7 +17,7 @@ namespace carreau {
 
 namespace {
 
-void refuse_degenerate(CompositeRun& run) {
+void reject_degenerate(CompositeRun& run) {
   std::vector<std::string> why(run.patches.size());
   for (std::size_t f = 0; f < run.patches.size(); ++f)
     if (run.patches[f])
@@ -58,7 +58,7 @@ void keep_prescriptions(CompositeRun& run) {
       result.interfaces[f] = {std::move(domain->plane), std::move(domain->physical)};
 }
 
-void say_what_is_narrow(CompositeRun& run) {
+void report_narrow(CompositeRun& run) {
   for (const int f : run.narrow.folded) {
     FaceMesh& mesh = run.result.mesh.faces[f];
     mesh.status = FaceStatus::collapsed;
@@ -79,7 +79,7 @@ void say_what_is_narrow(CompositeRun& run) {
   }
 }
 
-void say_what_is_remarkable(CompositeRun& run) {
+void report_remarks(CompositeRun& run) {
   for (const auto& [f, what] : run.remarks) {
     FaceMesh& mesh = run.result.mesh.faces[f];
     if (mesh.status != FaceStatus::meshed && mesh.status != FaceStatus::mended) continue;
@@ -106,12 +106,12 @@ void assemble_patches(CompositeRun& run) {
   run.show_progress(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
   separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads,
                   run.options.parts ? run.options.team : nullptr, run.monitor);
-  refuse_degenerate(run);
+  reject_degenerate(run);
   assemble(run.model, run.topology, run.domains, run.curves, faces_with_patches(run), run.patches, run.result);
   if (run.options.parts) run.result.shares = share_out(run);
   keep_prescriptions(run);
-  say_what_is_narrow(run);
-  say_what_is_remarkable(run);
+  report_narrow(run);
+  report_remarks(run);
 }
 
 bool collapse_narrow_together(CompositeRun& run) {

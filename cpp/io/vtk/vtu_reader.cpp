@@ -71,6 +71,7 @@ class VtuReader {
   Arrays field_data_;
   FlatMesh mesh_;
   std::vector<std::int32_t> vertex_of_;  ///< of each point of the file
+  std::map<std::array<double, 3>, std::int32_t> vertex_at_;  ///< vertices of the pieces before, by place; empty for one piece
   std::size_t cells_ = 0;
   VtkCells elements_;
 };
@@ -140,17 +141,17 @@ void VtuReader::add_points(VtuArrays& numbers, Piece& piece) {
   piece.points = piece_count(piece, "NumberOfPoints");
   if (piece.first_point + piece.points > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     tags_.fail(piece.tag.at, "the pieces have more points than 32 bits can count");
-  std::map<std::array<double, 3>, std::int32_t> before;
-  for (std::size_t v = 0; v < mesh_.vertices.size() && piece.points > 0; ++v) {
-    const Vec3& p = mesh_.vertices[v];
-    before.emplace(std::array{p.x(), p.y(), p.z()}, static_cast<std::int32_t>(v));
-  }
+  const std::size_t first = mesh_.vertices.size();
   const std::vector<double> x =
       piece.points > 0 ? numbers.reals(array(piece, "Points", ""), 3 * piece.points, true) : std::vector<double>{};
   for (std::size_t i = 0; i < piece.points; ++i) {
-    const auto known = before.find({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
-    vertex_of_.push_back(known != before.end() ? known->second : static_cast<std::int32_t>(mesh_.vertices.size()));
-    if (known == before.end()) mesh_.vertices.push_back({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
+    const auto known = vertex_at_.find({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
+    vertex_of_.push_back(known != vertex_at_.end() ? known->second : static_cast<std::int32_t>(mesh_.vertices.size()));
+    if (known == vertex_at_.end()) mesh_.vertices.push_back({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
+  }
+  for (std::size_t v = first; v < mesh_.vertices.size() && pieces_.size() > 1; ++v) {
+    const Vec3& p = mesh_.vertices[v];
+    vertex_at_.emplace(std::array{p.x(), p.y(), p.z()}, static_cast<std::int32_t>(v));
   }
   mesh_.vertex_refs.assign(mesh_.vertices.size(), 0);
 }

@@ -68,12 +68,12 @@ FaceOutcome FaceOutcome::from(PacketReader& packet) {
 }
 
 FaceOutcome FaceOutcome::without_patch(int rank) const {
-  FaceOutcome told;
-  if (patch) told.elsewhere = PatchElsewhere{rank, static_cast<std::int64_t>(patch->plane.triangles.size())};
-  told.failure = failure, told.remark = remark, told.beyond_limit = beyond_limit;
-  told.seconds_sampling = seconds_sampling, told.seconds_plane = seconds_plane, told.seconds_lift = seconds_lift;
-  told.corrections = corrections;
-  return told;
+  FaceOutcome seen_by_others;
+  if (patch) seen_by_others.elsewhere = PatchElsewhere{rank, static_cast<std::int64_t>(patch->plane.triangles.size())};
+  seen_by_others.failure = failure, seen_by_others.remark = remark, seen_by_others.beyond_limit = beyond_limit;
+  seen_by_others.seconds_sampling = seconds_sampling, seen_by_others.seconds_plane = seconds_plane, seen_by_others.seconds_lift = seconds_lift;
+  seen_by_others.corrections = corrections;
+  return seen_by_others;
 }
 
 }  // namespace carreau

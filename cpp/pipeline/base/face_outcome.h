@@ -33,7 +33,7 @@ struct FaceOutcome {
   void put(PacketWriter& packet) const;
   static FaceOutcome from(PacketReader& packet);
 
-  /// Packs all but the patch and its control space, for a patch that stays with process `rank`.
+  /// Returns the outcome for the other processes of a patch that stays with process `rank`: without patch and control space.
   [[nodiscard]] FaceOutcome without_patch(int rank) const;
 };
 

@@ -64,7 +64,7 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
   return packet.take();
 }
 
-/// Checksums by face.
+/// Places in the patches of all processes, by face.
 std::vector<std::vector<Vec2>> places_in_patches(Team& team, const CompositeRun& run) {
   std::vector<std::vector<Vec2>> places(run.patches.size());
   PacketWriter packet;

@@ -125,7 +125,7 @@ std::string packed(const std::vector<Box>& boxes) {
   return packet.take();
 }
 
-/// Requests for triangles of other processes.
+/// Boxes of the processes that `wanted` selects, without this one.
 std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::vector<Box>& own, const std::function<bool(int)>& wanted) {
   std::vector<Box> boxes;
   const std::vector<std::string> all = team.exchange(step, packed(own));

@@ -101,7 +101,7 @@ struct Corner {
 };
 using TriangleCorners = std::array<Corner, 3>;
 
-/// Faces by triangle of the list.
+/// Corners of the triangles of the list, from all processes.
 std::vector<TriangleCorners> corners_of_all(const CompositeRun& run, const std::vector<TriangleOfFace>& triangles) {
   std::vector<TriangleCorners> all(triangles.size());
   for (const std::string& of_rank : run.options.team->exchange("corners of triangles that cross", corners_here(run, triangles)))
