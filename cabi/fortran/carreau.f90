@@ -125,7 +125,7 @@ module carreau
 
   ! The order of members is older than that of C.
   type :: carreau_parameter
-    character(len=:), allocatable :: name, help, default_text, choices
+    character(len=:), allocatable :: name, help, default_text, choices, set_by
     integer(c_int32_t) :: type = 0
     real(c_double) :: minimum = 0, maximum = 0, default_number = 0
     logical :: diag_relative = .false.
@@ -890,6 +890,7 @@ contains
     parameter%default_number = c%default_number
     parameter%type = c%type
     parameter%diag_relative = c%diag_relative /= 0
+    parameter%set_by = carreau_string(c%set_by)
   end subroutine carreau_parameter_info
 
   subroutine carreau_set_integer(session, name, value, status)

@@ -48,6 +48,7 @@ module carreau_c
     type(c_ptr) :: name = c_null_ptr, help = c_null_ptr, default_text = c_null_ptr, choices = c_null_ptr
     real(c_double) :: minimum = 0, maximum = 0, default_number = 0
     integer(c_int32_t) :: type = 0, diag_relative = 0
+    type(c_ptr) :: set_by = c_null_ptr
   end type c_parameter
 
   !> The place of a rank among the others, and how it talks to them.

@@ -402,11 +402,25 @@ typedef struct carreau_parameter {
   double default_number;    /* of numbers; times diag when diag_relative */
   int32_t type;             /* CARREAU_INTEGER, CARREAU_REAL, CARREAU_TEXT */
   int32_t diag_relative;    /* 1: the default is default_number times diag, the diagonal of the box of all curves */
+  const char* set_by;       /* "effort" of a synonym, whose value follows that parameter until it is set itself; "" otherwise */
 } carreau_parameter;
 
 /* Tell the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
 CARREAU_API int32_t carreau_parameter_count(void);
 CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_parameter);
+
+/* `effort` is the work beyond the first mesh. Its levels set five synonyms, each until it is set itself:
+ *
+ *     level                -1 (default)   0    1    2
+ *     crossing_rounds       0             0   10   20   rounds in which triangles that cross become smaller
+ *     shape_trials          0             0    1    1   changes are tried around the worst triangles
+ *     certify               1             0    1    2   triangles that cross patches are bounded: none, suspects, all
+ *     measure_bounds        1             0    1    2   bounds of A0 and A1 are measured: never, without patches, always
+ *     measure_distances     1             0    1    1   distances from and to triangles given as input are measured
+ *
+ * All rounds of crossing_rounds together cost at most as much as the first mesh, or as 24 000 triangles when it has fewer; at
+ * level 2 twice as much. Elements that are invalid have finer meshes, which together have at most 12 times as many triangles as
+ * the first mesh, or as 1 000 when it has fewer; at level 0 they have none. */
 
 /* Set a parameter for the runs to come. A real parameter takes an integer, too.
  * Errors: ARGUMENT (unknown name, for which the sentence has the nearest one; other type; out of range). */

@@ -30,6 +30,7 @@ carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_para
     parameter.default_number = info.default_number;
     parameter.type = std::int32_t(info.type);
     parameter.diag_relative = info.diag_relative ? 1 : 0;
+    parameter.set_by = info.set_by;
     write_struct(parameter, out_parameter, "out_parameter");
   };
   return status_of(fill, [](const char*, const carreau::Where&) {});

@@ -94,6 +94,9 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.narrow_ratio = parameters.real("narrow_ratio");
   options.failing_faces_alone = leaves_out(parameters);
   options.crossing_rounds = parameters.integer("crossing_rounds");
+  const int effort = parameters.integer("effort");
+  if (effort == more_effort) options.rounds_over_first_mesh = 2;
+  options.refines_invalid_elements = effort != no_effort;
   options.frontal = parameters.integer("frontal") != 0;
   options.independent = parameters.text("patches") == "independent";
   options.measure_bounds = parameters.integer("measure_bounds") > (options.independent ? 0 : 1);

@@ -22,6 +22,11 @@ constexpr double kPositive = std::numeric_limits<double>::min();
 constexpr ParameterInfo integer_row(const char* name, int minimum, int maximum, int value, const char* help) {
   return {name, ParameterType::integer, double(minimum), double(maximum), double(value), false, "", nullptr, help};
 }
+/// A row whose value follows `effort` until it is set itself.
+constexpr ParameterInfo by_effort(ParameterInfo row) {
+  row.set_by = "effort";
+  return row;
+}
 constexpr ParameterInfo real_row(const char* name, double minimum, double maximum, double value, const char* help) {
   return {name, ParameterType::real, minimum, maximum, value, false, "", nullptr, help};
 }
@@ -33,9 +38,9 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, effort, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
 // sol_field, stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
-// metric_combination).
+// metric_combination). effort sets the rows by_effort().
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
     integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),
@@ -67,17 +72,20 @@ constexpr std::array kTable = {
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
-    integer_row("certify", 0, 2, 1,
-                "meshes free of patches: triangles whose upper bounds of A0 or A1 are beyond the tolerances are edited; 0 none is bounded, "
-                "1 those that normals at their corners make suspect, 2 all"),
+    by_effort(integer_row("certify", 0, 2, 1,
+                          "meshes free of patches: triangles whose upper bounds of A0 or A1 are beyond the tolerances are edited; 0 none is bounded, "
+                          "1 those that normals at their corners make suspect, 2 all")),
     integer_row("cracks", 0, 1, 0, "1: internal curves are cracks: their vertices are doubled, one for each side"),
-    integer_row("crossing_rounds", 0, 20, 0,
-                "most rounds in which triangles that cross, but need not, become smaller; together they cost at most as much as the first mesh (0: none)"),
+    by_effort(integer_row("crossing_rounds", 0, 20, 0,
+                          "most rounds in which triangles that cross, but need not, become smaller; together they cost at most as much as the first mesh (0: none)")),
     integer_row("curve_groups", 0, 1, 1, "1: .msh files have the curves and corners too, as groups; 0: faces only"),
     real_row("edge_gradation", 0, infinity, 0,
              "largest ratio of sizes one unit edge apart, inward from short edges of curves, greater than 1 (0: any)"),
     text_row("element", "p1", "p1|p2|q1.0|q1.1|q2.0|q2.1",
              "type of the elements: triangles (p) or quadrilaterals (q; .1: no triangle), of order 1 or 2 (curved)"),
+    integer_row("effort", classic_effort, more_effort, classic_effort,
+                "work beyond the first mesh: 0 none; 1 as carreau mesh, at most as much as the first mesh; 2 more, at most twice as much; "
+                "-1 as RT-0232"),
     diag_row("eps_chord", kPositive, 1.0 / 5000,
              "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),
     real_row("eps_collapse", 0, infinity, 0, "curves shorter than this are removed, model length (0: none)"),
@@ -116,10 +124,10 @@ constexpr std::array kTable = {
     diag_row("hphymin", kPositive, 1.0 / 500, "smallest physical size, model length"),
     integer_row("max_triangles", 0, INT_MAX, 0, "largest number of triangles of a mesh (0: by memory)"),
     integer_row("measure", 0, 1, 0, "1: what a mesh delivers is measured on the surface, said, and exported to vtu"),
-    integer_row("measure_bounds", 0, 2, 1,
-                "measures tell upper bounds of A0 and A1: 0 never, 1 of meshes free of patches and of triangles, 2 always"),
-    integer_row("measure_distances", 0, 1, 1,
-                "measures of surfaces given as triangles tell bounds of the distances to those and back: 0 no, 1 yes"),
+    by_effort(integer_row("measure_bounds", 0, 2, 1,
+                          "measures tell upper bounds of A0 and A1: 0 never, 1 of meshes free of patches and of triangles, 2 always")),
+    by_effort(integer_row("measure_distances", 0, 1, 1,
+                          "measures of surfaces given as triangles tell bounds of the distances to those and back: 0 no, 1 yes")),
     integer_row("metric_combination", 0, 1, 1,
                 "prescribed and geometric metrics: 0 the prescribed one is scaled and keeps its shape, 1 intersection"),
     text_row("narrow_faces", "keep", "keep|one_layer|collapse",
@@ -133,8 +141,8 @@ constexpr std::array kTable = {
         "proximity", 0, 1000, 0,
         "least number of layers across narrow zones of a face and between faces (0: any; else gradation is needed)"),
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
-    integer_row("shape_trials", 0, 1, 0,
-                "1: changes of the mesh around its worst triangles are tried, the best is kept"),
+    by_effort(integer_row("shape_trials", 0, 1, 0,
+                          "1: changes of the mesh around its worst triangles are tried, the best is kept")),
     real_row("sharp_angle", 0, 180, 1, "patches independent: borders whose normals differ by more are sharp, degrees"),
     integer_row("sol_field", 0, 64, 0,
                 "field of a .sol or .solb with several, from 1 (0: all fields that an adaptation estimates, else the only one)"),
@@ -146,6 +154,15 @@ constexpr std::array kTable = {
 static_assert(std::is_sorted(kTable.begin(), kTable.end(), [](const ParameterInfo& p, const ParameterInfo& q) {
   return std::string_view(p.name) < std::string_view(q.name);
 }));
+
+/// Values of the parameters that follow `effort`, by its levels from 0.
+struct EffortRow {
+  std::string_view name;
+  std::array<int, 3> values;
+};
+constexpr std::array kByEffort = {EffortRow{"certify", {0, 1, 2}}, EffortRow{"crossing_rounds", {0, 10, 20}},
+                                  EffortRow{"measure_bounds", {0, 1, 2}}, EffortRow{"measure_distances", {0, 1, 1}},
+                                  EffortRow{"shape_trials", {0, 1, 1}}};
 
 int index_of(std::string_view name) {
   if (name == "hphymmin") name = "hphymin";
@@ -310,7 +327,12 @@ int Parameters::integer(std::string_view name) const {
   const auto index = std::size_t(known_index(name));
   const ParameterInfo& info = kTable[index];
   if (info.type != ParameterType::integer) wrong_type(info, "an integer");
-  return is_set(name) ? std::get<int>(*values_[index]) : int(info.default_number);
+  if (is_set(name)) return std::get<int>(*values_[index]);
+  if (*info.set_by == '\0') return int(info.default_number);
+  const int effort = integer(info.set_by);
+  if (effort == classic_effort) return int(info.default_number);
+  const auto row = std::find_if(kByEffort.begin(), kByEffort.end(), [&](const EffortRow& r) { return r.name == name; });
+  return row->values[std::size_t(effort)];
 }
 
 double Parameters::real(std::string_view name, double diag) const {

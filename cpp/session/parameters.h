@@ -25,6 +25,7 @@ struct ParameterInfo {
   const char* default_text;  ///< of texts
   const char* choices;       ///< of texts: "a|b|c", or nullptr when any text is allowed
   const char* help;          ///< one line, with the unit
+  const char* set_by = "";   ///< "effort": takes its value by the level of that parameter until it is set itself
 };
 
 /// All parameters, in alphabetical order as in fig. 13.
@@ -32,6 +33,9 @@ std::span<const ParameterInfo> parameter_table();
 
 /// Row of a name, nullptr when unknown. Names are case-sensitive, as in the manual.
 const ParameterInfo* find_parameter(std::string_view name);
+
+/// Levels of the parameter `effort`.
+enum Effort : int { classic_effort = -1, no_effort = 0, usual_effort = 1, more_effort = 2 };
 
 /// The known name nearest to a wrong one (edit distance), or empty when none is near.
 std::string nearest_parameter(std::string_view name);

@@ -56,6 +56,10 @@ struct CompositeOptions {
   Certified certified = Certified::suspects;
   /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
   int crossing_rounds = 0;
+  /// Work of all these rounds together, at most, over the work of the first mesh.
+  double rounds_over_first_mesh = 1;
+  /// Meshes are made again, finer, where elements are invalid.
+  bool refines_invalid_elements = true;
   bool frontal = true;
   /// Borders between patches whose normals differ by no more than sharp_angle (degrees) mean nothing: the mesh is made
   /// free of them (surface/independent).

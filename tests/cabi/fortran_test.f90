@@ -232,7 +232,7 @@ contains
   subroutine test_versions_and_parameters
     type(carreau_session) :: session
     type(carreau_parameter) :: parameter
-    integer(c_int32_t) :: i, status, verb
+    integer(c_int32_t) :: i, status, verb, rounds
     character(len=:), allocatable :: pref
     real(c_double) :: lss
     call expect(carreau_status_name(CARREAU_ERR_FILE) == 'CARREAU_ERR_FILE', 'status name')
@@ -246,6 +246,7 @@ contains
       call expect(status == CARREAU_OK .and. len(parameter%help) > 10, 'parameter '//parameter%name)
       if (parameter%name == 'hphydef') call expect(parameter%diag_relative .and. &
         abs(parameter%default_number - 0.02d0) < 1d-15 .and. parameter%type == CARREAU_REAL, 'hphydef is diag/50')
+      if (parameter%name == 'certify') call expect(parameter%set_by == 'effort', 'effort sets certify')
       if (parameter%name == 'format') call expect(parameter%default_text == 'mesh' .and. &
         index(parameter%choices, 'vtu') > 0, 'choices of format')
     end do
@@ -261,6 +262,10 @@ contains
     call carreau_set_word(session, 'LSS', '2.5d-1', status)
     call carreau_get_real(session, 'LSS', lss, status)
     call expect(lss == 0.25d0, 'get LSS')
+    call carreau_set_integer(session, 'effort', 1, status)
+    call expect_ok(status, session, 'set effort')
+    call carreau_get_integer(session, 'crossing_rounds', rounds, status)
+    call expect(rounds == 10, 'effort sets crossing_rounds')
     call carreau_reset_parameters(session, status)
     call carreau_get_text(session, 'pref', pref, status)
     call expect(pref == 'x', 'reset')

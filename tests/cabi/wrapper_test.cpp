@@ -271,6 +271,11 @@ TEST(Wrapper, ReadsModelsAndParametersBack) {
   EXPECT_EQ(session.get_real("hphydef"), 0.15);
   session.set("patches", "independent");
   EXPECT_EQ(session.get_text("patches"), "independent");
+  EXPECT_EQ(session.get_integer("crossing_rounds"), 0);
+  session.set("effort", 2);
+  EXPECT_EQ(session.get_integer("crossing_rounds"), 20);
+  session.set("crossing_rounds", 3);
+  EXPECT_EQ(session.get_integer("crossing_rounds"), 3);
   session.reset("hphydef");
   session.reset();
   EXPECT_EQ(carreau::parameters().size(), static_cast<std::size_t>(carreau_parameter_count()));

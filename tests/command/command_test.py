@@ -295,6 +295,11 @@ class Command(unittest.TestCase):
                   "hphy_flag hphydef hphymax hphymin option pref refs verb").split()  # RT-0232 fig. 13, without `call`
         self.assertEqual(set(manual) - set(names), set())
         self.assertIn("default 0.02 diag", run("params", "hphydef").stdout)
+        synonyms = ["certify", "crossing_rounds", "measure_bounds", "measure_distances", "shape_trials"]
+        self.assertEqual(set(synonyms) & set(names), set())
+        self.assertIn("synonyms of effort: " + ", ".join(synonyms), done.stdout)
+        for name in synonyms:
+            self.assertIn("follows effort", run("params", name).stdout)
 
     def test_help_and_version(self):
         for arguments in (["--help"], ["picture", "--help"], ["check", "--help"], ["params", "--help"], ["fields", "--help"], ["--version"]):

@@ -476,6 +476,22 @@ class Sizes(Folder):
         self.assertEqual(self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02", "--gradation", "0").triangles,
                          sharp.triangles)
 
+    def test_effort_has_levels_and_synonyms(self):
+        def mesh(*options):
+            self.mesh(TEAPOT, "--size", "0.3", *options)
+            with open(self.path("out.mesh"), "rb") as file:
+                return file.read()
+        usual, none = mesh(), mesh("--effort", "0")
+        self.assertEqual(usual, mesh("--effort", "1"))
+        self.assertEqual(usual, mesh("--set", "effort=1"))
+        self.assertEqual(none, mesh("--set", "shape_trials=0", "--set", "crossing_rounds=0"))
+        self.assertNotEqual(usual, none)
+        env = self.write("blsurf.env", "shape_trials 0\ncrossing_rounds 0\n")
+        self.assertEqual(none, mesh("--env", env))
+        self.assertEqual(usual, mesh("--env", env, "--effort", "1"))
+        self.assertEqual(none, mesh("--env", self.write("effort.env", "effort 0\n")))
+        self.refused(TEAPOT, "-o", "a.mesh", "--effort", "3", sentence="--effort")
+
     def test_an_env_file_sets_parameters_and_the_command_line_wins(self):
         env = self.write("blsurf.env", "hphydef 0.1 ! edges\nhphymax 1\nangle_mesh 4\ncall inimesh\nhphydef 7\npref other\ncall export\ncall exit\n")
         by_env = self.mesh(self.square, "--env", env)

@@ -40,6 +40,8 @@ def agree(mesh, other):
     ({"angle": 12, "anisotropic": 20, "min": 0.05}, ["--angle", "12", "--anisotropic=20", "--min", "0.05"]),
     ({"size": 0.4, "face_size": {3: 0.1, "7": 0.15}}, ["--size", "0.4", "--face-size", "3=0.1", "--face-size", "7=0.15"]),
     ({"size": 0.3, "element": "p2", "edge_gradation": 1.2}, ["--size", "0.3", "--element", "p2", "--set", "edge_gradation=1.2"]),
+    ({"size": 0.3, "effort": 0}, ["--size", "0.3", "--effort", "0"]),
+    ({"size": 0.3, "effort": 2}, ["--size", "0.3", "--effort", "2"]),
     ({"size": 0.3, "independent": True, "sharp_angle": 30}, ["--size", "0.3", "--independent", "--sharp-angle", "30"]),
 ])
 def test_bezier_patches(source, tmp_path, words, options):

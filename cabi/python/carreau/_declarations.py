@@ -252,6 +252,7 @@ class carreau_parameter(Structure):
         ("default_number", c_double),
         ("type", c_int32),
         ("diag_relative", c_int32),
+        ("set_by", c_char_p),
     ]
 
 

@@ -34,6 +34,7 @@ class Parameter(NamedTuple):
     default_number: float
     type: int
     diag_relative: int
+    set_by: str
 
 
 class Report(NamedTuple):

@@ -22,8 +22,8 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
          max: Optional[Length] = None, angle: Optional[float] = None, chord: Optional[Length] = None,
          anisotropic: Union[bool, float] = False, gradation: Optional[float] = None, face_size: Optional[Mapping[Any, Length]] = None,
          size_map: Any = None, metric: Optional[Callable[..., Any]] = None, element: Optional[str] = None,
-         independent: bool = False, sharp_angle: Optional[float] = None, threads: int = 0, env: Optional[Path] = None,
-         progress: Progress = None, **named: Any) -> Mesh:
+         independent: bool = False, sharp_angle: Optional[float] = None, effort: Optional[int] = None, threads: int = 0,
+         env: Optional[Path] = None, progress: Progress = None, **named: Any) -> Mesh:
     """Meshes a geometry.
 
     source       a path: STEP, IGES, BREP, .bpt, molecules, grids, triangles, plane files; a formula "z = x * y"; a function
@@ -41,6 +41,7 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
     metric       a function of the place, as size, that gives (n, 6) metrics xx xy xz yy yz zz
     element      "p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"
     independent  triangles cross borders between faces that meet smoothly, at less than sharp_angle (degrees)
+    effort       work beyond the first mesh: 0 none, 1 at most as much as the first mesh, 2 at most twice as much
     threads      0: all; the mesh does not depend on it
     env          a file blsurf.env with parameters
     progress     True: a bar; or a function of (fraction, phase, entity)
@@ -54,7 +55,7 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
     session, geometry = _begin(source, progress, named)
     words = {"size": size, "min": min, "max": max, "angle": angle, "chord": chord, "anisotropic": anisotropic, "gradation": gradation,
              "face_size": face_size or {}, "size_map": map_of(size_map, metric), "element": element, "independent": independent,
-             "sharp_angle": sharp_angle, "threads": threads, "env": env, "progress": progress}
+             "sharp_angle": sharp_angle, "effort": effort, "threads": threads, "env": env, "progress": progress}
     return _generated(session, geometry, {**words, **named})
 
 
@@ -74,7 +75,7 @@ def _prepare(session: Session, geometry: Source, words: Mapping[str, Any]) -> No
     if "metric" in rest:
         rest["size_map"] = map_of(rest.get("size_map"), rest.pop("metric"))
     chosen = Sizes(**{each.name: rest.pop(each.name) for each in members(Sizes) if each.name in rest})
-    usual = {"element": None, "independent": False, "sharp_angle": None, "threads": 0, "env": None}
+    usual = {"element": None, "independent": False, "sharp_angle": None, "effort": None, "threads": 0, "env": None}
     others: dict[str, Any] = {name: rest.pop(name, value) for name, value in usual.items()}
     prepare(session, geometry, chosen, named=rest, **others)
 

@@ -18,7 +18,7 @@ Length = Union[float, str]
 #: What the command chooses where the library leaves things alone; cad_adapters/command/mesh/mesh_parameters.cpp has the reasons.
 CHOICES: dict[str, Union[int, float, str]] = {
     "CheckCloseEdges": 20, "CoefRectangle": 0.06, "CheckAdjacentEdges": 20, "edge_gradation": 1.5, "stagger_strips": 1,
-    "shape_trials": 1, "crossing_rounds": 10, "narrow_faces": "collapse", "flag": 1, "failing_faces": "leave_out"}
+    "effort": 1, "narrow_faces": "collapse", "flag": 1, "failing_faces": "leave_out"}
 NARROW_RATIO = 4e-4  # faces narrower than this share of the size collapse
 USUAL_GRADATION = 1.3  # of sizes by direction
 
@@ -162,6 +162,14 @@ def _set_map(session: Session, sizes: Sizes, of_faces: dict[int, float]) -> None
     session.set_sizes(given, face_sizes=of_faces)
 
 
+def _set_effort(session: Session, level: int) -> None:
+    """Synonyms that an env file has set return to the values of the level."""
+    for name, parameter in parameters().items():
+        if parameter.set_by:
+            session.reset(name)
+    session["effort"] = level
+
+
 def _set_named(session: Session, named: Mapping[str, Any], diagonal: float) -> None:
     """Parameters of the session by their names; "1%" of those that are lengths."""
     known = parameters()
@@ -174,7 +182,7 @@ def _set_named(session: Session, named: Mapping[str, Any], diagonal: float) -> N
 
 
 def prepare(session: Session, source: Source, sizes: Sizes, *, element: Optional[str], independent: bool,
-            sharp_angle: Optional[float], threads: int, env: Optional[Path], named: Mapping[str, Any]) -> None:
+            sharp_angle: Optional[float], effort: Optional[int], threads: int, env: Optional[Path], named: Mapping[str, Any]) -> None:
     """Gives a session the geometry and all parameters, in the order of the command: its own choices, the env file, words,
     parameters by name."""
     source.add_to(session)
@@ -193,6 +201,8 @@ def prepare(session: Session, source: Source, sizes: Sizes, *, element: Optional
         session["patches"] = "independent"
     if sharp_angle is not None:
         session["sharp_angle"] = sharp_angle
+    if effort is not None:
+        _set_effort(session, effort)
     if not own or sizes.any:
         _set_sizes(session, sizes, source, diagonal, env is not None)
     if element is not None:

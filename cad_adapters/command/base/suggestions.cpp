@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/suggestions.h"
 
-#include <carreau.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -60,16 +58,6 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "; did you mean '" : i + 1 == words.size() ? " or '" : ", '") + words[i] + "'";
   return text.empty() ? "." : text + "?";
-}
-
-std::vector<std::string> parameter_names() {
-  std::vector<std::string> names;
-  for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
-    carreau_parameter parameter{};
-    parameter.struct_size = sizeof parameter;
-    if (carreau_parameter_info(i, &parameter) == CARREAU_OK) names.emplace_back(parameter.name);
-  }
-  return names;
 }
 
 }  // namespace command

@@ -14,7 +14,4 @@ std::vector<std::string> near_words(const std::string& word, const std::vector<s
 /// "; did you mean 'size'?", "; did you mean 'size' or 'size-map'?", "." without any.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 
-/// The names of all parameters.
-std::vector<std::string> parameter_names();
-
 }  // namespace command

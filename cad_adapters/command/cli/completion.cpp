@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/parameters.h"
 #include "base/suggestions.h"
 #include "cli/command_line.h"
 #include "cli/option_groups.h"

@@ -95,6 +95,10 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   app->add_option("--env", options.env, "Parameters from a blsurf.env, up to its first action; options win")
       ->check(not_empty)
       ->type_name(kind::file);
+  app->add_option("--effort", options.effort,
+                  "Work beyond the first mesh: 0 none; 1, the default, at most as much as the first mesh; 2 at most twice as much")
+      ->check(CLI::Range(0, 2))
+      ->type_name(kind::number);
   repeated(app->add_option("--set", options.settings, "Any parameter that `carreau params` lists; may be repeated"))
       ->type_name(kind::setting);
   threads(app, options.threads);

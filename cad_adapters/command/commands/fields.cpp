@@ -51,6 +51,7 @@ std::string mesh_option_of(const MeshOptions& m) {
                                                 {"--curve-edges", !m.curve_edges.empty()},
                                                 {"--curve-vertices", !m.curve_vertices.empty()},
                                                 {"--env", !m.env.empty()},
+                                                {"--effort", m.effort.has_value()},
                                                 {"--set", !m.settings.empty()}};
   for (const auto& [name, is_given] : given)
     if (is_given) return name;

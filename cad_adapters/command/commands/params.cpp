@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/json_output.h"
+#include "base/parameters.h"
 #include "base/suggestions.h"
 #include "commands/commands.h"
 
@@ -33,12 +35,9 @@ std::string range_of(const carreau_parameter& p) {
   return number(p.minimum) + " to " + number(p.maximum);
 }
 
-}  // namespace
-
-namespace {
-
 nlohmann::ordered_json json_of(const carreau_parameter& p) {
   nlohmann::ordered_json row = {{"name", p.name}, {"help", p.help}};
+  if (is_synonym(p)) row["set_by"] = p.set_by;
   if (p.type == CARREAU_TEXT) {
     row["type"] = "text", row["default"] = p.default_text;
     if (p.choices != nullptr && *p.choices != '\0') row["choices"] = p.choices;
@@ -52,27 +51,39 @@ nlohmann::ordered_json json_of(const carreau_parameter& p) {
   return row;
 }
 
+void print_row(const carreau_parameter& p) {
+  const char* type = p.type == CARREAU_INTEGER ? "integer" : p.type == CARREAU_REAL ? "real" : "text";
+  const std::string range = range_of(p);
+  std::printf("%-20s %-8s default %-12s%s%s\n    %s\n", p.name, type, default_of(p).c_str(), range.empty() ? "" : " values ",
+              range.c_str(), p.help);
+  if (is_synonym(p)) std::printf("    follows %s until it is set itself\n", p.set_by);
+}
+
+/// One line for each parameter that has synonyms.
+void print_synonyms() {
+  std::map<std::string, std::string> names;  // by parameter
+  for (const carreau_parameter& p : known_parameters())
+    if (is_synonym(p)) names[p.set_by] += std::string(names[p.set_by].empty() ? "" : ", ") + p.name;
+  for (const auto& [parameter, synonyms] : names)
+    std::printf("synonyms of %s: %s\n    %s sets them until they are set themselves; `carreau params NAME` describes them\n",
+                parameter.c_str(), synonyms.c_str(), parameter.c_str());
+}
+
 }  // namespace
 
 int params(const ParamsOptions& options) {
   const std::string& name = options.name;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   bool found = false;
-  for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
-    carreau_parameter p{};
-    p.struct_size = sizeof p;
-    if (carreau_parameter_info(i, &p) != CARREAU_OK) throw Failure("The parameters cannot be listed.");
+  for (const carreau_parameter& p : known_parameters()) {
     if (!name.empty() && name != p.name) continue;
     found = true;
-    if (options.json) {
+    if (options.json)
       list.push_back(json_of(p));
-      continue;
-    }
-    const char* type = p.type == CARREAU_INTEGER ? "integer" : p.type == CARREAU_REAL ? "real" : "text";
-    const std::string range = range_of(p);
-    std::printf("%-20s %-8s default %-12s%s%s\n    %s\n", p.name, type, default_of(p).c_str(),
-                range.empty() ? "" : " values ", range.c_str(), p.help);
+    else if (!name.empty() || !is_synonym(p))
+      print_row(p);
   }
+  if (name.empty() && !options.json) print_synonyms();
   if (!found)
     throw Failure("There is no parameter '" + name + "'" + did_you_mean(name, parameter_names()) +
                   " `carreau params` lists them all.");

@@ -27,6 +27,7 @@ struct MeshOptions : InputChoice {
   bool independent = false;                   ///< borders of patches that are not sharp mean nothing
   std::optional<double> sharp_angle;          ///< degrees
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
+  std::optional<int> effort;                  ///< level of the parameter of that name
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."

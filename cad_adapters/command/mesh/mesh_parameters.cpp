@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/lengths.h"
+#include "base/parameters.h"
 #include "base/suggestions.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
@@ -123,13 +124,10 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
 /// "1%" of a parameter that is a model length.
 bool is_share(const std::string& name, const std::string& value) {
   if (value.empty() || value.back() != '%') return false;
-  for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
-    carreau_parameter info{};
-    info.struct_size = sizeof info;
-    if (carreau_parameter_info(i, &info) == CARREAU_OK && name == info.name)
-      return info.diag_relative != 0 || std::strstr(info.help, "model length") != nullptr;
-  }
-  return false;
+  const std::vector<carreau_parameter>& known = known_parameters();
+  return std::any_of(known.begin(), known.end(), [&](const carreau_parameter& p) {
+    return name == p.name && (p.diag_relative != 0 || std::strstr(p.help, "model length") != nullptr);
+  });
 }
 
 void set_by_name(carreau_session* session, const std::string& setting, double diagonal) {
@@ -138,6 +136,13 @@ void set_by_name(carreau_session* session, const std::string& setting, double di
     set(session, name.c_str(), parse_length(value, "--set " + name).of(diagonal));
   else
     require(session, carreau_set_word(session, name.c_str(), value.c_str()));
+}
+
+/// Synonyms that an env file has set return to the values of the level.
+void set_effort(carreau_session* session, int level) {
+  for (const carreau_parameter& parameter : known_parameters())
+    if (is_synonym(parameter)) require(session, carreau_reset_parameter(session, parameter.name));
+  set(session, "effort", level);
 }
 
 bool asks_for(const MeshOptions& options, const std::string& name) {
@@ -277,10 +282,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "edge_gradation", 1.5);
   // Vertices that face each other leave triangles with right angles only.
   set(session, "stagger_strips", 1);
-  // The worst triangles are what users look for; half of the time again at most sizes.
-  set(session, "shape_trials", 1);
-  // Coarse chords of two walls close to each other may cross: half the size there, until none does.
-  set(session, "crossing_rounds", 10);
+  // Users look for the worst triangles, and for triangles of close walls that cross.
+  set(session, "effort", 1);
   // Faces too narrow for the cuts above (slivers below the tolerance of a file, fillets of a micrometre) hold flat
   // triangles only.
   const double usual_ratio = real(session, "narrow_ratio");
@@ -305,6 +308,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   const bool asked = asks_for(options, "narrow_faces") || std::strcmp(narrow_faces, "collapse") != 0;
   if (asked && real(session, "narrow_ratio") == narrower_than_cuts) set(session, "narrow_ratio", usual_ratio);
   if (options.threads > 0) set(session, "threads", options.threads);
+  if (options.effort) set_effort(session, *options.effort);
   if (options.independent) require(session, carreau_set_text(session, "patches", "independent"));
   if (options.sharp_angle) set(session, "sharp_angle", *options.sharp_angle);
   set_sizes(session, options, lengths_of(options, diagonal), input);

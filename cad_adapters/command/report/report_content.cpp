@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/parameters.h"
 #include "files/session_handle.h"
 #include "mesh/mesh_summary.h"
 #include "report/html_text.h"
@@ -45,10 +46,7 @@ ReportContent content_of(carreau_mesh* mesh, const Crossings* known) {
 std::vector<AskedValue> asked_of(carreau_session* session) {
   const double diagonal = report_of(session).diag;
   std::vector<AskedValue> asked;
-  for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
-    carreau_parameter p{};
-    p.struct_size = sizeof p;
-    if (carreau_parameter_info(i, &p) != CARREAU_OK) throw Failure("The parameters cannot be listed.");
+  for (const carreau_parameter& p : known_parameters()) {
     AskedValue value = p.type == CARREAU_TEXT      ? text_value(session, p)
                        : p.type == CARREAU_INTEGER ? integer_value(session, p)
                                                    : real_value(session, p, diagonal);

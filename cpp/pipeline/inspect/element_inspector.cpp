@@ -92,6 +92,7 @@ class ElementInspector final : public Inspector {
   void keep() override { best_ = now_; }
 
   [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
+    if (!run.options.refines_invalid_elements) return {};
     const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
     if (round_++ == rounds || count(now_) == 0 || *left_ < 0) return {};
     return RefinementRequests{.segments = segments_of(run, now_.coarse), .sizes = now_.finer};

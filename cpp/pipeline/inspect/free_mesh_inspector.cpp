@@ -88,6 +88,7 @@ class FreeMeshInspector final : public Inspector {
   }
 
   [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
+    if (!run.options.refines_invalid_elements) return {};
     if (from_ == From::remeshing && !remeshing_continues()) return first_of_patches(run);
     if (from_ == From::patches && !patches_continue()) return {};
     ++round_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <array>
 #include <map>
 #include <string>
 #include <utility>
@@ -87,6 +88,31 @@ TEST(Parameters, KeepWhatIsSetUntilTheyAreReset) {
   EXPECT_TRUE(parameters.is_set("flag"));
   parameters.reset_all();
   for (const ParameterInfo& info : parameter_table()) EXPECT_FALSE(parameters.is_set(info.name)) << info.name;
+}
+
+TEST(Parameters, EffortSetsItsSynonymsUntilTheyAreSetThemselves) {
+  const std::map<std::string, std::array<int, 4>> levels = {{"crossing_rounds", {0, 0, 10, 20}},
+                                                            {"shape_trials", {0, 0, 1, 1}},
+                                                            {"certify", {1, 0, 1, 2}},
+                                                            {"measure_bounds", {1, 0, 1, 2}},
+                                                            {"measure_distances", {1, 0, 1, 1}}};
+  for (const ParameterInfo& info : parameter_table())
+    EXPECT_STREQ(info.set_by, levels.contains(info.name) ? "effort" : "") << info.name;
+  for (const auto& [name, values] : levels) {
+    SCOPED_TRACE(name);
+    Parameters parameters;
+    EXPECT_EQ(parameters.integer(name), values[0]);
+    for (int effort = -1; effort <= 2; ++effort) {
+      parameters.set("effort", effort);
+      EXPECT_EQ(parameters.integer(name), values[std::size_t(effort + 1)]);
+      EXPECT_FALSE(parameters.is_set(name));
+    }
+    parameters.set(name, 1);
+    parameters.set("effort", 0);  // the order does not count
+    EXPECT_EQ(parameters.integer(name), 1);
+    parameters.reset(name);
+    EXPECT_EQ(parameters.integer(name), values[1]);
+  }
 }
 
 TEST(Parameters, TheManualsTwoWordsForOneSizeAreOne) {

@@ -130,5 +130,39 @@ TEST(CloseWalls, RoundsCostAtMostAsMuchAsTheFirstMesh) {
   }
 }
 
+TEST(CloseWalls, EffortBoundsTheWorkOfRounds) {
+  for (const double gap : {1e-2, 1e-3, 1e-4}) {
+    SCOPED_TRACE(gap);
+    Monitor monitor;
+    const auto points = [&](int effort) {
+      auto session = testing::session_of_command(spheres(1 - gap, 0), 0.06, monitor);
+      session->set_model(model_of_spheres());
+      session->parameters().set("effort", effort);
+      session->parameters().set("shape_trials", 0);
+      session->make_mesh();
+      return static_cast<double>(session->report().calls.surf0);
+    };
+    const double first = points(0);
+    EXPECT_LE(points(1), 2 * first);
+    EXPECT_LE(points(2), 3 * first);
+  }
+}
+
+TEST(CloseWalls, LevelsOfEffortAreThoseOfTheSynonyms) {
+  Monitor monitor;
+  const AnalyticCad cad = spheres(0.97, 0);
+  const auto at = [&](int effort, int rounds, int trials) {
+    auto session = testing::session_of_command(cad, 0.5, monitor);
+    session->set_model(model_of_spheres());
+    if (effort >= 0) session->parameters().set("effort", effort);
+    if (effort < 0) session->parameters().set("crossing_rounds", rounds), session->parameters().set("shape_trials", trials);
+    session->make_mesh();
+    return session;
+  };
+  EXPECT_TRUE(equal(at(0, 0, 0)->mesh(), at(-1, 0, 0)->mesh()));
+  EXPECT_TRUE(equal(at(1, 0, 0)->mesh(), at(-1, 10, 1)->mesh()));
+  EXPECT_FALSE(equal(at(0, 0, 0)->mesh(), at(1, 0, 0)->mesh()));
+}
+
 }  // namespace
 }  // namespace carreau
