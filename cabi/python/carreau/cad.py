@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from ctypes import byref
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any, Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,8 @@ from ._calls import Path, asked, created, file_name, require, require_cad, struc
 from ._library import cad_lib
 from ._records import CadContent, CadDanger, CadFace, CadFigures, CadReport
 from ._run import Host, run
+from ._session import SessionBase
 from .progress import Progress, listener
-
-if TYPE_CHECKING:
-    from .session import Session
 
 
 class CadFile:
@@ -41,7 +39,7 @@ class CadFile:
     def _call(self, function: Callable[..., int], *arguments: Any) -> None:
         require_cad(self._handle, function(self._handle, *arguments))
 
-    def add_to(self, session: "Session") -> None:
+    def add_to(self, session: SessionBase) -> None:
         """Adds all faces to a session, which keeps what it needs."""
         require(session._handle, cad_lib().cad_add(self._handle, session._handle))
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .meshes import Mesh
+from ._content import MeshContent
 
 
 def package(name: str, debian: str, what: str) -> Any:
@@ -19,7 +18,7 @@ def package(name: str, debian: str, what: str) -> Any:
         raise ImportError(f"{what} needs the package {name}: pip install {name}{debian}") from error
 
 
-def to_meshio(mesh: "Mesh") -> Any:
+def to_meshio(mesh: MeshContent) -> Any:
     meshio = package("meshio", ", or apt-get install python3-meshio", "to_meshio()")
     blocks = {name: rows for name, rows in mesh.cells.items()}
     if len(mesh.edges):
@@ -28,7 +27,7 @@ def to_meshio(mesh: "Mesh") -> Any:
                        point_data={"reference": mesh.vertex_ids}, cell_data={"face": [refs for _, refs in blocks.values()]})
 
 
-def to_pyvista(mesh: "Mesh") -> Any:
+def to_pyvista(mesh: MeshContent) -> Any:
     pyvista = package("pyvista", "", "to_pyvista()")
     faces = np.column_stack([np.full(len(mesh.triangles), 3, dtype=np.int64), mesh.triangles]).ravel()
     made = pyvista.PolyData(mesh.vertices, faces)

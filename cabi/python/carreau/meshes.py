@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from ctypes import byref, c_char_p, c_int32, c_int64, c_void_p
-from typing import TYPE_CHECKING, Any, Callable, Optional
+from typing import Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,10 +14,10 @@ from ._arrays import doubles, int32s
 from ._calls import Path, address, asked, counted, created, file_name, require_mesh, struct, text_of
 from ._library import lib
 from ._records import CellQuality, Face, Quality
+from ._session import SessionBase
+from .convert import to_meshio, to_pyvista
 from .errors import SequenceError
-
-if TYPE_CHECKING:
-    from .session import Session
+from .render import html, picture
 
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -67,7 +67,7 @@ class Mesh:
 
     def _own(self, handle: c_void_p) -> None:
         self._handle, self._run = handle, 0
-        self.session: Optional[Session] = None
+        self.session: Optional[SessionBase] = None
         weakref.finalize(self, lib().mesh_free, handle)
 
     @classmethod
@@ -80,11 +80,11 @@ class Mesh:
         return made
 
     @classmethod
-    def _of_session(cls, session: "Session", handle: c_void_p) -> "Mesh":
+    def _of_session(cls, session: SessionBase, handle: c_void_p, is_plane: bool) -> "Mesh":
         made = cls.__new__(cls)
         made._handle, made.session, made._run = handle, session, session._runs
         made._fill()
-        if any(each.kind == c.GEOMETRY_PLANE for each in session.geometries):
+        if is_plane:
             made.dimension = 2
         return made
 
@@ -217,20 +217,17 @@ class Mesh:
     def to_meshio(self) -> Any:
         """A meshio.Mesh, which shares the arrays: its cells are the elements, and edges of curves; cell_data["face"] has
         the references. Raises ImportError without the package meshio."""
-        from .convert import to_meshio
         return to_meshio(self)
 
     def to_pyvista(self) -> Any:
         """A pyvista.PolyData of the triangles; cell_data["face"] has the references. Raises ImportError without the
         package pyvista."""
-        from .convert import to_pyvista
         return to_pyvista(self)
 
     def picture(self, path: Optional[Path] = None, **options: Any) -> bytes:
         """A picture as PNG, written to a file where a path is given. options: width and height (pixels), view ("iso",
         "top", "front", "right", or a direction from which to look), edges, colors ("face", "quality", or n or m values); see
         carreau.render."""
-        from .render import picture
         data = picture(self, **options)
         if path is not None:
             with open(path, "wb") as file:
@@ -241,7 +238,6 @@ class Mesh:
         return self.picture()
 
     def _repr_html_(self) -> str:
-        from .render import html
         return html(self)
 
     def __repr__(self) -> str:

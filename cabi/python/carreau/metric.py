@@ -16,6 +16,7 @@ from . import _declarations as c
 from ._arrays import doubles
 from ._calls import address, struct
 from ._library import lib
+from ._session import SessionBase
 from .errors import ArgumentError
 
 Array = NDArray[np.float64]
@@ -26,8 +27,7 @@ DIMENSIONS = {3: 2, 6: 3}
 
 def _call() -> Callable[..., None]:
     """Of a session that keeps the sentence of an error; each call has its own, so that threads may call."""
-    from .session import Session
-    return Session()._call
+    return SessionBase()._call
 
 
 def _rows(metrics: ArrayLike, name: str = "metrics") -> tuple[Array, int]:

@@ -6,13 +6,12 @@ import base64
 import html as text
 import struct
 import zlib
-from typing import TYPE_CHECKING, Any, Sequence, Union
+from typing import Any, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from .meshes import Mesh
+from ._content import MeshContent
 
 Reals = NDArray[np.float64]
 VIEWS = {"iso": (1, -1, 0.8), "top": (0, 0, 1), "bottom": (0, 0, -1), "front": (0, -1, 0), "back": (0, 1, 0), "right": (1, 0, 0),
@@ -60,7 +59,7 @@ def _range(values: Reals) -> Reals:
     return share
 
 
-def _base(mesh: "Mesh", size: Reals, colors: Any) -> Reals:
+def _base(mesh: MeshContent, size: Reals, colors: Any) -> Reals:
     """A colour (m, 3) for each triangle of twice the area `size`."""
     if not isinstance(colors, str):
         values = np.asarray(colors, dtype=np.float64)
@@ -78,7 +77,7 @@ def _base(mesh: "Mesh", size: Reals, colors: Any) -> Reals:
     raise ValueError(f"colors is face, quality or an array, not '{colors}'")
 
 
-def _shades(mesh: "Mesh", axes: Reals, colors: Any) -> Reals:
+def _shades(mesh: MeshContent, axes: Reals, colors: Any) -> Reals:
     """The same lit from the eye."""
     normals = mesh.normals
     size = np.linalg.norm(normals, axis=1)
@@ -158,7 +157,7 @@ def png(pixels: NDArray[np.uint8]) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
 
-def picture(mesh: "Mesh", width: int = 640, height: int = 480, view: Union[None, str, Sequence[float]] = None, edges: bool = True,
+def picture(mesh: MeshContent, width: int = 640, height: int = 480, view: Union[None, str, Sequence[float]] = None, edges: bool = True,
             colors: Any = "face") -> bytes:
     """A PNG file of a mesh.
 
@@ -181,7 +180,7 @@ def picture(mesh: "Mesh", width: int = 640, height: int = 480, view: Union[None,
     return png(canvas.pixels())
 
 
-def html(mesh: "Mesh") -> str:
+def html(mesh: MeshContent) -> str:
     """A picture and a few figures, for notebooks."""
     q = mesh.quality
     rows = [("vertices", f"{q.vertices}"), ("triangles", f"{q.triangles}"), ("faces", f"{len(mesh.faces)}"),

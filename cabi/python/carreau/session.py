@@ -2,33 +2,20 @@
 """Sessions: geometry, parameters and the mesh made of them."""
 from __future__ import annotations
 
-import logging
-import weakref
-from ctypes import byref, c_char_p, c_double, c_int32, c_void_p
-from typing import Any, Callable, Mapping, Optional, Union
-
-import numpy as np
-from numpy.typing import ArrayLike
+from ctypes import byref, c_void_p
 
 from . import _declarations as c
-from ._arrays import doubles
-from ._calls import Path, asked, counted, created, file_name, record, require, session_error, struct, text_of
 from ._geometries import Geometries
 from ._library import lib
-from ._records import Interface, Parameter, Report
-from ._run import Host, run
-from ._studies import Studies
-from .errors import PartialError, SequenceError
+from ._session import SessionBase, log, parameters
+from .errors import PartialError
 from .meshes import Mesh
-from .progress import PHASES, Bar, Progress, listener
-from .sizes import SizeCallbacks
+from .progress import Progress
 
-log = logging.getLogger("carreau")
-LOG_LEVELS = {c.LEVEL_ERROR: logging.ERROR, c.LEVEL_WARNING: logging.WARNING, c.LEVEL_SUMMARY: logging.INFO}
-Value = Union[int, float, str]
+__all__ = ["Session", "parameters"]
 
 
-class Session(Geometries, Studies):
+class Session(Geometries, SessionBase):
     """Holds geometry, model, parameters and the mesh made of them.
 
         session = carreau.Session(hphydef=0.1)
@@ -41,133 +28,6 @@ class Session(Geometries, Studies):
 
     messages   (level, sentence) of the last run; levels as in carreau.h: 0 error, 1 warning, 10 summary, ...
     """
-
-    def __init__(self, **parameters: Value) -> None:
-        self._handle: c_void_p = created(lib().session_create)
-        self._close = weakref.finalize(self, lib().session_free, self._handle)
-        self._host = Host(self._handle)
-        self._kept: list[Any] = []  # callbacks of geometries, until the session is gone
-        self._sizes: list[Any] = []  # callbacks of sizes: of the latest mesh, which is measured with them, and since
-        self._runs = 0
-        self.messages: list[tuple[int, str]] = []
-        self._listen()
-        for name, value in parameters.items():
-            self[name] = value
-
-    def _listen(self) -> None:
-        messages = self.messages
-
-        def on_message(level: int, text: bytes, _: Any) -> None:
-            messages.append((level, text.decode("utf-8", "replace")))
-            log.log(LOG_LEVELS.get(level, logging.DEBUG), "%s", messages[-1][1])
-
-        self._on_message = c.carreau_message_fn(on_message)
-        require(self._handle, lib().set_message_callback(self._handle, self._on_message, None))
-
-    def close(self) -> None:
-        """Frees geometry and mesh now, and not when nobody has the session any more. Meshes keep their arrays."""
-        self._close()
-        self._kept.clear()
-
-    def __enter__(self) -> "Session":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def _call(self, function: Callable[..., int], *arguments: Any) -> None:
-        """A function of the library on this session. Raises CarreauError."""
-        if not self._close.alive:
-            raise ValueError("the session is closed")
-        status = function(self._handle, *arguments)
-        if status != c.OK:
-            raise self._host.take_error() or session_error(self._handle, status)
-
-    # ---- parameters ----
-
-    def __setitem__(self, name: str, value: Value) -> None:
-        word = name.encode()
-        if isinstance(value, str):
-            self._call(lib().set_text if _kind(name) == c.TEXT else lib().set_word, word, value.encode())
-        elif _kind(name) == c.REAL:
-            self._call(lib().set_real, word, float(value))
-        else:
-            self._call(lib().set_integer, word, int(value)) if value == int(value) else self._call(lib().set_real, word, value)
-
-    def __getitem__(self, name: str) -> Value:
-        kind, word = _kind(name), name.encode()
-        out: Any = {c.TEXT: c_char_p, c.REAL: c_double}.get(kind, c_int32)()
-        self._call({c.TEXT: lib().get_text, c.REAL: lib().get_real}.get(kind, lib().get_integer), word, byref(out))
-        return text_of(out.value)  # type: ignore[no-any-return]
-
-    def is_set(self, name: str) -> bool:
-        """Whether a parameter has a value now: a length that is a share of the diagonal has none before a mesh is made."""
-        try:
-            return self[name] is not None
-        except SequenceError:
-            return False
-
-    def reset(self, name: Optional[str] = None) -> None:
-        """Sets one parameter, or all, back to the default."""
-        if name is None:
-            self._call(lib().reset_parameters)
-        else:
-            self._call(lib().reset_parameter, name.encode())
-
-    def read_env(self, path: Path) -> None:
-        """Sets the parameters that a blsurf.env has before its first action."""
-        self._call(lib().read_env, file_name(path))
-
-    # ---- sizes ----
-
-    def set_sizes(self, function: Optional[Callable[..., Any]] = None, *, face_sizes: Optional[Mapping[int, float]] = None,
-                  on_curve: Optional[Callable[..., Any]] = None, at_point: Optional[Callable[..., Any]] = None) -> None:
-        """Wants sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
-        sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point).struct()
-        self._call(lib().set_metric_callbacks, byref(sizes))
-        self._sizes.append(sizes)
-
-    def divide_curve(self, face: int, ic: int, edges: Union[int, ArrayLike], *, arithmetic: float = 1, geometric: float = 1) -> None:
-        """Prescribes the edges of curve number ic, from 1, of a face, and so of all curves that are one with it.
-
-        edges        their number, 0: no prescription; or the parameters (n) of all vertices inside the curve, ascending
-        arithmetic   lengths grow by the same step, and the last is so many times as long as the first
-        geometric    each edge is so many times as long as the one before
-        """
-        if np.ndim(edges) == 1:
-            t = doubles(edges, "edges", None)
-            self._call(lib().model_divide_curve_at, face, ic, len(t), t)
-            return
-        kind, ratio = (c.ARITHMETIC, arithmetic) if arithmetic != 1 else (c.GEOMETRIC, geometric) if geometric != 1 else (c.EQUAL, 1)
-        self._call(lib().model_divide_curve, face, ic, int(edges), kind, float(ratio))  # type: ignore[arg-type]
-
-    # ---- runs ----
-
-    def _long(self, function: Callable[..., int], *arguments: Any) -> None:
-        """As _call, for what may take long: Ctrl-C is heard."""
-        if not self._close.alive:
-            raise ValueError("the session is closed")
-        status = run(self._host, lambda: function(self._handle, *arguments))
-        if status != c.OK:
-            raise session_error(self._handle, status)
-
-    def _run(self, function: Callable[..., int], *arguments: Any, progress: Progress = None) -> None:
-        """The same with progress."""
-        hears = listener(progress)
-        self.messages.clear()
-
-        def on_progress(phase: int, entity: int, fraction: float, _: Any) -> int:
-            assert hears is not None
-            return 1 if hears(fraction, PHASES[phase], entity) else 0
-
-        callback = c.carreau_progress_fn(self._host.guarded(lambda *_: {}, on_progress)) if hears else c.carreau_progress_fn(0)
-        self._call(lib().set_progress_callback, callback, None)
-        try:
-            self._long(function, *arguments)
-        finally:
-            self._call(lib().set_progress_callback, c.carreau_progress_fn(0), None)
-            if isinstance(hears, Bar):
-                hears.close()
 
     def generate(self, progress: Progress = None) -> Mesh:
         """Makes the mesh. With the parameter failing_faces at "leave_out" it may lack faces: mesh.failed tells them.
@@ -182,55 +42,9 @@ class Session(Geometries, Studies):
         del self._sizes[:-1]
         return self.mesh
 
-    def run_env(self, path: Path, progress: Progress = None) -> None:
-        """Runs all actions of a blsurf.env (RT-0232 sec. 3.3)."""
-        try:
-            self._run(lib().run_env, file_name(path), progress=progress)
-        finally:
-            self._runs += 1
-
-    def stop(self) -> None:
-        """Asks the run under way to stop, which it does within 100 ms; from a callback, or another thread."""
-        if self._close.alive:
-            lib().stop(self._handle)
-
     @property
     def mesh(self) -> Mesh:
         """The latest mesh, in arrays that stay as they are. Raises SequenceError where there is none yet."""
         handle = c_void_p()
         self._call(lib().session_mesh, byref(handle))
-        return Mesh._of_session(self, handle)
-
-    # ---- what came of it ----
-
-    @property
-    def report(self) -> Report:
-        """What the last run did: calls of callbacks, seconds."""
-        return asked(c.carreau_report, lambda out: self._call(lib().session_report, out))  # type: ignore[no-any-return]
-
-    @property
-    def interfaces(self) -> list[Interface]:
-        """The curves of the last mesh in space."""
-        count = counted(lambda out: self._call(lib().session_interface_count, out))
-        return [asked(c.carreau_interface, lambda out, k=k: self._call(lib().session_interface, k, out))  # type: ignore[misc]
-                for k in range(count)]
-
-
-def _kind(name: str) -> int:
-    """The type of a parameter; an integer where there is none, whose call then says so."""
-    known = parameters().get(name)
-    return c.INTEGER if known is None else known.type
-
-
-_known: dict[str, Parameter] = {}
-
-
-def parameters() -> dict[str, Parameter]:
-    """All parameters of sessions by their names: help, range, default."""
-    if not _known:
-        for k in range(lib().parameter_count()):
-            info = struct(c.carreau_parameter)
-            lib().parameter_info(k, byref(info))
-            each = record(info)
-            _known[each.name] = each
-    return _known
+        return Mesh._of_session(self, handle, any(each.kind == c.GEOMETRY_PLANE for each in self.geometries))
