@@ -5,7 +5,7 @@
 #include "geometry/bezier/bezier_cad.h"
 #include "geometry/bezier/bezier_geometry.h"
 #include "guard.h"
-#include "io/bezier/bezier_reader.h"
+#include "io/model/bezier_reader.h"
 
 using carreau::BezierPatch;
 using carreau::BezierPatches;

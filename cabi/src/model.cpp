@@ -8,7 +8,7 @@
 #include "curve/prescribed_edges.h"
 #include "guard.h"
 #include "io/files.h"
-#include "io/pardom.h"
+#include "io/model/pardom.h"
 #include "support/vec.h"
 
 using carreau::Face;

@@ -85,6 +85,11 @@ Temporary create_beside(const fs::path& target) {
 
 }  // namespace
 
+bool starts_as_gmf(std::string_view bytes) noexcept {
+  const std::string_view start = bytes.substr(0, 4);
+  return start == std::string_view("\1\0\0\0", 4) || start == std::string_view("\0\0\0\1", 4);
+}
+
 std::string suffix_of(const std::string& path) {
   const std::size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
   const std::size_t dot = path.find_last_of('.');

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "io/files.h"
-#include "io/medit/gmf_sections.h"
 #include "io/mesh_writers.h"
 #include "support/error.h"
 

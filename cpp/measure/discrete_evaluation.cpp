@@ -5,12 +5,12 @@
 #include <cstdio>
 
 #include "cad/fundamental_forms.h"
+#include "measure/base/thresholds.h"
 #include "measure/composite_evaluation.h"
-#include "measure/thresholds.h"
 #include "mesh/surface_distance.h"
 #include "support/infinity.h"
 #include "surface/discrete/start_mesh.h"
-#include "surface/independent/charts.h"
+#include "surface/independent/base/charts.h"
 
 namespace carreau {
 

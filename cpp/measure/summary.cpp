@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "measure/base/thresholds.h"
 #include "measure/mesh_evaluation.h"
-#include "measure/thresholds.h"
 #include "support/format.h"
 #include "support/infinity.h"
 #include "support/short_number.h"

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "plane/division/divided_mesh.h"
+#include "plane/division/undivided.h"
 #include "plane/kernel/boundary.h"
-#include "plane/undivided.h"
 
 namespace carreau {
 

@@ -4,7 +4,7 @@
 
 #include "control_space/control_space.h"
 #include "mesh/plane_mesh.h"
-#include "plane/options.h"
+#include "plane/division/options.h"
 #include "support/monitor.h"
 
 namespace carreau {

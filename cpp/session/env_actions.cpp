@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "io/env.h"
+#include "io/model/env.h"
 #include "session/file_adaptation.h"
 #include "session/session.h"
 

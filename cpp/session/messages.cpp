@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "measure/strips_note.h"
 #include "mesh/flat_mesh.h"
-#include "session/output/strips_note.h"
 #include "support/format.h"
 #include "support/short_number.h"
 

@@ -8,7 +8,7 @@
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
 #include "geometry/discrete/discrete_cad.h"
-#include "io/pardom.h"
+#include "io/model/pardom.h"
 #include "model/geometries.h"
 #include "pipeline/faces/same_hosts.h"
 #include "pipeline/parts/part_mesh.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "io/files.h"
-#include "io/pardom.h"
+#include "io/model/pardom.h"
 #include "model/geometries.h"
 #include "model/places.h"
 #include "session/file_adaptation.h"

@@ -10,7 +10,7 @@
 #include "control_space/control_space.h"
 #include "curve/edge_accuracy.h"
 #include "gradation/graded_field.h"
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "mesh/surface_mesh.h"
 #include "surface/patch.h"
 

@@ -8,10 +8,10 @@
 #include "gradation/gradation.h"
 #include "plane/plane_mesher.h"
 #include "support/segment.h"
+#include "variable/base/erosion.h"
+#include "variable/base/thresholds.h"
 #include "variable/boundary/boundary_cut.h"
-#include "variable/erosion.h"
 #include "variable/self_overlap.h"
-#include "variable/thresholds.h"
 #include "variable/transfer/piece_transfer.h"
 
 namespace carreau::variable {

@@ -8,9 +8,9 @@
 
 #include "adapt/estimators.h"
 #include "support/monitor.h"
+#include "variable/base/piece.h"
 #include "variable/boundary/run_curve.h"
 #include "variable/boundary/tools.h"
-#include "variable/piece.h"
 
 namespace carreau::variable {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "variable/erosion.h"
+#include "variable/base/erosion.h"
 
 namespace carreau::variable {
 

@@ -13,7 +13,7 @@
 #include "geometry/atlas/blended_surface.h"
 #include "geometry/bezier/bezier_geometry.h"
 #include "geometry/molecule/molecule.h"
-#include "io/bezier/bezier_reader.h"
+#include "io/model/bezier_reader.h"
 #include "session/session.h"
 
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "plane/division/undivided.h"
 #include "plane/plane_mesher.h"
-#include "plane/undivided.h"
 #include "plane_cases.h"
 #include "plane_checks.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "fuzz_check.h"
-#include "io/env.h"
+#include "io/model/env.h"
 #include "support/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The layers of cpp/ and of the command: no include runs upwards. CONTRIBUTING.md lists the rooms, each of which may use the rooms before it."""
+"""The layers of cpp/ and of the command: no include runs upwards, and no folders include each other. CONTRIBUTING.md lists the rooms, each of which may use the rooms before it."""
 
 import pathlib
 import re
 import sys
+
+from circles import circles
 
 MOST_FILES = 25  # in a folder: a reader does not take in more at a glance
 
@@ -23,8 +25,38 @@ def room_of(path, rooms):
     return max(ranks, key=lambda i: len(rooms[i]), default=None)
 
 
+def includes(tree):
+    """Pairs of a file and a file that it includes, both of the tree."""
+    for file in sorted(tree.rglob("*")):
+        if file.suffix in {".h", ".cpp"}:
+            for included in re.findall(r'^#include "([^"]+)"', file.read_text(), re.M):
+                if (tree / included).is_file():
+                    yield file.relative_to(tree).parts, pathlib.PurePath(included).parts
+
+
+def folder_circles(tree):
+    """Folders that include each other: by the files of each folder alone, and by whole sub-folders of one folder."""
+    alone, together = {}, {}
+    for file, included in includes(tree):
+        folder, other = "/".join(file[:-1]), "/".join(included[:-1])
+        if folder == other:
+            continue
+        alone.setdefault(folder, set()).add(other)
+        common = 0
+        while common < min(len(file), len(included)) - 1 and file[common] == included[common]:
+            common += 1
+        parts = [path[common] if common < len(path) - 1 else "." for path in (file, included)]
+        together.setdefault("/".join(file[:common]), {}).setdefault(parts[0], set()).add(parts[1])
+    yield from circles(alone)
+    for folder, graph in together.items():
+        for group in circles(graph):
+            yield [f"{folder}/{part}" for part in group]
+
+
 def complaints(root, name, rooms):
     tree = root / name
+    for group in folder_circles(tree):
+        yield f"folders of {name} include each other: " + ", ".join(group)
     for file in sorted(tree.rglob("*")):
         if file.is_dir():
             count = sum(1 for f in file.iterdir() if f.suffix in {".h", ".cpp"})

@@ -15,11 +15,6 @@ constexpr std::int32_t swapped_one = 0x01000000;
 
 }  // namespace
 
-bool starts_as_gmf(std::string_view bytes) noexcept {
-  const std::string_view start = bytes.substr(0, 4);
-  return start == std::string_view("\1\0\0\0", 4) || start == std::string_view("\0\0\0\1", 4);
-}
-
 void GmfSections::fail(std::size_t at, const std::string& sentence) const {
   throw FileError({.file = name_}, "byte " + std::to_string(at) + ": " + sentence);
 }

@@ -11,9 +11,6 @@
 
 namespace carreau {
 
-/// Whether a file is binary: it starts with the number 1 in 32 bits, in one byte order or the other.
-bool starts_as_gmf(std::string_view bytes) noexcept;
-
 /// Walks through a file; keeps references to both arguments. Errors are FileErrors.
 class GmfSections {
  public:

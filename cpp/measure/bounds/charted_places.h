@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cad/cad.h"
-#include "measure/degenerate_sides.h"
-#include "measure/mesh_edges.h"
-#include "surface/independent/bounds/triangle_bound.h"
+#include "measure/base/degenerate_sides.h"
+#include "measure/base/mesh_edges.h"
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
+#include "surface/independent/bounds/triangle_bound.h"
 
 namespace carreau {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "support/monitor.h"
 #include "support/ranks/crew.h"
 #include "support/vec.h"

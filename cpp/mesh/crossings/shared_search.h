@@ -2,7 +2,7 @@
 // Triangles that cross each other, sought by many processes.
 #pragma once
 
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "support/ranks/crew.h"
 
 namespace carreau {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gradation/edge_sizes.h"
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "pipeline/base/run.h"
 
 namespace carreau {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "pipeline/base/run.h"
 
 namespace carreau {

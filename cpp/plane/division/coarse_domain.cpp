@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau::plane {
 

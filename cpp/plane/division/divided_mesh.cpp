@@ -11,10 +11,10 @@
 #include "plane/division/partition.h"
 #include "plane/division/pieces.h"
 #include "plane/division/shared_tasks.h"
+#include "plane/division/undivided.h"
 #include "plane/division/zone.h"
 #include "plane/kernel/boundary.h"
-#include "plane/thresholds.h"
-#include "plane/undivided.h"
+#include "plane/kernel/thresholds.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
 

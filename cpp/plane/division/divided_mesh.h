@@ -6,9 +6,9 @@
 
 #include "control_space/control_space.h"
 #include "mesh/plane_mesh.h"
+#include "plane/division/options.h"
 #include "plane/kernel/frame.h"
-#include "plane/options.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {

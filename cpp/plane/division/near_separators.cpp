@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "plane/kernel/star.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau::plane {
 

@@ -9,9 +9,9 @@
 
 #include "model/union_find.h"
 #include "plane/division/arrival.h"
+#include "plane/division/undivided.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
-#include "plane/thresholds.h"
-#include "plane/undivided.h"
 
 namespace carreau::plane {
 

@@ -9,8 +9,8 @@
 #include "control_space/control_space.h"
 #include "metric/metric2.h"
 #include "plane/division/coarse_domain.h"
+#include "plane/division/options.h"
 #include "plane/kernel/frame.h"
-#include "plane/options.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {

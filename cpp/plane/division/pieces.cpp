@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
-#include "plane/thresholds.h"
 #include "predicates/clamped_int.h"
 
 namespace carreau::plane {

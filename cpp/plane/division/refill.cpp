@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
-#include "plane/thresholds.h"
 #include "support/error.h"
 
 namespace carreau::plane {

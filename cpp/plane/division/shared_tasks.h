@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plane/options.h"
+#include "plane/division/options.h"
 #include "support/monitor.h"
 #include "support/ranks/dealt_work.h"
 #include "support/ranks/packet.h"

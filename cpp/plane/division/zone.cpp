@@ -5,7 +5,7 @@
 
 #include "plane/division/shared_tasks.h"
 #include "plane/division/zone_part.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/unfilled.h"
 

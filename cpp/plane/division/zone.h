@@ -10,7 +10,7 @@
 #include "plane/division/inner_edges.h"
 #include "plane/division/near_separators.h"
 #include "plane/division/pieces.h"
-#include "plane/undivided.h"
+#include "plane/division/undivided.h"
 
 namespace carreau::plane {
 

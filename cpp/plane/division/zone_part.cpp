@@ -6,9 +6,9 @@
 
 #include "plane/division/refill.h"
 #include "plane/kernel/domain_reader.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
-#include "plane/thresholds.h"
 #include "support/unfilled.h"
 
 namespace carreau::plane {

@@ -5,7 +5,7 @@
 
 #include "plane/kernel/domain_reader.h"
 #include "plane/kernel/edge_recovery.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
-#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {

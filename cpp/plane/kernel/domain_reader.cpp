@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "support/error.h"
 
 namespace carreau::plane {

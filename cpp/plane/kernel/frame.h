@@ -5,8 +5,8 @@
 #include "control_space/control_space.h"
 #include "metric/chart.h"
 #include "metric/metric2.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau::plane {
 

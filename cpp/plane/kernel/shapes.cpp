@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "plane/kernel/star.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/inner_edges.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -6,8 +6,8 @@
 
 #include "metric/field_length.h"
 #include "plane/kernel/metric_delaunay.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/inner_edges.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "plane/kernel/star.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
-#include "plane/thresholds.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/zone_moves.h"
-#include "plane/thresholds.h"
 #include "support/infinity.h"
 
 namespace carreau::plane {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/star_cost.h"
-#include "plane/thresholds.h"
 #include "support/infinity.h"
 
 namespace carreau::plane {

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/bad_triangles.h"
 #include "plane/optimise/degree_pairs.h"
 #include "plane/optimise/degrees.h"
 #include "plane/optimise/delaunay_swaps.h"
 #include "plane/optimise/flat_triangles.h"
 #include "plane/optimise/smoothing.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau::plane {
 

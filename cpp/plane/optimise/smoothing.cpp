@@ -7,7 +7,7 @@
 
 #include "plane/kernel/pair.h"
 #include "plane/kernel/star.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/star_cost.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/placement/circumcentres.h"
 #include "plane/placement/front.h"
 #include "plane/placement/respacing.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/placement/circumcentres.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau::plane {
 

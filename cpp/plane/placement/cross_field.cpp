@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "support/infinity.h"
 
 namespace carreau::plane {

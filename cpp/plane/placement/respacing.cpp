@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau::plane {
 

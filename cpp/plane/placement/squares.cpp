@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "plane/kernel/thresholds.h"
 #include "plane/placement/advancing_front.h"
 #include "plane/placement/circumcentres.h"
 #include "plane/placement/cross_field.h"
-#include "plane/thresholds.h"
 
 namespace carreau::plane {
 

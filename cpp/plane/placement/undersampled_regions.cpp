@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "support/infinity.h"
 
 namespace carreau::plane {

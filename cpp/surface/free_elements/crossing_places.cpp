@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "mesh/crossings/intersections.h"
 #include "mesh/flat_mesh.h"
-#include "mesh/intersections.h"
 
 namespace carreau {
 

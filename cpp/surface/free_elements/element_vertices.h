@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "surface/free_elements/thresholds.h"
-#include "surface/independent/free_mesh.h"
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/line_places.h"
 
 namespace carreau {

@@ -11,7 +11,7 @@
 #include "mesh/elements/jacobian.h"
 #include "support/error.h"
 #include "support/infinity.h"
-#include "surface/independent/charts.h"
+#include "surface/independent/base/charts.h"
 
 namespace carreau {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "support/all_that_hold.h"
+#include "support/ranks/all_that_hold.h"
 
 namespace carreau {
 

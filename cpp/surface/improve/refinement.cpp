@@ -13,7 +13,7 @@
 #include "mesh/local_search.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
-#include "support/all_that_hold.h"
+#include "support/ranks/all_that_hold.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/thresholds.h"
 

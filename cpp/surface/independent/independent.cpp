@@ -13,13 +13,13 @@
 
 #include "mesh/flat_mesh.h"
 #include "support/infinity.h"
+#include "surface/independent/base/thresholds.h"
+#include "surface/independent/edits/edge_edits.h"
+#include "surface/independent/edits/remeshing.h"
+#include "surface/independent/edits/worst_first.h"
 #include "surface/independent/placed_mesh.h"
 #include "surface/independent/reassembly.h"
-#include "surface/independent/remeshing.h"
-#include "surface/independent/thresholds.h"
 #include "surface/independent/tries.h"
-#include "surface/independent/edits/edge_edits.h"
-#include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
 

@@ -11,11 +11,11 @@
 
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
-#include "surface/independent/charts.h"
+#include "surface/independent/base/charts.h"
+#include "surface/independent/base/free_mesh.h"
+#include "surface/independent/base/sharp_edges.h"
 #include "surface/independent/division/divided_remeshing.h"
-#include "surface/independent/free_mesh.h"
 #include "surface/independent/line_places.h"
-#include "surface/independent/sharp_edges.h"
 #include "surface/options.h"
 #include "surface/result.h"
 

@@ -9,8 +9,8 @@
 
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
-#include "surface/independent/charts.h"
-#include "surface/independent/sharp_edges.h"
+#include "surface/independent/base/charts.h"
+#include "surface/independent/base/sharp_edges.h"
 
 namespace carreau {
 

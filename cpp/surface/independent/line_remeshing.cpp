@@ -11,9 +11,9 @@
 #include "curve/unit_discretisation.h"
 #include "support/infinity.h"
 #include "support/segment.h"
+#include "surface/independent/base/thresholds.h"
 #include "surface/independent/edits/collapse_price.h"
 #include "surface/independent/edits/edge_edits.h"
-#include "surface/independent/thresholds.h"
 
 namespace carreau {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/monitor.h"
-#include "surface/independent/free_mesh.h"
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/line_places.h"
 
 namespace carreau {

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "surface/independent/base/free_mesh.h"
+#include "surface/independent/base/sharp_edges.h"
 #include "surface/independent/cells/cell_placer.h"
 #include "surface/independent/division/divided_remeshing.h"
-#include "surface/independent/free_mesh.h"
 #include "surface/independent/line_remeshing.h"
-#include "surface/independent/sharp_edges.h"
 #include "surface/result.h"
 
 namespace carreau {

@@ -14,9 +14,9 @@
 #include "model/bucket_sort.h"
 #include "support/infinity.h"
 #include "support/stepped_tasks.h"
-#include "surface/independent/remeshing.h"
-#include "surface/independent/thresholds.h"
+#include "surface/independent/base/thresholds.h"
 #include "surface/independent/certify/certification.h"
+#include "surface/independent/edits/remeshing.h"
 #include "surface/independent/edits/worst_first.h"
 
 namespace carreau {

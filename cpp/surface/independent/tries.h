@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cad/cad.h"
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "support/monitor.h"
-#include "surface/independent/free_mesh.h"
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/independent.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/reassembly.h"

@@ -9,8 +9,8 @@
 
 #include "cad/fundamental_forms.h"
 #include "predicates/polygon_locator.h"
-#include "support/all_that_hold.h"
 #include "support/format.h"
+#include "support/ranks/all_that_hold.h"
 #include "support/ranks/crew.h"
 #include "surface/lift/excess_packet.h"
 #include "surface/lift/thresholds.h"

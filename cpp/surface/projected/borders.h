@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/independent/free_mesh.h"
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/projected/find_charts.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface/independent/charts.h"
-#include "surface/independent/sharp_edges.h"
+#include "surface/independent/base/charts.h"
+#include "surface/independent/base/sharp_edges.h"
 
 namespace carreau {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "curve/unit_discretisation.h"
-#include "variable/thresholds.h"
+#include "variable/base/thresholds.h"
 
 namespace carreau::variable {
 

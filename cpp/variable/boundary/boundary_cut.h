@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesh/plane_mesh.h"
+#include "variable/base/size_map.h"
 #include "variable/boundary/boundary_sizes.h"
-#include "variable/size_map.h"
 
 namespace carreau::variable {
 

@@ -9,7 +9,7 @@
 #include "support/error.h"
 #include "support/segment.h"
 #include "support/short_number.h"
-#include "variable/thresholds.h"
+#include "variable/base/thresholds.h"
 
 namespace carreau::variable {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "variable/base/erosion.h"
 #include "variable/boundary/tools.h"
-#include "variable/erosion.h"
 
 namespace carreau::variable {
 

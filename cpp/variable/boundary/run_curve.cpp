@@ -2,7 +2,7 @@
 #include "variable/boundary/run_curve.h"
 
 #include "support/segment.h"
-#include "variable/thresholds.h"
+#include "variable/base/thresholds.h"
 
 namespace carreau::variable {
 

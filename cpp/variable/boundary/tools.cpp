@@ -8,7 +8,7 @@
 
 #include "support/error.h"
 #include "support/segment.h"
-#include "variable/thresholds.h"
+#include "variable/base/thresholds.h"
 
 namespace carreau::variable {
 

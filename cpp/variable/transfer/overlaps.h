@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/triangle_search.h"
-#include "variable/piece.h"
+#include "variable/base/piece.h"
 
 namespace carreau::variable {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "variable/piece.h"
+#include "variable/base/piece.h"
 
 namespace carreau::variable {
 

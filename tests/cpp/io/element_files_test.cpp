@@ -10,8 +10,8 @@
 #include "io/element_lists.h"
 #include "io/mesh_files.h"
 #include "io_test_support.h"
-#include "mesh/elements/cell_defects.h"
-#include "mesh/flat_defects.h"
+#include "mesh/defects/cell_defects.h"
+#include "mesh/defects/flat_defects.h"
 
 namespace carreau {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/env.h"
+#include "io/model/env.h"
 
 #include <gtest/gtest.h>
 

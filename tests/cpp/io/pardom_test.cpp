@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/pardom.h"
+#include "io/model/pardom.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds of A0 and A1 of whole meshes, against closed forms and dense samples.
-#include "measure/bounds/deviation_bounds.h"
+#include "measure/deviation_bounds.h"
 
 #include <gtest/gtest.h>
 

@@ -14,9 +14,9 @@
 #include <set>
 #include <utility>
 
+#include "mesh/crossings/intersections.h"
 #include "mesh/crossings/outline.h"
 #include "mesh/crossings/spatial_order.h"
-#include "mesh/intersections.h"
 
 namespace carreau {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 
 namespace carreau {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/all_that_hold.h"
+#include "support/ranks/all_that_hold.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "geometric_run.h"
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "session_of_size.h"
 
 namespace carreau {

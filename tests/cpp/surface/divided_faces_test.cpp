@@ -14,7 +14,7 @@
 
 #include "common/analytic_cad.h"
 #include "geometric_run.h"
-#include "plane/thresholds.h"
+#include "plane/kernel/thresholds.h"
 #include "session/session.h"
 
 namespace carreau {

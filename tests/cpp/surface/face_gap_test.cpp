@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "common/analytic_cad.h"
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "surface/supports.h"
 
 namespace carreau {

@@ -11,7 +11,7 @@
 
 #include "common/analytic_cad.h"
 #include "common/field_source.h"
-#include "measure/mesh_edges.h"
+#include "measure/base/mesh_edges.h"
 #include "measure/mesh_evaluation.h"
 #include "session/session.h"
 #include "size/geometric_metric.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cad/cad.h"
-#include "surface/independent/charts.h"
+#include "surface/independent/base/charts.h"
 
 namespace carreau {
 

@@ -10,7 +10,7 @@
 #include "mesh/elements/jacobian.h"
 #include "predicates/predicates.h"
 #include "support/infinity.h"
-#include "surface/independent/thresholds.h"
+#include "surface/independent/base/thresholds.h"
 
 namespace carreau {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "surface/independent/charts.h"
+#include "surface/independent/base/charts.h"
 
 namespace carreau {
 

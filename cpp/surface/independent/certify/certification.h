@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "support/monitor.h"
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/division/divided_remeshing.h"
-#include "surface/independent/free_mesh.h"
 
 namespace carreau {
 

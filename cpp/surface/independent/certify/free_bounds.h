@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/bounds/triangle_bound.h"
 #include "surface/independent/cells/cell_placer.h"
-#include "surface/independent/free_mesh.h"
 
 namespace carreau {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/independent/free_mesh.h"
+#include "surface/independent/base/free_mesh.h"
 
 namespace carreau {
 

@@ -12,9 +12,9 @@
 #include "support/error.h"
 #include "support/ranks/dealt_work.h"
 #include "support/stepped_tasks.h"
+#include "surface/independent/base/thresholds.h"
 #include "surface/independent/division/cuts.h"
 #include "surface/independent/division/mesh_part.h"
-#include "surface/independent/thresholds.h"
 
 namespace carreau {
 

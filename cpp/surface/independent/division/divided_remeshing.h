@@ -7,8 +7,8 @@
 
 #include "cad/cad.h"
 #include "support/monitor.h"
-#include "surface/independent/free_mesh.h"
-#include "surface/independent/remeshing.h"
+#include "surface/independent/base/free_mesh.h"
+#include "surface/independent/edits/remeshing.h"
 #include "surface/options.h"
 
 namespace carreau {

@@ -7,8 +7,8 @@
 
 #include "support/error.h"
 #include "support/ranks/triangle_packet.h"
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/division/place_packet.h"
-#include "surface/independent/free_mesh.h"
 
 namespace carreau {
 

@@ -8,7 +8,7 @@
 
 #include "mesh/editable_mesh.h"
 #include "support/ranks/packet.h"
-#include "surface/independent/remeshing.h"
+#include "surface/independent/edits/remeshing.h"
 #include "surface/surface_place.h"
 
 namespace carreau {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "surface/independent/base/free_mesh.h"
 #include "surface/independent/division/mesh_part.h"
-#include "surface/independent/free_mesh.h"
 
 namespace carreau {
 

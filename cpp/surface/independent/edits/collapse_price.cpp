@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "support/infinity.h"
-#include "surface/independent/thresholds.h"
+#include "surface/independent/base/thresholds.h"
 
 namespace carreau {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "metric/metric2.h"
+#include "surface/independent/base/thresholds.h"
 #include "surface/independent/edits/collapse_price.h"
-#include "surface/independent/thresholds.h"
 
 namespace carreau {
 

@@ -6,8 +6,8 @@
 
 #include "mesh/quality.h"
 #include "metric/metric2.h"
+#include "surface/independent/base/thresholds.h"
 #include "surface/independent/edits/edge_edits.h"
-#include "surface/independent/thresholds.h"
 
 namespace carreau {
 

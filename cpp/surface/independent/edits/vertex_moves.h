@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface/independent/free_mesh.h"
+#include "surface/independent/base/free_mesh.h"
 
 namespace carreau {
 

@@ -10,8 +10,8 @@
 
 #include "support/infinity.h"
 #include "support/stepped_tasks.h"
+#include "surface/independent/base/thresholds.h"
 #include "surface/independent/edits/edge_edits.h"
-#include "surface/independent/thresholds.h"
 
 namespace carreau {
 

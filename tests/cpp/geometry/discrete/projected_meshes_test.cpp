@@ -16,7 +16,7 @@
 
 #include "common/thread_team.h"
 #include "geometry/discrete/discrete_cad.h"
-#include "mesh/intersections.h"
+#include "mesh/crossings/intersections.h"
 #include "mesh/quality.h"
 #include "session/session.h"
 #include "surface/discrete/start_mesh.h"

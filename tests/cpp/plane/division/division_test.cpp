@@ -10,9 +10,9 @@
 #include "metric_cases.h"
 #include "plane/division/coarse_domain.h"
 #include "plane/division/divided_mesh.h"
+#include "plane/division/undivided.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/plane_mesher.h"
-#include "plane/thresholds.h"
-#include "plane/undivided.h"
 #include "plane_checks.h"
 
 namespace carreau {

@@ -10,9 +10,9 @@
 #include "independent/patchworks.h"
 #include "mesh/surface_mesh.h"
 #include "session_of_size.h"
+#include "surface/independent/base/sharp_edges.h"
 #include "surface/independent/certify/certification.h"
-#include "surface/independent/remeshing.h"
-#include "surface/independent/sharp_edges.h"
+#include "surface/independent/edits/remeshing.h"
 
 namespace carreau {
 namespace {

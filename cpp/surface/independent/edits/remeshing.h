@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lengths and shapes as they are wanted, all over a free mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "support/monitor.h"
+#include "surface/independent/base/free_mesh.h"
+
+namespace carreau {
+
+struct RemeshingReport {
+  std::int64_t collapses = 0, splits = 0, swaps = 0, moves = 0;
+  int rounds = 0;
+
+  RemeshingReport& operator+=(const RemeshingReport& other) noexcept {
+    collapses += other.collapses, splits += other.splits, swaps += other.swaps, moves += other.moves;
+    rounds += other.rounds;
+    return *this;
+  }
+};
+
+/// Whether a triangle is to be worked at where not all are: its shape, or the length of a side.
+[[nodiscard]] bool is_bad(const FreeMesh& mesh, const EditableMesh::Triangle& t);
+
+/// Halves the edges of a mesh that is well shaped and twice as coarse as wanted: each triangle with three long edges becomes four, whose
+/// new vertices have six edges. Lengths and shapes are then as the coarse ones were, and remesh() may follow.
+RemeshingReport halve(FreeMesh& mesh, Monitor& monitor);
+
+/// Swaps edges and moves vertices around triangles of a shape below `below` where shapes are better for it, in the sum. The budget stays.
+RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor);
+
+/// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
+/// `everywhere`: all triangles are worked at, not only those below `good_enough` and what is around: of a mesh that is no
+/// mesher's. `thorough`: shapes are worked at longer. `around`: work starts around these vertices only; empty: as said before.
+/// Deterministic. Throws what the host throws, and Cancelled.
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false, bool thorough = false,
+                       std::span<const std::int32_t> around = {});
+
+}  // namespace carreau

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Imposed deformation: totally damaged elements go (HDR sec. 3.4.2).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "variable/base/piece.h"
+
+namespace carreau::variable {
+
+/// What is left of a piece.
+struct Eroded {
+  Piece piece;                            ///< vertices that no triangle has are gone
+  std::vector<std::int32_t> vertex_of;    ///< of each vertex: its index before
+  std::vector<std::int32_t> triangle_of;  ///< of each triangle: its index before
+  Adjacency adjacency;
+  std::vector<std::array<bool, 3>> bared;  ///< sides of triangles that elements were removed from
+  std::int64_t damaged = 0;                ///< triangles removed because of their damage
+  std::int64_t at_multiple_vertices = 0;   ///< removed because more than two boundary edges met at a vertex
+  std::int64_t dangling = 0;               ///< removed because one side only still held them
+  std::int64_t in_parts = 0;               ///< removed with smaller parts
+  double removed_area = 0;
+  std::int32_t parts_found = 0, parts_kept = 0;
+};
+
+/// Removes the triangles whose damage reaches `limit` (none where `damage` is empty); then, while boundary vertices are
+/// multiple, the triangles at them; those that the removal has left at one side only (ours: as spikes they would get
+/// thinner and thinner); then all parts but the one of the largest area, unless `keep_all_parts`. Throws
+/// InvalidArgument when nothing is left, and what adjacency_of throws.
+Eroded erode(const Piece& piece, std::span<const double> damage, double limit, bool keep_all_parts);
+
+}  // namespace carreau::variable
