@@ -32,6 +32,7 @@ struct carreau_cad_file {
   std::vector<std::string> sentences;                            // of its dangers
   std::optional<carreau_occ::Solids> solids;
   std::string notes;  // a line each
+  bool loose_edges = false;
   std::string error;
 };
 

@@ -163,13 +163,15 @@ Solids solids_of(const ShapeFile& file) {
   TopTools_IndexedMapOfShape faces, solids;
   TopExp::MapShapes(file.shape, TopAbs_FACE, faces);
   TopExp::MapShapes(file.shape, TopAbs_SOLID, solids);
-  Solids found{.of_face = std::vector<int>(static_cast<std::size_t>(faces.Extent()), 0),
+  Solids found{.of_face = std::vector<std::array<int, 2>>(static_cast<std::size_t>(faces.Extent())),
                .names = std::vector<std::string>(static_cast<std::size_t>(solids.Extent()))};
   for (int s = 1; s <= solids.Extent(); ++s)
     for (TopExp_Explorer f(solids(s), TopAbs_FACE); f.More(); f.Next())
       if (const int number = faces.FindIndex(f.Current()); number > 0) {
-        int& known = found.of_face[static_cast<std::size_t>(number - 1)];
-        if (known == 0) known = s;
+        // The map has the face as its first solid uses it.
+        std::array<int, 2>& sides = found.of_face[static_cast<std::size_t>(number - 1)];
+        int& side = f.Current().Orientation() == faces(number).Orientation() ? sides[0] : sides[1];
+        if (side == 0) side = s;
       }
   for (const ShapeFile::Label& label : file.labels)
     if (const int s = solids.FindIndex(label.part); s > 0 && !label.name.empty())

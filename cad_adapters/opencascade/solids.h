@@ -11,8 +11,15 @@
 namespace carreau_occ {
 
 struct Solids {
-  std::vector<int> of_face;        ///< by face from 0: number of its solid from 1, 0: none
+  /// By face from 0: number, from 1, of the solid that its triangles look out of, and of the one on the other side; 0:
+  /// none.
+  std::vector<std::array<int, 2>> of_face;
   std::vector<std::string> names;  ///< by solid from 0; "": none
+
+  /// From 1; 0: "".
+  [[nodiscard]] const char* name(int solid) const {
+    return solid > 0 ? names[static_cast<std::size_t>(solid - 1)].c_str() : "";
+  }
 };
 
 /// Numbers are those of OpenCASCADE's map of solids. Nothing is thrown.
