@@ -288,9 +288,7 @@ BrepHost::GlueTolerances BrepHost::State::glue_tolerances() const {
 }
 
 bool BrepHost::is_closed() const noexcept {
-  for (const int n : state_->uses)
-    if (n != 2 && n != 0) return false;  // 0: an edge that no face holds
-  return true;
+  return std::find(state_->uses.begin(), state_->uses.end(), 1) == state_->uses.end();
 }
 
 std::string BrepHost::failure(int face) const {

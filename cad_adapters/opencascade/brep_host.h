@@ -80,7 +80,7 @@ class BrepHost {
   [[nodiscard]] GlueTolerances glue_tolerances() const;
   /// How far faces may be from the edges and vertices that they share (parameter eps_match).
   [[nodiscard]] double match_tolerance() const;
-  /// Every edge belongs to two faces, or twice to one.
+  /// No edge has one face alone (a seam has its face twice).
   [[nodiscard]] bool is_closed() const noexcept;
   /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has
   /// there (uv[2]; exchanged when the face is reversed). False: OpenCASCADE fails.

@@ -795,6 +795,11 @@ class carreau_cad_options(Structure):
         ("loose_edges", c_int32),
         ("progress", carreau_cad_progress_fn),
         ("user", c_void_p),
+        ("imprint", c_int32),
+        ("reserved", c_int32),
+        ("imprint_tolerance", c_double),
+        ("unit", c_char_p),
+        ("scale", c_double),
     ]
 
 
@@ -815,6 +820,9 @@ class carreau_cad_content(Structure):
         ("references", c_int32),
         ("match_tolerance", c_double),
         ("notes", c_char_p),
+        ("file_unit", c_char_p),
+        ("solids", c_int32),
+        ("shared_faces", c_int32),
     ]
 
 
@@ -828,6 +836,9 @@ class carreau_cad_face(Structure):
         ("solid", c_int32),
         ("reserved", c_int32),
         ("solid_name", c_char_p),
+        ("other_solid", c_int32),
+        ("reserved2", c_int32),
+        ("other_solid_name", c_char_p),
     ]
 
 
@@ -1068,10 +1079,14 @@ CARREAU = {
 }
 CARREAU_CAD = {
     "carreau_cad_open": (c_int32, [c_void_p, c_char_p, POINTER(carreau_cad_options), POINTER(c_void_p)]),
+    "carreau_cad_open_bytes": (c_int32, [c_void_p, c_void_p, c_int64, c_char_p, POINTER(carreau_cad_options), POINTER(c_void_p)]),
     "carreau_cad_create": (c_int32, [POINTER(c_void_p)]),
     "carreau_cad_close": (None, [c_void_p]),
     "carreau_cad_last_error": (c_char_p, [c_void_p]),
     "carreau_cad_read": (c_int32, [c_void_p, c_char_p, POINTER(carreau_cad_options)]),
+    "carreau_cad_read_bytes": (c_int32, [c_void_p, c_void_p, c_int64, c_char_p, POINTER(carreau_cad_options)]),
+    "carreau_cad_imprint": (c_int32, [c_void_p, c_double, carreau_cad_progress_fn, c_void_p]),
+    "carreau_cad_name_solids": (c_int32, [c_void_p, c_int64, POINTER(c_char_p), Int32s]),
     "carreau_cad_add": (c_int32, [c_void_p, c_void_p]),
     "carreau_cad_set_face_size": (c_int32, [c_void_p, c_char_p, c_double]),
     "carreau_cad_info": (c_int32, [c_void_p, POINTER(carreau_cad_content)]),

@@ -325,6 +325,9 @@ class CadContent(NamedTuple):
     references: int
     match_tolerance: float
     notes: str
+    file_unit: str
+    solids: int
+    shared_faces: int
 
 
 class CadFace(NamedTuple):
@@ -336,6 +339,9 @@ class CadFace(NamedTuple):
     why: str
     solid: int
     solid_name: str
+    other_solid: int
+    reserved2: int
+    other_solid_name: str
 
 
 class CadFigures(NamedTuple):

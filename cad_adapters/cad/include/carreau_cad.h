@@ -124,7 +124,7 @@ CARREAU_CAD_API carreau_status carreau_cad_set_face_size(carreau_cad_file* file,
 typedef struct carreau_cad_content {
   size_t struct_size;
   int32_t faces, edges, vertices;
-  int32_t closed;   /* 1: each edge has two faces */
+  int32_t closed;   /* 1: no edge has one face alone */
   const char* unit; /* of coordinates: "mm", carreau_cad_options.unit, or "" when there is none */
   double diagonal;  /* of the box of the faces that are not left out; 0: there is none */
   double glue_tolerance; /* how far apart edges of one face only may be that are one, as the tolerances of the file's

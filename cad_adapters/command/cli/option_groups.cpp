@@ -149,8 +149,19 @@ void add_domain_option(CLI::App* app, std::string& domain) {
       ->type_name("DOMAIN");
 }
 
-void add_cad_options(CLI::App* app, InputChoice& choice) {
-  app->add_flag("--loose-edges", choice.loose_edges, "Of CAD files: edges of no face are meshed, too");
+void add_cad_options(CLI::App* app, CadChoice& choice) {
+  app->add_flag("--imprint", choice.imprint, "CAD files: parts that touch share faces and edges, and have one mesh there");
+  app->add_option("--imprint-tolerance", choice.imprint_tolerance,
+                  "With --imprint: distance up to which parts touch; the tolerances of the file when not given")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
+  app->add_option("--unit", choice.unit, "CAD files: unit of the mesh; mm when not given")
+      ->check(CLI::IsMember({"nm", "um", "mm", "cm", "dm", "m", "km", "mil", "in", "ft", "yd"}));
+  app->add_option("--scale", choice.scale, "CAD files: factor of all coordinates")
+      ->check(CLI::PositiveNumber)
+      ->type_name(kind::number)
+      ->capture_default_str();
+  app->add_flag("--loose-edges", choice.loose_edges, "CAD files: edges of no face are meshed, too");
 }
 
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice) {

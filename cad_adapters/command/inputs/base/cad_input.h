@@ -84,7 +84,7 @@ class CadInput {
   [[nodiscard]] virtual bool has_sizes() const { return false; }
   /// Whether the file has edges and no face: its mesh has edges alone.
   [[nodiscard]] virtual bool is_wires() const { return false; }
-  /// Whether each edge of the file has two faces.
+  /// Whether no edge of the file has one face alone.
   [[nodiscard]] virtual bool closed() const { return false; }
   /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
   [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }

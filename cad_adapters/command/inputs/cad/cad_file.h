@@ -22,7 +22,7 @@ using CadFileHandle = std::unique_ptr<carreau_cad_file, CloseCadFile>;
 void require(carreau_cad_file* file, carreau_status status);
 
 /// Faults of OpenCASCADE are errors of faces. Throws Failure.
-CadFileHandle read_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress = {});
+CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress = {});
 
 carreau_cad_content content_of(carreau_cad_file* file);
 std::vector<FaceLook> faces_of(carreau_cad_file* file);

@@ -18,14 +18,18 @@ void require(carreau_cad_file* file, carreau_status status) {
   if (status != CARREAU_OK) throw Failure(cad_library().last_error(file));
 }
 
-CadFileHandle read_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
+CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress) {
   carreau_cad_file* created = nullptr;
   if (cad_library().create(&created) != CARREAU_OK) throw Failure("'" + path + "': out of memory.");
   CadFileHandle file(created);
   carreau_cad_options options{};
   options.struct_size = sizeof options;
   options.trap_faults = 1;
-  options.loose_edges = loose_edges ? 1 : 0;
+  options.loose_edges = choice.loose_edges ? 1 : 0;
+  options.imprint = choice.imprint ? 1 : 0;
+  options.imprint_tolerance = choice.imprint_tolerance;
+  options.unit = choice.unit.c_str();
+  options.scale = choice.scale;
   options.user = const_cast<ReadingProgress*>(&progress);
   options.progress = [](double fraction, void* user) {
     const auto& tell = *static_cast<const ReadingProgress*>(user);
@@ -195,6 +199,7 @@ class CadFileInput final : public CadInput {
     const std::string unit = content_.unit;
     return count(content_.faces, "face", "faces") + ", " + count(content_.edges, "edge", "edges") + ", " +
            count(content_.vertices, "vertex", "vertices") + (closed() ? ", closed" : ", open") +
+           (content_.shared_faces > 0 ? ", " + count(content_.shared_faces, "face", "faces") + " between two solids" : "") +
            (unit.empty() ? "" : ", lengths in " + unit);
   }
 
@@ -214,8 +219,8 @@ class CadFileInput final : public CadInput {
 
 }  // namespace
 
-std::unique_ptr<CadInput> open_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
-  return std::make_unique<CadFileInput>(read_cad(path, loose_edges, progress));
+std::unique_ptr<CadInput> open_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress) {
+  return std::make_unique<CadFileInput>(read_cad(path, choice, progress));
 }
 
 }  // namespace command
