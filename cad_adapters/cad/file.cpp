@@ -2,6 +2,7 @@
 // Files: read, added to sessions, closed.
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <string_view>
@@ -213,6 +214,17 @@ carreau_status carreau_cad_open_bytes(carreau_session* session, const void* byte
                                       const carreau_cad_options* options, carreau_cad_file** out_file) {
   return open(session, out_file,
               [&](carreau_cad_file* file) { return carreau_cad_read_bytes(file, bytes, size, format, options); });
+}
+
+carreau_status carreau_cad_set_size(carreau_cad_file* file, int32_t dimension, int32_t number, double size) {
+  return guarded_call(file, [&] {
+    constexpr std::array<const char*, 4> kinds{"vertex", "edge", "face", "solid"};
+    if (dimension < 0 || dimension > 3)
+      throw Failure(CARREAU_ERR_ARGUMENT, "the dimension is " + std::to_string(dimension) + ", not 0 to 3");
+    if (!(size > 0) || !std::isfinite(size)) throw Failure(CARREAU_ERR_ARGUMENT, "a size must be positive");
+    if (!host_of(*file).set_size(dimension, number, size))
+      throw Failure(CARREAU_ERR_ARGUMENT, std::string("there is no ") + kinds[static_cast<std::size_t>(dimension)] + " " + std::to_string(number));
+  });
 }
 
 carreau_status carreau_cad_set_face_size(carreau_cad_file* file, const char* face, double size) {

@@ -16,8 +16,11 @@
 #include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "extent.h"
 #include "faults.h"
@@ -157,6 +160,18 @@ class ContactFinder {
   int classifications_ = 0;
 };
 
+void make_distinct(std::vector<std::string>& names) {
+  std::set<std::string> taken(names.begin(), names.end());
+  std::map<std::string, int> used;
+  for (std::string& name : names) {
+    if (name.empty() || used[name]++ == 0) continue;
+    const std::string base = name;
+    do name = base + "_" + std::to_string(used[base]++);
+    while (!taken.insert(name).second);
+    --used[base];
+  }
+}
+
 }  // namespace
 
 Solids solids_of(const ShapeFile& file) {
@@ -176,6 +191,7 @@ Solids solids_of(const ShapeFile& file) {
   for (const ShapeFile::Label& label : file.labels)
     if (const int s = solids.FindIndex(label.part); s > 0 && !label.name.empty())
       found.names[static_cast<std::size_t>(s - 1)] = label.name;
+  make_distinct(found.names);
   return found;
 }
 

@@ -14,7 +14,7 @@ module carreau_cad
   public :: carreau_cad_file, carreau_cad_content, carreau_cad_face, carreau_cad_figures, carreau_cad_report
   public :: carreau_cad_danger, carreau_cad_gaps, carreau_cad_progress_fn
   public :: carreau_cad_open, carreau_cad_create, carreau_cad_close, carreau_cad_last_error, carreau_cad_read
-  public :: carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
+  public :: carreau_cad_set_size, carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
   public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
   public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
   public :: carreau_cad_measure_gaps, carreau_cad_point, carreau_cad_curve_point, carreau_cad_curves
@@ -277,6 +277,15 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_cad_set_face_size(file%handle, trim(face)//c_null_char, size)
   end subroutine carreau_cad_set_face_size
+
+  !> dimension: 0 a vertex, 1 an edge, 2 a face, 3 all faces of a solid
+  subroutine carreau_cad_set_size(file, dimension, number, size, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: dimension, number
+    real(c_double), intent(in) :: size
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_set_size(file%handle, dimension, number, size)
+  end subroutine carreau_cad_set_size
 
   ! ---- What a file holds ----
 

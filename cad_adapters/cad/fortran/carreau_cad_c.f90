@@ -190,6 +190,17 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_set_face_size
 
+    !> Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number, as
+    !! carreau_cad_set_face_size does; the smallest size of an edge and its faces counts.
+    function c_cad_set_size(file, dimension, number, size) result(status) bind(c, name="carreau_cad_set_size")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int32_t), value :: dimension, number
+      real(c_double), value :: size
+      integer(c_int32_t) :: status
+    end function c_cad_set_size
+
     !> Counts what the file holds.
     function c_cad_info(file, content) result(status) bind(c, name="carreau_cad_info")
       import :: c_cad_content, c_int32_t, c_ptr

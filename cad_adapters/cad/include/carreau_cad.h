@@ -118,6 +118,11 @@ CARREAU_CAD_API carreau_status carreau_cad_set_face_size(carreau_cad_file* file,
 /* Errors of the functions below: ARGUMENT (the file holds nothing, no such face, index or curve, a capacity that is too
  * small). Texts that they give live until the file is read again or closed. */
 
+/* Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number, as
+ * carreau_cad_set_face_size does; the smallest size of an edge and its faces counts. Errors: ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_set_size(carreau_cad_file* file, int32_t dimension, int32_t number,
+                                                    double size);
+
 /* ---- What a file holds ---- */
 
 /* What a file holds, counted. */

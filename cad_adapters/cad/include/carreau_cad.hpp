@@ -92,6 +92,9 @@ class CadFile {
   /// Wants a size on a face by its number, or on all faces of a name; with hphy_flag = 2.
   void set_face_size(const std::string& face, double size) { done(carreau_cad_set_face_size(get(), face.c_str(), size)); }
 
+  /// The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
+  void set_size(int dimension, int number, double size) { done(carreau_cad_set_size(get(), dimension, number, size)); }
+
   [[nodiscard]] carreau_cad_content info() const { return filled(carreau_cad_info); }
   /// What could not be read: a sentence each.
   [[nodiscard]] std::vector<std::string> losses() const {

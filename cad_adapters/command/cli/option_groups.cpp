@@ -58,6 +58,12 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
       ->check(CLI::Range(0.01, 89.0))
       ->type_name(kind::number);
+  app->add_option_function<int>(
+         "--segments-per-circle", [&options](int n) { options.angle = 180.0 / n; },
+         "Edges of a full circle: sizes follow the curvature, as by --angle 180/N")
+      ->check(CLI::Range(3, 10000))
+      ->type_name(kind::number)
+      ->excludes("--angle");
   app->add_option("--chord", options.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
       ->check(not_empty)
       ->type_name(kind::length);
@@ -85,6 +91,15 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--face-size", options.face_sizes,
                            "Size on a face given by number, or on all faces of a name; may be repeated"))
       ->type_name("FACE=LENGTH");
+  repeated(app->add_option("--size-on", options.sizes_on,
+                           "Size on entities of a CAD file: edge:3-5=.2, vertex:7=.05, bore*=.3, solid:2=1; may be repeated"))
+      ->type_name("ENTITIES=LENGTH");
+  repeated(app->add_option("--group", options.groups,
+                           "Put entities into a group of files: inlet=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, "
+                           "steel=solid:2; may be repeated"))
+      ->type_name("NAME=ENTITIES");
+  app->add_option("--group-by", options.group_by, "Groups of faces: by part, by name or by color; own names when not given")
+      ->check(CLI::IsMember({"part", "name", "color"}));
   repeated(app->add_option("--curve-edges", options.curve_edges,
                            "Number of edges of a curve, equally long or in a progression of their lengths (8, "
                            "8,arithmetic:3 or 8,geometric:1.2); may be repeated"))

@@ -4,6 +4,7 @@
 
 #include <carreau.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -43,6 +44,10 @@ class CadInput {
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.
   virtual bool set_face_size(const std::string& face, double size) = 0;
+  /// The same for a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
+  virtual bool set_size(int dimension, std::int32_t number, double size) {
+    return dimension == 2 && set_face_size(std::to_string(number), size);
+  }
   /// Whether the geometry answers with the sizes of set_face_size() itself, when hphy_flag = 2.
   [[nodiscard]] virtual bool answers_face_sizes() const = 0;
   /// The size of set_face_size() where it does not; 0: none.
@@ -62,6 +67,10 @@ class CadInput {
     std::string name;  ///< "" when it has none
   };
   [[nodiscard]] virtual Part part_of_face(std::int32_t) const { return {}; }
+  /// The parts on both sides of a face: the one that its triangles look out of, and the other one.
+  [[nodiscard]] virtual std::array<Part, 2> parts_beside(std::int32_t face) const { return {part_of_face(face), Part{}}; }
+  /// 0xRRGGBB; -1: none.
+  [[nodiscard]] virtual std::int32_t face_colour(std::int32_t) const { return -1; }
   /// "solid", "file": the kind of those parts.
   [[nodiscard]] virtual const char* part_word() const { return "solid"; }
   /// References of the curves of a face, as far as they are known.

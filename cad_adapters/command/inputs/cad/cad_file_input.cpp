@@ -120,6 +120,9 @@ class CadFileInput final : public CadInput {
   bool set_face_size(const std::string& face, double size) override {
     return cad_library().set_face_size(file_.get(), face.c_str(), size) == CARREAU_OK;
   }
+  bool set_size(int dimension, std::int32_t number, double size) override {
+    return cad_library().set_size(file_.get(), dimension, number, size) == CARREAU_OK;
+  }
 
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
     double xyz[3], uv[2];
@@ -140,11 +143,17 @@ class CadFileInput final : public CadInput {
     face.struct_size = sizeof face;
     return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.name : "";
   }
-  [[nodiscard]] Part part_of_face(std::int32_t number) const override {
+  [[nodiscard]] Part part_of_face(std::int32_t number) const override { return parts_beside(number)[0]; }
+  [[nodiscard]] std::array<Part, 2> parts_beside(std::int32_t number) const override {
     carreau_cad_face face{};
     face.struct_size = sizeof face;
     if (cad_library().file_face(file_.get(), number, &face) != CARREAU_OK) return {};
-    return {face.solid, face.solid_name};
+    return {Part{face.solid, face.solid_name}, Part{face.other_solid, face.other_solid_name}};
+  }
+  [[nodiscard]] std::int32_t face_colour(std::int32_t number) const override {
+    carreau_cad_face face{};
+    face.struct_size = sizeof face;
+    return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.rgb : -1;
   }
   [[nodiscard]] std::int32_t whole_face(std::int32_t face) const override {
     return cad_library().whole_face(file_.get(), face);
