@@ -24,7 +24,7 @@
 #include "iges_entities.h"
 #include "text_of_file.h"
 #include "translator.h"
-#include "units.h"
+#include "changes/units.h"
 
 namespace carreau_occ {
 namespace {

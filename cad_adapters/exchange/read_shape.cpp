@@ -20,11 +20,11 @@
 #include <sstream>
 
 #include "faults.h"
-#include "imprint.h"
+#include "changes/imprint.h"
 #include "natural_bounds.h"
 #include "shape_file.h"
 #include "translator.h"
-#include "units.h"
+#include "changes/units.h"
 
 namespace carreau_occ {
 

@@ -25,7 +25,7 @@
 #include "step_entities.h"
 #include "step_parts.h"
 #include "translator.h"
-#include "units.h"
+#include "changes/units.h"
 #include "zero_edges.h"
 
 namespace carreau_occ {

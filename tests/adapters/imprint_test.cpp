@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts that touch share faces and edges; lengths get a unit or a scale; files come from memory.
 #include <gtest/gtest.h>
-#include <imprint.h>
+#include <changes/imprint.h>
 #include <shape_file.h>
 #include <solids.h>
-#include <units.h>
+#include <changes/units.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepGProp.hxx>

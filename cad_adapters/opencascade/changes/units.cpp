@@ -1,46 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "units.h"
+#include "changes/units.h"
 
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <gp_Trsf.hxx>
 #include <utility>
 
 namespace carreau_occ {
 namespace {
 
-struct Unit {
-  const char* sign;
-  double millimetres;
-  std::array<const char*, 3> names;  // others of it, in lower case
-};
-
-// ISO 80000-3; an inch is 25.4 mm.
-constexpr std::array<Unit, 11> units{{{"nm", 1e-6, {"nanometre", "nanometer", ""}},
-                                      {"um", 1e-3, {"micrometre", "micron", "micrometer"}},
-                                      {"mm", 1, {"millimetre", "millimeter", ""}},
-                                      {"cm", 10, {"centimetre", "centimeter", ""}},
-                                      {"dm", 100, {"decimetre", "decimeter", ""}},
-                                      {"m", 1e3, {"metre", "meter", ""}},
-                                      {"km", 1e6, {"kilometre", "kilometer", ""}},
-                                      {"mil", 0.0254, {"milliinch", "mils", ""}},
-                                      {"in", 25.4, {"inch", "inches", ""}},
-                                      {"ft", 304.8, {"foot", "feet", ""}},
-                                      {"yd", 914.4, {"yard", "yards", ""}}}};
-
-const Unit* unit_of(const std::string& sign) {
-  const auto* const found = std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return sign == unit.sign; });
-  return found == units.end() ? nullptr : found;
+const LengthUnit* unit_of(const std::string& sign) {
+  const auto* const found = std::find_if(length_units.begin(), length_units.end(), [&](const LengthUnit& unit) { return sign == unit.sign; });
+  return found == length_units.end() ? nullptr : found;
 }
 
 double factor_to(const ShapeFile& file, const std::string& unit) {
   if (unit.empty()) return 1;
-  const Unit* const to = unit_of(unit);
+  const LengthUnit* const to = unit_of(unit);
   if (to == nullptr) throw UnknownUnit("'" + unit + "' is not a unit of length: nm, um, mm, cm, dm, m, km, mil, in, ft or yd");
   if (file.unit.empty()) throw UnknownUnit("the file has no unit, so its lengths cannot become " + unit + "; a scale can be given");
   return unit_of(file.unit)->millimetres / to->millimetres;
@@ -70,13 +49,6 @@ void change_lengths(ShapeFile& file, const std::string& unit, double scale) {
   if (factor != 1) scale_shape(file, factor);
   if (!unit.empty()) file.unit = unit;
   if (scale != 1) file.unit.clear();
-}
-
-std::string unit_sign(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const Unit& unit : units)
-    if (name == unit.sign || std::find(unit.names.begin(), unit.names.end(), name) != unit.names.end()) return unit.sign;
-  return name;
 }
 
 }  // namespace carreau_occ
