@@ -41,10 +41,28 @@ carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out
     content.notes = file->notes.c_str();
     content.file_unit = file->shape.file_unit.c_str();
     const Solids& solids = solids_in(*file);
+    content.small_features = static_cast<int32_t>(file->features.size());
     content.solids = static_cast<int32_t>(solids.names.size());
     content.shared_faces = static_cast<int32_t>(
         std::count_if(solids.of_face.begin(), solids.of_face.end(), [](const auto& sides) { return sides[1] > 0; }));
     write_struct(content, out_content, "out_content");
+  });
+}
+
+carreau_status carreau_cad_small_feature_at(carreau_cad_file* file, int64_t index, carreau_cad_small_feature* out_feature) {
+  return guarded_call(file, [&] {
+    (void)host_of(*file);
+    if (index < 0 || static_cast<std::uint64_t>(index) >= file->features.size())
+      throw Failure(CARREAU_ERR_ARGUMENT, "there is no small feature of index " + std::to_string(index));
+    const SmallFeature& known = file->features[static_cast<std::size_t>(index)];
+    file->feature_faces.clear();
+    for (const int face : known.faces) file->feature_faces += (file->feature_faces.empty() ? "" : ", ") + std::to_string(face);
+    carreau_cad_small_feature feature{};
+    feature.kind = known.kind.c_str(), feature.size = known.size;
+    std::copy(known.place.begin(), known.place.end(), feature.place);
+    feature.removed = known.removed ? 1 : 0;
+    feature.faces = file->feature_faces.c_str();
+    write_struct(feature, out_feature, "out_feature");
   });
 }
 

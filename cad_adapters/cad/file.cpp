@@ -85,15 +85,19 @@ void read(carreau_cad_file& file, const Source& source, const carreau_cad_option
   const carreau_cad_options options = read_struct(given, "options");
   const Lengths lengths = lengths_of(options);
   check_tolerance(options.imprint_tolerance);
+  if (!is_length(options.min_feature)) throw Failure(CARREAU_ERR_ARGUMENT, "options->min_feature must be 0 or a length");
   carreau_cad_file fresh;
   if (options.trap_faults != 0) fresh.trap = std::make_shared<FaultTrap>();
   fresh.loose_edges = options.loose_edges != 0;
   Listener listener(options.progress, options.user);
   listener.run([&] {
     const std::scoped_lock lock(reading);
-    const double read_share = options.imprint != 0 ? 0.5 : 1;
-    fresh.shape = read_from(source, listener.part(0, read_share), lengths);
-    if (options.imprint != 0) imprint_parts(fresh.shape, options.imprint_tolerance, listener.part(read_share, 1));
+    const int steps = 1 + (options.min_feature > 0 ? 1 : 0) + (options.imprint != 0 ? 1 : 0);
+    int step = 0;
+    const auto next = [&] { return ++step, listener.part((step - 1.0) / steps, static_cast<double>(step) / steps); };
+    fresh.shape = read_from(source, next(), lengths);
+    if (options.min_feature > 0) fresh.features = remove_features(fresh.shape, options.min_feature, next());
+    if (options.imprint != 0) imprint_parts(fresh.shape, options.imprint_tolerance, next());
     take_shape(fresh);
   });
   file = std::move(fresh);

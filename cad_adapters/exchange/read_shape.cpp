@@ -21,6 +21,7 @@
 
 #include "faults.h"
 #include "changes/imprint.h"
+#include "changes/small_features.h"
 #include "natural_bounds.h"
 #include "shape_file.h"
 #include "translator.h"
@@ -250,6 +251,21 @@ ShapeFile read_shape(std::string_view bytes, const std::string& format, const st
   ShapeFile file = read_bytes(content, bytes, name, progress, lengths);
   if (is_empty(file)) refuse_empty(name, file);
   return file;
+}
+
+std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const ReadingProgress& progress) {
+  const Silence silence;
+  const Handle(Indicator) indicator = new Indicator(progress);
+  ShapeFile changed = file;
+  std::vector<SmallFeature> features;
+  try {
+    guarded([&] { features = remove_small_features(changed, size, indicator->Start()); });
+    if (!indicator->stopped()) file = std::move(changed);
+  } catch (const Standard_Failure& failure) {
+    file.losses.push_back(std::string("no small feature is removed: OpenCASCADE: ") + failure.GetMessageString());
+  }
+  if (indicator->stopped()) throw std::runtime_error("small features are not removed: it was asked to stop");
+  return features;
 }
 
 void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& progress) {

@@ -11,6 +11,8 @@
 
 namespace carreau_occ {
 
+struct SmallFeature;
+
 /// A shape, and what its file says about its parts.
 struct ShapeFile {
   TopoDS_Shape shape;
@@ -50,7 +52,11 @@ ShapeFile read_shape(const std::string& path, const ReadingProgress& progress = 
 ShapeFile read_shape(std::string_view bytes, const std::string& format, const std::string& name,
                      const ReadingProgress& progress = {}, const Lengths& lengths = {});
 
-/// Parts that touch share faces and edges from now on: see imprint.h. Throws std::runtime_error with a sentence when it is
+/// Removes features below a length from the solids: see changes/small_features.h. When OpenCASCADE fails the shape stays
+/// as it is, and a loss reports the reason. Throws std::runtime_error when it is stopped.
+std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const ReadingProgress& progress = {});
+
+/// Parts that touch share faces and edges from now on: see changes/imprint.h. Throws std::runtime_error with a sentence when it is
 /// stopped; when OpenCASCADE fails the shape stays as it is, and a loss reports the reason.
 void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& progress = {});
 

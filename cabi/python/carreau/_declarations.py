@@ -800,6 +800,7 @@ class carreau_cad_options(Structure):
         ("imprint_tolerance", c_double),
         ("unit", c_char_p),
         ("scale", c_double),
+        ("min_feature", c_double),
     ]
 
 
@@ -823,6 +824,20 @@ class carreau_cad_content(Structure):
         ("file_unit", c_char_p),
         ("solids", c_int32),
         ("shared_faces", c_int32),
+        ("small_features", c_int32),
+        ("reserved", c_int32),
+    ]
+
+
+class carreau_cad_small_feature(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kind", c_char_p),
+        ("size", c_double),
+        ("place", c_double * 3),
+        ("removed", c_int32),
+        ("reserved", c_int32),
+        ("faces", c_char_p),
     ]
 
 
@@ -1095,6 +1110,7 @@ CARREAU_CAD = {
     "carreau_cad_set_face_size": (c_int32, [c_void_p, c_char_p, c_double]),
     "carreau_cad_set_size": (c_int32, [c_void_p, c_int32, c_int32, c_double]),
     "carreau_cad_info": (c_int32, [c_void_p, POINTER(carreau_cad_content)]),
+    "carreau_cad_small_feature_at": (c_int32, [c_void_p, c_int64, POINTER(carreau_cad_small_feature)]),
     "carreau_cad_loss": (c_char_p, [c_void_p, c_int64]),
     "carreau_cad_file_face": (c_int32, [c_void_p, c_int32, POINTER(carreau_cad_face)]),
     "carreau_cad_measure_face": (c_int32, [c_void_p, c_int32, POINTER(carreau_cad_figures)]),

@@ -328,6 +328,17 @@ class CadContent(NamedTuple):
     file_unit: str
     solids: int
     shared_faces: int
+    small_features: int
+
+
+class CadSmallFeature(NamedTuple):
+    """A feature below carreau_cad_options.min_feature."""
+
+    kind: str
+    size: float
+    place: tuple[float, float, float]
+    removed: int
+    faces: str
 
 
 class CadFace(NamedTuple):
@@ -418,6 +429,7 @@ RECORDS: dict[type, Any] = {
     c.carreau_triangles_report: TrianglesReport,
     c.carreau_remesh_summary: RemeshSummary,
     c.carreau_cad_content: CadContent,
+    c.carreau_cad_small_feature: CadSmallFeature,
     c.carreau_cad_face: CadFace,
     c.carreau_cad_figures: CadFigures,
     c.carreau_cad_report: CadReport,

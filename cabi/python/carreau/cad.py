@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _declarations as c
 from ._calls import asked, created, file_name, require, require_cad, struct, text_of
 from ._library import cad_lib
-from ._records import CadContent, CadDanger, CadFace, CadFigures, CadReport
+from ._records import CadContent, CadDanger, CadFace, CadFigures, CadReport, CadSmallFeature
 from ._run import Host, run
 from .errors import ArgumentError
 from .progress import Progress, listener
@@ -36,17 +36,18 @@ class CadFile:
     imprint            parts that touch share faces and edges; imprint_tolerance: up to which distance
     unit               of the coordinates: "m", "in", ...; "": millimetres, or as they are in a BREP file, which has none
     scale              multiplies all coordinates, after the unit
+    min_feature        holes, bosses, fillets, chamfers, steps and faces below this length are removed: see small_features
     format             of bytes: "step", "iges" or "brep"; "": as they say
 
     Raises FileError, ArgumentError, ImportError without libcarreau_cad."""
 
     def __init__(self, source: Any, progress: Progress = None, loose_edges: bool = False, *, imprint: bool = False,
-                 imprint_tolerance: float = 0, unit: str = "", scale: float = 1, format: str = "") -> None:
+                 imprint_tolerance: float = 0, unit: str = "", scale: float = 1, min_feature: float = 0, format: str = "") -> None:
         self._handle = created(cad_lib().cad_create)
         self._close = weakref.finalize(self, cad_lib().cad_close, self._handle)
         solids = solids_of(source) if is_shape(source) else []
         options = struct(c.carreau_cad_options, loose_edges=int(loose_edges), imprint=int(imprint and not solids),
-                         imprint_tolerance=imprint_tolerance, unit=unit.encode(), scale=scale)
+                         imprint_tolerance=imprint_tolerance, unit=unit.encode(), scale=scale, min_feature=min_feature)
         self._listening(progress, lambda hears: self._read(source, format, options, hears))
         if solids and len(solids) == self.content.solids:
             self.name_solids([each.name for each in solids], [each.rgb for each in solids])
@@ -105,6 +106,12 @@ class CadFile:
     def content(self) -> CadContent:
         """Numbers of faces and edges, the diagonal, tolerances of gluing."""
         return asked(c.carreau_cad_content, lambda out: self._call(cad_lib().cad_info, out))  # type: ignore[no-any-return]
+
+    @property
+    def small_features(self) -> list[CadSmallFeature]:
+        """What min_feature found, and whether each is removed."""
+        return [asked(c.carreau_cad_small_feature, lambda out, k=k: self._call(cad_lib().cad_small_feature_at, k, out))  # type: ignore[misc]
+                for k in range(self.content.small_features)]
 
     @property
     def faces(self) -> list[CadFace]:

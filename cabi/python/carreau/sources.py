@@ -32,7 +32,7 @@ PLANE = (".poly", ".node", ".dat", ".bl2d", ".data", ".g")
 MOLECULE_OPTIONS = ("surface", "probe", "drop_cavities", "radii")
 GRID_OPTIONS = ("format", "smooth", "lengths", "join_angle", "tolerance", "step", "fill")
 TRIANGLES_OPTIONS = ("sharp", "corner", "given_edges", "ignore_references")
-CAD_OPTIONS = ("imprint", "imprint_tolerance", "unit", "scale", "loose_edges")
+CAD_OPTIONS = ("imprint", "imprint_tolerance", "unit", "scale", "min_feature", "loose_edges")
 PLANE_OPTIONS = ("corner_angle", "sizes")
 
 

@@ -14,6 +14,7 @@ module carreau_cad
   public :: carreau_cad_file, carreau_cad_content, carreau_cad_face, carreau_cad_figures, carreau_cad_report
   public :: carreau_cad_danger, carreau_cad_gaps, carreau_cad_progress_fn
   public :: carreau_cad_open, carreau_cad_create, carreau_cad_close, carreau_cad_last_error, carreau_cad_read
+  public :: carreau_cad_small_feature, carreau_cad_small_feature_at
   public :: carreau_cad_set_size, carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
   public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
   public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
@@ -29,7 +30,8 @@ module carreau_cad
     logical :: closed = .false.
     character(len=:), allocatable :: unit
     real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0, match_tolerance = 0
-    integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0, solids = 0, shared_faces = 0
+    integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0, solids = 0, shared_faces = 0, &
+      small_features = 0
     character(len=:), allocatable :: notes, file_unit
   end type carreau_cad_content
 
@@ -60,6 +62,13 @@ module carreau_cad
     integer(c_int32_t), dimension(2) :: solids = 0
   end type carreau_cad_danger
 
+  type :: carreau_cad_small_feature
+    character(len=:), allocatable :: kind, faces
+    real(c_double) :: size = 0
+    real(c_double), dimension(3) :: place = 0
+    logical :: removed = .false.
+  end type carreau_cad_small_feature
+
   type :: carreau_cad_gaps
     real(c_double) :: largest = 0
     integer(c_int32_t) :: edge = 0, face = 0, beyond = 0
@@ -82,7 +91,7 @@ contains
 
   !> file: to ask it; to be closed by carreau_cad_close
   subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user, loose_edges, imprint, &
-      imprint_tolerance, unit, scale)
+      imprint_tolerance, unit, scale, min_feature)
     type(carreau_session), intent(in) :: session
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
@@ -90,19 +99,19 @@ contains
     logical, intent(in), optional :: trap_faults, loose_edges, imprint
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    real(c_double), intent(in), optional :: imprint_tolerance, scale
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
     character(len=*), intent(in), optional :: unit
     type(c_ptr) :: opened
     character(kind=c_char), target :: sign(16)
     opened = c_null_ptr
     status = c_cad_open(session%handle, trim(path)//c_null_char, options_of(sign, trap_faults, progress, user, loose_edges, &
-      imprint, imprint_tolerance, unit, scale), opened)
+      imprint, imprint_tolerance, unit, scale, min_feature), opened)
     call hand_over(opened, status, file)
   end subroutine carreau_cad_open
 
   !> bytes: those of a file; format: 'step', 'iges', 'brep', or '' as the bytes say
   subroutine carreau_cad_open_bytes(session, bytes, format, status, file, trap_faults, progress, user, loose_edges, imprint, &
-      imprint_tolerance, unit, scale)
+      imprint_tolerance, unit, scale, min_feature)
     type(carreau_session), intent(in) :: session
     character(kind=c_char), intent(in), target :: bytes(:)
     character(len=*), intent(in) :: format
@@ -111,7 +120,7 @@ contains
     logical, intent(in), optional :: trap_faults, loose_edges, imprint
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    real(c_double), intent(in), optional :: imprint_tolerance, scale
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
     character(len=*), intent(in), optional :: unit
     type(c_ptr) :: opened
     character(kind=c_char), target :: sign(16)
@@ -120,7 +129,7 @@ contains
     copy = bytes
     opened = c_null_ptr
     status = c_cad_open_bytes(session%handle, address_of(copy), size(copy, kind=c_int64_t), trim(format)//c_null_char, &
-      options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale), opened)
+      options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature), opened)
     call hand_over(opened, status, file)
   end subroutine carreau_cad_open_bytes
 
@@ -145,13 +154,13 @@ contains
   end function address_of
 
   !> sign: room for the unit, which lives as long as the options
-  function options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale) result(options)
+  function options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature) result(options)
     character(kind=c_char), intent(inout), target :: sign(16)
     logical, intent(in), optional :: trap_faults
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
     logical, intent(in), optional :: loose_edges, imprint
-    real(c_double), intent(in), optional :: imprint_tolerance, scale
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
     character(len=*), intent(in), optional :: unit
     type(c_cad_options) :: options
     integer :: i
@@ -163,6 +172,7 @@ contains
     if (present(imprint)) options%imprint = merge(1_c_int32_t, 0_c_int32_t, imprint)
     if (present(imprint_tolerance)) options%imprint_tolerance = imprint_tolerance
     if (present(scale)) options%scale = scale
+    if (present(min_feature)) options%min_feature = min_feature
     if (.not. present(unit)) return
     sign = c_null_char
     do i = 1, min(len_trim(unit), 15)
@@ -190,23 +200,23 @@ contains
   end function carreau_cad_last_error
 
   subroutine carreau_cad_read(file, path, status, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, &
-      unit, scale)
+      unit, scale, min_feature)
     type(carreau_cad_file), intent(in) :: file
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     logical, intent(in), optional :: trap_faults, loose_edges, imprint
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    real(c_double), intent(in), optional :: imprint_tolerance, scale
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
     character(len=*), intent(in), optional :: unit
     character(kind=c_char), target :: sign(16)
     status = c_cad_read(file%handle, trim(path)//c_null_char, options_of(sign, trap_faults, progress, user, loose_edges, &
-      imprint, imprint_tolerance, unit, scale))
+      imprint, imprint_tolerance, unit, scale, min_feature))
   end subroutine carreau_cad_read
 
   !> bytes: those of a file; format: 'step', 'iges', 'brep', or '' as the bytes say
   subroutine carreau_cad_read_bytes(file, bytes, format, status, trap_faults, progress, user, loose_edges, imprint, &
-      imprint_tolerance, unit, scale)
+      imprint_tolerance, unit, scale, min_feature)
     type(carreau_cad_file), intent(in) :: file
     character(kind=c_char), intent(in), target :: bytes(:)
     character(len=*), intent(in) :: format
@@ -214,14 +224,14 @@ contains
     logical, intent(in), optional :: trap_faults, loose_edges, imprint
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    real(c_double), intent(in), optional :: imprint_tolerance, scale
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
     character(len=*), intent(in), optional :: unit
     character(kind=c_char), target :: sign(16)
     character(kind=c_char), allocatable, target :: copy(:)
     allocate (copy(size(bytes)))
     copy = bytes
     status = c_cad_read_bytes(file%handle, address_of(copy), size(copy, kind=c_int64_t), trim(format)//c_null_char, &
-      options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale))
+      options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature))
   end subroutine carreau_cad_read_bytes
 
   !> tolerance: distance up to which parts touch; 0: the tolerances of the file
@@ -314,7 +324,25 @@ contains
     content%file_unit = carreau_string(c%file_unit)
     content%solids = c%solids
     content%shared_faces = c%shared_faces
+    content%small_features = c%small_features
   end subroutine carreau_cad_info
+
+  !> index: from 1
+  subroutine carreau_cad_small_feature_at(file, index, feature, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_cad_small_feature), intent(out) :: feature
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_small_feature) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_small_feature_at(file%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    feature%kind = carreau_string(c%kind)
+    feature%faces = carreau_string(c%faces)
+    feature%size = c%size
+    feature%place = c%place
+    feature%removed = c%removed /= 0
+  end subroutine carreau_cad_small_feature_at
 
   !> index: from 1; "" when there is no such
   function carreau_cad_loss(file, index) result(sentence)

@@ -17,7 +17,7 @@ module carreau_cad_c
     integer(c_int32_t) :: imprint = 0, reserved = 0
     real(c_double) :: imprint_tolerance = 0
     type(c_ptr) :: unit = c_null_ptr
-    real(c_double) :: scale = 0
+    real(c_double) :: scale = 0, min_feature = 0
   end type c_cad_options
 
   !> What a file holds, counted.
@@ -29,8 +29,17 @@ module carreau_cad_c
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
     real(c_double) :: match_tolerance = 0
     type(c_ptr) :: notes = c_null_ptr, file_unit = c_null_ptr
-    integer(c_int32_t) :: solids = 0, shared_faces = 0
+    integer(c_int32_t) :: solids = 0, shared_faces = 0, small_features = 0, reserved = 0
   end type c_cad_content
+
+  !> A feature below carreau_cad_options.min_feature.
+  type, bind(c) :: c_cad_small_feature
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: kind = c_null_ptr
+    real(c_double) :: size = 0, place(3) = 0
+    integer(c_int32_t) :: removed = 0, reserved = 0
+    type(c_ptr) :: faces = c_null_ptr
+  end type c_cad_small_feature
 
   !> What the file tells of a face.
   type, bind(c) :: c_cad_face
@@ -209,6 +218,16 @@ module carreau_cad_c
       type(c_cad_content), intent(inout) :: content
       integer(c_int32_t) :: status
     end function c_cad_info
+
+    !> Gets a feature, by kind and then by its first face. index: from 0.
+    function c_cad_small_feature_at(file, index, feature) result(status) bind(c, name="carreau_cad_small_feature_at")
+      import :: c_cad_small_feature, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int64_t), value :: index
+      type(c_cad_small_feature), intent(inout) :: feature
+      integer(c_int32_t) :: status
+    end function c_cad_small_feature_at
 
     !> Tells what of the file could not be read: a sentence, which names the entity. index: from 0.
     function c_cad_loss(file, index) result(loss) bind(c, name="carreau_cad_loss")

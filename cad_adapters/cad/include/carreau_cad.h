@@ -56,6 +56,8 @@ typedef struct carreau_cad_options {
   const char* unit; /* of the coordinates: nm, um, mm, cm, dm, m, km, mil, in, ft or yd. NULL or "": millimetres, or as
                        they are in a BREP file, which has no unit and rejects others */
   double scale;     /* multiplies all coordinates, after the unit; 0: 1. Other than 1: the result has no unit */
+  double min_feature; /* removes features of solids below this length, before an imprint, where OpenCASCADE can
+                         (carreau_cad_small_feature_at); 0: removes none */
 } carreau_cad_options;
 
 /* Reads a file and adds all of its faces to a session. *out_file gets the file, to ask it; out_file may be NULL.
@@ -145,10 +147,27 @@ typedef struct carreau_cad_content {
   const char* file_unit; /* of the lengths in the file ("in", "mm", ...), "" when it has none */
   int32_t solids;
   int32_t shared_faces; /* between two solids */
+  int32_t small_features; /* that carreau_cad_options.min_feature found */
+  int32_t reserved;
 } carreau_cad_content;
 
 /* Counts what the file holds. */
 CARREAU_CAD_API carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content);
+
+/* A feature below carreau_cad_options.min_feature. */
+typedef struct carreau_cad_small_feature {
+  size_t struct_size;
+  const char* kind; /* "hole", "boss", "fillet", "chamfer", "step", "small face" */
+  double size;      /* a diameter of holes and bosses, a radius of fillets, a width of the others */
+  double place[3];  /* a point of it */
+  int32_t removed;  /* 0: OpenCASCADE cannot extend the faces around it, and it stays */
+  int32_t reserved;
+  const char* faces; /* their numbers in the file as it was: "12, 13"; lives until the next call on the file */
+} carreau_cad_small_feature;
+
+/* Gets a feature, by kind and then by its first face. index: from 0. Errors: ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_small_feature_at(carreau_cad_file* file, int64_t index,
+                                                            carreau_cad_small_feature* out_feature);
 
 /* Tells what of the file could not be read: a sentence, which names the entity. index: from 0. NULL: no such index. */
 CARREAU_CAD_API const char* carreau_cad_loss(carreau_cad_file* file, int64_t index);

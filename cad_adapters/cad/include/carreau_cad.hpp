@@ -39,6 +39,13 @@ struct CadDanger {
   double value = 0;
   bool cut = false;
 };
+/// A feature below the option min_feature: carreau_cad_small_feature.
+struct CadSmallFeature {
+  std::string kind, faces;
+  double size = 0;
+  Point3 place{};
+  bool removed = false;
+};
 /// A point of a face, and the parameters that its surface has there in the file.
 struct CadPlace {
   Point3 xyz{};
@@ -100,6 +107,16 @@ class CadFile {
   [[nodiscard]] std::vector<std::string> losses() const {
     std::vector<std::string> out;
     for (std::int64_t i = 0; const char* loss = carreau_cad_loss(get(), i); ++i) out.emplace_back(loss);
+    return out;
+  }
+  /// What the option min_feature found, and whether each is gone.
+  [[nodiscard]] std::vector<CadSmallFeature> small_features() const {
+    std::vector<CadSmallFeature> out;
+    for (std::int64_t i = 0; i < info().small_features; ++i) {
+      auto feature = detail::sized<carreau_cad_small_feature>();
+      done(carreau_cad_small_feature_at(get(), i, &feature));
+      out.push_back({feature.kind, feature.faces, feature.size, {feature.place[0], feature.place[1], feature.place[2]}, feature.removed != 0});
+    }
     return out;
   }
   [[nodiscard]] CadFace face(int number) const {

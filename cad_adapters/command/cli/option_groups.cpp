@@ -170,6 +170,10 @@ void add_cad_options(CLI::App* app, CadChoice& choice) {
                   "With --imprint: distance up to which parts touch; the tolerances of the file when not given")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
+  app->add_option("--min-feature", choice.min_feature,
+                  "CAD files: remove holes, bosses, fillets, chamfers, steps and faces of solids below this length")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
   app->add_option("--unit", choice.unit, "CAD files: unit of the mesh; mm when not given")
       ->check(CLI::IsMember({"nm", "um", "mm", "cm", "dm", "m", "km", "mil", "in", "ft", "yd"}));
   app->add_option("--scale", choice.scale, "CAD files: factor of all coordinates")

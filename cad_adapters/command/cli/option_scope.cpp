@@ -29,6 +29,7 @@ const std::vector<Scope>& scopes() {
       {"--imprint", {cad}, "a CAD file"},
       {"--imprint-tolerance", {cad}, "a CAD file"},
       {"--unit", {cad}, "a CAD file"},
+      {"--min-feature", {cad}, "a CAD file"},
       {"--scale", {cad}, "a CAD file"},
       {"--loose-edges", {cad}, "a CAD file"},
       {"--host", {pardom}, "a .pardom file"},

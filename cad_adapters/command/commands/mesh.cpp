@@ -275,6 +275,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   run.seconds_reading = reading.seconds();
   progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
   progress.line(input->summary());
+  for (const std::string& line : input->small_features()) progress.line(line);
   try {
     mesh_all(options, run, *input, map, adaptation, ranks, part, dumped, progress);
   } catch (const Failure&) {

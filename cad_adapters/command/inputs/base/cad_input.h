@@ -82,6 +82,8 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
   /// What was passed over or repaired without the loss of a face: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+  /// A table of the small features that were found and removed, or stay: a line each.
+  [[nodiscard]] virtual std::vector<std::string> small_features() const { return {}; }
   /// The face of the file that a face of the session is or is a part of; the same for curves, and the parts of a face
   /// of the file. A geometry that cuts no faces has none.
   [[nodiscard]] virtual std::int32_t whole_face(std::int32_t face) const { return face; }

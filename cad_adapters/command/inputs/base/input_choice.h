@@ -46,6 +46,7 @@ struct CadChoice {
   bool loose_edges = false;      ///< edges of no face are meshed, too
   bool imprint = false;          ///< parts that touch share faces and edges
   double imprint_tolerance = 0;  ///< up to which distance; 0: the tolerances of the file
+  double min_feature = 0;        ///< length below which features are removed; 0: none
   std::string unit = {};         ///< of the mesh; empty: millimetres
   double scale = 1;              ///< of all coordinates
 };

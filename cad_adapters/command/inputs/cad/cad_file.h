@@ -28,6 +28,8 @@ carreau_cad_content content_of(carreau_cad_file* file);
 std::vector<FaceLook> faces_of(carreau_cad_file* file);
 std::vector<std::string> losses_of(carreau_cad_file* file);
 std::vector<std::string> notes_of(carreau_cad_file* file);
+/// What --min-feature found: a line each.
+std::vector<std::string> small_features_of(carreau_cad_file* file);
 /// Looks for dangers; they are in the order of the report.
 carreau_cad_report inspect(carreau_cad_file* file);
 std::vector<carreau_cad_danger> dangers_of(carreau_cad_file* file, const carreau_cad_report& report);

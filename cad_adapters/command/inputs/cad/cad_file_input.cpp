@@ -30,6 +30,7 @@ CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const R
   options.imprint_tolerance = choice.imprint_tolerance;
   options.unit = choice.unit.c_str();
   options.scale = choice.scale;
+  options.min_feature = choice.min_feature;
   options.user = const_cast<ReadingProgress*>(&progress);
   options.progress = [](double fraction, void* user) {
     const auto& tell = *static_cast<const ReadingProgress*>(user);
@@ -82,6 +83,21 @@ std::vector<std::string> losses_of(carreau_cad_file* file) {
   std::vector<std::string> sentences;
   for (std::int64_t i = 0; const char* loss = cad_library().loss(file, i); ++i) sentences.emplace_back(loss);
   return sentences;
+}
+
+std::vector<std::string> small_features_of(carreau_cad_file* file) {
+  std::vector<std::string> lines;
+  for (std::int64_t i = 0; i < content_of(file).small_features; ++i) {
+    carreau_cad_small_feature feature{};
+    feature.struct_size = sizeof feature;
+    require(file, cad_library().small_feature_at(file, i, &feature));
+    char text[160];
+    std::snprintf(text, sizeof text, "%-8s %-10s of %.4g at (%.6g, %.6g, %.6g), ", feature.removed != 0 ? "removed" : "kept", feature.kind,
+                  feature.size, feature.place[0], feature.place[1], feature.place[2]);
+    const std::string faces = feature.faces;
+    lines.push_back(text + std::string(faces.find(',') == std::string::npos ? "face " : "faces ") + faces);
+  }
+  return lines;
 }
 
 carreau_cad_report inspect(carreau_cad_file* file) {
@@ -176,6 +192,7 @@ class CadFileInput final : public CadInput {
   }
   [[nodiscard]] std::vector<std::string> losses() const override { return losses_of(file_.get()); }
 
+  [[nodiscard]] std::vector<std::string> small_features() const override { return small_features_of(file_.get()); }
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_of(file_.get()); }
 
   [[nodiscard]] std::vector<std::string> kinks() const override {
