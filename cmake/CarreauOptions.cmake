@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What of OpenCASCADE is linked to libcarreau_cad, and what its readers of STEP and IGES files need beside.
-set(CARREAU_OPENCASCADE_LIBRARIES TKShHealing TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+set(CARREAU_OPENCASCADE_LIBRARIES TKBO TKShHealing TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
 set(CARREAU_STEP_LIBRARIES TKSTEP TKSTEPAttr TKSTEPBase TKXSBase)
 set(CARREAU_IGES_LIBRARIES TKIGES TKXSBase)
 

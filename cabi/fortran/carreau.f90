@@ -34,6 +34,7 @@ module carreau
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_divide_curve, carreau_model_divide_curve_at
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
+  public :: carreau_model_name_entity, carreau_model_set_face_sides, carreau_mesh_face_sides, carreau_mesh_entity_name
   public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
@@ -767,6 +768,21 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_name_face(session%handle, face_ref, c_text(name))
   end subroutine carreau_model_name_face
+
+  subroutine carreau_model_name_entity(session, dimension, ref, name, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: dimension, ref
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_name_entity(session%handle, dimension, ref, c_text(name))
+  end subroutine carreau_model_name_entity
+
+  subroutine carreau_model_set_face_sides(session, face_ref, solid, other_solid, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, solid, other_solid
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_set_face_sides(session%handle, face_ref, solid, other_solid)
+  end subroutine carreau_model_set_face_sides
 
   subroutine carreau_model_color_face(session, face_ref, rgb, status)
     type(carreau_session), intent(in) :: session
@@ -1640,6 +1656,22 @@ contains
     face%name = carreau_string(c%name)
     face%rgb = c%rgb
   end subroutine carreau_mesh_face
+
+  !> solids: the one that the triangles of the face look out of, and the one that they look into; 0: none.
+  subroutine carreau_mesh_face_sides(mesh, face_ref, solids, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: face_ref
+    integer(c_int32_t), intent(out) :: solids(2), status
+    solids = 0
+    status = c_mesh_face_sides(mesh%handle, face_ref, solids)
+  end subroutine carreau_mesh_face_sides
+
+  function carreau_mesh_entity_name(mesh, dimension, ref) result(name)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: dimension, ref
+    character(len=:), allocatable :: name
+    name = carreau_string(c_mesh_entity_name(mesh%handle, dimension, ref))
+  end function carreau_mesh_entity_name
 
   subroutine carreau_mesh_quality(mesh, quality, status)
     type(carreau_mesh), intent(in) :: mesh

@@ -390,6 +390,28 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_name_face
 
+    !> Names entities of one dimension: the points of a reference (dimension 0), its curves (1), a face (2) or a solid
+    !! (3).
+    function c_model_name_entity(session, dimension, ref, name) result(status) bind(c, name="carreau_model_name_entity")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, ref
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t) :: status
+    end function c_model_name_entity
+
+    !> Sets the solids on both sides of a face, by references of the host's own from 1: the one that its triangles look
+    !! out of, and the one that they look into; 0: none.
+    function c_model_set_face_sides(session, face_ref, solid, other_solid) result(status) &
+        bind(c, name="carreau_model_set_face_sides")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, solid, other_solid
+      integer(c_int32_t) :: status
+    end function c_model_set_face_sides
+
     !> Colours a face, for files that hold colours (.vtu). rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour
     !! away.
     function c_model_color_face(session, face_ref, rgb) result(status) bind(c, name="carreau_model_color_face")
@@ -1091,6 +1113,26 @@ module carreau_c
       type(c_face), intent(inout) :: face
       integer(c_int32_t) :: status
     end function c_mesh_face
+
+    !> Gets the solids on both sides of a face by its reference (carreau_model_set_face_sides); 0: none.
+    function c_mesh_face_sides(mesh, face_ref, solids) result(status) bind(c, name="carreau_mesh_face_sides")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: face_ref
+      integer(c_int32_t), intent(inout) :: solids(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_face_sides
+
+    !> Returns the name that carreau_model_name_entity gave to points (dimension 0), curves (1), a face (2) or a solid
+    !! (3); "": none, or no such entity.
+    function c_mesh_entity_name(mesh, dimension, ref) result(name) bind(c, name="carreau_mesh_entity_name")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: dimension, ref
+      type(c_ptr) :: name
+    end function c_mesh_entity_name
 
     !> Measures the triangles.
     function c_mesh_quality(mesh, quality) result(status) bind(c, name="carreau_mesh_quality")

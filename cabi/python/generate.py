@@ -30,7 +30,7 @@ HEADERS = sorted(glob.glob(os.path.join(HERE, "../include/*.h"))) + [os.path.joi
 
 PLAIN = {"carreau_status": "c_int32", "int32_t": "c_int32", "int64_t": "c_int64", "size_t": "c_size_t", "double": "c_double",
          "void": "None", "void*": "c_void_p", "char*": "c_char_p"}
-ARRAYS = {"double": "Doubles", "int32_t": "Int32s", "int64_t": "Int64s"}
+ARRAYS = {"double": "Doubles", "int32_t": "Int32s", "int64_t": "Int64s", "char* const": "POINTER(c_char_p)"}
 PYTHON = {"int32_t": "int", "int64_t": "int", "size_t": "int", "double": "float", "const char*": "str"}
 IGNORED = "  # type: ignore[assignment]"  # tuples have a method of that name
 NOTICE = '# SPDX-License-Identifier: BSD-3-Clause\n"""{}\n\nWritten by cabi/python/generate.py: not to be edited."""\n'

@@ -64,6 +64,22 @@ void copy_pairs(std::span<const carreau::TriangleIntersection> pairs, std::size_
   }
 }
 
+const carreau::EntityNames& names_of(const carreau_mesh& mesh) {
+  require_content(mesh);
+  return mesh.session != nullptr ? mesh.session->session.names() : mesh.flat.names;
+}
+
+std::string name_of_face(const carreau_mesh& mesh, std::int32_t ref) {
+  if (mesh.session != nullptr) {
+    for (const carreau::WholeFace& whole : mesh.session->session.whole_faces())
+      if (whole.face.ref == ref) return whole.face.name;
+  } else {
+    for (const carreau_mesh::FaceOfFile& known : mesh.flat_faces)
+      if (known.face.ref == ref) return known.face.name;
+  }
+  return "";
+}
+
 }  // namespace
 
 void carreau::abi::require_content(const carreau_mesh& mesh) {
@@ -366,6 +382,30 @@ carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face
     result.rgb = face.rgb;
     write_struct(result, out_face, "out_face");
   });
+}
+
+carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t face_ref, int32_t out_solids[2]) {
+  return guarded(mesh, [&] {
+    const carreau::EntityNames& names = names_of(*mesh);
+    const auto found = names.face_solids.find(face_ref);
+    for (const std::size_t side : {0U, 1U})
+      required(out_solids, "out_solids")[side] = found != names.face_solids.end() ? found->second[side] : 0;
+  });
+}
+
+const char* carreau_mesh_entity_name(carreau_mesh* mesh, int32_t dimension, int32_t ref) {
+  if (mesh == nullptr) return nullptr;
+  const carreau_status status = guarded(mesh, [&] {
+    const carreau::EntityNames& names = names_of(*mesh);
+    mesh->text.clear();
+    if (dimension == 2) {
+      mesh->text = name_of_face(*mesh, ref);
+      return;
+    }
+    const std::map<int, std::string>& of_dimension = dimension == 0 ? names.points : dimension == 1 ? names.curves : names.solids;
+    if (const auto found = of_dimension.find(ref); found != of_dimension.end()) mesh->text = found->second;
+  });
+  return status == CARREAU_OK ? mesh->text.c_str() : "";
 }
 
 carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -43,6 +44,21 @@ void prescribe(Face& face, std::int32_t ic, const std::shared_ptr<const carreau:
 
 void put(std::int32_t* array, std::size_t index, std::int32_t value) {
   if (array != nullptr) array[index] = value;
+}
+
+/// Of a dimension other than that of faces.
+bool has_entity(const Model& model, std::int32_t dimension, std::int32_t ref) {
+  if (dimension == 3)
+    return ref > 0 && std::any_of(model.names.face_solids.begin(), model.names.face_solids.end(), [ref](const auto& each) {
+             return each.second[0] == ref || each.second[1] == ref;
+           });
+  for (const Face& face : model.faces) {
+    for (const carreau::FaceCurve& curve : face.curves)
+      if (dimension == 1 ? curve.ref == ref || curve.shown_as == ref : curve.end1 == ref || curve.end2 == ref) return true;
+    for (const carreau::FacePoint& point : face.points)
+      if (dimension == 0 && point.ref == ref) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -127,6 +143,33 @@ carreau_status carreau_model_add_point(carreau_session* session, int32_t face_re
 
 carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name) {
   return guarded(session, [&] { face_of(session->edited_model(), face_ref).name = required(name, "name"); });
+}
+
+carreau_status carreau_model_name_entity(carreau_session* session, int32_t dimension, int32_t ref, const char* name) {
+  return guarded(session, [&] {
+    Model& model = session->edited_model();
+    const std::string given = required(name, "name");
+    if (dimension == 2) {
+      face_of(model, ref).name = given;
+      return;
+    }
+    if (dimension < 0 || dimension > 3) throw InvalidArgument("the dimension is " + std::to_string(dimension) + ", not 0 to 3");
+    if (!has_entity(model, dimension, ref))
+      throw InvalidArgument(std::string("the model has no ") + (dimension == 0 ? "point" : dimension == 1 ? "curve" : "solid") +
+                            " of reference " + std::to_string(ref));
+    carreau::EntityNames& names = model.names;
+    (dimension == 0 ? names.points : dimension == 1 ? names.curves : names.solids)[ref] = given;
+  });
+}
+
+carreau_status carreau_model_set_face_sides(carreau_session* session, int32_t face_ref, int32_t solid, int32_t other_solid) {
+  return guarded(session, [&] {
+    Model& model = session->edited_model();
+    (void)face_of(model, face_ref);
+    if (solid < 0 || other_solid < 0)
+      throw InvalidArgument(carreau::Where{.face = face_ref}, "the reference of a solid is below 0");
+    model.names.face_solids[face_ref] = {solid, other_solid};
+  });
 }
 
 carreau_status carreau_model_color_face(carreau_session* session, int32_t face_ref, int32_t rgb) {

@@ -16,6 +16,11 @@ void give_list(const std::vector<std::int32_t>& list, std::int64_t capacity, std
   std::copy(list.begin(), list.end(), required(out, "the array"));
 }
 
+const Solids& solids_in(carreau_cad_file& file) {
+  if (!file.solids) file.solids = solids_of(file.shape);
+  return *file.solids;
+}
+
 }  // namespace
 
 carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content) {
@@ -34,7 +39,30 @@ carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out
     content.references = host.reference_count();
     content.match_tolerance = host.match_tolerance();
     content.notes = file->notes.c_str();
+    content.file_unit = file->shape.file_unit.c_str();
+    const Solids& solids = solids_in(*file);
+    content.small_features = static_cast<int32_t>(file->features.size());
+    content.solids = static_cast<int32_t>(solids.names.size());
+    content.shared_faces = static_cast<int32_t>(
+        std::count_if(solids.of_face.begin(), solids.of_face.end(), [](const auto& sides) { return sides[1] > 0; }));
     write_struct(content, out_content, "out_content");
+  });
+}
+
+carreau_status carreau_cad_small_feature_at(carreau_cad_file* file, int64_t index, carreau_cad_small_feature* out_feature) {
+  return guarded_call(file, [&] {
+    (void)host_of(*file);
+    if (index < 0 || static_cast<std::uint64_t>(index) >= file->features.size())
+      throw Failure(CARREAU_ERR_ARGUMENT, "there is no small feature of index " + std::to_string(index));
+    const SmallFeature& known = file->features[static_cast<std::size_t>(index)];
+    file->feature_faces.clear();
+    for (const int face : known.faces) file->feature_faces += (file->feature_faces.empty() ? "" : ", ") + std::to_string(face);
+    carreau_cad_small_feature feature{};
+    feature.kind = known.kind.c_str(), feature.size = known.size;
+    std::copy(known.place.begin(), known.place.end(), feature.place);
+    feature.removed = known.removed ? 1 : 0;
+    feature.faces = file->feature_faces.c_str();
+    write_struct(feature, out_feature, "out_feature");
   });
 }
 
@@ -51,10 +79,11 @@ carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number, car
     face.number = number;
     face.rgb = host.face_colour(number);
     face.name = host.face_name(number).c_str();
-    face.why = "", face.solid_name = "";
-    if (!file->solids) file->solids = solids_of(file->shape);
-    face.solid = file->solids->of_face[static_cast<std::size_t>(number - 1)];
-    if (face.solid > 0) face.solid_name = file->solids->names[static_cast<std::size_t>(face.solid - 1)].c_str();
+    face.why = "";
+    const Solids& solids = solids_in(*file);
+    const std::array<int, 2>& sides = solids.of_face[static_cast<std::size_t>(number - 1)];
+    face.solid = sides[0], face.other_solid = sides[1];
+    face.solid_name = solids.name(face.solid), face.other_solid_name = solids.name(face.other_solid);
     for (const auto& [left_out, why] : file->left_out)
       if (left_out == number) face.why = why.c_str();
     write_struct(face, out_face, "out_face");

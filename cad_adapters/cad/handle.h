@@ -3,6 +3,7 @@
 #pragma once
 
 #include <brep_host.h>
+#include <changes/small_features.h>
 #include <face_figures.h>
 #include <faults.h>
 #include <shape_file.h>
@@ -32,6 +33,9 @@ struct carreau_cad_file {
   std::vector<std::string> sentences;                            // of its dangers
   std::optional<carreau_occ::Solids> solids;
   std::string notes;  // a line each
+  bool loose_edges = false;
+  std::vector<carreau_occ::SmallFeature> features;
+  std::string feature_faces;  // of the last one that was asked for
   std::string error;
 };
 

@@ -24,6 +24,7 @@
 #include "iges_entities.h"
 #include "text_of_file.h"
 #include "translator.h"
+#include "changes/units.h"
 
 namespace carreau_occ {
 namespace {
@@ -177,4 +178,6 @@ void carreau_translate_iges(const std::string& path, const Message_ProgressRange
   file.doubtful = check.doubtful();
   document.write(file);
   file.unit = "mm";
+  if (const Handle(TCollection_HAsciiString) unit = reader.IGESModel()->GlobalSection().UnitName(); !unit.IsNull())
+    file.file_unit = unit_sign(unit->ToCString());
 }

@@ -8,6 +8,7 @@
 #include <StepBasic_DocumentFile.hxx>
 #include <StepShape_ShapeRepresentation.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TransferBRep.hxx>
@@ -24,6 +25,7 @@
 #include "step_entities.h"
 #include "step_parts.h"
 #include "translator.h"
+#include "changes/units.h"
 #include "zero_edges.h"
 
 namespace carreau_occ {
@@ -276,4 +278,7 @@ void carreau_translate_step(const std::string& path, const Message_ProgressRange
   file.doubtful.insert(file.doubtful.end(), translation.doubtful().begin(), translation.doubtful().end());
   document.write(file);
   file.unit = "mm";
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  if (!lengths.IsEmpty()) file.file_unit = unit_sign(lengths.First().ToCString());
 }

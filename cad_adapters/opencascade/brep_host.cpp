@@ -27,6 +27,7 @@ BrepHost::BrepHost(const ShapeFile& file, bool loose_edges) : state_(std::make_s
   state_->shape = file.shape;
   try {
     guarded([&] { state_->collect(), state_->collect_names(file), state_->collect_doubts(file); });
+    guarded([&] { state_->solids = solids_of(file); });
     state_->cut_kinks();
     guarded([&] { state_->collect_wires(loose_edges); });
     state_->let_evaluate();
@@ -108,6 +109,10 @@ carreau_status BrepHost::add_faces(carreau_session* session) const {
     if (status == CARREAU_OK) status = add_face(session, f);
   for (std::size_t w = 0; w < state_->wires.size(); ++w)
     if (status == CARREAU_OK) status = add_wire(session, w);
+  const std::vector<std::string>& names = state_->solids.names;
+  for (std::size_t s = 0; s < names.size(); ++s)
+    if (status == CARREAU_OK && !names[s].empty() && state_->solids.has_face(static_cast<int>(s) + 1))
+      status = carreau_model_name_entity(session, 3, static_cast<int32_t>(s + 1), names[s].c_str());
   for (const auto& [piece, whole] : state_->whole_edge)
     if (status == CARREAU_OK) status = carreau_model_part_of_curve(session, piece, whole);
   return status;
@@ -130,7 +135,11 @@ carreau_status BrepHost::add_face(carreau_session* session, std::size_t index) c
     orientation = seed * (curve.forward != face.swapped ? 1 : -1);
   }
   carreau_status status = carreau_model_add_face(session, ref, orientation);
-  if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
+  if (status == CARREAU_OK && ref == face.whole) {
+    const std::array<int, 2>& sides = state_->solids.of_face[index];
+    status = carreau_model_name_face(session, ref, face.own_name.c_str());
+    if (status == CARREAU_OK) status = carreau_model_set_face_sides(session, ref, sides[0], sides[1]);
+  }
   if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);
   if (status == CARREAU_OK && ref != face.whole) status = carreau_model_part_of_face(session, ref, face.whole);
   if (status == CARREAU_OK && !face.broken.empty())
@@ -166,10 +175,33 @@ void BrepHost::State::collect_sizes() {
   const auto lower = [](double& size, double other) { size = size > 0 ? std::min(size, other) : other; };
   for (const HostFace& face : host_faces)
     for (const HostCurve& curve : face.curves) {
-      if (!(face.size > 0)) continue;
-      lower(edge_size[static_cast<std::size_t>(curve.edge - 1)], face.size);
-      for (const int end : {curve.end1, curve.end2}) lower(vertex_size[static_cast<std::size_t>(end - 1)], face.size);
+      const auto own = own_edge_sizes.find(curve.edge);
+      for (const double size : {face.size, own != own_edge_sizes.end() ? own->second : 0.0}) {
+        if (!(size > 0)) continue;
+        lower(edge_size[static_cast<std::size_t>(curve.edge - 1)], size);
+        for (const int end : {curve.end1, curve.end2}) lower(vertex_size[static_cast<std::size_t>(end - 1)], size);
+      }
     }
+  for (const auto& [vertex, size] : own_vertex_sizes) lower(vertex_size[static_cast<std::size_t>(vertex - 1)], size);
+}
+
+bool BrepHost::set_size(int dimension, int number, double size) {
+  State& state = *state_;
+  if (dimension == 2) return set_face_size(std::to_string(number), size);
+  if (dimension == 3) {
+    bool found = false;
+    for (HostFace& face : state.host_faces) {
+      const std::array<int, 2>& sides = state.solids.of_face[static_cast<std::size_t>(face.whole - 1)];
+      if (sides[0] == number || sides[1] == number) face.size = size, found = true;
+    }
+    return found;
+  }
+  if (number < 1 || number > (dimension == 0 ? state.file_vertices : state.file_edges)) return false;
+  (dimension == 0 ? state.own_vertex_sizes : state.own_edge_sizes)[number] = size;
+  if (dimension == 1)
+    for (const auto& [piece, whole] : state.whole_edge)
+      if (whole == number) state.own_edge_sizes[piece] = size;
+  return true;
 }
 
 bool BrepHost::set_face_size(const std::string& face, double size) {
@@ -288,9 +320,7 @@ BrepHost::GlueTolerances BrepHost::State::glue_tolerances() const {
 }
 
 bool BrepHost::is_closed() const noexcept {
-  for (const int n : state_->uses)
-    if (n != 2 && n != 0) return false;  // 0: an edge that no face holds
-  return true;
+  return std::find(state_->uses.begin(), state_->uses.end(), 1) == state_->uses.end();
 }
 
 std::string BrepHost::failure(int face) const {

@@ -41,6 +41,8 @@ class BrepHost {
   /// Size wanted on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
   /// size of its faces. Before give_to. False: there is no such face.
   bool set_face_size(const std::string& face, double size);
+  /// The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
+  bool set_size(int dimension, int number, double size);
 
   /// Faces that give_to leaves out of meshes: those that OpenCASCADE fails on, those whose data has an error or reaches
   /// too far. Ascending, with the reason.
@@ -80,7 +82,7 @@ class BrepHost {
   [[nodiscard]] GlueTolerances glue_tolerances() const;
   /// How far faces may be from the edges and vertices that they share (parameter eps_match).
   [[nodiscard]] double match_tolerance() const;
-  /// Every edge belongs to two faces, or twice to one.
+  /// No edge has one face alone (a seam has its face twice).
   [[nodiscard]] bool is_closed() const noexcept;
   /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has
   /// there (uv[2]; exchanged when the face is reversed). False: OpenCASCADE fails.

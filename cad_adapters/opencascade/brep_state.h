@@ -17,6 +17,7 @@
 #include "brep_host.h"
 #include "evaluators.h"
 #include "loose_edges.h"
+#include "solids.h"
 #include "wire_periods.h"
 
 namespace carreau_occ {
@@ -33,7 +34,8 @@ struct HostFace {
   int whole = 0;         // number of the face of the shape that it is, or is a part of
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
-  std::string name;
+  std::string name;      // its own, or the name of the smallest part that holds it
+  std::string own_name;  // "": the file does not name it
   int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
   double size = 0;     // 0: no size of its own
   std::string broken;  // why it cannot be meshed; "": it can
@@ -53,6 +55,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   LooseCurves wire_curves;
   std::vector<int> uses;                             // of each edge, by its number - 1; behind all edges those of cuts
   int file_edges = 0, file_vertices = 0;             // without those that mending added
+  Solids solids;
   std::vector<std::string> notes;                    // what was mended
   std::map<std::pair<int, bool>, int> missing_ends;  // vertices of edges that do not name them, by edge and last end
   int vertex_total = 0;                              // those of the shape and of cuts
@@ -62,6 +65,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   std::vector<int> bent;                       // faces that bend inside and could not be cut, ascending
   std::optional<double> diagonal;              // once asked for
   std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
+  std::map<int, double> own_edge_sizes, own_vertex_sizes;  // by number
   Evaluators evaluators;
   std::mutex mutex;                     // of what follows: callbacks come from several threads
   std::map<int, std::string> failures;  // by face

@@ -5,10 +5,13 @@
 #include <TopoDS_Shape.hxx>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace carreau_occ {
+
+struct SmallFeature;
 
 /// A shape, and what its file says about its parts.
 struct ShapeFile {
@@ -21,21 +24,40 @@ struct ShapeFile {
     double red = 0, green = 0, blue = 0;  ///< 0 to 1, sRGB
   };
   std::vector<Label> labels;
-  std::string unit;  ///< of its coordinates, "" when the file does not say
+  std::string unit;  ///< of its coordinates, "" when it has none
   /// What the file holds and the shape does not, or not as it should: a sentence each, which names the entity.
   std::vector<std::string> losses{};
   /// What was passed over or repaired without the loss of a face: a sentence each.
   std::vector<std::string> notes{};
   /// Faces of the shape that stand on data with an error, and why.
   std::vector<std::pair<TopoDS_Shape, std::string>> doubtful{};
+  std::string file_unit{};  ///< of the lengths in the file, "" when it has none
 };
 
-/// Told while a file is translated, with the share that is done. False stops.
+/// Receives the share of a translation that is done. False stops.
 using ReadingProgress = std::function<bool(double fraction)>;
 
-/// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep) as the suffix, or else the first bytes, say. Lengths
-/// are in millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. Throws std::runtime_error with a
-/// sentence that names the file.
-ShapeFile read_shape(const std::string& path, const ReadingProgress& progress = {});
+/// The lengths that a shape gets after it was read.
+struct Lengths {
+  std::string unit;  ///< of coordinates; "": millimetres, or as they are in a BREP file
+  double scale = 1;  ///< factor of all coordinates, after the unit
+};
+
+/// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep; text or binary) as the suffix, or else the first bytes,
+/// say. Lengths are in millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. Throws
+/// std::runtime_error with a sentence that names the file.
+ShapeFile read_shape(const std::string& path, const ReadingProgress& progress = {}, const Lengths& lengths = {});
+
+/// The same from memory. `format` is "step", "iges" or "brep"; "": the bytes say it. Sentences call the file `name`.
+ShapeFile read_shape(std::string_view bytes, const std::string& format, const std::string& name,
+                     const ReadingProgress& progress = {}, const Lengths& lengths = {});
+
+/// Removes features below a length from the solids: see changes/small_features.h. When OpenCASCADE fails the shape stays
+/// as it is, and a loss reports the reason. Throws std::runtime_error when it is stopped.
+std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const ReadingProgress& progress = {});
+
+/// Parts that touch share faces and edges from now on: see changes/imprint.h. Throws std::runtime_error with a sentence when it is
+/// stopped; when OpenCASCADE fails the shape stays as it is, and a loss reports the reason.
+void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& progress = {});
 
 }  // namespace carreau_occ

@@ -16,8 +16,11 @@
 #include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "extent.h"
 #include "faults.h"
@@ -157,23 +160,38 @@ class ContactFinder {
   int classifications_ = 0;
 };
 
+void make_distinct(std::vector<std::string>& names) {
+  std::set<std::string> taken(names.begin(), names.end());
+  std::map<std::string, int> used;
+  for (std::string& name : names) {
+    if (name.empty() || used[name]++ == 0) continue;
+    const std::string base = name;
+    do name = base + "_" + std::to_string(used[base]++);
+    while (!taken.insert(name).second);
+    --used[base];
+  }
+}
+
 }  // namespace
 
 Solids solids_of(const ShapeFile& file) {
   TopTools_IndexedMapOfShape faces, solids;
   TopExp::MapShapes(file.shape, TopAbs_FACE, faces);
   TopExp::MapShapes(file.shape, TopAbs_SOLID, solids);
-  Solids found{.of_face = std::vector<int>(static_cast<std::size_t>(faces.Extent()), 0),
+  Solids found{.of_face = std::vector<std::array<int, 2>>(static_cast<std::size_t>(faces.Extent())),
                .names = std::vector<std::string>(static_cast<std::size_t>(solids.Extent()))};
   for (int s = 1; s <= solids.Extent(); ++s)
     for (TopExp_Explorer f(solids(s), TopAbs_FACE); f.More(); f.Next())
       if (const int number = faces.FindIndex(f.Current()); number > 0) {
-        int& known = found.of_face[static_cast<std::size_t>(number - 1)];
-        if (known == 0) known = s;
+        // The map has the face as its first solid uses it.
+        std::array<int, 2>& sides = found.of_face[static_cast<std::size_t>(number - 1)];
+        int& side = f.Current().Orientation() == faces(number).Orientation() ? sides[0] : sides[1];
+        if (side == 0) side = s;
       }
   for (const ShapeFile::Label& label : file.labels)
     if (const int s = solids.FindIndex(label.part); s > 0 && !label.name.empty())
       found.names[static_cast<std::size_t>(s - 1)] = label.name;
+  make_distinct(found.names);
   return found;
 }
 

@@ -2,6 +2,7 @@
 // The solids of a shape, and those that touch or overlap.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -11,8 +12,20 @@
 namespace carreau_occ {
 
 struct Solids {
-  std::vector<int> of_face;        ///< by face from 0: number of its solid from 1, 0: none
-  std::vector<std::string> names;  ///< by solid from 0; "": none
+  /// By face from 0: number, from 1, of the solid that its triangles look out of, and of the one on the other side; 0:
+  /// none.
+  std::vector<std::array<int, 2>> of_face;
+  /// By solid from 0; "": none. Solids of one name are told apart by numbers: bolt, bolt_2.
+  std::vector<std::string> names;
+
+  /// From 1.
+  [[nodiscard]] bool has_face(int solid) const {
+    return std::any_of(of_face.begin(), of_face.end(), [solid](const auto& sides) { return sides[0] == solid || sides[1] == solid; });
+  }
+  /// From 1; 0: "".
+  [[nodiscard]] const char* name(int solid) const {
+    return solid > 0 ? names[static_cast<std::size_t>(solid - 1)].c_str() : "";
+  }
 };
 
 /// Numbers are those of OpenCASCADE's map of solids. Nothing is thrown.

@@ -22,4 +22,10 @@ inline constexpr double wrong_image = 0.1;
 /// data with gaps of 5.6 per cent is meshed by Gmsh. [LoopGaps.FacesThatMissTheirEdgesAreMeshed]
 inline constexpr double match_share = 0.06;
 
+// Parts that share faces (imprint)
+
+/// Share of the volume of a solid. OpenCASCADE integrates divided curved faces with errors near a millionth; a fuse that
+/// loses a piece changes more. [Imprint.VolumesStay]
+inline constexpr double imprint_volume = 1e-4;
+
 }  // namespace carreau_occ::thresholds

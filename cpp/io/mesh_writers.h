@@ -41,7 +41,9 @@ std::string obj_text(const FlatMesh& mesh);
 std::string ply_bytes(const FlatMesh& mesh);
 /// Cart3D: straight triangles alone.
 std::string tri_text(const FlatMesh& mesh);
-/// Name of a face: its own, or `prefix` and its reference. Control characters and quotation marks become '_'.
+/// A name whose control characters and quotation marks are '_'.
+std::string plain_name(const std::string& name);
+/// Plain name of a face: its own, or `prefix` and its reference.
 std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix);
 
 /// Reference of entity i; an empty list means that all are 0.

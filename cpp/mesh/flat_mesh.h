@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/surface_mesh.h"
+#include "model/names.h"
 
 namespace carreau {
 
@@ -44,6 +45,7 @@ struct FlatMesh {
   /// Empty: the triangles are the elements.
   std::vector<Cell> cells = {};
   std::vector<std::int32_t> edge_mids = {};  ///< node of each edge, index in vertices; empty: edges are straight
+  EntityNames names = {};
   /// Straight solids of a volume mesh, indices from 0: read for background meshes, never written.
   std::vector<std::array<std::int32_t, 4>> tetrahedra = {};
 

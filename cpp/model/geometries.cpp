@@ -58,6 +58,23 @@ void refuse_overflow(int first, int second) {
 
 int moved(int ref, int offset) { return ref != 0 ? ref + offset : 0; }
 
+int largest_solid(const EntityNames& names) {
+  int largest = names.solids.empty() ? 0 : names.solids.rbegin()->first;
+  for (const auto& [face, sides] : names.face_solids) raise(largest, sides[0]), raise(largest, sides[1]);
+  return largest;
+}
+
+/// Solids have numbers of their own, which follow one another too.
+void append_names(const EntityNames& part, const LargestReferences& before, EntityNames& names) {
+  const int solid_offset = largest_solid(names);
+  refuse_overflow(solid_offset, largest_solid(part));
+  for (const auto& [ref, name] : part.points) names.points[moved(ref, before.point)] = name;
+  for (const auto& [ref, name] : part.curves) names.curves[moved(ref, before.curve)] = name;
+  for (const auto& [ref, name] : part.solids) names.solids[moved(ref, solid_offset)] = name;
+  for (const auto& [face, sides] : part.face_solids)
+    names.face_solids[moved(face, before.face)] = {moved(sides[0], solid_offset), moved(sides[1], solid_offset)};
+}
+
 void move_curves(Face& face, int curve_offset, int point_offset) {
   for (FaceCurve& curve : face.curves) {
     curve.ref = moved(curve.ref, curve_offset), curve.shown_as = moved(curve.shown_as, curve_offset);
@@ -99,6 +116,7 @@ GeometryRange append_geometry(Model& model, Model part) {
   }
   for (const auto& [point, shown] : part.shown_points)
     model.shown_points[moved(point, before.point)] = moved(shown, before.point);
+  append_names(part.names, before, model.names);
   return model.geometries.back();
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/names.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -98,6 +99,7 @@ struct Model {
   /// References that results have in place of those of points, where they differ.
   std::map<int, int> shown_points = {};
   std::vector<GeometryRange> geometries = {};  ///< beside the host's own; see Face::geometry
+  EntityNames names = {};
   bool plane = false;  ///< all of it lies in the plane z = 0, and files of its mesh have dimension 2
 };
 

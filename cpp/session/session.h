@@ -125,6 +125,8 @@ class Session {
   /// Model::shown_points of the mesh: exported() has applied it. Throws like mesh().
   [[nodiscard]] const std::map<int, int>& shown_points() const;
 
+  /// Names of curves, points and solids of the mesh. Throws like mesh().
+  [[nodiscard]] const EntityNames& names() const;
   /// Faces of the mesh as the caller knows them, parts made whole. Throws like mesh().
   [[nodiscard]] const std::vector<WholeFace>& whole_faces() const;
   /// Shapes and lengths, measured when somebody asks for the first time. Throws like mesh().

@@ -9,6 +9,7 @@
 //   plate.step, .brep, .igs   a plate with a hole, all of NURBS
 //   quarter_plate.step     a unit square without the quarter of a disc (HDR fig. 3.6): a face
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
+//   touching.brep          a plate of 4 x 4 x 1 and a cube of side 2 on it
 //   wires.brep             three sides of a unit square and no face; loose.brep: the same beside a unit cube
 //   outside.step           the same assembly; its parts are in outside_block.stp and outside_ball.stp
 //   NAME.brep              faces that bend inside: bent_shapes()
@@ -210,6 +211,16 @@ void write_wires(const std::string& folder) {
   require(BRepTools::Write(both, (folder + "loose.brep").c_str()), "loose.brep");
 }
 
+/// A plate of 4 x 4 x 1 and a cube of side 2 that stands on it.
+void write_touching(const std::string& path) {
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  builder.Add(all, BRepPrimAPI_MakeBox(4, 4, 1).Shape());
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(0.5, 1, 1), 2, 2, 2).Shape());
+  require(BRepTools::Write(all, path.c_str()), path);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -233,6 +244,7 @@ int main(int argc, char** argv) {
     write_free_edges(folder + "free.brep");
     write_boxes(folder + "boxes.brep");
     write_wires(folder);
+    write_touching(folder + "touching.brep");
     for (const shapes::BentShape& bent : shapes::bent_shapes())
       require(BRepTools::Write(bent.make(), (folder + bent.name + ".brep").c_str()), bent.name);
     require(BRepTools::Write(shapes::torn_roof(), (folder + "torn_roof.brep").c_str()), "torn_roof.brep");

@@ -163,7 +163,7 @@ TEST(Placements, FacesThatSolidsShareAreMeshedOnce) {
   carreau_occ::BrepHost host(carreau_occ::read_shape(path));
   EXPECT_EQ(host.face_count(), 20);  // 24 less the 4 that are shared
   EXPECT_EQ(host.glue_tolerances().of_all, 0);
-  EXPECT_FALSE(host.is_closed());
+  EXPECT_TRUE(host.is_closed());
   const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.25);
   EXPECT_EQ(m.status, CARREAU_OK) << m.error;
   EXPECT_TRUE(m.failed.empty());

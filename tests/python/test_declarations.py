@@ -59,7 +59,8 @@ def test_types_of_arguments_and_results_agree_with_the_headers(headers):
             for (c_type, argument), given in zip(arguments, declared[1]):
                 element = re.sub(r"const |\*|\[\d*\]", "", c_type)
                 if c_type.endswith("]"):
-                    assert given is {"double": capi.Doubles, "int32_t": capi.Int32s, "int64_t": capi.Int64s}[element], (name, argument)
+                    arrays = {"double": capi.Doubles, "int32_t": capi.Int32s, "int64_t": capi.Int64s, "char const": ctypes.POINTER(ctypes.c_char_p)}
+                    assert given is arrays[element], (name, argument)
             count += 1
     assert count == len(_declarations.CARREAU) + len(_declarations.CARREAU_CAD)
 

@@ -192,6 +192,14 @@ class Mesh {
     return out;
   }
 
+  /// Solids on both sides of a face by its reference: the one that its triangles look out of, and the other one; 0: none.
+  [[nodiscard]] std::array<std::int32_t, 2> face_sides(int face) const {
+    std::array<std::int32_t, 2> solids{};
+    done(carreau_mesh_face_sides(mesh_, face, solids.data()));
+    return solids;
+  }
+  /// The name of points (dimension 0), curves (1), a face (2) or a solid (3); "": none.
+  [[nodiscard]] std::string entity_name(int dimension, int ref) const { return carreau_mesh_entity_name(mesh_, dimension, ref); }
   [[nodiscard]] std::vector<Face> faces() const {
     std::vector<Face> out;
     const std::int64_t n = counts().faces;

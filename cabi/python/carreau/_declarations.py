@@ -796,6 +796,12 @@ class carreau_cad_options(Structure):
         ("loose_edges", c_int32),
         ("progress", carreau_cad_progress_fn),
         ("user", c_void_p),
+        ("imprint", c_int32),
+        ("reserved", c_int32),
+        ("imprint_tolerance", c_double),
+        ("unit", c_char_p),
+        ("scale", c_double),
+        ("min_feature", c_double),
     ]
 
 
@@ -816,6 +822,23 @@ class carreau_cad_content(Structure):
         ("references", c_int32),
         ("match_tolerance", c_double),
         ("notes", c_char_p),
+        ("file_unit", c_char_p),
+        ("solids", c_int32),
+        ("shared_faces", c_int32),
+        ("small_features", c_int32),
+        ("reserved", c_int32),
+    ]
+
+
+class carreau_cad_small_feature(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kind", c_char_p),
+        ("size", c_double),
+        ("place", c_double * 3),
+        ("removed", c_int32),
+        ("reserved", c_int32),
+        ("faces", c_char_p),
     ]
 
 
@@ -829,6 +852,9 @@ class carreau_cad_face(Structure):
         ("solid", c_int32),
         ("reserved", c_int32),
         ("solid_name", c_char_p),
+        ("other_solid", c_int32),
+        ("reserved2", c_int32),
+        ("other_solid_name", c_char_p),
     ]
 
 
@@ -914,6 +940,8 @@ CARREAU = {
     "carreau_model_divide_curve_at": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles]),
     "carreau_model_add_point": (c_int32, [c_void_p, c_int32, c_int32, c_double, c_double]),
     "carreau_model_name_face": (c_int32, [c_void_p, c_int32, c_char_p]),
+    "carreau_model_name_entity": (c_int32, [c_void_p, c_int32, c_int32, c_char_p]),
+    "carreau_model_set_face_sides": (c_int32, [c_void_p, c_int32, c_int32, c_int32]),
     "carreau_model_color_face": (c_int32, [c_void_p, c_int32, c_int32]),
     "carreau_model_part_of_face": (c_int32, [c_void_p, c_int32, c_int32]),
     "carreau_model_part_of_curve": (c_int32, [c_void_p, c_int32, c_int32]),
@@ -987,6 +1015,8 @@ CARREAU = {
     "carreau_mesh_edge_mids": (c_int32, [c_void_p, c_int64, Int32s]),
     "carreau_mesh_cell_quality": (c_int32, [c_void_p, POINTER(carreau_cell_quality)]),
     "carreau_mesh_face": (c_int32, [c_void_p, c_int64, POINTER(carreau_face)]),
+    "carreau_mesh_face_sides": (c_int32, [c_void_p, c_int32, Int32s]),
+    "carreau_mesh_entity_name": (c_char_p, [c_void_p, c_int32, c_int32]),
     "carreau_mesh_quality": (c_int32, [c_void_p, POINTER(carreau_quality)]),
     "carreau_mesh_part_quality": (c_int32, [c_void_p, POINTER(carreau_quality)]),
     "carreau_mesh_defects": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_char_p)]),
@@ -1069,13 +1099,19 @@ CARREAU = {
 }
 CARREAU_CAD = {
     "carreau_cad_open": (c_int32, [c_void_p, c_char_p, POINTER(carreau_cad_options), POINTER(c_void_p)]),
+    "carreau_cad_open_bytes": (c_int32, [c_void_p, c_void_p, c_int64, c_char_p, POINTER(carreau_cad_options), POINTER(c_void_p)]),
     "carreau_cad_create": (c_int32, [POINTER(c_void_p)]),
     "carreau_cad_close": (None, [c_void_p]),
     "carreau_cad_last_error": (c_char_p, [c_void_p]),
     "carreau_cad_read": (c_int32, [c_void_p, c_char_p, POINTER(carreau_cad_options)]),
+    "carreau_cad_read_bytes": (c_int32, [c_void_p, c_void_p, c_int64, c_char_p, POINTER(carreau_cad_options)]),
+    "carreau_cad_imprint": (c_int32, [c_void_p, c_double, carreau_cad_progress_fn, c_void_p]),
+    "carreau_cad_name_solids": (c_int32, [c_void_p, c_int64, POINTER(c_char_p), Int32s]),
     "carreau_cad_add": (c_int32, [c_void_p, c_void_p]),
     "carreau_cad_set_face_size": (c_int32, [c_void_p, c_char_p, c_double]),
+    "carreau_cad_set_size": (c_int32, [c_void_p, c_int32, c_int32, c_double]),
     "carreau_cad_info": (c_int32, [c_void_p, POINTER(carreau_cad_content)]),
+    "carreau_cad_small_feature_at": (c_int32, [c_void_p, c_int64, POINTER(carreau_cad_small_feature)]),
     "carreau_cad_loss": (c_char_p, [c_void_p, c_int64]),
     "carreau_cad_file_face": (c_int32, [c_void_p, c_int32, POINTER(carreau_cad_face)]),
     "carreau_cad_measure_face": (c_int32, [c_void_p, c_int32, POINTER(carreau_cad_figures)]),

@@ -326,6 +326,20 @@ class CadContent(NamedTuple):
     references: int
     match_tolerance: float
     notes: str
+    file_unit: str
+    solids: int
+    shared_faces: int
+    small_features: int
+
+
+class CadSmallFeature(NamedTuple):
+    """A feature below carreau_cad_options.min_feature."""
+
+    kind: str
+    size: float
+    place: tuple[float, float, float]
+    removed: int
+    faces: str
 
 
 class CadFace(NamedTuple):
@@ -337,6 +351,9 @@ class CadFace(NamedTuple):
     why: str
     solid: int
     solid_name: str
+    other_solid: int
+    reserved2: int
+    other_solid_name: str
 
 
 class CadFigures(NamedTuple):
@@ -413,6 +430,7 @@ RECORDS: dict[type, Any] = {
     c.carreau_triangles_report: TrianglesReport,
     c.carreau_remesh_summary: RemeshSummary,
     c.carreau_cad_content: CadContent,
+    c.carreau_cad_small_feature: CadSmallFeature,
     c.carreau_cad_face: CadFace,
     c.carreau_cad_figures: CadFigures,
     c.carreau_cad_report: CadReport,

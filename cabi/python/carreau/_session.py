@@ -115,6 +115,14 @@ class SessionBase(Studies):
         self._call(lib().set_metric_callbacks, byref(sizes))
         self._sizes.append(sizes)
 
+    def name_entity(self, dimension: int, ref: int, name: str) -> None:
+        """Names points (dimension 0), curves (1), a face (2) or a solid (3). Entities of one name form a group in files."""
+        self._call(lib().model_name_entity, dimension, ref, name.encode())
+
+    def set_face_sides(self, face: int, solid: int, other_solid: int = 0) -> None:
+        """Sets the solids on both sides of a face, from 1: the one that its triangles look out of, and the other one; 0: none."""
+        self._call(lib().model_set_face_sides, face, solid, other_solid)
+
     def divide_curve(self, face: int, ic: int, edges: Union[int, ArrayLike], *, arithmetic: float = 1, geometric: float = 1) -> None:
         """Prescribes the edges of curve number ic, from 1, of a face, and so of all curves that are one with it.
 

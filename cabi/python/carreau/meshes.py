@@ -129,6 +129,16 @@ class Mesh:
         return [asked(c.carreau_face, lambda out, k=k: self._require(lib().mesh_face(self._handle, k, out)))  # type: ignore[misc]
                 for k in range(count)]
 
+    def face_sides(self, face: int) -> tuple[int, int]:
+        """The solids on both sides of a face by its reference: the one that its triangles look out of, and the other one; 0: none."""
+        solids = np.empty(2, np.int32)
+        self._require(lib().mesh_face_sides(self._handle, face, solids))
+        return int(solids[0]), int(solids[1])
+
+    def entity_name(self, dimension: int, ref: int) -> str:
+        """The name of points (dimension 0), curves (1), a face (2) or a solid (3); "": none."""
+        return text_of(lib().mesh_entity_name(self._handle, dimension, ref))  # type: ignore[no-any-return]
+
     def _cells(self) -> dict[str, tuple[Ints, Ints]]:
         found = {}
         for name, (kind, nodes) in CELLS.items():

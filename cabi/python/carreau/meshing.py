@@ -28,7 +28,8 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
 
     source       a path: STEP, IGES, BREP, .bpt, molecules, grids, triangles, plane files; a formula "z = x * y"; a function
                  of (u, v), with domain; a Patch or several; a Mesh, Atlas, CadFile or PlaneDomain; a pair of arrays,
-                 vertices (n, 3) and triangles (m, 3); a Session, whose parameters stay but for those that are given
+                 vertices (n, 3) and triangles (m, 3); a Session, whose parameters stay but for those that are given; the
+                 bytes of a STEP, IGES or BREP file, or an open one; a shape of build123d, CadQuery, pythonocc or FreeCAD
     size         model length, or "1%" of the diagonal; or a function of the place: names what it takes of x, y, z (n
                  each), xyz (n, 3), u, v, uv, face, and gives n sizes. Nothing given: 2 % of the diagonal
     min, max     bounds of sizes
@@ -46,8 +47,8 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
     env          a file blsurf.env with parameters
     progress     True: a bar; or a function of (fraction, phase, entity)
     named        options of the source: domain ("box:u0,v0,u1,v1", "disc:u,v,r", "ring:u,v,r0,r1"; curves), surface ("vws",
-                 "sas", "ses", "atlas"), probe, host (the library of a .pardom), smooth, sharp, ..., and parameters of the
-                 session (hphydef=0.1, ...)
+                 "sas", "ses", "atlas"), probe, host (the library of a .pardom), imprint, unit and scale (of CAD), smooth,
+                 sharp, ..., and parameters of the session (hphydef=0.1, ...)
 
     Faces that cannot be meshed are left out: mesh.failed tells them. Raises CarreauError, with face, curve and (u, v);
     CallbackError from what a callback has raised; KeyboardInterrupt, at once.

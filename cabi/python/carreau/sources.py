@@ -20,6 +20,7 @@ from .meshes import Mesh
 from .planes import PlaneDomain
 from .progress import Progress
 from .session import Session
+from .shapes import is_shape
 from .surfaces import Patch
 
 SHARES = np.arange(33) / 32  # of each curve: a circle's box is then known within 0.5 %
@@ -31,6 +32,7 @@ PLANE = (".poly", ".node", ".dat", ".bl2d", ".data", ".g")
 MOLECULE_OPTIONS = ("surface", "probe", "drop_cavities", "radii")
 GRID_OPTIONS = ("format", "smooth", "lengths", "join_angle", "tolerance", "step", "fill")
 TRIANGLES_OPTIONS = ("sharp", "corner", "given_edges", "ignore_references")
+CAD_OPTIONS = ("imprint", "imprint_tolerance", "unit", "scale", "min_feature", "loose_edges")
 PLANE_OPTIONS = ("corner_angle", "sizes")
 
 
@@ -118,9 +120,10 @@ class PatchSource(Source):
 class CadSource(Source):
     answers_face_sizes = True
 
-    def __init__(self, path: Any, progress: Progress) -> None:
+    def __init__(self, source: Any, progress: Progress, options: dict[str, Any]) -> None:
         super().__init__()
-        self.file = path if isinstance(path, CadFile) else CadFile(path, progress)
+        own = {name: options.pop(name) for name in CAD_OPTIONS if name in options}
+        self.file = source if isinstance(source, CadFile) else CadFile(source, progress, **own)
         self.content = self.file.content
         self.glue = (self.content.glue_tolerance, self.content.open_tolerance)
         self.match = self.content.match_tolerance
@@ -224,7 +227,7 @@ def _of_path(path: str, progress: Progress, options: dict[str, Any]) -> Source:
         return Loaded("load_plane", path, **own(PLANE_OPTIONS))
     if suffix in TRIANGLES:
         return Loaded("load_triangles", path, **own(TRIANGLES_OPTIONS))
-    return Loaded("load_bezier", path) if suffix == ".bpt" else CadSource(path, progress)
+    return Loaded("load_bezier", path) if suffix == ".bpt" else CadSource(path, progress, options)
 
 
 def source_of(given: Any, progress: Progress, options: dict[str, Any]) -> Source:
@@ -241,16 +244,16 @@ def source_of(given: Any, progress: Progress, options: dict[str, Any]) -> Source
         return PatchSource([Patch(given, (0, 0, 1, 1) if domain is None else domain)])
     if domain is not None:
         raise ArgumentError("domain goes with formulas and functions")
-    return _of_object(given, options)
+    return _of_object(given, progress, options)
 
 
-def _of_object(given: Any, options: dict[str, Any]) -> Source:
+def _of_object(given: Any, progress: Progress, options: dict[str, Any]) -> Source:
     if isinstance(given, Session):
         return SessionSource()
     if isinstance(given, Patch):
         return PatchSource([given])
-    if isinstance(given, CadFile):
-        return CadSource(given, None)
+    if isinstance(given, (CadFile, bytes, bytearray, memoryview)) or is_shape(given) or hasattr(given, "read"):
+        return CadSource(given, progress, options)
     if isinstance(given, Atlas):
         return Loaded("add_atlas", given, short_ends=True)
     if isinstance(given, PlaneDomain):
@@ -263,4 +266,4 @@ def _of_object(given: Any, options: dict[str, Any]) -> Source:
         return PatchSource(list(items))
     if len(items) == 2:
         return Loaded("add_triangles", *items, **own)
-    raise ArgumentError("a source is a path, a formula, a function, patches, a Session, a Mesh, or a pair of arrays (vertices, triangles)")
+    raise ArgumentError("a source is a path, a formula, a function, patches, a Session, a Mesh, a shape or the bytes of a CAD file, or a pair of arrays (vertices, triangles)")

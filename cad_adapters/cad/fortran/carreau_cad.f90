@@ -4,8 +4,8 @@
 !! optional.
 module carreau_cad
   ! c_funptr: without it gfortran 12 cannot read its own module ("NULL appears on right-hand side").
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_char, c_null_ptr, &
-    c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_char, &
+    c_null_funptr, c_null_ptr, c_ptr
   use carreau, only: carreau_session, carreau_string, CARREAU_OK
   use carreau_cad_c
   implicit none
@@ -14,6 +14,8 @@ module carreau_cad
   public :: carreau_cad_file, carreau_cad_content, carreau_cad_face, carreau_cad_figures, carreau_cad_report
   public :: carreau_cad_danger, carreau_cad_gaps, carreau_cad_progress_fn
   public :: carreau_cad_open, carreau_cad_create, carreau_cad_close, carreau_cad_last_error, carreau_cad_read
+  public :: carreau_cad_small_feature, carreau_cad_small_feature_at
+  public :: carreau_cad_set_size, carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
   public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
   public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
   public :: carreau_cad_measure_gaps, carreau_cad_point, carreau_cad_curve_point, carreau_cad_curves
@@ -28,13 +30,14 @@ module carreau_cad
     logical :: closed = .false.
     character(len=:), allocatable :: unit
     real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0, match_tolerance = 0
-    integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
-    character(len=:), allocatable :: notes
+    integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0, solids = 0, shared_faces = 0, &
+      small_features = 0
+    character(len=:), allocatable :: notes, file_unit
   end type carreau_cad_content
 
   type :: carreau_cad_face
-    integer(c_int32_t) :: number = 0, rgb = 0, solid = 0
-    character(len=:), allocatable :: name, why, solid_name
+    integer(c_int32_t) :: number = 0, rgb = 0, solid = 0, other_solid = 0
+    character(len=:), allocatable :: name, why, solid_name, other_solid_name
   end type carreau_cad_face
 
   type :: carreau_cad_figures
@@ -59,6 +62,13 @@ module carreau_cad
     integer(c_int32_t), dimension(2) :: solids = 0
   end type carreau_cad_danger
 
+  type :: carreau_cad_small_feature
+    character(len=:), allocatable :: kind, faces
+    real(c_double) :: size = 0
+    real(c_double), dimension(3) :: place = 0
+    logical :: removed = .false.
+  end type carreau_cad_small_feature
+
   type :: carreau_cad_gaps
     real(c_double) :: largest = 0
     integer(c_int32_t) :: edge = 0, face = 0, beyond = 0
@@ -80,35 +90,95 @@ contains
   ! ---- Files ----
 
   !> file: to ask it; to be closed by carreau_cad_close
-  subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user, loose_edges)
+  subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user, loose_edges, imprint, &
+      imprint_tolerance, unit, scale, min_feature)
     type(carreau_session), intent(in) :: session
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(carreau_cad_file), intent(inout), optional :: file
-    logical, intent(in), optional :: trap_faults, loose_edges
+    logical, intent(in), optional :: trap_faults, loose_edges, imprint
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
+    character(len=*), intent(in), optional :: unit
     type(c_ptr) :: opened
+    character(kind=c_char), target :: sign(16)
     opened = c_null_ptr
-    status = c_cad_open(session%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user, loose_edges), opened)
+    status = c_cad_open(session%handle, trim(path)//c_null_char, options_of(sign, trap_faults, progress, user, loose_edges, &
+      imprint, imprint_tolerance, unit, scale, min_feature), opened)
+    call hand_over(opened, status, file)
+  end subroutine carreau_cad_open
+
+  !> bytes: those of a file; format: 'step', 'iges', 'brep', or '' as the bytes say
+  subroutine carreau_cad_open_bytes(session, bytes, format, status, file, trap_faults, progress, user, loose_edges, imprint, &
+      imprint_tolerance, unit, scale, min_feature)
+    type(carreau_session), intent(in) :: session
+    character(kind=c_char), intent(in), target :: bytes(:)
+    character(len=*), intent(in) :: format
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_cad_file), intent(inout), optional :: file
+    logical, intent(in), optional :: trap_faults, loose_edges, imprint
+    procedure(carreau_cad_progress_fn), optional :: progress
+    type(c_ptr), intent(in), optional :: user
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
+    character(len=*), intent(in), optional :: unit
+    type(c_ptr) :: opened
+    character(kind=c_char), target :: sign(16)
+    character(kind=c_char), allocatable, target :: copy(:)
+    allocate (copy(size(bytes)))
+    copy = bytes
+    opened = c_null_ptr
+    status = c_cad_open_bytes(session%handle, address_of(copy), size(copy, kind=c_int64_t), trim(format)//c_null_char, &
+      options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature), opened)
+    call hand_over(opened, status, file)
+  end subroutine carreau_cad_open_bytes
+
+  subroutine hand_over(opened, status, file)
+    type(c_ptr), intent(in) :: opened
+    integer(c_int32_t), intent(in) :: status
+    type(carreau_cad_file), intent(inout), optional :: file
     if (present(file) .and. status == CARREAU_OK) then
       file%handle = opened
     else
       call c_cad_close(opened)
     end if
-  end subroutine carreau_cad_open
+  end subroutine hand_over
 
-  function options_of(trap_faults, progress, user, loose_edges) result(options)
+  !> The address of the first byte; that of nothing for an empty array, which has none.
+  function address_of(bytes) result(address)
+    character(kind=c_char), intent(in), target :: bytes(:)
+    type(c_ptr) :: address
+    character(kind=c_char), save, target :: nothing = c_null_char
+    address = c_loc(nothing)
+    if (size(bytes) > 0) address = c_loc(bytes(1))
+  end function address_of
+
+  !> sign: room for the unit, which lives as long as the options
+  function options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature) result(options)
+    character(kind=c_char), intent(inout), target :: sign(16)
     logical, intent(in), optional :: trap_faults
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    logical, intent(in), optional :: loose_edges
+    logical, intent(in), optional :: loose_edges, imprint
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
+    character(len=*), intent(in), optional :: unit
     type(c_cad_options) :: options
+    integer :: i
     options%struct_size = size(transfer(options, [c_null_char]))
     if (present(trap_faults)) options%trap_faults = merge(1_c_int32_t, 0_c_int32_t, trap_faults)
     if (present(loose_edges)) options%loose_edges = merge(1_c_int32_t, 0_c_int32_t, loose_edges)
     if (present(progress)) options%progress = c_funloc(progress)
     if (present(user)) options%user = user
+    if (present(imprint)) options%imprint = merge(1_c_int32_t, 0_c_int32_t, imprint)
+    if (present(imprint_tolerance)) options%imprint_tolerance = imprint_tolerance
+    if (present(scale)) options%scale = scale
+    if (present(min_feature)) options%min_feature = min_feature
+    if (.not. present(unit)) return
+    sign = c_null_char
+    do i = 1, min(len_trim(unit), 15)
+      sign(i) = unit(i:i)
+    end do
+    options%unit = c_loc(sign)
   end function options_of
 
   subroutine carreau_cad_create(file, status)
@@ -129,15 +199,79 @@ contains
     sentence = carreau_string(c_cad_last_error(file%handle))
   end function carreau_cad_last_error
 
-  subroutine carreau_cad_read(file, path, status, trap_faults, progress, user, loose_edges)
+  subroutine carreau_cad_read(file, path, status, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, &
+      unit, scale, min_feature)
     type(carreau_cad_file), intent(in) :: file
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
-    logical, intent(in), optional :: trap_faults, loose_edges
+    logical, intent(in), optional :: trap_faults, loose_edges, imprint
     procedure(carreau_cad_progress_fn), optional :: progress
     type(c_ptr), intent(in), optional :: user
-    status = c_cad_read(file%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user, loose_edges))
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
+    character(len=*), intent(in), optional :: unit
+    character(kind=c_char), target :: sign(16)
+    status = c_cad_read(file%handle, trim(path)//c_null_char, options_of(sign, trap_faults, progress, user, loose_edges, &
+      imprint, imprint_tolerance, unit, scale, min_feature))
   end subroutine carreau_cad_read
+
+  !> bytes: those of a file; format: 'step', 'iges', 'brep', or '' as the bytes say
+  subroutine carreau_cad_read_bytes(file, bytes, format, status, trap_faults, progress, user, loose_edges, imprint, &
+      imprint_tolerance, unit, scale, min_feature)
+    type(carreau_cad_file), intent(in) :: file
+    character(kind=c_char), intent(in), target :: bytes(:)
+    character(len=*), intent(in) :: format
+    integer(c_int32_t), intent(out) :: status
+    logical, intent(in), optional :: trap_faults, loose_edges, imprint
+    procedure(carreau_cad_progress_fn), optional :: progress
+    type(c_ptr), intent(in), optional :: user
+    real(c_double), intent(in), optional :: imprint_tolerance, scale, min_feature
+    character(len=*), intent(in), optional :: unit
+    character(kind=c_char), target :: sign(16)
+    character(kind=c_char), allocatable, target :: copy(:)
+    allocate (copy(size(bytes)))
+    copy = bytes
+    status = c_cad_read_bytes(file%handle, address_of(copy), size(copy, kind=c_int64_t), trim(format)//c_null_char, &
+      options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature))
+  end subroutine carreau_cad_read_bytes
+
+  !> tolerance: distance up to which parts touch; 0: the tolerances of the file
+  subroutine carreau_cad_imprint(file, tolerance, status, progress, user)
+    type(carreau_cad_file), intent(in) :: file
+    real(c_double), intent(in) :: tolerance
+    integer(c_int32_t), intent(out) :: status
+    procedure(carreau_cad_progress_fn), optional :: progress
+    type(c_ptr), intent(in), optional :: user
+    type(c_funptr) :: listener
+    type(c_ptr) :: handed
+    listener = c_null_funptr
+    handed = c_null_ptr
+    if (present(progress)) listener = c_funloc(progress)
+    if (present(user)) handed = user
+    status = c_cad_imprint(file%handle, tolerance, listener, handed)
+  end subroutine carreau_cad_imprint
+
+  !> names: of each solid; colours: of each, 0xRRGGBB, -1: none
+  subroutine carreau_cad_name_solids(file, names, status, colours)
+    type(carreau_cad_file), intent(in) :: file
+    character(len=*), intent(in) :: names(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: colours(:)
+    character(kind=c_char), allocatable, target :: texts(:, :)
+    type(c_ptr), allocatable, target :: addresses(:)
+    integer(c_int32_t), allocatable :: rgb(:)
+    integer :: i, k
+    allocate (texts(len(names) + 1, size(names)), addresses(size(names)), rgb(size(names)))
+    texts = c_null_char
+    rgb = -1
+    if (present(colours)) rgb(:min(size(rgb), size(colours))) = colours(:min(size(rgb), size(colours)))
+    do k = 1, size(names)
+      do i = 1, len_trim(names(k))
+        texts(i, k) = names(k)(i:i)
+      end do
+      addresses(k) = c_loc(texts(1, k))
+    end do
+    status = c_cad_name_solids(file%handle, size(names, kind=c_int64_t), c_loc(addresses), rgb)
+  end subroutine carreau_cad_name_solids
 
   subroutine carreau_cad_add(file, session, status)
     type(carreau_cad_file), intent(in) :: file
@@ -153,6 +287,15 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_cad_set_face_size(file%handle, trim(face)//c_null_char, size)
   end subroutine carreau_cad_set_face_size
+
+  !> dimension: 0 a vertex, 1 an edge, 2 a face, 3 all faces of a solid
+  subroutine carreau_cad_set_size(file, dimension, number, size, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: dimension, number
+    real(c_double), intent(in) :: size
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_set_size(file%handle, dimension, number, size)
+  end subroutine carreau_cad_set_size
 
   ! ---- What a file holds ----
 
@@ -178,7 +321,28 @@ contains
     content%references = c%references
     content%match_tolerance = c%match_tolerance
     content%notes = carreau_string(c%notes)
+    content%file_unit = carreau_string(c%file_unit)
+    content%solids = c%solids
+    content%shared_faces = c%shared_faces
+    content%small_features = c%small_features
   end subroutine carreau_cad_info
+
+  !> index: from 1
+  subroutine carreau_cad_small_feature_at(file, index, feature, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_cad_small_feature), intent(out) :: feature
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_small_feature) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_small_feature_at(file%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    feature%kind = carreau_string(c%kind)
+    feature%faces = carreau_string(c%faces)
+    feature%size = c%size
+    feature%place = c%place
+    feature%removed = c%removed /= 0
+  end subroutine carreau_cad_small_feature_at
 
   !> index: from 1; "" when there is no such
   function carreau_cad_loss(file, index) result(sentence)
@@ -203,6 +367,8 @@ contains
     face%why = carreau_string(c%why)
     face%solid = c%solid
     face%solid_name = carreau_string(c%solid_name)
+    face%other_solid = c%other_solid
+    face%other_solid_name = carreau_string(c%other_solid_name)
   end subroutine carreau_cad_file_face
 
   subroutine carreau_cad_measure_face(file, number, figures, status)

@@ -14,6 +14,10 @@ module carreau_cad_c
     integer(c_int32_t) :: trap_faults = 0, loose_edges = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: imprint = 0, reserved = 0
+    real(c_double) :: imprint_tolerance = 0
+    type(c_ptr) :: unit = c_null_ptr
+    real(c_double) :: scale = 0, min_feature = 0
   end type c_cad_options
 
   !> What a file holds, counted.
@@ -24,8 +28,18 @@ module carreau_cad_c
     real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
     real(c_double) :: match_tolerance = 0
-    type(c_ptr) :: notes = c_null_ptr
+    type(c_ptr) :: notes = c_null_ptr, file_unit = c_null_ptr
+    integer(c_int32_t) :: solids = 0, shared_faces = 0, small_features = 0, reserved = 0
   end type c_cad_content
+
+  !> A feature below carreau_cad_options.min_feature.
+  type, bind(c) :: c_cad_small_feature
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: kind = c_null_ptr
+    real(c_double) :: size = 0, place(3) = 0
+    integer(c_int32_t) :: removed = 0, reserved = 0
+    type(c_ptr) :: faces = c_null_ptr
+  end type c_cad_small_feature
 
   !> What the file tells of a face.
   type, bind(c) :: c_cad_face
@@ -34,6 +48,8 @@ module carreau_cad_c
     type(c_ptr) :: name = c_null_ptr, why = c_null_ptr
     integer(c_int32_t) :: solid = 0, reserved = 0
     type(c_ptr) :: solid_name = c_null_ptr
+    integer(c_int32_t) :: other_solid = 0, reserved2 = 0
+    type(c_ptr) :: other_solid_name = c_null_ptr
   end type c_cad_face
 
   !> Measures of a face.
@@ -82,6 +98,20 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_open
 
+    !> Does the same with the `size` bytes of a file in memory, which the call does not keep. format: "step", "iges" or
+    !! "brep" (text or binary); NULL or "": as the bytes say.
+    function c_cad_open_bytes(session, bytes, size, format, options, file) result(status) &
+        bind(c, name="carreau_cad_open_bytes")
+      import :: c_cad_options, c_char, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session, bytes
+      integer(c_int64_t), value :: size
+      character(kind=c_char), intent(in) :: format(*)
+      type(c_cad_options), intent(in) :: options
+      type(c_ptr), intent(inout) :: file
+      integer(c_int32_t) :: status
+    end function c_cad_open_bytes
+
     !> Creates a file that holds nothing yet: see carreau_cad_read.
     function c_cad_create(file) result(status) bind(c, name="carreau_cad_create")
       import :: c_int32_t, c_ptr
@@ -115,6 +145,41 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_read
 
+    !> Reads the `size` bytes of a file in memory: see carreau_cad_open_bytes.
+    function c_cad_read_bytes(file, bytes, size, format, options) result(status) bind(c, name="carreau_cad_read_bytes")
+      import :: c_cad_options, c_char, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file, bytes
+      integer(c_int64_t), value :: size
+      character(kind=c_char), intent(in) :: format(*)
+      type(c_cad_options), intent(in) :: options
+      integer(c_int32_t) :: status
+    end function c_cad_read_bytes
+
+    !> Makes parts that touch share faces and edges: see carreau_cad_options.imprint.
+    function c_cad_imprint(file, tolerance, progress, user) result(status) bind(c, name="carreau_cad_imprint")
+      import :: c_double, c_funptr, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      real(c_double), value :: tolerance
+      type(c_funptr), value :: progress
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function c_cad_imprint
+
+    !> Names the solids, and faces without a name of their own, of a file whose format has no names (BREP). n: the
+    !! number of solids (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours,
+    !! 0xRRGGBB in sRGB, -1: none; NULL: all none.
+    function c_cad_name_solids(file, n, names, colours) result(status) bind(c, name="carreau_cad_name_solids")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int64_t), value :: n
+      type(c_ptr), value :: names
+      integer(c_int32_t), intent(in) :: colours(*)
+      integer(c_int32_t) :: status
+    end function c_cad_name_solids
+
     !> Adds all faces to a session; a file may be added to several, and several times.
     function c_cad_add(file, session) result(status) bind(c, name="carreau_cad_add")
       import :: c_int32_t, c_ptr
@@ -134,6 +199,17 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_set_face_size
 
+    !> Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number, as
+    !! carreau_cad_set_face_size does; the smallest size of an edge and its faces counts.
+    function c_cad_set_size(file, dimension, number, size) result(status) bind(c, name="carreau_cad_set_size")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int32_t), value :: dimension, number
+      real(c_double), value :: size
+      integer(c_int32_t) :: status
+    end function c_cad_set_size
+
     !> Counts what the file holds.
     function c_cad_info(file, content) result(status) bind(c, name="carreau_cad_info")
       import :: c_cad_content, c_int32_t, c_ptr
@@ -142,6 +218,16 @@ module carreau_cad_c
       type(c_cad_content), intent(inout) :: content
       integer(c_int32_t) :: status
     end function c_cad_info
+
+    !> Gets a feature, by kind and then by its first face. index: from 0.
+    function c_cad_small_feature_at(file, index, feature) result(status) bind(c, name="carreau_cad_small_feature_at")
+      import :: c_cad_small_feature, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int64_t), value :: index
+      type(c_cad_small_feature), intent(inout) :: feature
+      integer(c_int32_t) :: status
+    end function c_cad_small_feature_at
 
     !> Tells what of the file could not be read: a sentence, which names the entity. index: from 0.
     function c_cad_loss(file, index) result(loss) bind(c, name="carreau_cad_loss")

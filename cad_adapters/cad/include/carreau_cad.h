@@ -9,7 +9,7 @@
  * the shape give them, from 1: those are references of faces, curves and points of the geometry (carreau_geometry.h
  * tells how they are moved behind others). Faces that bend inside are cut into parts there, and are one face in meshes.
  * The u and v of a face that is turned round are exchanged, so that triangles look outwards of a solid. Lengths are in
- * millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. OpenCASCADE keeps settings of its own
+ * millimetres, whatever the unit of a STEP or IGES file, unless options name a unit or a scale; a BREP file has none. OpenCASCADE keeps settings of its own
  * for the process; files are read one after another.
  */
 #ifndef CARREAU_CAD_H
@@ -48,6 +48,16 @@ typedef struct carreau_cad_options {
   int32_t loose_edges; /* 1: edges of no face are meshed as edges. 0: only those of files without a face are */
   carreau_cad_progress_fn progress; /* NULL: nobody is told */
   void* user;                       /* handed to progress */
+  int32_t imprint; /* 1: parts that touch share faces and edges (OpenCASCADE's general fuse); a face between two solids
+                      is one face with one mesh. When the fuse fails the parts stay as they are, and a loss
+                      (carreau_cad_loss) names the reason. 0: each part has faces of its own */
+  int32_t reserved;
+  double imprint_tolerance; /* distance up to which parts touch, in lengths of the result; 0: the tolerances of the file */
+  const char* unit; /* of the coordinates: nm, um, mm, cm, dm, m, km, mil, in, ft or yd. NULL or "": millimetres, or as
+                       they are in a BREP file, which has no unit and rejects others */
+  double scale;     /* multiplies all coordinates, after the unit; 0: 1. Other than 1: the result has no unit */
+  double min_feature; /* removes features of solids below this length, before an imprint, where OpenCASCADE can
+                         (carreau_cad_small_feature_at); 0: removes none */
 } carreau_cad_options;
 
 /* Reads a file and adds all of its faces to a session. *out_file gets the file, to ask it; out_file may be NULL.
@@ -58,6 +68,13 @@ typedef struct carreau_cad_options {
  * large). */
 CARREAU_CAD_API carreau_status carreau_cad_open(carreau_session* session, const char* path,
                                                 const carreau_cad_options* options, carreau_cad_file** out_file);
+
+/* Does the same with the `size` bytes of a file in memory, which the call does not keep. format: "step", "iges" or
+ * "brep" (text or binary); NULL or "": as the bytes say. Files beside it that a STEP file refers to are losses. Errors:
+ * those of carreau_cad_open. */
+CARREAU_CAD_API carreau_status carreau_cad_open_bytes(carreau_session* session, const void* bytes, int64_t size,
+                                                      const char* format, const carreau_cad_options* options,
+                                                      carreau_cad_file** out_file);
 
 /* Creates a file that holds nothing yet: see carreau_cad_read. Free it by carreau_cad_close. Errors: ARGUMENT, MEMORY.
  */
@@ -74,6 +91,24 @@ CARREAU_CAD_API const char* carreau_cad_last_error(const carreau_cad_file* file)
 CARREAU_CAD_API carreau_status carreau_cad_read(carreau_cad_file* file, const char* path,
                                                 const carreau_cad_options* options);
 
+/* Reads the `size` bytes of a file in memory: see carreau_cad_open_bytes. On an error the old content stays. Errors:
+ * FILE, CANCELLED, MEMORY, ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_read_bytes(carreau_cad_file* file, const void* bytes, int64_t size,
+                                                      const char* format, const carreau_cad_options* options);
+
+/* Makes parts that touch share faces and edges: see carreau_cad_options.imprint. Numbers of faces, edges and vertices
+ * change; names and colours follow. A fuse that fails is a loss (carreau_cad_loss), and the parts stay as they are.
+ * Sessions that the file was added to before do not change. tolerance: distance up to which parts touch; 0: the
+ * tolerances of the file. progress may be NULL. Errors: CANCELLED, MEMORY, ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_imprint(carreau_cad_file* file, double tolerance,
+                                                   carreau_cad_progress_fn progress, void* user);
+
+/* Names the solids, and faces without a name of their own, of a file whose format has no names (BREP). n: the number of
+ * solids (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours, 0xRRGGBB in sRGB,
+ * -1: none; NULL: all none. Errors: ARGUMENT, MEMORY. */
+CARREAU_CAD_API carreau_status carreau_cad_name_solids(carreau_cad_file* file, int64_t n, const char* const names[],
+                                                       const int32_t colours[]);
+
 /* Adds all faces to a session; a file may be added to several, and several times. Errors: those of carreau_cad_open,
  * with the sentence in the session; ARGUMENT (the file holds nothing). */
 CARREAU_CAD_API carreau_status carreau_cad_add(carreau_cad_file* file, carreau_session* session);
@@ -85,14 +120,19 @@ CARREAU_CAD_API carreau_status carreau_cad_set_face_size(carreau_cad_file* file,
 /* Errors of the functions below: ARGUMENT (the file holds nothing, no such face, index or curve, a capacity that is too
  * small). Texts that they give live until the file is read again or closed. */
 
+/* Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number, as
+ * carreau_cad_set_face_size does; the smallest size of an edge and its faces counts. Errors: ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_set_size(carreau_cad_file* file, int32_t dimension, int32_t number,
+                                                    double size);
+
 /* ---- What a file holds ---- */
 
 /* What a file holds, counted. */
 typedef struct carreau_cad_content {
   size_t struct_size;
   int32_t faces, edges, vertices;
-  int32_t closed;   /* 1: each edge has two faces */
-  const char* unit; /* "mm", or "" when the file has none */
+  int32_t closed;   /* 1: no edge has one face alone */
+  const char* unit; /* of coordinates: "mm", carreau_cad_options.unit, or "" when there is none */
   double diagonal;  /* of the box of the faces that are not left out; 0: there is none */
   double glue_tolerance; /* how far apart edges of one face only may be that are one, as the tolerances of the file's
                             own edges have it and its shortest edge allows (eps_glue); 0: there are no two of them */
@@ -104,10 +144,30 @@ typedef struct carreau_cad_content {
   double match_tolerance; /* how far faces may be from edges and vertices that they share (eps_match): six
                              hundredths of the diagonal */
   const char* notes;     /* what was passed over or repaired without the loss of a face: sentences, one a line */
+  const char* file_unit; /* of the lengths in the file ("in", "mm", ...), "" when it has none */
+  int32_t solids;
+  int32_t shared_faces; /* between two solids */
+  int32_t small_features; /* that carreau_cad_options.min_feature found */
+  int32_t reserved;
 } carreau_cad_content;
 
 /* Counts what the file holds. */
 CARREAU_CAD_API carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content);
+
+/* A feature below carreau_cad_options.min_feature. */
+typedef struct carreau_cad_small_feature {
+  size_t struct_size;
+  const char* kind; /* "hole", "boss", "fillet", "chamfer", "step", "small face" */
+  double size;      /* a diameter of holes and bosses, a radius of fillets, a width of the others */
+  double place[3];  /* a point of it */
+  int32_t removed;  /* 0: OpenCASCADE cannot extend the faces around it, and it stays */
+  int32_t reserved;
+  const char* faces; /* their numbers in the file as it was: "12, 13"; lives until the next call on the file */
+} carreau_cad_small_feature;
+
+/* Gets a feature, by kind and then by its first face. index: from 0. Errors: ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_small_feature_at(carreau_cad_file* file, int64_t index,
+                                                            carreau_cad_small_feature* out_feature);
 
 /* Tells what of the file could not be read: a sentence, which names the entity. index: from 0. NULL: no such index. */
 CARREAU_CAD_API const char* carreau_cad_loss(carreau_cad_file* file, int64_t index);
@@ -119,9 +179,12 @@ typedef struct carreau_cad_face {
   int32_t rgb;      /* colour, 0xRRGGBB in sRGB; -1: none */
   const char* name; /* its own, or that of the smallest part that holds it; "": none */
   const char* why;  /* why it cannot be meshed; "": it can */
-  int32_t solid;    /* number of its solid, from 1; 0: none */
+  int32_t solid;    /* number of its solid, from 1; 0: none. Triangles look out of it */
   int32_t reserved;
   const char* solid_name; /* "": none */
+  int32_t other_solid;    /* the solid on the other side, into which triangles look; 0: none */
+  int32_t reserved2;
+  const char* other_solid_name; /* "": none */
 } carreau_cad_face;
 
 /* Tells of face `number`, from 1. */

@@ -13,6 +13,9 @@
 
 #include <carreau.hpp>
 
+#include <cstddef>
+#include <span>
+
 namespace carreau {
 
 /// A face of a CAD file: carreau_cad_face with texts of its own.
@@ -20,6 +23,8 @@ struct CadFace {
   int number = 0; ///< from 1
   std::string name, why;
   int rgb = -1;
+  int solid = 0, other_solid = 0; ///< from 1; triangles look out of `solid`, into `other_solid`; 0: none
+  std::string solid_name, other_solid_name;
 };
 /// What a face measures: carreau_cad_figures.
 struct CadFigures {
@@ -33,6 +38,13 @@ struct CadDanger {
   int face = 0, edge = 0;
   double value = 0;
   bool cut = false;
+};
+/// A feature below the option min_feature: carreau_cad_small_feature.
+struct CadSmallFeature {
+  std::string kind, faces;
+  double size = 0;
+  Point3 place{};
+  bool removed = false;
 };
 /// A point of a face, and the parameters that its surface has there in the file.
 struct CadPlace {
@@ -54,25 +66,41 @@ class CadFile {
 
   /// Replaces what the file holds. trap_faults: signals of OpenCASCADE become errors, for programs that own their process.
   void read(const std::string& path, const Progress& progress = {}, bool trap_faults = false) {
-    struct Held {
-      const Progress& progress;
-      detail::Faults faults;
-    } held{progress, {}};
     auto options = detail::sized<carreau_cad_options>();
     options.trap_faults = trap_faults ? 1 : 0;
-    options.user = &held;
-    if (progress)
-      options.progress = [](double fraction, void* user) -> std::int32_t {
-        auto& state = *static_cast<Held*>(user);
-        return state.faults.guarded([&]() -> std::int32_t { return state.progress(fraction) ? 0 : 1; });
-      };
-    const carreau_status status = carreau_cad_read(get(), path.c_str(), &options);
-    if (status != CARREAU_OK) detail::fail(status, carreau_cad_last_error(get()), {}, held.faults.take());
+    read(path, options, progress);
+  }
+  /// The same with all options but progress and user, which this object sets.
+  void read(const std::string& path, const carreau_cad_options& options, const Progress& progress = {}) {
+    listen(progress, options, [&](const carreau_cad_options& all) { return carreau_cad_read(get(), path.c_str(), &all); });
+  }
+  /// Replaces what the file holds by the bytes of a file; format: "step", "iges", "brep", or "" (as they say).
+  void read(std::span<const std::byte> bytes, const std::string& format = "",
+            const carreau_cad_options& options = detail::sized<carreau_cad_options>(), const Progress& progress = {}) {
+    listen(progress, options, [&](const carreau_cad_options& all) {
+      return carreau_cad_read_bytes(get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), format.c_str(), &all);
+    });
+  }
+  /// Makes parts that touch share faces and edges; tolerance: how far apart they may be, 0: as the file has it.
+  void imprint(double tolerance = 0, const Progress& progress = {}) {
+    listen(progress, detail::sized<carreau_cad_options>(), [&](const carreau_cad_options& all) {
+      return carreau_cad_imprint(get(), tolerance, all.progress, all.user);
+    });
+  }
+  /// Names all solids; colours: none, or 0xRRGGBB of each, -1: none.
+  void name_solids(const std::vector<std::string>& names, const std::vector<std::int32_t>& colours = {}) {
+    std::vector<const char*> texts;
+    for (const std::string& name : names) texts.push_back(name.c_str());
+    if (!colours.empty() && colours.size() != names.size()) detail::fail(CARREAU_ERR_ARGUMENT, "one colour a name");
+    done(carreau_cad_name_solids(get(), static_cast<std::int64_t>(texts.size()), texts.data(), colours.empty() ? nullptr : colours.data()));
   }
   /// Adds all faces to a session.
   void add_to(Session& session) const { session.done(carreau_cad_add(get(), session.get())); }
   /// Wants a size on a face by its number, or on all faces of a name; with hphy_flag = 2.
   void set_face_size(const std::string& face, double size) { done(carreau_cad_set_face_size(get(), face.c_str(), size)); }
+
+  /// The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
+  void set_size(int dimension, int number, double size) { done(carreau_cad_set_size(get(), dimension, number, size)); }
 
   [[nodiscard]] carreau_cad_content info() const { return filled(carreau_cad_info); }
   /// What could not be read: a sentence each.
@@ -81,10 +109,20 @@ class CadFile {
     for (std::int64_t i = 0; const char* loss = carreau_cad_loss(get(), i); ++i) out.emplace_back(loss);
     return out;
   }
+  /// What the option min_feature found, and whether each is gone.
+  [[nodiscard]] std::vector<CadSmallFeature> small_features() const {
+    std::vector<CadSmallFeature> out;
+    for (std::int64_t i = 0; i < info().small_features; ++i) {
+      auto feature = detail::sized<carreau_cad_small_feature>();
+      done(carreau_cad_small_feature_at(get(), i, &feature));
+      out.push_back({feature.kind, feature.faces, feature.size, {feature.place[0], feature.place[1], feature.place[2]}, feature.removed != 0});
+    }
+    return out;
+  }
   [[nodiscard]] CadFace face(int number) const {
     auto face = detail::sized<carreau_cad_face>();
     done(carreau_cad_file_face(get(), number, &face));
-    return {face.number, face.name, face.why, face.rgb};
+    return {face.number, face.name, face.why, face.rgb, face.solid, face.other_solid, face.solid_name, face.other_solid_name};
   }
   [[nodiscard]] CadFigures measure_face(int number) const {
     auto found = detail::sized<carreau_cad_figures>();
@@ -142,6 +180,24 @@ class CadFile {
   struct Closed {
     void operator()(carreau_cad_file* file) const { carreau_cad_close(file); }
   };
+
+  /// Calls call(options) with a progress that calls `progress`, whose exceptions come back.
+  template <typename Call>
+  void listen(const Progress& progress, carreau_cad_options options, Call&& call) {
+    struct Held {
+      const Progress& progress;
+      detail::Faults faults;
+    } held{progress, {}};
+    options.user = &held;
+    options.progress = nullptr;
+    if (progress)
+      options.progress = [](double fraction, void* user) -> std::int32_t {
+        auto& state = *static_cast<Held*>(user);
+        return state.faults.guarded([&]() -> std::int32_t { return state.progress(fraction) ? 0 : 1; });
+      };
+    const carreau_status status = call(options);
+    if (status != CARREAU_OK) detail::fail(status, carreau_cad_last_error(get()), {}, held.faults.take());
+  }
 
   static carreau_cad_file* created() {
     carreau_cad_file* out = nullptr;

@@ -71,7 +71,7 @@ std::vector<std::string> crossing_lines(const Crossings& crossings, const CadInp
     lines.push_back("  " + names_of(parts[k], input) + ": " + counted(parts[k].pairs, "pair") + place);
   }
   if (parts.size() > listed) lines.push_back("  and " + std::to_string(parts.size() - listed) + " more");
-  lines.push_back("  A mesh of volumes needs them apart or with common faces: unite or imprint them in the CAD program, or mesh each one alone.");
+  lines.push_back("  A mesh of volumes needs them apart or with common faces: --imprint makes common faces of the parts of a CAD file.");
   return lines;
 }
 

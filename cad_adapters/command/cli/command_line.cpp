@@ -97,7 +97,7 @@ void CommandLine::add_mesh() {
   add_molecule_options(mesh, mesh_.molecule);
   add_grid_options(mesh, mesh_.grid);
   add_triangles_options(mesh, mesh_.triangles);
-  add_cad_options(mesh, mesh_);
+  add_cad_options(mesh, mesh_.cad);
   add_domain_option(mesh, mesh_.domain);
   add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
@@ -181,7 +181,7 @@ void CommandLine::add_adapt() {
       ->check(CLI::Range(0.1, 180.0));
   add_molecule_options(adapt, adapt_.molecule);
   add_triangles_options(adapt, adapt_.triangles);
-  add_cad_options(adapt, adapt_);
+  add_cad_options(adapt, adapt_.cad);
   add_domain_option(adapt, adapt_.domain);
   add_mesh_options(adapt, adapt_);
   adapt->add_flag("--json", adapt_.json, "Print a summary as JSON on the standard output");
@@ -201,6 +201,7 @@ void CommandLine::add_info() {
   add_grid_options(info, info_.grid);
   add_triangles_options(info, info_.triangles);
   add_domain_option(info, info_.domain);
+  add_cad_options(info, info_.cad);
   info->add_flag("--json", info_.json, "Print JSON");
 }
 

@@ -58,6 +58,12 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
       ->check(CLI::Range(0.01, 89.0))
       ->type_name(kind::number);
+  app->add_option_function<int>(
+         "--segments-per-circle", [&options](int n) { options.angle = 180.0 / n; },
+         "Edges of a full circle: sizes follow the curvature, as by --angle 180/N")
+      ->check(CLI::Range(3, 10000))
+      ->type_name(kind::number)
+      ->excludes("--angle");
   app->add_option("--chord", options.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
       ->check(not_empty)
       ->type_name(kind::length);
@@ -85,6 +91,15 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--face-size", options.face_sizes,
                            "Size on a face given by number, or on all faces of a name; may be repeated"))
       ->type_name("FACE=LENGTH");
+  repeated(app->add_option("--size-on", options.sizes_on,
+                           "Size on entities of a CAD file: edge:3-5=.2, vertex:7=.05, bore*=.3, solid:2=1; may be repeated"))
+      ->type_name("ENTITIES=LENGTH");
+  repeated(app->add_option("--group", options.groups,
+                           "Put entities into a group of files: inlet=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, "
+                           "steel=solid:2; may be repeated"))
+      ->type_name("NAME=ENTITIES");
+  app->add_option("--group-by", options.group_by, "Groups of faces: by part, by name or by color; own names when not given")
+      ->check(CLI::IsMember({"part", "name", "color"}));
   repeated(app->add_option("--curve-edges", options.curve_edges,
                            "Number of edges of a curve, equally long or in a progression of their lengths (8, "
                            "8,arithmetic:3 or 8,geometric:1.2); may be repeated"))
@@ -153,8 +168,23 @@ void add_domain_option(CLI::App* app, std::string& domain) {
       ->type_name("DOMAIN");
 }
 
-void add_cad_options(CLI::App* app, InputChoice& choice) {
-  app->add_flag("--loose-edges", choice.loose_edges, "Of CAD files: edges of no face are meshed, too");
+void add_cad_options(CLI::App* app, CadChoice& choice) {
+  app->add_flag("--imprint", choice.imprint, "CAD files: parts that touch share faces and edges, and have one mesh there");
+  app->add_option("--imprint-tolerance", choice.imprint_tolerance,
+                  "With --imprint: distance up to which parts touch; the tolerances of the file when not given")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
+  app->add_option("--min-feature", choice.min_feature,
+                  "CAD files: remove holes, bosses, fillets, chamfers, steps and faces of solids below this length")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
+  app->add_option("--unit", choice.unit, "CAD files: unit of the mesh; mm when not given")
+      ->check(CLI::IsMember({"nm", "um", "mm", "cm", "dm", "m", "km", "mil", "in", "ft", "yd"}));
+  app->add_option("--scale", choice.scale, "CAD files: factor of all coordinates")
+      ->check(CLI::PositiveNumber)
+      ->type_name(kind::number)
+      ->capture_default_str();
+  app->add_flag("--loose-edges", choice.loose_edges, "CAD files: edges of no face are meshed, too");
 }
 
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice) {

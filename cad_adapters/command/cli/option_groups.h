@@ -34,7 +34,7 @@ void radii(CLI::App* app, std::string& path);
 void add_mesh_options(CLI::App* app, MeshOptions& options);
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
 void add_grid_options(CLI::App* app, GridChoice& choice);
-void add_cad_options(CLI::App* app, InputChoice& choice);
+void add_cad_options(CLI::App* app, CadChoice& choice);
 /// Of a surface given as triangles.
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice);
 /// Of a surface by formulas.

@@ -26,6 +26,12 @@ struct Scope {
 
 const std::vector<Scope>& scopes() {
   static const std::vector<Scope> all = {
+      {"--imprint", {cad}, "a CAD file"},
+      {"--imprint-tolerance", {cad}, "a CAD file"},
+      {"--unit", {cad}, "a CAD file"},
+      {"--min-feature", {cad}, "a CAD file"},
+      {"--scale", {cad}, "a CAD file"},
+      {"--loose-edges", {cad}, "a CAD file"},
       {"--host", {pardom}, "a .pardom file"},
       {"--probe", {molecule}, "a molecule"},
       {"--radii", {molecule}, "a molecule"},

@@ -42,7 +42,10 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
   const std::vector<std::string> losses = losses_of(file);
   std::printf("solids      %d\nshells      %d\nfaces       %d\nedges       %d\nvertices    %d\n", r.solids, r.shells,
               r.faces, r.edges, r.vertices);
-  std::printf("unit        %s\n", unit.empty() ? "not said" : unit.c_str());
+  const std::string file_unit = content_of(file).file_unit;
+  std::printf("unit        %s%s\n", unit.empty() ? "none" : unit.c_str(),
+              file_unit.empty() || file_unit == unit ? "" : (" (the file has " + file_unit + ")").c_str());
+  if (content_of(file).shared_faces > 0) std::printf("shared faces %d\n", content_of(file).shared_faces);
   std::printf("diagonal    %s\narea        %s\nvolume      %s\n", number(r.diagonal).c_str(), number(r.area).c_str(),
               number(r.volume).c_str());
   std::string kinds;
@@ -59,6 +62,7 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
   for (std::size_t i = 0; i < losses.size() && i <= static_cast<std::size_t>(limit); ++i)
     std::printf("  %s\n", i == static_cast<std::size_t>(limit) ? "..." : losses[i].c_str());
   for (const std::string& note : notes_of(file)) std::printf("note: %s\n", note.c_str());
+  for (const std::string& line : small_features_of(file)) std::printf("%s\n", line.c_str());
   if (count.empty() && losses.empty()) std::puts("nothing looks dangerous");
   std::map<std::string, int> told;
   for (const carreau_cad_danger& danger : dangers) {
@@ -90,6 +94,8 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
           {"edges", r.edges},
           {"vertices", r.vertices},
           {"unit", content_of(file).unit},
+          {"file_unit", content_of(file).file_unit},
+          {"shared_faces", content_of(file).shared_faces},
           {"diagonal", r.diagonal},
           {"area", r.area},
           {"volume", r.volume},
@@ -111,7 +117,9 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
 }  // namespace
 
 int print_cad_info(const InfoOptions& options) {
-  const CadFileHandle file = read_cad(options.input, true);
+  CadChoice choice = options.cad;
+  choice.loose_edges = true;
+  const CadFileHandle file = read_cad(options.input, choice);
   const carreau_cad_report report = inspect(file.get());
   if (options.json) {
     nlohmann::ordered_json value = json_of(file.get(), report, options);

@@ -19,6 +19,7 @@
 #include "inputs/several_input.h"
 #include "mesh/curve_edges.h"
 #include "mesh/failed_faces.h"
+#include "mesh/groups.h"
 #include "mesh/mesh_parameters.h"
 #include "mesh/mesh_summary.h"
 #include "mesh/progress.h"
@@ -85,6 +86,7 @@ void refuse_elements(carreau_session* session, const std::vector<std::string>& o
 void generate(carreau_session* session, const MeshOptions& options, CadInput& input, const SizeMap& map,
               Adaptation& adaptation, const std::function<carreau_status()>& make, FailedFaces& failed, Progress& progress) {
   require(session, input.give_to(session));
+  for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
@@ -273,6 +275,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   run.seconds_reading = reading.seconds();
   progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
   progress.line(input->summary());
+  for (const std::string& line : input->small_features()) progress.line(line);
   try {
     mesh_all(options, run, *input, map, adaptation, ranks, part, dumped, progress);
   } catch (const Failure&) {

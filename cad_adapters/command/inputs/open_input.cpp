@@ -33,7 +33,7 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const InputChoice&
   if (is_grid(path, choice.grid)) return open_grid(path, choice.grid);
   if (is_triangles(path)) return open_triangles(path, choice.triangles);
   if (is_molecule(path)) return open_molecule(path, choice.molecule);
-  return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path, choice.loose_edges, progress);
+  return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path, choice.cad, progress);
 }
 
 }  // namespace command

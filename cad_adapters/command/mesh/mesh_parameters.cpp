@@ -14,6 +14,7 @@
 #include "base/suggestions.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
+#include "mesh/selection.h"
 
 namespace command {
 namespace {
@@ -66,7 +67,8 @@ bool is_set(carreau_session* session, const char* name) {
 void set_physical_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths,
                         const CadInput& input) {
   const double diagonal = input.diagonal();
-  const bool by_face = (!options.face_sizes.empty() && input.answers_face_sizes()) || input.has_sizes();
+  const bool rules = !options.face_sizes.empty() || !options.sizes_on.empty();
+  const bool by_face = (rules && input.answers_face_sizes()) || input.has_sizes();
   set(session, "hphy_flag", by_face ? 2 : 1);
   if (lengths.size || !is_set(session, "hphydef")) set(session, "hphydef", lengths.size.value_or(0.02 * diagonal));
   double size = 0;
@@ -101,7 +103,7 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
     for (const char* name : names)
       if (bound) set(session, name, *bound);
   const bool by_curvature = options.angle > 0 || lengths.chord;
-  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.size_map.empty() || input.has_sizes() ||
+  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.sizes_on.empty() || !options.size_map.empty() || input.has_sizes() ||
                            options.adapt.is_adapt;
   if (sizes_typed || (options.env.empty() && !by_curvature))
     set_physical_sizes(session, options, lengths, input);
@@ -189,6 +191,17 @@ void set_face_sizes(const MeshOptions& options, CadInput& input) {
   }
 }
 
+void set_sizes_on(const MeshOptions& options, CadInput& input) {
+  for (const std::string& each : options.sizes_on) {
+    const auto [entities, text] = parse_assignment(each, "--size-on");
+    const double size = parse_length(text, "--size-on").of(input.diagonal());
+    const Selection selection = select(input, entities, "--size-on");
+    for (const std::int32_t ref : selection.refs)
+      if (!input.set_size(selection.dimension, ref, size))
+        throw Failure("--size-on '" + each + "': number " + std::to_string(ref) + " does not exist, or this input takes sizes on faces alone.");
+  }
+}
+
 /// Throws Failure for a parameter that is unknown, or a value that it cannot have.
 void check_setting(carreau_session* session, const std::string& setting, const std::string& option) {
   const auto [name, value] = parse_assignment(setting, option);
@@ -216,6 +229,7 @@ void check_words(const MeshOptions& options) {
   if (options.minimum.ends_with('%') == options.maximum.ends_with('%')) refuse_contradictions(options, lengths);
   for (const std::string& each : options.face_sizes)
     parse_length(parse_assignment(each, "--face-size").second, "--face-size");
+  for (const std::string& each : options.sizes_on) parse_length(parse_assignment(each, "--size-on").second, "--size-on");
   check_curve_edges(options);
   if (options.settings.empty()) return;
   const SessionHandle session = make_session();
@@ -270,7 +284,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   const double diagonal = input.diagonal();
   refuse_contradictions(options, lengths_of(options, diagonal));
   set_face_sizes(options, input);
-  const bool sizes_by_face = !options.face_sizes.empty() && !input.answers_face_sizes();
+  set_sizes_on(options, input);
+  const bool sizes_by_face = (!options.face_sizes.empty() || !options.sizes_on.empty()) && !input.answers_face_sizes();
   set(session, "threads", threads_of(options));
   // Zones narrower than 6 % of their edges would have triangles of no shape (Q2 below .1); cutting more adds
   // bad triangles to meshes that were asked to be coarse, and takes none away.

@@ -33,8 +33,9 @@ int type_of(CellKind kind) noexcept {
 struct Entity {
   int tag = 0, physical = 0;
   std::string name;                  // of the physical group
-  std::vector<std::size_t> members;  // elements, kind by kind, edges or the vertex
+  std::vector<std::size_t> members;  // elements, kind by kind (of a solid: those of its faces), edges or the vertex
   std::vector<std::size_t> nodes;    // that belong to no entity of a lower dimension
+  std::vector<int> bounds;           // tags of the faces of a solid, negative where triangles look inwards
 };
 
 using Entities = std::map<std::int32_t, Entity>;  // by reference
@@ -106,16 +107,38 @@ class MshText {
         if (cells_[c].kind == kind) entities_[2][cell_refs_[c]].members.push_back(c);
     if (curve_groups_) collect_curves();
     for (Entities& entities : entities_) give_tags(entities);
-    // Faces of one name are one group, under the smallest of their tags.
-    std::map<std::string, int> group;
-    for (auto& [ref, face] : entities_[2]) {
-      face.name = name_of_face(mesh_, ref, "face_");
-      face.physical = group.emplace(face.name, face.tag).first->second;
-    }
+    collect_solids();
+    for (auto& [ref, face] : entities_[2]) face.name = name_of_face(mesh_, ref, "face_");
     // Programs expect a group of every element when any has one.
-    for (const int dim : {0, 1})
-      for (auto& [ref, entity] : entities_[dim])
-        entity.physical = entity.tag, entity.name = (dim == 0 ? "point_" : "curve_") + std::to_string(entity.tag);
+    const auto name = [](Entities& entities, const std::map<int, std::string>& names, const char* prefix) {
+      for (auto& [ref, entity] : entities) {
+        const auto own = names.find(ref);
+        entity.name = own != names.end() && !own->second.empty() ? plain_name(own->second) : prefix + std::to_string(entity.tag);
+      }
+    };
+    name(entities_[0], mesh_.names.points, "point_");
+    name(entities_[1], mesh_.names.curves, "curve_");
+    name(solids_, mesh_.names.solids, "solid_");
+    for (Entities* entities : {&entities_[0], &entities_[1], &entities_[2], &solids_}) {
+      // Entities of one name are one group, under the smallest of their tags.
+      std::map<std::string, int> group;
+      for (auto& [ref, entity] : *entities) entity.physical = group.emplace(entity.name, entity.tag).first->second;
+    }
+  }
+
+  /// Solids have no elements. The signed tags of the faces around them let programs fill them.
+  void collect_solids() {
+    for (const auto& [ref, sides] : mesh_.names.face_solids) {
+      const auto face = entities_[2].find(ref);
+      if (face == entities_[2].end() || sides[0] == sides[1]) continue;
+      for (const std::size_t side : {0U, 1U}) {
+        if (sides[side] <= 0) continue;
+        Entity& solid = solids_[sides[side]];
+        solid.bounds.push_back(side == 0 ? face->second.tag : -face->second.tag);
+        solid.members.insert(solid.members.end(), face->second.members.begin(), face->second.members.end());
+      }
+    }
+    for (auto& [ref, solid] : solids_) solid.tag = ref;
   }
 
   void collect_curves() {
@@ -148,6 +171,8 @@ class MshText {
     std::map<std::pair<int, int>, std::string> names;
     for (const int dim : {0, 1, 2})
       for (const auto& [ref, entity] : entities_[dim]) names.emplace(std::pair{dim, entity.physical}, entity.name);
+    if (!version_2_)
+      for (const auto& [ref, solid] : solids_) names.emplace(std::pair{3, solid.physical}, solid.name);
     text_ += "$PhysicalNames\n" + std::to_string(names.size()) + "\n";
     for (const auto& [key, name] : names)
       text_ += std::to_string(key.first) + " " + std::to_string(key.second) + " \"" + name + "\"\n";
@@ -230,7 +255,7 @@ class MshText {
 
   void add_entities() {
     text_ += "$Entities\n" + std::to_string(entities_[0].size()) + " " + std::to_string(entities_[1].size()) + " " +
-             std::to_string(entities_[2].size()) + " 0\n";
+             std::to_string(entities_[2].size()) + " " + std::to_string(solids_.size()) + "\n";
     for (const auto& [ref, point] : entities_[0]) {
       const Vec3 p = mesh_.vertices[point.members.front()];
       number(text_, point.tag), number(text_, p.x()), number(text_, p.y()), number(text_, p.z());
@@ -244,6 +269,13 @@ class MshText {
         number(text_, 1), number(text_, entity.physical), number(text_, 0);
         end_line(text_);
       }
+    for (const auto& [ref, solid] : solids_) {
+      number(text_, solid.tag);
+      add_box(solid, 2);
+      number(text_, 1), number(text_, solid.physical), number(text_, solid.bounds.size());
+      for (const int bound : solid.bounds) number(text_, bound);
+      end_line(text_);
+    }
     text_ += "$EndEntities\n";
   }
 
@@ -295,6 +327,7 @@ class MshText {
   std::vector<Cell> cells_;  // every element, straight triangles too
   std::vector<std::int32_t> cell_refs_;
   Entities entities_[3];  // by dimension
+  Entities solids_;
   std::string text_;
 };
 

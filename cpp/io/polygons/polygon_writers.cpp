@@ -60,8 +60,8 @@ std::string obj_text(const FlatMesh& mesh) {
   const ElementSets sets = sets_of(mesh, longest_name);
   std::vector<std::string> names;
   for (const FaceSet& face : sets.faces) names.push_back(face.name);
-  for (const NamedFaces& each : sets.names)
-    for (const std::size_t i : each.faces) names[i] = each.name;
+  for (const NamedSets& each : sets.names)
+    for (const std::size_t i : each.sets) names[i] = each.name;
   std::string text = "# mesh by Carreau\n";
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) text += "v ", add_point(mesh, v, text);
   const auto add = [&](char key, const std::int32_t* nodes, std::size_t count) {

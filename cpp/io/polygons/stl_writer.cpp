@@ -100,10 +100,14 @@ std::string stl_bytes(const FlatMesh& mesh) {
 std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix) {
   std::string name;
   for (const FlatFace& face : mesh.faces)
-    if (face.ref == ref) name = without_controls(face.name);
-  if (name.empty()) return prefix + std::to_string(ref);
-  std::replace(name.begin(), name.end(), '"', '_');
-  return name;
+    if (face.ref == ref) name = plain_name(face.name);
+  return name.empty() ? prefix + std::to_string(ref) : name;
+}
+
+std::string plain_name(const std::string& name) {
+  std::string plain = without_controls(name);
+  std::replace(plain.begin(), plain.end(), '"', '_');
+  return plain;
 }
 
 std::string stl_text(const FlatMesh& mesh) {

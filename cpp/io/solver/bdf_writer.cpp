@@ -90,7 +90,7 @@ void add_sets(const ElementSets& sets, const std::vector<std::size_t>& propertie
     const std::string number = std::to_string(i + 1);
     text += "$ set " + number + ": " + sets.names[i].name + "\nSET " + number + " = ";
     const char* between = "";
-    for (const std::size_t f : sets.names[i].faces) {
+    for (const std::size_t f : sets.names[i].sets) {
       const FaceSet& face = sets.faces[f];
       text += between + std::to_string(face.first);
       if (face.cells.size() > 1) text += " THRU " + std::to_string(face.first + face.cells.size() - 1);

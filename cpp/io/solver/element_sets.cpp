@@ -73,6 +73,21 @@ std::map<std::int32_t, std::vector<std::vector<std::int32_t>>> edges_by_curve(co
   return curves;
 }
 
+/// Sets of one name, in the order of the first of each.
+template <typename Set>
+std::vector<NamedSets> named(const std::vector<Set>& sets, const std::map<std::int32_t, std::string>& given, Names& names) {
+  std::vector<NamedSets> found;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const auto name = given.find(sets[i].ref);
+    if (name == given.end() || name->second.empty()) continue;
+    const auto [at, fresh] = place.emplace(name->second, found.size());
+    if (fresh) found.push_back({names.clean(name->second), {}});
+    found[at->second].sets.push_back(i);
+  }
+  return found;
+}
+
 }  // namespace
 
 ElementSets sets_of(const FlatMesh& mesh, std::size_t longest) {
@@ -91,14 +106,9 @@ ElementSets sets_of(const FlatMesh& mesh, std::size_t longest) {
     names.take(sets.curves.back().name);
   }
   for (const char* own : {"all_nodes", "all_faces"}) names.take(own);
-  std::map<std::string, std::size_t> place;
-  for (std::size_t i = 0; i < sets.faces.size(); ++i) {
-    const auto name = given.find(sets.faces[i].ref);
-    if (name == given.end() || name->second.empty()) continue;
-    const auto [at, fresh] = place.emplace(name->second, sets.names.size());
-    if (fresh) sets.names.push_back({names.clean(name->second), {}});
-    sets.names[at->second].faces.push_back(i);
-  }
+  sets.names = named(sets.faces, given, names);
+  const std::map<std::int32_t, std::string> of_curves(mesh.names.curves.begin(), mesh.names.curves.end());
+  sets.curve_names = named(sets.curves, of_curves, names);
   return sets;
 }
 

@@ -27,16 +27,17 @@ struct CurveSet {
   std::vector<std::vector<std::int32_t>> edges;  ///< two ends, and the node between them where edges are curved
 };
 
-/// Faces that the file or the host has given one name.
-struct NamedFaces {
-  std::string name;                ///< of letters, digits and '_'; no other set has it, in capitals or not
-  std::vector<std::size_t> faces;  ///< indices of face sets, ascending
+/// Faces, or curves, to which the file or the host has given one name.
+struct NamedSets {
+  std::string name;               ///< of letters, digits and '_'; no other set has it, in capitals or not
+  std::vector<std::size_t> sets;  ///< indices of face sets, or curve sets, ascending
 };
 
 struct ElementSets {
   std::vector<FaceSet> faces;    ///< ascending references
   std::vector<CurveSet> curves;  ///< ascending references
-  std::vector<NamedFaces> names;
+  std::vector<NamedSets> names;        ///< of faces
+  std::vector<NamedSets> curve_names;
   std::size_t elements = 0;  ///< of faces and curves
 };
 

@@ -86,11 +86,17 @@ std::string inp_text(const FlatMesh& mesh) {
     for (const std::size_t i : faces) list.add(sets.faces[i].name);
     list.end();
   };
-  for (const NamedFaces& each : sets.names) add_set(each.name, each.faces);
+  for (const NamedSets& each : sets.names) add_set(each.name, each.sets);
   std::vector<std::size_t> all(sets.faces.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   add_set("all_faces", all);
   for (const CurveSet& curve : sets.curves) add_curve(curve, text);
+  for (const NamedSets& each : sets.curve_names) {
+    text.append("*NSET, NSET=").append(each.name).append("\n");
+    List list(text);
+    for (const std::size_t i : each.sets) list.add(sets.curves[i].name);
+    list.end();
+  }
   return text;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SU2's native format (SU2 documentation, "Mesh File"). A mesh of the plane z = 0: elements, and a marker a curve. A surface in
 // space: it bounds a volume that is not there, so that there are no elements, and its faces are markers.
+#include <map>
+
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"
 #include "support/format.h"
@@ -39,40 +41,48 @@ void add_points(const FlatMesh& mesh, bool flat, std::string& text) {
   }
 }
 
-/// Names of faces, where they have some, else their references.
-std::vector<std::string> marker_names(const ElementSets& sets) {
+/// One marker a name; a set without a name is a marker of its own.
+template <typename Set>
+std::vector<NamedSets> markers_of(const std::vector<Set>& sets, const std::vector<NamedSets>& named) {
   std::vector<std::string> names;
-  for (const FaceSet& face : sets.faces) names.push_back(face.name);
-  for (const NamedFaces& each : sets.names)
-    for (const std::size_t i : each.faces) names[i] = each.name;
-  return names;
+  for (const Set& set : sets) names.push_back(set.name);
+  for (const NamedSets& each : named)
+    for (const std::size_t i : each.sets) names[i] = each.name;
+  std::vector<NamedSets> markers;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto [at, fresh] = place.emplace(names[i], markers.size());
+    if (fresh) markers.push_back({names[i], {}});
+    markers[at->second].sets.push_back(i);
+  }
+  return markers;
+}
+
+void begin_marker(const std::string& name, std::size_t count, std::string& text) {
+  text += "MARKER_TAG= " + name + "\nMARKER_ELEMS= " + std::to_string(count) + "\n";
 }
 
 void add_face_markers(const ElementSets& sets, std::string& text) {
-  const std::vector<std::string> names = marker_names(sets);
-  std::vector<std::vector<std::size_t>> markers;
-  std::vector<std::string> order;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::size_t k = 0;
-    while (k < order.size() && order[k] != names[i]) ++k;
-    if (k == order.size()) order.push_back(names[i]), markers.emplace_back();
-    markers[k].push_back(i);
-  }
-  text += "NMARK= " + std::to_string(order.size()) + "\n";
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  const std::vector<NamedSets> markers = markers_of(sets.faces, sets.names);
+  text += "NMARK= " + std::to_string(markers.size()) + "\n";
+  for (const NamedSets& marker : markers) {
     std::size_t count = 0;
-    for (const std::size_t i : markers[k]) count += sets.faces[i].cells.size();
-    text += "MARKER_TAG= " + order[k] + "\nMARKER_ELEMS= " + std::to_string(count) + "\n";
-    for (const std::size_t i : markers[k])
+    for (const std::size_t i : marker.sets) count += sets.faces[i].cells.size();
+    begin_marker(marker.name, count, text);
+    for (const std::size_t i : marker.sets)
       for (const Cell& cell : sets.faces[i].cells) add_cell(cell, text), text += '\n';
   }
 }
 
 void add_curve_markers(const ElementSets& sets, std::string& text) {
-  text += "NMARK= " + std::to_string(sets.curves.size()) + "\n";
-  for (const CurveSet& curve : sets.curves) {
-    text += "MARKER_TAG= " + curve.name + "\nMARKER_ELEMS= " + std::to_string(curve.edges.size()) + "\n";
-    for (const auto& edge : curve.edges) add_element(line_type, edge.data(), 2, text), text += '\n';
+  const std::vector<NamedSets> markers = markers_of(sets.curves, sets.curve_names);
+  text += "NMARK= " + std::to_string(markers.size()) + "\n";
+  for (const NamedSets& marker : markers) {
+    std::size_t count = 0;
+    for (const std::size_t i : marker.sets) count += sets.curves[i].edges.size();
+    begin_marker(marker.name, count, text);
+    for (const std::size_t i : marker.sets)
+      for (const auto& edge : sets.curves[i].edges) add_element(line_type, edge.data(), 2, text), text += '\n';
   }
 }
 

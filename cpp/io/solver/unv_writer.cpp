@@ -124,9 +124,14 @@ void add_groups(const ElementSets& sets, std::string& text) {
   std::size_t number = 0;
   for (const FaceSet& face : sets.faces) add_group(++number, face.name, {{face.first, face.cells.size()}}, text);
   for (const CurveSet& curve : sets.curves) add_group(++number, curve.name, {{curve.first, curve.edges.size()}}, text);
-  for (const NamedFaces& each : sets.names) {
+  for (const NamedSets& each : sets.names) {
     std::vector<Range> ranges;
-    for (const std::size_t i : each.faces) ranges.push_back({sets.faces[i].first, sets.faces[i].cells.size()});
+    for (const std::size_t i : each.sets) ranges.push_back({sets.faces[i].first, sets.faces[i].cells.size()});
+    add_group(++number, each.name, ranges, text);
+  }
+  for (const NamedSets& each : sets.curve_names) {
+    std::vector<Range> ranges;
+    for (const std::size_t i : each.sets) ranges.push_back({sets.curves[i].first, sets.curves[i].edges.size()});
     add_group(++number, each.name, ranges, text);
   }
   end(text);

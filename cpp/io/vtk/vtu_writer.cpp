@@ -112,6 +112,18 @@ void add_cells(VtuFile& file, const VtkOutput& cells) {
   file.xml("</Cells>\n");
 }
 
+/// For each cell the solids on both sides of its face, when any is known.
+void add_solids(VtuFile& file, const VtkOutput& all) {
+  const std::map<int, std::array<int, 2>>& known = all.mesh().names.face_solids;
+  if (known.empty()) return;
+  std::vector<std::int32_t> solids;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const auto sides = c < all.elements() ? known.find(all.ref(c)) : known.end();
+    for (const std::size_t side : {0U, 1U}) solids.push_back(sides != known.end() ? sides->second[side] : 0);
+  }
+  file.array("solids", 2, solids);
+}
+
 /// For each cell what programs that look at cells only would not find: the status of its face (edges: 0), and its
 /// colour when any face has one.
 void add_face_data(VtuFile& file, const VtkOutput& all) {
@@ -133,6 +145,7 @@ void add_face_data(VtuFile& file, const VtkOutput& all) {
   }
   file.array("status", 1, status);
   if (coloured) file.array("rgb", 3, rgb);
+  add_solids(file, all);
 }
 
 void add_cell_data(VtuFile& file, const VtkOutput& cells) {
@@ -149,33 +162,47 @@ void add_cell_data(VtuFile& file, const VtkOutput& cells) {
 
 /// Strings are arrays of the bytes of their characters, each string ended by a zero. Not VTK's own type for strings,
 /// <Array type="String">: programs that know DataArray alone refuse such a file.
-void add_strings(VtuFile& file, const std::string& name, const FlatMesh& mesh, std::string FlatFace::*text) {
+void add_strings(VtuFile& file, const std::string& name, const std::vector<std::string>& texts) {
   std::string codes;
   std::size_t count = 0;
-  for (const FlatFace& face : mesh.faces) {
-    for (const char c : face.*text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
+  for (const std::string& text : texts) {
+    for (const char c : text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
     codes += "0\n";
-    count += (face.*text).size() + 1;
+    count += text.size() + 1;
   }
   file.xml("<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) +
            "\" format=\"ascii\">\n" + codes + "</DataArray>\n");
 }
 
-/// Field data: what is known of each face.
+void add_names(VtuFile& file, const std::string& kind, const std::map<int, std::string>& names) {
+  if (names.empty()) return;
+  std::vector<std::int32_t> refs;
+  std::vector<std::string> texts;
+  for (const auto& [ref, name] : names) refs.push_back(ref), texts.push_back(name);
+  file.field(kind + "_reference", refs);
+  add_strings(file, kind + "_name", texts);
+}
+
+/// Field data: what is known of each face, and the names of curves, points and solids.
 void add_faces(VtuFile& file, const FlatMesh& mesh) {
   if (mesh.faces.empty()) return;
   std::vector<std::int32_t> refs, status, colours;
+  std::vector<std::string> names, whys;
   for (const FlatFace& face : mesh.faces) {
     refs.push_back(face.ref);
     status.push_back(static_cast<std::int32_t>(face.status));
     colours.push_back(face.rgb);
+    names.push_back(face.name), whys.push_back(face.why);
   }
   file.xml("<FieldData>\n");
   file.field("face_reference", refs);
   file.field("face_status", status);
   file.field("face_rgb", colours);
-  add_strings(file, "face_name", mesh, &FlatFace::name);
-  add_strings(file, "face_why", mesh, &FlatFace::why);
+  add_strings(file, "face_name", names);
+  add_strings(file, "face_why", whys);
+  add_names(file, "curve", mesh.names.curves);
+  add_names(file, "point", mesh.names.points);
+  add_names(file, "solid", mesh.names.solids);
   file.xml("</FieldData>\n");
 }
 

@@ -102,6 +102,7 @@ FlatMesh Session::exported(const MeshEvaluation* delivered, bool with_fields) co
   const Parameters& p = state_->parameters;
   FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
   if (source.model.plane) flat.dimension = 2;
+  flat.names = source.model.names;
   const std::map<int, int>& shown = shown_points();
   for (std::int32_t& ref : flat.vertex_refs)
     if (const auto found = shown.find(ref); found != shown.end()) ref = found->second;
@@ -109,6 +110,8 @@ FlatMesh Session::exported(const MeshEvaluation* delivered, bool with_fields) co
 }
 
 const std::map<int, int>& Session::shown_points() const { return (void)mesh(), state_->meshed.model.shown_points; }
+
+const EntityNames& Session::names() const { return (void)mesh(), state_->meshed.model.names; }
 
 void Session::write(const std::string& path) {
   if (suffix_of(path) == ".exr") {

@@ -4,6 +4,7 @@
 
 #include <carreau.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -43,6 +44,10 @@ class CadInput {
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.
   virtual bool set_face_size(const std::string& face, double size) = 0;
+  /// The same for a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
+  virtual bool set_size(int dimension, std::int32_t number, double size) {
+    return dimension == 2 && set_face_size(std::to_string(number), size);
+  }
   /// Whether the geometry answers with the sizes of set_face_size() itself, when hphy_flag = 2.
   [[nodiscard]] virtual bool answers_face_sizes() const = 0;
   /// The size of set_face_size() where it does not; 0: none.
@@ -62,6 +67,10 @@ class CadInput {
     std::string name;  ///< "" when it has none
   };
   [[nodiscard]] virtual Part part_of_face(std::int32_t) const { return {}; }
+  /// The parts on both sides of a face: the one that its triangles look out of, and the other one.
+  [[nodiscard]] virtual std::array<Part, 2> parts_beside(std::int32_t face) const { return {part_of_face(face), Part{}}; }
+  /// 0xRRGGBB; -1: none.
+  [[nodiscard]] virtual std::int32_t face_colour(std::int32_t) const { return -1; }
   /// "solid", "file": the kind of those parts.
   [[nodiscard]] virtual const char* part_word() const { return "solid"; }
   /// References of the curves of a face, as far as they are known.
@@ -73,6 +82,8 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
   /// What was passed over or repaired without the loss of a face: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+  /// A table of the small features that were found and removed, or stay: a line each.
+  [[nodiscard]] virtual std::vector<std::string> small_features() const { return {}; }
   /// The face of the file that a face of the session is or is a part of; the same for curves, and the parts of a face
   /// of the file. A geometry that cuts no faces has none.
   [[nodiscard]] virtual std::int32_t whole_face(std::int32_t face) const { return face; }
@@ -84,7 +95,7 @@ class CadInput {
   [[nodiscard]] virtual bool has_sizes() const { return false; }
   /// Whether the file has edges and no face: its mesh has edges alone.
   [[nodiscard]] virtual bool is_wires() const { return false; }
-  /// Whether each edge of the file has two faces.
+  /// Whether no edge of the file has one face alone.
   [[nodiscard]] virtual bool closed() const { return false; }
   /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
   [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }

@@ -41,12 +41,22 @@ struct PlaneChoice {
   double corner_angle = 0;  ///< degrees; polygons are smoothed between corners; 0: they are not
 };
 
+/// How a CAD file is read.
+struct CadChoice {
+  bool loose_edges = false;      ///< edges of no face are meshed, too
+  bool imprint = false;          ///< parts that touch share faces and edges
+  double imprint_tolerance = 0;  ///< up to which distance; 0: the tolerances of the file
+  double min_feature = 0;        ///< length below which features are removed; 0: none
+  std::string unit = {};         ///< of the mesh; empty: millimetres
+  double scale = 1;              ///< of all coordinates
+};
+
 struct InputChoice {
   std::string host;           ///< shared library, of a .pardom
   MoleculeChoice molecule;    ///< of a molecule; its surface also of an atlas
   GridChoice grid;            ///< of a structured grid
   TrianglesChoice triangles;  ///< of a surface given as triangles
-  bool loose_edges = false;   ///< of a CAD file: edges of no face are meshed, too
+  CadChoice cad;
   std::string domain;         ///< of a surface by formulas; empty: usual_domain
 };
 

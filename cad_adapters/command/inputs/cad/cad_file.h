@@ -22,12 +22,14 @@ using CadFileHandle = std::unique_ptr<carreau_cad_file, CloseCadFile>;
 void require(carreau_cad_file* file, carreau_status status);
 
 /// Faults of OpenCASCADE are errors of faces. Throws Failure.
-CadFileHandle read_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress = {});
+CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress = {});
 
 carreau_cad_content content_of(carreau_cad_file* file);
 std::vector<FaceLook> faces_of(carreau_cad_file* file);
 std::vector<std::string> losses_of(carreau_cad_file* file);
 std::vector<std::string> notes_of(carreau_cad_file* file);
+/// What --min-feature found: a line each.
+std::vector<std::string> small_features_of(carreau_cad_file* file);
 /// Looks for dangers; they are in the order of the report.
 carreau_cad_report inspect(carreau_cad_file* file);
 std::vector<carreau_cad_danger> dangers_of(carreau_cad_file* file, const carreau_cad_report& report);

@@ -18,14 +18,19 @@ void require(carreau_cad_file* file, carreau_status status) {
   if (status != CARREAU_OK) throw Failure(cad_library().last_error(file));
 }
 
-CadFileHandle read_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
+CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress) {
   carreau_cad_file* created = nullptr;
   if (cad_library().create(&created) != CARREAU_OK) throw Failure("'" + path + "': out of memory.");
   CadFileHandle file(created);
   carreau_cad_options options{};
   options.struct_size = sizeof options;
   options.trap_faults = 1;
-  options.loose_edges = loose_edges ? 1 : 0;
+  options.loose_edges = choice.loose_edges ? 1 : 0;
+  options.imprint = choice.imprint ? 1 : 0;
+  options.imprint_tolerance = choice.imprint_tolerance;
+  options.unit = choice.unit.c_str();
+  options.scale = choice.scale;
+  options.min_feature = choice.min_feature;
   options.user = const_cast<ReadingProgress*>(&progress);
   options.progress = [](double fraction, void* user) {
     const auto& tell = *static_cast<const ReadingProgress*>(user);
@@ -80,6 +85,21 @@ std::vector<std::string> losses_of(carreau_cad_file* file) {
   return sentences;
 }
 
+std::vector<std::string> small_features_of(carreau_cad_file* file) {
+  std::vector<std::string> lines;
+  for (std::int64_t i = 0; i < content_of(file).small_features; ++i) {
+    carreau_cad_small_feature feature{};
+    feature.struct_size = sizeof feature;
+    require(file, cad_library().small_feature_at(file, i, &feature));
+    char text[160];
+    std::snprintf(text, sizeof text, "%-8s %-10s of %.4g at (%.6g, %.6g, %.6g), ", feature.removed != 0 ? "removed" : "kept", feature.kind,
+                  feature.size, feature.place[0], feature.place[1], feature.place[2]);
+    const std::string faces = feature.faces;
+    lines.push_back(text + std::string(faces.find(',') == std::string::npos ? "face " : "faces ") + faces);
+  }
+  return lines;
+}
+
 carreau_cad_report inspect(carreau_cad_file* file) {
   carreau_cad_report report{};
   report.struct_size = sizeof report;
@@ -116,6 +136,9 @@ class CadFileInput final : public CadInput {
   bool set_face_size(const std::string& face, double size) override {
     return cad_library().set_face_size(file_.get(), face.c_str(), size) == CARREAU_OK;
   }
+  bool set_size(int dimension, std::int32_t number, double size) override {
+    return cad_library().set_size(file_.get(), dimension, number, size) == CARREAU_OK;
+  }
 
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
     double xyz[3], uv[2];
@@ -136,11 +159,17 @@ class CadFileInput final : public CadInput {
     face.struct_size = sizeof face;
     return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.name : "";
   }
-  [[nodiscard]] Part part_of_face(std::int32_t number) const override {
+  [[nodiscard]] Part part_of_face(std::int32_t number) const override { return parts_beside(number)[0]; }
+  [[nodiscard]] std::array<Part, 2> parts_beside(std::int32_t number) const override {
     carreau_cad_face face{};
     face.struct_size = sizeof face;
     if (cad_library().file_face(file_.get(), number, &face) != CARREAU_OK) return {};
-    return {face.solid, face.solid_name};
+    return {Part{face.solid, face.solid_name}, Part{face.other_solid, face.other_solid_name}};
+  }
+  [[nodiscard]] std::int32_t face_colour(std::int32_t number) const override {
+    carreau_cad_face face{};
+    face.struct_size = sizeof face;
+    return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.rgb : -1;
   }
   [[nodiscard]] std::int32_t whole_face(std::int32_t face) const override {
     return cad_library().whole_face(file_.get(), face);
@@ -163,6 +192,7 @@ class CadFileInput final : public CadInput {
   }
   [[nodiscard]] std::vector<std::string> losses() const override { return losses_of(file_.get()); }
 
+  [[nodiscard]] std::vector<std::string> small_features() const override { return small_features_of(file_.get()); }
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_of(file_.get()); }
 
   [[nodiscard]] std::vector<std::string> kinks() const override {
@@ -195,6 +225,7 @@ class CadFileInput final : public CadInput {
     const std::string unit = content_.unit;
     return count(content_.faces, "face", "faces") + ", " + count(content_.edges, "edge", "edges") + ", " +
            count(content_.vertices, "vertex", "vertices") + (closed() ? ", closed" : ", open") +
+           (content_.shared_faces > 0 ? ", " + count(content_.shared_faces, "face", "faces") + " between two solids" : "") +
            (unit.empty() ? "" : ", lengths in " + unit);
   }
 
@@ -214,8 +245,8 @@ class CadFileInput final : public CadInput {
 
 }  // namespace
 
-std::unique_ptr<CadInput> open_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress) {
-  return std::make_unique<CadFileInput>(read_cad(path, loose_edges, progress));
+std::unique_ptr<CadInput> open_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress) {
+  return std::make_unique<CadFileInput>(read_cad(path, choice, progress));
 }
 
 }  // namespace command

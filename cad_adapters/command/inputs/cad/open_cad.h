@@ -10,6 +10,6 @@
 namespace command {
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
-std::unique_ptr<CadInput> open_cad(const std::string& path, bool loose_edges, const ReadingProgress& progress);
+std::unique_ptr<CadInput> open_cad(const std::string& path, const CadChoice& choice, const ReadingProgress& progress);
 
 }  // namespace command

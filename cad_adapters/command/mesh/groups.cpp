@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/groups.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "base/failure.h"
+#include "base/lengths.h"
+#include "files/session_handle.h"
+#include "mesh/selection.h"
+
+namespace command {
+namespace {
+
+/// By dimension and reference: the name of its group.
+using Groups = std::map<std::pair<int, std::int32_t>, std::string>;
+
+std::string colour_name(std::int32_t rgb) {
+  char text[16];
+  std::snprintf(text, sizeof text, "color_%06x", static_cast<unsigned>(rgb));
+  return text;
+}
+
+void group_faces(const CadInput& input, const std::string& by, Groups& groups) {
+  for (const std::int32_t face : input.face_numbers()) {
+    std::string name;
+    if (by == "part") name = input.parts_beside(face)[0].name;
+    if (by == "name") name = input.face_name(face);
+    if (by == "color" && input.face_colour(face) >= 0) name = colour_name(input.face_colour(face));
+    if (!name.empty()) groups[{2, face}] = name;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> set_groups(carreau_session* session, const CadInput& input, const std::string& group_by,
+                                    const std::vector<std::string>& rules) {
+  Groups groups, by_rules, around_solids;
+  group_faces(input, group_by, groups);
+  std::vector<std::string> sentences;
+  for (const std::string& rule : rules) {
+    const auto [name, selector] = parse_assignment(rule, "--group");
+    const Selection selection = select(input, selector, "--group");
+    int twice = 0;
+    for (const std::int32_t ref : selection.refs) {
+      std::string& group = by_rules[{selection.dimension, ref}];
+      twice += group.empty() || group == name ? 0 : 1;
+      group = name;
+    }
+    if (twice > 0)
+      sentences.push_back("--group " + rule + ": " + std::to_string(twice) + (twice == 1 ? " entity was" : " entities were") +
+                          " in another group, and an entity has one group");
+    if (selection.dimension != 3) continue;
+    for (const std::int32_t face : input.face_numbers())
+      for (const CadInput::Part& part : input.parts_beside(face))
+        if (std::find(selection.refs.begin(), selection.refs.end(), part.number) != selection.refs.end())
+          around_solids[{2, face}] = name;
+  }
+  for (const Groups* more : {&around_solids, &by_rules})
+    for (const auto& [entity, name] : *more) groups[entity] = name;
+  for (const auto& [entity, name] : groups)
+    require(session, carreau_model_name_entity(session, entity.first, entity.second, name.c_str()));
+  return sentences;
+}
+
+}  // namespace command
