@@ -142,7 +142,7 @@ TEST(Matching, StripsThatCannotBeMatchedAreMeshedAsOtherFacesAre) {
     session.parameters().set("hphymin", 0.01);
     session.parameters().set("hphymax", 1.0);
     session.parameters().set("narrow_faces", mode);
-    session.parameters().set("narrow_ratio", 3.0);
+    session.parameters().set("narrow_ratio", 1.0);
     session.make_mesh();
     const SurfaceMesh& mesh = session.mesh();
     EXPECT_EQ(find_defects(mesh, {.closed = false, .limit = 5}), std::vector<std::string>{});
