@@ -127,8 +127,9 @@ class SideMatcher {
     std::sort(inside.begin(), inside.end());
     inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
     given_.try_emplace(curve, curves_[curve]);
+    const std::vector<double> before = curves_[curve].r;
     place_vertices(curves_[curve], inside, model_);
-    ++version_[curve];
+    if (curves_[curve].r != before) ++version_[curve];
   }
 
   void match(const NarrowFace& narrow) {
@@ -183,18 +184,13 @@ class SideMatcher {
     return false;
   }
 
-  /// How completing one face has ended.
-  enum class Completion : char { done, inserted, disagrees };
-
-  Completion complete(const NarrowFace& narrow) {
+  // False: a side has too many vertices.
+  bool complete(const NarrowFace& narrow) {
     const SideRuler one(model_, narrow.face, narrow.side[0]), other(model_, narrow.face, narrow.side[1]);
-    const Fractions in_other = missing(narrow, vertices(one, narrow.ring), other, vertices(other, narrow.ring));
-    insert(in_other);
-    if (has_too_many(other)) return Completion::disagrees;
-    const Fractions in_one = missing(narrow, vertices(other, narrow.ring), one, vertices(one, narrow.ring));
-    insert(in_one);
-    if (has_too_many(one)) return Completion::disagrees;
-    return in_one.empty() && in_other.empty() ? Completion::done : Completion::inserted;
+    insert(missing(narrow, vertices(one, narrow.ring), other, vertices(other, narrow.ring)));
+    if (has_too_many(other)) return false;
+    insert(missing(narrow, vertices(other, narrow.ring), one, vertices(one, narrow.ring)));
+    return !has_too_many(one);
   }
 
   [[nodiscard]] std::vector<int> curves_of(const NarrowFace& narrow) const {
@@ -205,31 +201,36 @@ class SideMatcher {
   }
 
   // The face whose places disagree, if one has such. Vertices that one face inserts in a curve another face that has the
-  // curve must follow: there are no more rounds than faces in a row. Faces whose curves have not changed are passed over.
+  // curve must follow: there are no more rounds than faces in a row, and a face that inserts still then has no end.
+  // Faces whose curves have not changed are passed over.
   std::optional<std::size_t> match_all(bool from_the_start) {
-    if (from_the_start)
-      for (std::size_t i = 0; i < faces_.size(); ++i)
-        if (is_matched_[i] != 0) match(faces_[i]);
     std::vector<std::vector<int>> curves(faces_.size());
     std::set<int> all;
     for (std::size_t i = 0; i < faces_.size(); ++i)
       if (is_matched_[i] != 0) curves[i] = curves_of(faces_[i]), all.insert(curves[i].begin(), curves[i].end());
     most_vertices_ = 0;
     for (const int curve : all) most_vertices_ += curves_[curve].r.size();
+    if (from_the_start)
+      for (std::size_t i = 0; i < faces_.size(); ++i)
+        if (is_matched_[i] != 0) match(faces_[i]);
     std::vector<std::int64_t> looked_at(faces_.size(), -1);
+    std::optional<std::size_t> inserts;  // the first face that inserts a vertex in the last round
     for (std::size_t round = 0; round <= faces_.size() + 1; ++round) {
-      bool any = false;
+      inserts.reset();
       for (std::size_t i = 0; i < faces_.size(); ++i) {
-        std::int64_t version = 0;
-        for (const int curve : curves[i]) version += version_[curve];
+        const std::int64_t version = version_of(curves[i]);
         if (is_matched_[i] == 0 || std::exchange(looked_at[i], version) == version) continue;
-        const Completion completion = complete(faces_[i]);
-        if (completion == Completion::disagrees) return i;
-        any |= completion == Completion::inserted;
+        if (!complete(faces_[i])) return i;
+        if (!inserts && version_of(curves[i]) != version) inserts = i;
       }
-      if (!any) break;
+      if (!inserts) break;
     }
-    return {};
+    return inserts;
+  }
+  [[nodiscard]] std::int64_t version_of(std::span<const int> curves) const {
+    std::int64_t version = 0;
+    for (const int curve : curves) version += version_[curve];
+    return version;
   }
 
   const CurveModel& model_;
