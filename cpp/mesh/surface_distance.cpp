@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "mesh/distance/heights.h"
 #include "mesh/triangle_distance.h"
 #include "mesh/triangle_search.h"
 #include "support/infinity.h"
@@ -121,8 +122,8 @@ class DistanceBounder {
  public:
   DistanceBounder(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
                   const Crew& crew, Monitor& monitor)
-      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, crew.threads), tolerance_(tolerance),
-        crew_(crew), monitor_(monitor) {}
+      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, crew.threads),
+        heights_(to.vertices, to.triangles), tolerance_(tolerance), crew_(crew), monitor_(monitor) {}
 
   DistanceBounds run(std::vector<double>* of_triangles, std::vector<FarPoint>* farthest) {
     if (of_triangles != nullptr) of_triangles->assign(from_.triangles.size(), 0);
@@ -242,10 +243,20 @@ class DistanceBounder {
     return best;
   }
 
+  /// The largest height of the other mesh over a piece; infinite where the mesh does not cover it, or is higher than `enough`.
+  [[nodiscard]] double height_over(const Piece& piece, const Vec3& normal, const Corner& middle, double enough) const {
+    if (normal.isZero()) return infinity;
+    std::vector<Vec3> polygon;
+    for (const Corner& c : piece) polygon.push_back(c.p);
+    return heights_.largest_over(polygon, normal, middle.nearest, enough).value_or(infinity);
+  }
+
   DistanceBounds bounds_of(std::size_t triangle, Monitor& of_task) const {
     DistanceBounds found;
     std::vector<Piece> todo(1);
     for (const std::int32_t v : from_.triangles[triangle]) todo.back().push_back(at_vertex_[index(v)]);
+    const Vec3 across = cross(todo[0][1].p - todo[0][0].p, todo[0][2].p - todo[0][0].p);
+    const Vec3 normal = norm(across) > 0 ? Vec3(across / norm(across)) : Vec3(Vec3::Zero());
     std::size_t most = most_pieces, count = 0;
     while (!todo.empty()) {
       const Piece piece = std::move(todo.back());
@@ -253,10 +264,12 @@ class DistanceBounder {
       const Corner middle = count == 0 ? middle_[triangle] : middle_of(piece);
       found.lower = std::max(found.lower, middle.distance);
       for (const Corner& c : piece) found.lower = std::max(found.lower, c.distance);
-      const double upper = upper_of(piece, middle);
+      const double enough = std::max(enough_, goal(found.lower));
+      double upper = upper_of(piece, middle);
+      if (upper > enough) upper = std::min(upper, height_over(piece, normal, middle, enough));
       if (++count == most && most == most_pieces) most += pieces_of_each * beside(triangle);
       if (count % 256 == 0) of_task.checkpoint();
-      if (upper <= std::max(enough_, goal(found.lower)) || count >= most)
+      if (upper <= enough || count >= most)
         found.upper = std::max(found.upper, upper);
       else
         cut(piece, middle, todo);
@@ -320,6 +333,7 @@ class DistanceBounder {
 
   TrianglesOfSpace from_, to_;
   TriangleSearch search_;
+  HeightSearch heights_;
   DistanceTolerance tolerance_;
   Crew crew_;
   Monitor& monitor_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "curve/edge_accuracy.h"
 #include "pipeline/base/run.h"
@@ -55,6 +56,17 @@ void keep_to_curves(CompositeRun& run) {
       if (!any) break;
     }
   }
+}
+
+// False: all sides of narrow faces have been matched. The faces are indices in Model::faces.
+bool mesh_as_others(CompositeRun& run, std::span<const int> unmatched) {
+  if (unmatched.empty()) return false;
+  for (const int f : unmatched)
+    run.monitor.message(Level::detail, Where{.face = run.model.faces[f].ref}.prefix() +
+                                           "the face is narrow, and places along its sides disagree: it is meshed as other faces are");
+  leave_to_mesher(unmatched, run.narrow.strips);
+  if (!run.narrow.vanishing.curve.empty()) let_end_caps_vanish(run.curve_model, run.narrow);
+  return true;
 }
 
 // Matched sides have vertices at the same places. Vertices of prescribed edges may lie elsewhere.
@@ -121,7 +133,7 @@ void find_narrow(CompositeRun& run) {
   if (collapse) keep_thin_bodies(run.curve_model, run.curves, narrow);
   if (!narrow.empty()) {
     if (collapse) let_end_caps_vanish(run.curve_model, narrow);
-    match_sides(run.curve_model, narrow.strips, run.curves);
+    mesh_as_others(run, match_sides(run.curve_model, narrow.strips, run.curves).unmatched);
   }
   run.result.report.seconds_curves += seconds_since(start);
 }
@@ -131,6 +143,7 @@ void refine_boundaries(CompositeRun& run) {
   for (;;) {
     run.domains =
         refine_domains(run.curve_model, run.rules, run.options, run.limits(), run.narrow, run.curves, run.monitor);
+    if (mesh_as_others(run, run.domains.unmatched)) continue;
     run.between.clear();
     for (const NarrowFace& face : run.narrow.strips)
       run.between.push_back(mesh_between_sides(run.curve_model, face, run.curves));

@@ -2,12 +2,15 @@
 // Vertices of both sides of a narrow face at the same places.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include "surface/narrow/narrow_faces.h"
 #include "surface/narrow/side_ruler.h"
 #include "surface/narrow/thresholds.h"
-#include "support/error.h"
 
 namespace carreau {
 
@@ -15,32 +18,49 @@ namespace {
 
 using namespace thresholds::narrow;
 
+/// Lengths along a side at which it has vertices.
+class Places {
+ public:
+  /// `period` is the length of a ring, and 0 of a side with two ends.
+  Places(std::vector<double> s, double period) : s_(std::move(s)), period_(period) { std::sort(s_.begin(), s_.end()); }
+
+  [[nodiscard]] bool any_near(double s, double tolerance) const {
+    if (s_.empty()) return false;
+    const auto above = std::lower_bound(s_.begin(), s_.end(), s);
+    const auto is_near = [&](double v) {
+      return std::abs(period_ > 0 ? std::remainder(v - s, period_) : v - s) <= tolerance;
+    };
+    return (above != s_.end() && is_near(*above)) || (above != s_.begin() && is_near(*(above - 1))) ||
+           (period_ > 0 && (is_near(s_.front()) || is_near(s_.back())));
+  }
+
+ private:
+  std::vector<double> s_;
+  double period_;
+};
+
 class SideMatcher {
  public:
   SideMatcher(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves)
-      : model_(model), faces_(faces), curves_(curves), placed_(curves.size(), 0), changed_(curves.size(), 0) {}
-
-  void match_all() {
-    for (const NarrowFace& narrow : faces_)
-      if (!narrow.point) match(narrow);
+      : model_(model), faces_(faces), curves_(curves), placed_(curves.size(), 0), version_(curves.size(), 0),
+        is_matched_(faces.size(), 1) {
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      if (faces[i].point) is_matched_[i] = 0;
   }
 
-  // What one face inserts in a curve another one that has the curve must follow: there are no more rounds than faces in
-  // a row. A vertex has one place at most on each curve: a curve with more than all vertices together takes images of
-  // images, whose number may double in each round.
-  std::vector<int> complete_all() {
-    most_vertices_ = 0;
-    for (const DiscreteCurve& curve : curves_) most_vertices_ += curve.r.size();
-    for (std::size_t round = 0; round <= faces_.size() + 1; ++round) {
-      bool any = false;
-      for (const NarrowFace& narrow : faces_)
-        if (!narrow.point) any |= complete(narrow);
-      if (!any) break;
+  // A face whose sides exchange vertices without end is left out, and the others begin anew from the curves as given.
+  SidesMatched run(bool from_the_start) {
+    SidesMatched result;
+    while (const std::optional<std::size_t> disagrees = match_all(from_the_start)) {
+      is_matched_[*disagrees] = 0;
+      result.unmatched.push_back(faces_[*disagrees].face);
+      for (auto& [curve, given] : given_) curves_[curve] = std::move(given);
+      given_.clear();
+      std::fill(placed_.begin(), placed_.end(), 0);
     }
-    std::vector<int> changed;
-    for (std::size_t c = 0; c < changed_.size(); ++c)
-      if (changed_[c] != 0) changed.push_back(static_cast<int>(c));
-    return changed;
+    std::sort(result.unmatched.begin(), result.unmatched.end());
+    for (const auto& [curve, given] : given_) result.changed.push_back(curve);
+    return result;
   }
 
  private:
@@ -73,21 +93,18 @@ class SideMatcher {
     return all;
   }
 
-  static bool is_near(const std::vector<Vertex>& vertices, double s, double tolerance, double period) {
-    return std::any_of(vertices.begin(), vertices.end(), [&](const Vertex& v) {
-      return std::abs(period > 0 ? std::remainder(v.s - s, period) : v.s - s) <= tolerance;
-    });
-  }
-
   // Where `from` has vertices and `to` has not.
   static Fractions missing(const NarrowFace& narrow, const std::vector<Vertex>& from, const SideRuler& to,
                            const std::vector<Vertex>& there) {
     Fractions fractions;
-    const double near = same_place_distance(narrow, to), period = narrow.ring ? to.length() : 0;
+    const double near = same_place_distance(narrow, to);
+    std::vector<double> known;
+    for (const Vertex& vertex : there) known.push_back(vertex.s);
+    const Places places(std::move(known), narrow.ring ? to.length() : 0);
     for (const Vertex& vertex : from) {
       const SideRuler::Place place = to.place_of(vertex.xyz);
       const bool at_end = !narrow.ring && (place.s <= near || place.s >= to.length() - near);
-      if (!at_end && place.r > 0 && place.r < 1 && !is_near(there, place.s, near, period))
+      if (!at_end && place.r > 0 && place.r < 1 && !places.any_near(place.s, near))
         fractions[to.curve(place.part)].push_back(place.r);
     }
     for (auto& [curve, r] : fractions) {
@@ -106,10 +123,13 @@ class SideMatcher {
     }
   }
   void place(int curve, std::vector<double> inside) {
+    if (curves_[curve].indivisible || curves_[curve].prescribed) return;
     std::sort(inside.begin(), inside.end());
     inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+    given_.try_emplace(curve, curves_[curve]);
+    const std::vector<double> before = curves_[curve].r;
     place_vertices(curves_[curve], inside, model_);
-    changed_[curve] = 1;
+    if (curves_[curve].r != before) ++version_[curve];
   }
 
   void match(const NarrowFace& narrow) {
@@ -156,43 +176,86 @@ class SideMatcher {
     place(curve, std::move(inside));
   }
 
-  void check_count(const NarrowFace& narrow, const SideRuler& side) const {
+  // A vertex has one place at most on each curve: a curve with more vertices than all sides together takes images of
+  // images, whose number may double in each round.
+  [[nodiscard]] bool has_too_many(const SideRuler& side) const {
     for (std::size_t p = 0; p < side.parts(); ++p)
-      if (curves_[side.curve(p)].r.size() > most_vertices_)
-        throw DomainError(Where{.face = model_.model.faces[static_cast<std::size_t>(narrow.face)].ref,
-                                .curve = model_.curve(side.curve(p)).ref},
-                          "the sides of the narrow face get more vertices without end: places along them disagree");
+      if (curves_[side.curve(p)].r.size() > most_vertices_) return true;
+    return false;
   }
 
+  // False: a side has too many vertices.
   bool complete(const NarrowFace& narrow) {
     const SideRuler one(model_, narrow.face, narrow.side[0]), other(model_, narrow.face, narrow.side[1]);
-    const Fractions in_other = missing(narrow, vertices(one, narrow.ring), other, vertices(other, narrow.ring));
-    insert(in_other);
-    check_count(narrow, other);
-    const Fractions in_one = missing(narrow, vertices(other, narrow.ring), one, vertices(one, narrow.ring));
-    insert(in_one);
-    check_count(narrow, one);
-    return !in_one.empty() || !in_other.empty();
+    insert(missing(narrow, vertices(one, narrow.ring), other, vertices(other, narrow.ring)));
+    if (has_too_many(other)) return false;
+    insert(missing(narrow, vertices(other, narrow.ring), one, vertices(one, narrow.ring)));
+    return !has_too_many(one);
+  }
+
+  [[nodiscard]] std::vector<int> curves_of(const NarrowFace& narrow) const {
+    std::vector<int> curves;
+    for (const Side& side : narrow.side)
+      for (const SidePart& part : side) curves.push_back(model_.topology.curve_of[narrow.face][part.curve]);
+    return curves;
+  }
+
+  // The face whose places disagree, if one has such. Vertices that one face inserts in a curve another face that has the
+  // curve must follow: there are no more rounds than faces in a row, and a face that inserts still then has no end.
+  // Faces whose curves have not changed are passed over.
+  std::optional<std::size_t> match_all(bool from_the_start) {
+    std::vector<std::vector<int>> curves(faces_.size());
+    std::set<int> all;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (is_matched_[i] != 0) curves[i] = curves_of(faces_[i]), all.insert(curves[i].begin(), curves[i].end());
+    most_vertices_ = 0;
+    for (const int curve : all) most_vertices_ += curves_[curve].r.size();
+    if (from_the_start)
+      for (std::size_t i = 0; i < faces_.size(); ++i)
+        if (is_matched_[i] != 0) match(faces_[i]);
+    std::vector<std::int64_t> looked_at(faces_.size(), -1);
+    std::optional<std::size_t> inserts;  // the first face that inserts a vertex in the last round
+    for (std::size_t round = 0; round <= faces_.size() + 1; ++round) {
+      inserts.reset();
+      for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const std::int64_t version = version_of(curves[i]);
+        if (is_matched_[i] == 0 || std::exchange(looked_at[i], version) == version) continue;
+        if (!complete(faces_[i])) return i;
+        if (!inserts && version_of(curves[i]) != version) inserts = i;
+      }
+      if (!inserts) break;
+    }
+    return inserts;
+  }
+  [[nodiscard]] std::int64_t version_of(std::span<const int> curves) const {
+    std::int64_t version = 0;
+    for (const int curve : curves) version += version_[curve];
+    return version;
   }
 
   const CurveModel& model_;
   std::span<const NarrowFace> faces_;
   std::vector<DiscreteCurve>& curves_;
-  std::vector<char> placed_, changed_;  // by curve
+  std::vector<char> placed_;            // by curve
+  std::vector<std::int64_t> version_;   // by curve: it grows with each change
+  std::vector<char> is_matched_;        // by face
+  std::map<int, DiscreteCurve> given_;  // curves that have changed, as they were given
   std::size_t most_vertices_ = 0;       // of one curve
 };
 
 }  // namespace
 
-void match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves) {
-  SideMatcher matcher(model, faces, curves);
-  matcher.match_all();
-  matcher.complete_all();
+SidesMatched match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves) {
+  return SideMatcher(model, faces, curves).run(true);
 }
 
-std::vector<int> complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
-                                std::vector<DiscreteCurve>& curves) {
-  return SideMatcher(model, faces, curves).complete_all();
+SidesMatched complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
+                            std::vector<DiscreteCurve>& curves) {
+  return SideMatcher(model, faces, curves).run(false);
+}
+
+void leave_to_mesher(std::span<const int> faces, std::vector<NarrowFace>& strips) {
+  std::erase_if(strips, [&](const NarrowFace& strip) { return std::binary_search(faces.begin(), faces.end(), strip.face); });
 }
 
 }  // namespace carreau

@@ -58,14 +58,25 @@ std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<Di
 /// hole would vanish with it.
 void let_end_caps_vanish(const CurveModel& model, NarrowModel& narrow);
 
+/// How the sides of narrow faces were matched.
+struct SidesMatched {
+  std::vector<int> changed;  ///< curves that have other vertices than before, ascending
+  /// Faces whose sides exchange vertices without end, since places along them disagree: indices in Model::faces,
+  /// ascending. The curves are as without these faces, which are meshed as other faces are.
+  std::vector<int> unmatched;
+};
+
 /// Gives the two sides of each face vertices at the same places: those of one side are carried to the other one, ends
 /// of curves to both.
-void match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves);
+SidesMatched match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves);
 
-/// Completes that after segments were split: what one side has and the other has not is inserted. Indices of the curves
-/// that have changed, ascending. Spends a callback only where something is missing.
-std::vector<int> complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
-                                std::vector<DiscreteCurve>& curves);
+/// Completes that after segments were split: what one side has and the other has not is inserted. Spends a callback only
+/// where something is missing.
+SidesMatched complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
+                            std::vector<DiscreteCurve>& curves);
+
+/// Takes faces (indices in Model::faces, ascending) from the list of strips: they are meshed as other faces are.
+void leave_to_mesher(std::span<const int> faces, std::vector<NarrowFace>& strips);
 
 /// A narrow face meshed between its sides.
 struct NarrowPatch {

@@ -114,7 +114,8 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
   const int i = clamped_int((p.x() - low_.x()) / step_, 0, columns_ - 1),
             j = clamped_int((p.y() - low_.y()) / step_, 0, rows_ - 1);
   std::int32_t t = raster_[cell(i, j)], before = -1;
-  for (int step = 0; step < most_steps && t >= 0; ++step) {
+  for (int step = 0; step <= most_steps && t >= 0; ++step) {
+    if (step == most_steps) t = straight_to(p, t);
     const std::array<double, 3> w = weights_in(corners(t), p);
     std::int32_t next = -1;
     double least = -on_side;
@@ -156,6 +157,28 @@ double ChartPlane::outside(std::int32_t t, const Vec2& p) const {
   double most = 0;
   for (int i = 0; i < 3; ++i) most = std::max(most, -w[i] * area / norm(c[(i + 2) % 3] - c[(i + 1) % 3]));
   return most;
+}
+
+// Along the straight line from the middle of the first triangle to p: as far as triangles are shown.
+std::int32_t ChartPlane::straight_to(const Vec2& p, std::int32_t first) const {
+  const std::array<Vec2, 3> begin = corners(first);
+  const Vec2 from = (begin[0] + begin[1] + begin[2]) / 3;
+  std::int32_t t = first, before = -1;
+  for (int step = 0; step < most_straight_steps; ++step) {
+    const std::array<Vec2, 3> c = corners(t);
+    const std::array<double, 3> there = weights_in(c, p), here = weights_in(c, from);
+    std::int32_t next = -1;
+    double way = infinity;
+    for (int k = 0; k < 3; ++k) {
+      if (there[k] >= -on_side || here[k] <= there[k]) continue;
+      const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3];
+      if (const double to_side = here[k] / (here[k] - there[k]); u != before && is_shown(u) && to_side < way)
+        way = to_side, next = u;
+    }
+    if (next < 0) break;
+    before = t, t = next;
+  }
+  return t;
 }
 
 // Where no straight way leads there: from triangle to triangle, the nearest one first.

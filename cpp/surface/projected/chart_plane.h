@@ -40,6 +40,7 @@ class ChartPlane {
     std::int32_t triangle;
     double outside;
   };
+  [[nodiscard]] std::int32_t straight_to(const Vec2& p, std::int32_t first) const;
   [[nodiscard]] Found find_around(std::int32_t first, const Vec2& p) const;
   [[nodiscard]] std::array<Vec2, 3> corners(std::int32_t t) const;
   [[nodiscard]] std::size_t cell(int i, int j) const {

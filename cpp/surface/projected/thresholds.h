@@ -46,8 +46,9 @@ inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
 inline constexpr std::size_t least_samples = 40;
 /// Share of the size. What is lifted farther from where the plane had it is lifted again.
 inline constexpr double most_miss = 0.05;
-/// Cells of the raster of a chart at most, and triangles that a way over it may lead through.
-inline constexpr int most_cells = 1 << 20, most_steps = 64;
+/// Cells of the raster of a chart at most, triangles that the quickest way to a place may lead through, and triangles of
+/// a straight way behind these: needles are many in one cell. [ProjectedMeshes.FansOfNeedlesAreNotFolded]
+inline constexpr int most_cells = 1 << 20, most_steps = 64, most_straight_steps = 1 << 16;
 /// Triangles around that are looked at where a barrier is in the way.
 inline constexpr std::size_t most_around = 64;
 /// Rings of triangles beyond the border of a chart that its raster knows: cuts are straightened.

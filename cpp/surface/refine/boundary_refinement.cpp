@@ -40,6 +40,7 @@ class Refiner {
         options_(options),
         limits_(limits),
         narrow_(narrow),
+        strips_(narrow.strips),
         curves_(curves),
         given_up_(given_up),
         monitor_(monitor) {
@@ -58,7 +59,7 @@ class Refiner {
     }
     for (std::size_t f = 0; f < n; ++f)
       if (model_.faces[f].is_wire()) left_out_[f] = 1;
-    for (const NarrowFace& face : narrow_.strips) left_out_[face.face] = 1;
+    for (const NarrowFace& face : strips_) left_out_[face.face] = 1;
     for (const int f : narrow_.folded) left_out_[f] = 1;
     if (!narrow_.vanishing.curve.empty())
       for (const NarrowFace& face : narrow_.points) left_out_[face.face] = 1;
@@ -191,10 +192,17 @@ class Refiner {
     bool any = false;
     for (const auto& [curve, segments] : splits)
       for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) any |= split(curve, *segment);
-    if (any && !narrow_.strips.empty())
-      for (const int curve : complete_sides(curve_model_, narrow_.strips, curves_)) mark_stale(curve);
+    if (any && !strips_.empty()) complete_strips();
     rebuild_stale();
     return any;
+  }
+
+  void complete_strips() {
+    const SidesMatched matched = complete_sides(curve_model_, strips_, curves_);
+    for (const int curve : matched.changed) mark_stale(curve);
+    leave_to_mesher(matched.unmatched, strips_);
+    result_.unmatched.insert(result_.unmatched.end(), matched.unmatched.begin(), matched.unmatched.end());
+    std::sort(result_.unmatched.begin(), result_.unmatched.end());
   }
 
   // A boundary whose polygon is inside out follows its curves too loosely: there the edges that leave them most are
@@ -373,6 +381,7 @@ class Refiner {
   const CompositeOptions& options_;
   SizeLimits limits_;
   const NarrowModel& narrow_;
+  std::vector<NarrowFace> strips_;  // whose sides have vertices at the same places
   std::vector<char> left_out_;  // by face
   std::vector<DiscreteCurve>& curves_;
   std::set<int>& given_up_;  // faces for which nothing is cut any more

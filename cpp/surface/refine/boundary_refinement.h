@@ -20,6 +20,8 @@ struct RefinedDomains {
   std::vector<std::string> failure;               ///< by face index; empty when there is a domain
   std::vector<char> mended;                       ///< by face index: a curve was refined for it
   std::set<int> kept;  ///< curves whose prescribed edges should have been split, and were not
+  /// Strips whose sides have no common places any more (SidesMatched::unmatched): they get no domain.
+  std::vector<int> unmatched;
 };
 
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -16,6 +17,8 @@
 
 namespace carreau {
 namespace {
+
+constexpr double pi = std::numbers::pi;
 
 struct Soup {
   std::vector<Vec3> vertices;
@@ -186,6 +189,76 @@ TEST(SurfaceDistance, BoundsHoldForTrianglesAnywhere) {
     EXPECT_LE(found.lower, found.upper);
     EXPECT_LE(found.upper, 1.01 * found.lower + 3e-6);
     EXPECT_NEAR(found.lower, most, 0.02 * most);
+  }
+}
+
+/// Equal vertices become one.
+Soup joined(const Soup& soup) {
+  Soup all;
+  std::map<std::array<double, 3>, std::int32_t> number;
+  for (const auto& t : soup.triangles) {
+    auto& made = all.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& p = soup.vertices[static_cast<std::size_t>(t[i])];
+      const auto [at, is_new] = number.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::int32_t>(all.vertices.size()));
+      if (is_new) all.vertices.push_back(p);
+      made[i] = at->second;
+    }
+  }
+  return all;
+}
+
+// Heights over a piece bound it where the mesh below hangs together: distances are the same as those to single triangles.
+TEST(SurfaceDistance, OfMeshesThatHangTogetherIsThatOfTheirTriangles) {
+  const Soup floor = joined(sheet(1, 1, 0, 3, 200)), high = sheet(1, 1, 0.25, 7, 2), wide = sheet(1.5, 1, 0.25, 4, 3);
+  expect_distance(high, floor, 0.25, std::sqrt(2));
+  expect_distance(wide, floor, std::hypot(0.5, 0.25), std::sqrt(2));
+  const double bent = 1 - std::cos(pi / 200);  // sagitta of a needle of a cylinder
+  const auto cylinder = [](int n, int m, double turn) {
+    Soup soup;
+    const auto at = [&](int i, int j) {
+      const double a = 2 * pi * i / n + turn;
+      return Vec3{std::cos(a), std::sin(a), static_cast<double>(j) / m};
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < m; ++j) soup.add(at(i, j), at((i + 1) % n, j), at((i + 1) % n, j + 1)), soup.add(at(i, j), at((i + 1) % n, j + 1), at(i, j + 1));
+    return soup;
+  };
+  // From chords of a tenth to the circle that they span: the sagitta of those.
+  const Soup coarse = cylinder(20, 5, 0), fine = joined(cylinder(200, 1, pi / 20));
+  const double sagitta = 1 - std::cos(pi / 20);
+  const DistanceBounds found = bounds(coarse, fine);
+  EXPECT_GE(found.upper, sagitta - bent);
+  EXPECT_LE(found.lower, sagitta);
+  EXPECT_LE(found.upper, 1.01 * found.lower + 3e-6);
+  EXPECT_EQ(bounds(coarse, fine).upper, bounds(coarse, fine, 0.01, 3).upper);
+}
+
+// The same triangles with and without common vertices, at random: no bound is below what samples see.
+TEST(SurfaceDistance, HeightsHoldOverRandomRelief) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> height(-0.1, 0.1), way(-0.03, 0.03);
+  const auto relief = [&](int n) {
+    Soup soup;
+    std::vector<Vec3> at;
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) at.push_back({(i + way(random)) / n, (j + way(random)) / n, height(random)});
+    const auto k = [n](int i, int j) { return static_cast<std::size_t>(i * (n + 1) + j); };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        soup.add(at[k(i, j)], at[k(i + 1, j)], at[k(i + 1, j + 1)]);
+        soup.add(at[k(i, j)], at[k(i + 1, j + 1)], at[k(i, j + 1)]);
+      }
+    return soup;
+  };
+  for (int run = 0; run < 3; ++run) {
+    const Soup from = relief(6), to = joined(relief(25));
+    const TriangleSearch search(to.vertices, to.triangles);
+    Monitor silent;
+    std::vector<double> upper;
+    const DistanceBounds found = bound_distance(from.view(), to.view(), {}, 1, silent, &upper);
+    for (std::size_t t = 0; t < upper.size(); ++t) EXPECT_GE(upper[t], sampled(from, t, search, 40));
+    EXPECT_LE(found.upper, 1.01 * found.lower + 3e-6);
   }
 }
 

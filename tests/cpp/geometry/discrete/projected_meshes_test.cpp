@@ -228,6 +228,29 @@ TEST(ProjectedMeshes, NeedlesOfPlaneFacesAreNotFolded) {
   EXPECT_LT(surface.deviation(), 0.004);
 }
 
+// A disc between two fans of 1 600 needles: ways from one place to another lead through hundreds of them. A mesh in planes
+// that found the wrong needle would fold there.
+TEST(ProjectedMeshes, FansOfNeedlesAreNotFolded) {
+  constexpr int around = 1600;
+  FlatMesh disc;
+  for (int i = 0; i < around; ++i)
+    for (const double z : {0.0, 0.3}) {
+      const double angle = 2 * std::numbers::pi * i / around;
+      disc.vertices.push_back({std::cos(angle), std::sin(angle), z});
+    }
+  disc.vertices.push_back({0, 0, 0}), disc.vertices.push_back({0, 0, 0.3});
+  for (std::int32_t i = 0; i < around; ++i) {
+    const std::int32_t a = 2 * i, b = 2 * ((i + 1) % around), middle = 2 * around;
+    disc.triangles.push_back({a, b, b + 1}), disc.triangles.push_back({a, b + 1, a + 1});
+    disc.triangles.push_back({middle, b, a}), disc.triangles.push_back({middle + 1, a + 1, b + 1});
+  }
+  const MadeInPlanes made = made_of(disc, 0.06);
+  EXPECT_TRUE(made.in_planes);
+  EXPECT_FALSE(made.crossed);
+  EXPECT_EQ(made.times, 1);
+  EXPECT_EQ(crossings_of(made.mesh), 0);
+}
+
 /// The atlas of a surface as it is given.
 struct Atlas {
   explicit Atlas(const FlatMesh& triangles)
