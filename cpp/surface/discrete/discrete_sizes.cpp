@@ -101,7 +101,7 @@ void DiscreteSizes::prescribe(const discrete::RefinedMesh& mesh, std::vector<dou
           surface_at(cad_, model_.faces[index(face)].ref, want_position | want_first | rules.surface_wants(), uv);
       Metric2 metric;
       const double otherwise = physical.hphydef;
-      rules.metrics_on_surface(face, {&uv, 1}, {&jet, 1}, [&](const Vec2&) { return otherwise; }, {&metric, 1});
+      rules.on_surface(face, {&uv, 1}, {&jet, 1}, [&](const Vec2&) { return otherwise; }, std::span<Metric2>(&metric, 1));
       double& h = size[index(mesh.triangles[t][k])];
       h = std::min(h, least_size(metric, jet));
     }

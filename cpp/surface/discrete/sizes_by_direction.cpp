@@ -153,7 +153,7 @@ TangentMetric DiscreteSizes::wanted_at(const SizeRules& rules, int face, std::in
   if (physical) {
     Metric2 metric;
     const double otherwise = options_.size.hphydef;
-    rules.metrics_on_surface(face, {&place, 1}, {&jet, 1}, [&](const Vec2&) { return otherwise; }, {&metric, 1});
+    rules.on_surface(face, {&place, 1}, {&jet, 1}, [&](const Vec2&) { return otherwise; }, std::span<Metric2>(&metric, 1));
     wanted = TangentFrame::of(jet.su, jet.sv)->of_parameters(metric);
   }
   if (const auto geometric = geometric_at(triangle, uv, p, q)) {

@@ -166,6 +166,7 @@ PatchInput input_of(const GradingWork& work, std::size_t f, const SizeLimits& li
           .ref = work.model.model.faces[f].ref,
           .domain = &domain,
           .curve_xyz = positions_on_curves(domain, work.curves, work.model.topology),
+          .isotropic = !work.by_direction,
           .limits = limits,
           .tolerance = graph_tolerance};
 }

@@ -36,10 +36,7 @@ ControlSpace sample(const GradingWork& work, const PatchInput& input, std::span<
     speeds.look(uv, jets);
     prescribed.at(uv, jets, metric);
     for (std::size_t i = 0; i < uv.size(); ++i) keep_sample(work, uv[i], jets[i], metric[i], samples);
-    if (work.by_direction)
-      apply_metric_limits(input.limits, input.face, uv, jets, metric);
-    else
-      apply_limits(input.limits, input.face, uv, jets, metric);
+    apply_limits(input.limits, !work.by_direction, input.face, uv, jets, metric);
   };
   ControlSpaceOptions options;
   options.tolerance = input.tolerance;
