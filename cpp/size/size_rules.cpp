@@ -60,9 +60,7 @@ SizeParameters enlarged(SizeParameters size, double factor) noexcept {
 
 double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
 
-namespace {
-
-GeometricRule rule_of(const SizeParameters& p) noexcept {
+GeometricRule geometric_rule(const SizeParameters& p) noexcept {
   GeometricRule rule{
       .criterion = p.geo_rule, .anisotropic = p.geo_anisotropic, .angle_deg = p.angle_mesh, .eps0 = p.eps_chord};
   if (p.geo_guarantee) {
@@ -72,6 +70,8 @@ GeometricRule rule_of(const SizeParameters& p) noexcept {
   rule.angle_factor *= p.enlargement, rule.chord_factor *= p.enlargement;
   return rule;
 }
+
+namespace {
 
 void check_geometric(const SizeParameters& p) {
   check_bounds("hgeo", p.hgeomin, p.hgeomax);
@@ -112,7 +112,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       topology_(topology),
       cad_(cad),
       parameters_(parameters),
-      rule_(rule_of(parameters)),
+      rule_(geometric_rule(parameters)),
       physical_at_point_(topology.points.size()),
       size_at_point_(topology.points.size()) {
   if (parameters.physical == PhysicalSizes::ignored && parameters.geometric == GeometricSizes::ignored) {

@@ -69,6 +69,9 @@ GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
 /// The same sizes, all so many times as large: for a mesh whose edges will be divided.
 SizeParameters enlarged(SizeParameters size, double factor) noexcept;
 
+/// The rule for geometric sizes, with the factors of guarantees and enlargement.
+GeometricRule geometric_rule(const SizeParameters& size) noexcept;
+
 /// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
 double size_per_radius(double angle_deg) noexcept;
 
