@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "surface/improve/adjacent_lengths.h"
+#include "surface/improve/even_edges.h"
 #include "surface/independent/independent.h"
 
 namespace carreau {

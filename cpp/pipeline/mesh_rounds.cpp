@@ -6,8 +6,7 @@
 
 #include "pipeline/base/thresholds.h"
 #include "support/error.h"
-#include "surface/improve/adjacent_lengths.h"
-#include "surface/improve/adjacent_sizes.h"
+#include "surface/improve/even_edges.h"
 
 namespace carreau {
 
@@ -46,12 +45,12 @@ void mesh_without_narrow(CompositeRun& run) {
 void even_out(CompositeRun& run) {
   const CompositeOptions& options = run.options;
   if (run.slope() == 0) return;
-  if (run.rules.uses_metrics())
+  if (run.isotropic())
+    even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
+  else
     even_out_sizes(tolerated_gradation * options.gradation,
                    options.size.geo_guarantee ? geometric_limits(options.size) : GeometricLimits{}, run.rules, run.cad,
                    run.result, run.monitor);
-  else
-    even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
 }
 
 void halve_segments(CompositeRun& run, const std::vector<std::pair<std::int32_t, int>>& segments) {

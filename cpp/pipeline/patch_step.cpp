@@ -45,7 +45,7 @@ std::vector<EdgeSizes::Source> edges_to_grow_from(const CompositeRun& run, std::
                                                   const std::vector<Vec3>& on_curves) {
   const double asked = run.options.edge_gradation;
   std::vector<EdgeSizes::Source> sources;
-  if (!run.rules.uses_metrics()) sources = short_edges(run, *run.domains.domain[f], on_curves, asked > 0);
+  if (run.isotropic()) sources = short_edges(run, *run.domains.domain[f], on_curves, asked > 0);
   if (!run.finer.empty()) sources.insert(sources.end(), run.finer[f].begin(), run.finer[f].end());
   return sources;
 }
@@ -64,7 +64,7 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
           .curve_xyz = std::move(on_curves),
           .constant_size = bound.want_places() ? std::nullopt : run.rules.constant(),
           .is_plane = run.model.plane,
-          .isotropic = !run.rules.uses_metrics(),
+          .isotropic = run.isotropic(),
           .limits = bound,
           .slope = run.slope(),
           .threads = run.options.threads,

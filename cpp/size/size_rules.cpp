@@ -60,9 +60,7 @@ SizeParameters enlarged(SizeParameters size, double factor) noexcept {
 
 double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
 
-namespace {
-
-GeometricRule rule_of(const SizeParameters& p) noexcept {
+GeometricRule geometric_rule(const SizeParameters& p) noexcept {
   GeometricRule rule{
       .criterion = p.geo_rule, .anisotropic = p.geo_anisotropic, .angle_deg = p.angle_mesh, .eps0 = p.eps_chord};
   if (p.geo_guarantee) {
@@ -72,6 +70,8 @@ GeometricRule rule_of(const SizeParameters& p) noexcept {
   rule.angle_factor *= p.enlargement, rule.chord_factor *= p.enlargement;
   return rule;
 }
+
+namespace {
 
 void check_geometric(const SizeParameters& p) {
   check_bounds("hgeo", p.hgeomin, p.hgeomax);
@@ -112,9 +112,9 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       topology_(topology),
       cad_(cad),
       parameters_(parameters),
-      rule_(rule_of(parameters)),
+      rule_(geometric_rule(parameters)),
       physical_at_point_(topology.points.size()),
-      geometric_at_point_(topology.points.size()) {
+      size_at_point_(topology.points.size()) {
   if (parameters.physical == PhysicalSizes::ignored && parameters.geometric == GeometricSizes::ignored) {
     throw InvalidArgument("hphy_flag and hgeo_flag are both 0: nothing says how large the elements are to be");
   }
@@ -211,18 +211,6 @@ std::optional<double> SizeRules::ask_curve(int curve, std::span<const double> t)
   return {};
 }
 
-/// Mean over the uses: a surface that meets the curve twice (a seam) counts twice.
-std::optional<double> SizeRules::ask_surfaces_beside(int curve, std::span<const double> t) {
-  const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
-  std::vector<double> answers;
-  for (std::size_t u = 0; u < uses.size(); ++u) {
-    const int face = model_.faces[static_cast<std::size_t>(uses[u].face)].ref;
-    const Vec2 uv = cad_.curve(face, uses[u].curve + 1, want_position, t[u]).c;
-    if (const auto answer = ask_surface(uses[u].face, uv)) answers.push_back(*answer);
-  }
-  return mean_of(answers);
-}
-
 std::optional<double> SizeRules::mean_of(const std::vector<double>& answers) const {
   if (answers.empty()) return {};
   return mean_size(parameters_.mean, answers);
@@ -271,59 +259,9 @@ std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>
   return corners;
 }
 
-double SizeRules::compute_physical_at_point(int point) {
-  if (parameters_.physical == PhysicalSizes::ignored) return infinity;
-  if (uses_metrics()) return metric_physical_at_point(point);
-  const double usual = clamped_physical(parameters_.hphydef);
-  if (parameters_.physical == PhysicalSizes::uniform) return usual;
-  if (const auto answer = ask_point(point)) return clamped_physical(*answer);
-  const std::vector<CurveEnd> ends = ends_at(point);
-  std::vector<double> answers;
-  int answered = -1;  // a closed curve counts once
-  for (const CurveEnd& end : ends) {
-    if (end.curve == answered) continue;
-    if (const auto answer = ask_curve(end.curve, end.t)) {
-      answers.push_back(*answer);
-      answered = end.curve;
-    }
-  }
-  if (answers.empty()) {
-    for (const Corner& corner : corners_of(ends)) {
-      if (const auto answer = ask_surface(corner.face, corner.uv)) answers.push_back(*answer);
-    }
-  }
-  return mean_of(answers).value_or(usual);
-}
-
-double SizeRules::physical_at_point(int point) {
-  auto& known = physical_at_point_[static_cast<std::size_t>(point)];
-  if (!known) known = compute_physical_at_point(point);
-  return *known;
-}
-
 double SizeRules::interpolated_on_curve(int curve, double r) {
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
   return interpolate_size(law(), physical_at_point(c.end1), physical_at_point(c.end2), r);
-}
-
-/// The physical part of ask_on_curve().
-CurveSizes SizeRules::ask_physical_on_curve(int curve, std::span<const double> t, double r) {
-  switch (parameters_.physical) {
-    case PhysicalSizes::ignored:
-      return {.answered = true, .physical = infinity};
-    case PhysicalSizes::uniform:
-      return {.answered = true, .physical = clamped_physical(parameters_.hphydef)};
-    case PhysicalSizes::asked:
-      break;
-  }
-  auto answer = ask_curve(curve, t);
-  if (!answer) answer = ask_surfaces_beside(curve, t);
-  return {.answered = answer.has_value(), .physical = answer ? *answer : interpolated_on_curve(curve, r)};
-}
-
-double SizeRules::physical_on_curve(int curve, std::span<const double> t, double r) {
-  if (parameters_.physical == PhysicalSizes::ignored) return infinity;
-  return uses_metrics() ? metric_sizes_on_curve(curve, t, r).physical : ask_physical_on_curve(curve, t, r).physical;
 }
 
 // ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
@@ -375,76 +313,58 @@ double SizeRules::radius_of_curve(int curve, std::span<const double> t, std::opt
   return carreau::curve_radius(*jet, plane);
 }
 
-double SizeRules::geometric_on_curve(int curve, std::span<const double> t) {
-  if (parameters_.geometric == GeometricSizes::ignored) return infinity;
-  const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
-  std::optional<SurfaceJet> jet;
-  double smallest = radius_of_curve(curve, t, jet);
-  for (std::size_t u = 0; u < c.uses.size(); ++u) {
-    const auto beside = radius_beside(c.uses[u], t[u], u == 0 && jet ? &*jet : nullptr);
-    if (beside) smallest = std::min(smallest, *beside);
+SurfaceJet SizeRules::surface_jet(int face, unsigned want, const Vec2& uv) const {
+  return surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, want, uv);
+}
+
+// ---- properties of the sources ----
+
+bool SizeRules::needs_positions() const noexcept {
+  return asks_sources() && std::any_of(parameters_.sources.begin(), parameters_.sources.end(),
+                                       [](const PrescriptionSource* s) { return s->needs_position(); });
+}
+
+double SizeRules::source_accuracy() const noexcept {
+  double accuracy = 0;
+  if (asks_sources())
+    for (const PrescriptionSource* source : parameters_.sources) accuracy = std::max(accuracy, source->accuracy());
+  return accuracy;
+}
+
+bool SizeRules::asks_curves_only() const noexcept {
+  return asks_sources() && std::any_of(parameters_.sources.begin(), parameters_.sources.end(),
+                                       [](const PrescriptionSource* s) { return s->curves_only(); });
+}
+
+std::vector<Vec2> SizeRules::steep_places(int face) const {
+  std::vector<Vec2> places;
+  if (!asks_sources()) return places;
+  for (const PrescriptionSource* source : parameters_.sources) {
+    const std::vector<Vec2> more = source->steep_places(model_.faces[static_cast<std::size_t>(face)].ref);
+    places.insert(places.end(), more.begin(), more.end());
   }
-  return clamped_geometric(smallest);
+  return places;
 }
 
-double SizeRules::compute_geometric_at_point(int point) {
-  double h = infinity;
-  if (parameters_.geometric == GeometricSizes::ignored) return h;
-  for (const CurveEnd& end : ends_at(point)) h = std::min(h, geometric_on_curve(end.curve, end.t));
-  return std::min(h, parameters_.hgeomax);
-}
-
-// ---- both ----
-
-double SizeRules::at_point(int point) {
-  auto& known = geometric_at_point_[static_cast<std::size_t>(point)];
-  if (!known) known = uses_metrics() ? metric_size_at_point(point) : compute_geometric_at_point(point);
-  return std::min(*known, physical_at_point(point));
-}
-
-CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t, double r) {
-  if (uses_metrics()) return metric_sizes_on_curve(curve, t, r);
-  CurveSizes sizes = ask_physical_on_curve(curve, t, r);
-  sizes.h = std::min(sizes.physical, geometric_on_curve(curve, t));
-  return sizes;
-}
-
-double SizeRules::on_curve(int curve, std::span<const double> t, double r) { return ask_on_curve(curve, t, r).h; }
-
-void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                                     std::span<double> h) const {
-  std::vector<std::size_t> sound, degenerate;
-  std::vector<double> radius(uv.size(), infinity);
-  for (std::size_t i = 0; i < uv.size(); ++i) {
-    const auto known =
-        radius_in_face(face, uv[i], parameters_.geometric == GeometricSizes::curvature ? &jets[i] : nullptr);
-    if (known) radius[i] = *known;
-    (known ? sound : degenerate).push_back(i);
+std::vector<SteepPlace> SizeRules::steep_in_space() const {
+  std::vector<SteepPlace> places;
+  if (!asks_sources()) return places;
+  for (const PrescriptionSource* source : parameters_.sources) {
+    const std::span<const SteepPlace> more = source->steep_in_space();
+    places.insert(places.end(), more.begin(), more.end());
   }
-  for (const std::size_t i : degenerate)
-    if (const auto k = nearest_of(sound, uv, uv[i])) radius[i] = radius[*k];
-  for (std::size_t i = 0; i < uv.size(); ++i) h[i] = std::min(h[i], clamped_geometric(radius[i]));
+  return places;
 }
 
-void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                           const std::function<double(Vec2)>& fallback, std::span<double> h) const {
-  for (std::size_t i = 0; i < uv.size(); ++i) {
-    switch (parameters_.physical) {
-      case PhysicalSizes::ignored:
-        h[i] = infinity;
-        break;
-      case PhysicalSizes::uniform:
-        h[i] = clamped_physical(parameters_.hphydef);
-        break;
-      case PhysicalSizes::asked:
-        if (const auto answer = ask_surface(face, uv[i])) {
-          h[i] = *answer;
-        } else {
-          h[i] = clamped_physical(fallback(uv[i]));
-        }
-    }
+std::vector<double> SizeRules::kinks_on_curve(const CurveUse& use) const {
+  std::vector<double> kinks;
+  if (!asks_sources()) return kinks;
+  const Where where = where_of(use, 0);
+  for (const PrescriptionSource* source : parameters_.sources) {
+    const std::vector<double> more = source->kinks_on_curve(where.face, where.curve_index);
+    kinks.insert(kinks.end(), more.begin(), more.end());
   }
-  if (parameters_.geometric != GeometricSizes::ignored) geometric_on_surface(face, uv, jets, h);
+  return kinks;
 }
 
 }  // namespace carreau

@@ -69,6 +69,9 @@ GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
 /// The same sizes, all so many times as large: for a mesh whose edges will be divided.
 SizeParameters enlarged(SizeParameters size, double factor) noexcept;
 
+/// The rule for geometric sizes, with the factors of guarantees and enlargement.
+GeometricRule geometric_rule(const SizeParameters& size) noexcept;
+
 /// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
 double size_per_radius(double angle_deg) noexcept;
 
@@ -90,16 +93,17 @@ struct CurveSizes {
   double h = 0;           ///< with the geometric size
 };
 
-/// Sizes and metrics of a model. Keeps references to its first three arguments. Caches what it asks at points.
-/// A size that the host gives is clamped, whatever its sign (RT-0232 sec. 3.1.3 a); NaN and infinity are a
-/// CallbackError that names the routine, the entity and the value. A radius may have either sign; only NaN is an error.
-/// A metric must be positive definite; its sizes in the tangent plane are clamped.
+/// Prescribed sizes and metrics of a model. Keeps references to the first three arguments of its constructor and caches
+/// the sizes at points. A size that the host returns is clamped, whatever its sign (RT-0232 sec. 3.1.3 a); NaN and
+/// infinity cause a CallbackError that names the routine, the entity and the value. A radius may have either sign; only
+/// NaN is an error. A metric must be positive definite; its sizes in the tangent plane are clamped.
 ///
-/// Where metrics govern (uses_metrics()), sizes at points and on curves are those along the tangents of the curves, and
-/// faces ask metrics_on_surface() in place of on_surface(). What sources and size routines answer at one place is
-/// intersected, then combined with the geometric metric as metric_combination says. Where nobody answers the size is
-/// hphydef (PhysicalSizes::uniform) or interpolated as the manual has it (PhysicalSizes::asked).
-/// Where the host is re-entrant and no source is asked, several threads may call what is const at a time.
+/// One field has two representations. If sizes are the same in all directions, each place has a number. If sizes differ
+/// by direction (uses_metrics()), each place of a face has a metric of its tangent plane, and points and curves have the
+/// sizes along the tangents of the curves. One set of functions computes both (sizes_at_places.cpp). The answers of
+/// sources and size routines at one place are intersected, then combined with the geometric metric by
+/// metric_combination. If nothing answers, the size is hphydef (PhysicalSizes::uniform) or interpolated as in the manual
+/// (PhysicalSizes::asked). If the host is re-entrant and no source is asked, several threads may call const functions.
 class SizeRules {
  public:
   /// Throws InvalidArgument when both sizes are ignored, bounds are not positive and ascending,
@@ -109,7 +113,7 @@ class SizeRules {
   /// The same rules asking another host, by the same sources.
   [[nodiscard]] SizeRules asking(Cad& cad) const { return {model_, topology_, cad, parameters_}; }
 
-  /// The Want bits that on_surface or metrics_on_surface needs in its jets.
+  /// Returns the Want bits that on_surface() needs in its jets.
   [[nodiscard]] unsigned surface_wants() const noexcept;
 
   /// The size, when it is the same everywhere and no host is ever asked.
@@ -141,29 +145,26 @@ class SizeRules {
   /// `r` in [0, 1]: fraction of the curve's length in space (for interpolation when nobody answers).
   double on_curve(int curve, std::span<const double> t, double r);
 
-  /// Sizes inside a face (index in Model::faces), for points whose jets hold surface_wants(). `fallback` gives the
-  /// physical size where the host does not answer (interpolated from the discretised interfaces); called only then,
-  /// and clamped. Where the parametrisation is degenerate the geometric size is that of the nearest point of the same
-  /// batch where it is not.
+  /// Computes the metrics of the parameter plane inside a face (index in Model::faces) at points whose jets hold first
+  /// derivatives and surface_wants(). `fallback` returns the physical size, interpolated from the discretised
+  /// interfaces, if the host does not answer; it is called only then, and clamped. If the parametrisation is degenerate,
+  /// the geometric size is the size of the nearest regular point of the batch.
+  void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                  const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
+  /// Computes the sizes of rules without metrics; the jets need no more than surface_wants().
   void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   const std::function<double(Vec2)>& fallback, std::span<double> h) const;
-
-  /// The metric of the parameter plane inside a face; arguments as for on_surface.
-  void metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                          const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
 
   /// The surface of a face (index in Model::faces) at one point, with these Want bits.
   [[nodiscard]] SurfaceJet surface_jet(int face, unsigned want, const Vec2& uv) const;
 
-  /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped. +infinity when
-  /// hphy_flag = 0.
+  /// Returns the clamped physical size at a point, without the geometric size; +infinity if hphy_flag is 0.
   double physical_at_point(int point);
-  double physical_on_curve(int curve, std::span<const double> t, double r);
 
   /// The geometric size that a radius of curvature asks for, clamped.
   [[nodiscard]] double clamped_geometric(double radius) const noexcept;
 
-  /// All of on_curve() and physical_on_curve(): for those who sample a whole curve.
+  /// Returns the size of on_curve() together with the physical size, which `fallback` of on_surface() interpolates.
   CurveSizes ask_on_curve(int curve, std::span<const double> t, double r);
   /// The physical size between the ends of a curve when nobody answers.
   double interpolated_on_curve(int curve, double r);
@@ -188,50 +189,60 @@ class SizeRules {
   std::optional<double> ask_surface(int face, const Vec2& uv) const;
   std::optional<double> ask_point(int point) const;
   std::optional<double> ask_curve(int curve, std::span<const double> t);
-  std::optional<double> ask_surfaces_beside(int curve, std::span<const double> t);
-  CurveSizes ask_physical_on_curve(int curve, std::span<const double> t, double r);
   std::optional<double> mean_of(const std::vector<double>& answers) const;
-  double compute_physical_at_point(int point);
-  double compute_geometric_at_point(int point);
-  double geometric_on_curve(int curve, std::span<const double> t);
   std::optional<double> host_radius_of_surface(int face, const Vec2& uv) const;
   std::optional<double> host_radius_of_curve(int curve, std::span<const double> t);
   std::optional<double> radius_beside(const CurveUse& use, double t, const SurfaceJet* jet);
   std::optional<double> radius_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const;
-  void geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                            std::span<double> h) const;
   std::vector<CurveEnd> ends_at(int point);
   std::vector<Corner> corners_of(const std::vector<CurveEnd>& ends);
   double radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet);
-
-  // metric_rules.cpp
-  using Answers = std::vector<Prescription>;
-  struct CurvePlace;
-  struct AlongCurve;
   [[nodiscard]] bool needs_positions() const noexcept;
-  [[nodiscard]] std::vector<Prescription> told_on_surface(int face, std::span<const Vec2> uv,
-                                                          std::span<const Vec3> xyz) const;
-  Answers answers_on_surface(int face, const Vec2& uv, std::span<const Prescription> told) const;
   [[nodiscard]] bool asks_curves_only() const noexcept;
-  Answers answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const;
-  Answers answers_on_curve(int curve, std::span<const double> t);
-  Answers answers_at_point(int point);
+
+  // sizes_at_places.cpp. Size: double, or Metric2 of the tangent plane in an orthonormal basis.
+  template <typename Size>
+  struct Answers;
+  template <typename Size>
+  struct Place;
+  struct AlongCurve;
+  std::vector<Prescription> told_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets) const;
+  template <typename Size>
+  Answers<Size> answers_on_surface(int face, const Vec2& uv, std::span<const Prescription> told) const;
+  template <typename Size>
+  Answers<Size> answers_on_curve(int curve, std::span<const double> t);
+  template <typename Size>
+  Answers<Size> answers_beside(const CurveUse& use, double t, const Place<Size>& place);
+  Answers<Metric2> answers_at_point(int point);
   [[nodiscard]] Metric2 clamped_in_plane(Metric2 tangent) const noexcept;
-  [[nodiscard]] Metric2 physical_in_plane(const Answers& answers, const TangentFrame& frame) const;
-  [[nodiscard]] Metric2 degenerate_metric(const Answers& answers, const SurfaceJet& jet, double geometric) const;
+  template <typename Size>
+  [[nodiscard]] Size physical_size(const Answers<Size>& answers, const Place<Size>& place) const;
+  [[nodiscard]] Metric2 degenerate_metric(const Answers<Metric2>& answers, const SurfaceJet& jet,
+                                          double geometric) const;
   std::optional<DirectedSizes> directed_sizes(int face, const Vec2& uv, const SurfaceJet& jet) const;
-  CurvePlace place_on(const CurveUse& use, double t);
-  AlongCurve along_curve(int curve, std::span<const double> t, const Answers* given, double silent);
-  CurveSizes metric_sizes_on_curve(int curve, std::span<const double> t, double r);
-  double metric_physical_at_point(int point);
-  double metric_size_at_point(int point);
+  template <typename Size>
+  Place<Size> place_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const;
+  template <typename Size>
+  Place<Size> place_on_curve(const CurveUse& use, double t, const SurfaceJet* jet);
+  template <typename Size, typename Regular, typename Degenerate>
+  void sizes_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                        const std::function<double(Vec2)>& fallback, const Regular& regular,
+                        const Degenerate& degenerate) const;
+  template <typename Size, typename Silent>
+  AlongCurve along_curve(int curve, std::span<const double> t, const Answers<Size>* given, const Silent& silent);
+  template <typename Size>
+  CurveSizes sizes_on_curve(int curve, std::span<const double> t, double r);
+  template <typename Size>
+  double size_at_point(int point);
+  double mean_of_answers_around(int point);
+  double physical_along_curves_at(int point);
 
   const Model& model_;
   const Topology& topology_;
   Cad& cad_;
   SizeParameters parameters_;
   GeometricRule rule_;
-  std::vector<std::optional<double>> physical_at_point_, geometric_at_point_;
+  std::vector<std::optional<double>> physical_at_point_, size_at_point_;
 };
 
 }  // namespace carreau

@@ -6,7 +6,7 @@ namespace carreau::thresholds::size {
 
 // In brackets: the tests that rest on it, of tests/cpp/size where nothing else is said.
 
-// Sizes at poles and corners (size_rules, metric_rules)
+// Sizes at poles and corners (size_rules, sizes_at_places)
 /// Share of the way to the middle of a curve. How far inside its surfaces are asked when its end is a pole.
 /// [SizeRules.PolesTakeTheRadiusBesideThem]
 inline constexpr double way_inside = 1e-3;

@@ -30,6 +30,7 @@ struct CompositeRun {
   CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,
                Cad& given_cad, const CompositeOptions& given_options, Monitor& given_monitor);
 
+  [[nodiscard]] bool isotropic() const noexcept { return !rules.uses_metrics(); }
   [[nodiscard]] double slope() const noexcept { return graded.field ? graded.field->slope() : 0; }
   /// Slope by which sizes grow from short edges, and from triangles that requests make smaller.
   [[nodiscard]] double slope_of_edges() const;

@@ -189,7 +189,7 @@ void FaceJob::lift(Monitor& monitor) {
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
   if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor, team_);
-  const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
+  const bool kept = options_.size.geo_guarantee && !input_.isotropic;
   const std::vector<int> doubtful = refine_in_space(
       input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor, team_);
   check_agreement(doubtful, monitor);
@@ -207,7 +207,7 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
     next_ = Step::mesh;
     return;
   }
-  const bool again = best_->agreement.wrong() && rules_->uses_metrics() && !input_.one_size && sample_bounded(monitor);
+  const bool again = best_->agreement.wrong() && !input_.isotropic && !input_.one_size && sample_bounded(monitor);
   if (again)
     next_ = Step::mesh;
   else

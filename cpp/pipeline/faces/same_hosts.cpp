@@ -43,19 +43,13 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
   try {
     std::vector<SurfaceJet> jets(uv.size());
     const int ref = run.model.faces[f].ref;
-    run.cad.surface(ref, want_position | run.rules.surface_wants(), uv, jets);
+    run.cad.surface(ref, want_position | want_first | run.rules.surface_wants(), uv, jets);
     for (const SurfaceJet& jet : jets) packet.put(std::vector<Vec3>{jet.s});
     if (run.rules.constant()) return packet.take();
     const auto none = [](Vec2) { return 1.; };
-    if (run.rules.uses_metrics()) {
-      std::vector<Metric2> metrics(uv.size());
-      run.rules.metrics_on_surface(static_cast<int>(f), uv, jets, none, metrics);
-      for (const Metric2& m : metrics) packet.put(m.a), packet.put(m.b), packet.put(m.c);
-    } else {
-      std::vector<double> sizes(uv.size());
-      run.rules.on_surface(static_cast<int>(f), uv, jets, none, sizes);
-      packet.put(sizes);
-    }
+    std::vector<Metric2> metrics(uv.size());
+    run.rules.on_surface(static_cast<int>(f), uv, jets, none, metrics);
+    for (const Metric2& m : metrics) packet.put(m.a), packet.put(m.b), packet.put(m.c);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {

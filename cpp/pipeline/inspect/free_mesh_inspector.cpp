@@ -117,7 +117,7 @@ class FreeMeshInspector final : public Inspector {
       elements = [&](const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made) {
         now_.crossings = make_free_elements(before, frame, options, run.cad, made, monitor);
       };
-    const bool by_direction = run.rules.uses_metrics();
+    const bool by_direction = !run.isotropic();
     bool is_free = true;
     if (from_ == From::remeshing && options.element == Element::p1) raise_sizes(run);
     if (from_ == From::remeshing)

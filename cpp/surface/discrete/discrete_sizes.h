@@ -14,10 +14,10 @@
 
 namespace carreau {
 
-/// What is wanted on a mesh of the surface.
+/// Sizes at the vertices of a mesh of the surface.
 struct MeshSizes {
   std::vector<double> h;            ///< at vertices; sqrt(h1 h2) where sizes differ by direction
-  std::vector<Metric3> metric;      ///< at vertices, what holds on all sides of sharp lines; empty: of no direction
+  std::vector<Metric3> metric;      ///< at vertices, for all sides of sharp lines; empty: of no direction
   std::vector<PlaneMetric> corner;  ///< by triangle and corner, 3 t + k; empty: of no direction
 
   [[nodiscard]] bool by_direction() const noexcept { return !metric.empty(); }
@@ -27,10 +27,10 @@ struct MeshSizes {
   [[nodiscard]] double over(const discrete::RefinedMesh& mesh, std::size_t triangle) const;
 };
 
-/// What size rules ask for at vertices of a mesh of the surface.
+/// Computes sizes at the vertices of a mesh of the surface from size rules and curvature.
 class DiscreteSizes {
  public:
-  /// Keeps references. `cad`: the surface itself, or what asks it.
+  /// Keeps references. `cad`: the surface itself, or a wrapper of it.
   DiscreteSizes(const Model& model, Cad& cad, const discrete::DiscreteCad& surface, const CompositeOptions& options);
 
   /// With the gradation of the options over the mesh.
@@ -38,29 +38,25 @@ class DiscreteSizes {
 
  private:
   struct Sides;
-  void prescribe(const discrete::RefinedMesh& mesh, std::vector<double>& size, Monitor& monitor) const;
-  void bend(const discrete::RefinedMesh& mesh, std::vector<double>& size) const;
-  [[nodiscard]] GeometricRule geometric_rule() const;
   [[nodiscard]] double clamped_geometric(double h) const;
   [[nodiscard]] double largest_curvature(std::int32_t triangle, const Vec2& uv) const;
+  [[nodiscard]] double isotropic_at(std::int32_t triangle, const Vec2& uv) const;
   [[nodiscard]] std::vector<int> face_of_triangles() const;
-
-  [[nodiscard]] MeshSizes by_direction(const discrete::RefinedMesh& mesh, Monitor& monitor) const;
-  [[nodiscard]] TangentMetric wanted_at(const SizeRules& rules, int face, std::int32_t triangle, const Vec2& uv) const;
   [[nodiscard]] std::optional<TangentMetric> geometric_at(std::int32_t triangle, const Vec2& uv, const Vec3& p,
                                                           const Vec3& q) const;
   void keep_flat(std::int32_t triangle, const Vec2& uv, TangentMetric& sizes) const;
+  [[nodiscard]] TangentMetric wanted_at(const SizeRules& rules, int face, std::int32_t triangle, const Vec2& uv) const;
+  [[nodiscard]] std::vector<double> isotropic(const discrete::RefinedMesh& mesh, double prescribed) const;
+  [[nodiscard]] MeshSizes by_direction(const discrete::RefinedMesh& mesh, const Sides& sides, GradationGraph graph,
+                                       std::vector<TangentMetric> sizes, Monitor& monitor) const;
 
   const Model& model_;
   Cad& cad_;
   const discrete::DiscreteCad& surface_;
   const CompositeOptions& options_;
+  GeometricRule rule_;
   std::vector<double> radius_;  // by corner of the surface's triangles: smallest radius of curvature
-  std::optional<CurvatureTensors> curvature_;  // where sizes may differ by direction
+  std::optional<CurvatureTensors> curvature_;  // if geometric sizes differ by direction
 };
-
-/// The largest sizes that are no larger and grow along edges by `slope` at most.
-void grade_over_edges(const std::vector<Vec3>& vertices, const std::vector<std::array<std::int32_t, 3>>& triangles,
-                      double slope, std::vector<double>& size);
 
 }  // namespace carreau

@@ -27,6 +27,7 @@ struct ElementWork {
   CompositeResult& result;
   Monitor& monitor;
 
+  [[nodiscard]] bool isotropic() const noexcept { return !rules.uses_metrics(); }
   /// The evaluator; faces are asked by FaceMesh::ref.
   [[nodiscard]] Cad& cad() const noexcept { return model.cad; }
 };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the gradation that is about sizes that differ by direction.
+// A metric at each place (Hc-correction).
 #include <algorithm>
 #include <cmath>
 
+#include "gradation/place_fans.h"
 #include "support/infinity.h"
-#include "surface/grade/kinds.h"
+#include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
 namespace carreau::detail {
@@ -13,7 +14,7 @@ namespace {
 
 using namespace thresholds::grade;
 
-// The unit tangent of a curve at a vertex, in the tangent plane of a place.
+/// Returns the unit tangent of a curve at a vertex, in the tangent plane of a place.
 Vec3 tangent(const GradingWork& work, std::size_t c, std::size_t node, int place) {
   const std::vector<Vec3>& xyz = work.curves[c].xyz;
   const std::size_t last = xyz.size() - 1;
@@ -21,50 +22,7 @@ Vec3 tangent(const GradingWork& work, std::size_t c, std::size_t node, int place
   return unit(chord - dot(chord, n) * n);
 }
 
-// In faces that the curve bounds or crosses: from others at its ends it may point anywhere.
-std::vector<int> places_on(const GradingWork& work, std::size_t c, std::size_t node) {
-  const std::vector<CurveUse>& uses = work.model.topology.curves[c].uses;
-  std::vector<int> places;
-  for (const int p : work.places_of[work.node_of[c][node]])
-    if (std::any_of(uses.begin(), uses.end(), [f = face_of(work, p)](const CurveUse& use) { return use.face == f; }))
-      places.push_back(p);
-  return places;
-}
-
-// Sizes of curves are sizes along them.
-void bound_by_curve(GradingWork& work, std::size_t c, const SizeSamples& raw) {
-  if (work.curves[c].indivisible) return;
-  for (std::size_t k = 0; k < work.curves[c].r.size(); ++k) {
-    const double h = raw.size_at(work.curves[c].r[k]);
-    for (const int p : places_on(work, c, k)) {
-      const Vec3 t = tangent(work, c, k, p);
-      // What is interpolated between samples differs a little from what holds at vertices.
-      if (work.metric[p].along(t) > (1 + interpolation_error) * h) work.metric[p].bound_along(t, h);
-    }
-  }
-}
-
-// A point that is smaller than its curves has a size of its own.
-void bound_by_points(GradingWork& work, const std::vector<SizeSamples>& raw) {
-  const Topology& topology = work.model.topology;
-  std::vector<double> of_curves(topology.points.size(), infinity);
-  for (std::size_t c = 0; c < raw.size(); ++c) {
-    if (work.curves[c].indivisible) continue;
-    const Curve& curve = topology.curves[c];
-    of_curves[curve.end1] = std::min(of_curves[curve.end1], raw[c].h.front());
-    of_curves[curve.end2] = std::min(of_curves[curve.end2], raw[c].h.back());
-  }
-  for (std::size_t v = 0; v < of_curves.size(); ++v) {
-    const double h = work.rules.at_point(static_cast<int>(v));
-    if (h > (1 - interpolation_error) * of_curves[v]) continue;
-    for (const int p : work.places_of[v]) {
-      work.metric[p].h1 = std::min(work.metric[p].h1, h);
-      work.metric[p].h2 = std::min(work.metric[p].h2, h);
-    }
-  }
-}
-
-// Where some size is smaller than the vertex's own, or some sample than what corners promise.
+/// Marks the triangles with a size below the prescribed one, or with a sample below the interpolation between the corners.
 void find_rough(GradedFace& face, const TangentMetric* prescribed, const std::vector<GradingWork::Sample>& samples) {
   const auto less = [](double p, double q) { return p < (1 - roughness) * q; };
   for (std::size_t t = 0; t < face.triangles.size(); ++t)
@@ -83,35 +41,136 @@ void find_rough(GradedFace& face, const TangentMetric* prescribed, const std::ve
   widen_rough(face);
 }
 
+class DirectionalSizes final : public GraphSizes {
+ public:
+  using GraphSizes::GraphSizes;
+
+  [[nodiscard]] bool isotropic() const noexcept override { return false; }
+
+  void keep_sample(Vec2 uv, const SurfaceJet& jet, Metric2 metric,
+                   std::vector<GradingWork::Sample>& samples) const override {
+    if (const auto sizes = tangent_metric(jet, metric)) samples.push_back({uv, jet.s, 0, *sizes});
+  }
+  void keep_vertex(FaceMetric& prescribed, Vec2 uv, const SurfaceJet& jet, Metric2 metric,
+                   FaceInGraph& face) const override {
+    auto sizes = tangent_metric(jet, metric);
+    if (!sizes) sizes = prescribed.limit(uv, jet);
+    face.metric.push_back(sizes ? *sizes : TangentMetric{});
+  }
+  void add_face(const FaceInGraph& made, std::size_t /*first*/) override {
+    metric_.insert(metric_.end(), made.metric.begin(), made.metric.end());
+  }
+  void orient(std::size_t place) override {
+    TangentMetric& m = metric_[place];
+    const Vec3 n = work_.graph.places[place].normal;
+    if (!std::isfinite(m.h1)) {  // a pole has no directions of its own
+      m.d1 = unit(cross(n, std::abs(n.x()) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
+      return;
+    }
+    // The directions of a limit lie in the tangent plane of a meridian. A bound along the normal of that plane would make
+    // all sizes vanish.
+    const Vec3 of_limit = cross(m.d1, m.d2), near = dot(of_limit, n) < 0 ? -1 * of_limit : of_limit;
+    if (dot(near, n) < parallel) m.d1 = roll(m.d1, near, n), m.d2 = roll(m.d2, near, n);
+  }
+  void add_source(int place, const GradingWork::Sample& sample, const Vec3& way) override {
+    sources_.push_back({place, sample.sizes, way});
+  }
+  void complete() override {
+    prescribed_ = metric_;
+    places_of_.resize(work_.graph.xyz.size());
+    for (std::size_t p = 0; p < work_.graph.places.size(); ++p)
+      places_of_[work_.graph.places[p].vertex].push_back(static_cast<int>(p));
+  }
+
+  void bound_across(int vertex, const Vec3& across, double h) override {
+    for (const int p : places_of_[vertex]) {
+      const Vec3 normal = work_.graph.places[p].normal;
+      metric_[p].bound_along(unit(across - dot(across, normal) * normal), h);
+    }
+  }
+  [[nodiscard]] double largest_at(int place) const override { return std::max(metric_[place].h1, metric_[place].h2); }
+  void bound_facing(const FacingPlace& facing, double h) override { bound(facing.place, h); }
+
+  void grade(const std::vector<SizeSamples>& raw, double slope) override {
+    for (std::size_t c = 0; c < raw.size(); ++c) bound_by_curve(c, raw[c]);
+    bound_by_points(raw);
+    metric_ = grade_metrics(work_.graph, std::move(metric_), sources_, slope, work_.monitor);
+  }
+  [[nodiscard]] double along(int place, const Vec3& direction) const noexcept override {
+    return metric_[place].along(direction);
+  }
+  void give_to_face(std::size_t f) override {
+    GradedFace& face = work_.faces[f];
+    const auto first = metric_.begin() + static_cast<std::ptrdiff_t>(work_.place_of[f]);
+    face.metric.assign(first, first + static_cast<std::ptrdiff_t>(face.uv.size()));
+    find_rough(face, prescribed_.data() + work_.place_of[f], work_.samples[f]);
+  }
+  [[nodiscard]] double at_node(std::size_t c, std::size_t node, const SizeSamples& raw) const override {
+    double h = raw.size_at(work_.curves[c].r[node]);
+    if (work_.curves[c].indivisible) return h;
+    for (const int p : places_on(c, node)) h = std::min(h, metric_[p].along(tangent(work_, c, node, p)));
+    return h;
+  }
+  [[nodiscard]] double between_nodes(std::size_t /*curve*/, std::size_t /*node*/, double /*w*/, double h, double known,
+                                     const GradedField& /*field*/) const override {
+    return std::min(h, known);
+  }
+
+ private:
+  void bound(int place, double h) {
+    metric_[place].h1 = std::min(metric_[place].h1, h);
+    metric_[place].h2 = std::min(metric_[place].h2, h);
+  }
+
+  // Returns the places in faces that the curve bounds or crosses; in other faces at its ends it may point anywhere.
+  [[nodiscard]] std::vector<int> places_on(std::size_t c, std::size_t node) const {
+    const std::vector<CurveUse>& uses = work_.model.topology.curves[c].uses;
+    std::vector<int> places;
+    for (const int p : places_of_[work_.node_of[c][node]])
+      if (std::any_of(uses.begin(), uses.end(), [f = face_of(work_, p)](const CurveUse& use) { return use.face == f; }))
+        places.push_back(p);
+    return places;
+  }
+  // Sizes of curves are sizes along them.
+  void bound_by_curve(std::size_t c, const SizeSamples& raw) {
+    if (work_.curves[c].indivisible) return;
+    for (std::size_t k = 0; k < work_.curves[c].r.size(); ++k) {
+      const double h = raw.size_at(work_.curves[c].r[k]);
+      for (const int p : places_on(c, k)) {
+        const Vec3 t = tangent(work_, c, k, p);
+        // Interpolated sizes differ a little from the sizes at vertices.
+        if (metric_[p].along(t) > (1 + interpolation_error) * h) metric_[p].bound_along(t, h);
+      }
+    }
+  }
+
+  // A point that is smaller than its curves has a size of its own.
+  void bound_by_points(const std::vector<SizeSamples>& raw) {
+    const Topology& topology = work_.model.topology;
+    std::vector<double> of_curves(topology.points.size(), infinity);
+    for (std::size_t c = 0; c < raw.size(); ++c) {
+      if (work_.curves[c].indivisible) continue;
+      const Curve& curve = topology.curves[c];
+      of_curves[curve.end1] = std::min(of_curves[curve.end1], raw[c].h.front());
+      of_curves[curve.end2] = std::min(of_curves[curve.end2], raw[c].h.back());
+    }
+    for (std::size_t v = 0; v < of_curves.size(); ++v) {
+      const double h = work_.rules.at_point(static_cast<int>(v));
+      if (h > (1 - interpolation_error) * of_curves[v]) continue;
+      for (const int p : places_of_[v]) bound(p, h);
+    }
+  }
+
+  std::vector<TangentMetric> metric_;  // of places
+  std::vector<MetricSource> sources_;
+  std::vector<TangentMetric> prescribed_;    // before any bound
+  std::vector<std::vector<int>> places_of_;  // of vertices
+};
+
 }  // namespace
 
-void DirectionalGrading::run(const std::vector<SizeSamples>& raw, double slope) {
-  for (std::size_t c = 0; c < raw.size(); ++c) bound_by_curve(work_, c, raw[c]);
-  bound_by_points(work_, raw);
-  work_.metric = grade_metrics(work_.graph, std::move(work_.metric), work_.metric_sources, slope, work_.monitor);
-}
-
-double DirectionalGrading::along(int place, const Vec3& direction) const noexcept {
-  return work_.metric[place].along(direction);
-}
-
-void DirectionalGrading::give_to_face(std::size_t f) {
-  GradedFace& face = work_.faces[f];
-  const auto first = work_.metric.begin() + static_cast<std::ptrdiff_t>(work_.place_of[f]);
-  face.metric.assign(first, first + static_cast<std::ptrdiff_t>(face.uv.size()));
-  find_rough(face, work_.prescribed.data() + work_.place_of[f], work_.samples[f]);
-}
-
-double DirectionalGrading::at_node(std::size_t c, std::size_t node, const SizeSamples& raw) const {
-  double h = raw.size_at(work_.curves[c].r[node]);
-  if (work_.curves[c].indivisible) return h;
-  for (const int p : places_on(work_, c, node)) h = std::min(h, work_.metric[p].along(tangent(work_, c, node, p)));
-  return h;
-}
-
-double DirectionalGrading::between_nodes(std::size_t /*curve*/, std::size_t /*node*/, double /*w*/, double h,
-                                         double known, const GradedField& /*field*/) const {
-  return std::min(h, known);
+std::unique_ptr<GraphSizes> directional_graph_sizes(GradingWork& work) {
+  return std::make_unique<DirectionalSizes>(work);
 }
 
 }  // namespace carreau::detail

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,27 +22,30 @@ inline Vec3 unit(const Vec3& v) noexcept {
   return l > 0 ? (1 / l) * v : Vec3{};
 }
 
-/// What the passes below work on, in their order: curves, domains and plane meshes of all faces. Used once.
+class GraphSizes;
+
+/// Data of the passes below, in their order: curves, domains and plane meshes of all faces. Used once.
 struct GradingWork {
-  /// What the host has said at a place of a face.
+  /// A prescribed size at a place of a face.
   struct Sample {
     Vec2 uv;
     Vec3 xyz;
     double h = 0;
-    TangentMetric sizes{};  // instead of h where sizes differ by direction
+    TangentMetric sizes{};  // in place of h if sizes differ by direction
     std::int32_t triangle = 0;
     std::array<double, 3> promised{};  // weights of its corners
   };
 
   GradingWork(const CurveModel& curve_model, SizeRules& size_rules, const CompositeOptions& composite_options,
               double diag, Monitor& run_monitor);
+  ~GradingWork();
 
   const CurveModel& model;
   SizeRules& rules;
   CompositeOptions options;
   Monitor& monitor;
-  bool by_direction;  // sizes may differ by direction
-  double largest;     // edge of the graph
+  double largest;                     // edge of the graph
+  std::unique_ptr<GraphSizes> sizes;  // one number at each vertex, or a metric at each place
 
   // make_graph()
   std::vector<DiscreteCurve> curves;
@@ -54,20 +58,14 @@ struct GradingWork {
   std::vector<std::vector<Sample>> samples;
   std::vector<std::vector<Vec2>> missed;  // as GradedModel
   std::vector<double> h;                  // prescribed at the vertices of the graph
-  std::vector<TangentMetric> metric;      // of places, where sizes differ by direction
-  std::vector<GradationSource> sources;
-  std::vector<MetricSource> metric_sources;
-  std::vector<double> prescribed_h;         // before any bound
-  std::vector<TangentMetric> prescribed;    // the same of `metric`
-  std::vector<std::vector<int>> places_of;  // of vertices, where sizes differ by direction
 };
 
-/// What one face brings to the graph; made by one process, and the same in all of them.
+/// The part of one face in the graph; one process makes it, and all have the same.
 struct FaceInGraph {
   PlaneMesh mesh;  ///< empty where it cannot be made
   std::vector<GradingWork::Sample> samples;
   std::vector<Vec2> missed;  ///< as GradingWork, with those of before
-  // By vertex of `mesh`: positions and normals of the surface, and what is prescribed, by direction or not (0: unknown).
+  // By vertex of `mesh`: positions and normals of the surface, and prescribed sizes, by direction or not (0: unknown).
   std::vector<Vec3> xyz, normal;
   std::vector<double> h;
   std::vector<TangentMetric> metric;

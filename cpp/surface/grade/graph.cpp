@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gradation/place_fans.h"
 #include "support/infinity.h"
 #include "support/ranks/crew.h"
-#include "surface/grade/grading_work.h"
+#include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 #include "surface/sample/face_metric.h"
 
@@ -17,16 +16,17 @@ GradingWork::GradingWork(const CurveModel& curve_model, SizeRules& size_rules,
       rules(size_rules),
       options(composite_options),
       monitor(run_monitor),
-      by_direction(size_rules.uses_metrics()),
-      largest(diag * thresholds::grade::graph_share) {
+      largest(diag * thresholds::grade::graph_share),
+      sizes(size_rules.uses_metrics() ? directional_graph_sizes(*this) : isotropic_graph_sizes(*this)) {
   options.check_close_edges = options.check_adjacent_edges = options.check_well_defined = 0;
 }
+
+GradingWork::~GradingWork() = default;
 
 namespace {
 
 using thresholds::grade::graph_factor;
 using thresholds::grade::graph_tolerance;
-using thresholds::grade::parallel;
 
 SizeSamples coarsened(const GradingWork& work, SizeSamples samples) {
   for (double& h : samples.h) h = std::min(graph_factor * h, work.largest);
@@ -79,10 +79,9 @@ void take_over(GradingWork& work, const FaceDomain& domain, FaceInGraph& made, G
     const int vertex = work.graph.places[first + v].vertex;
     const bool on_curve = v < domain.origin.size() && domain.origin[v].curve >= 0;
     if (!on_curve) work.graph.xyz[vertex] = face.xyz[v] = made.xyz[v];
-    if (!work.by_direction && made.h[v] > 0) work.h[vertex] = std::min(work.h[vertex], made.h[v]);
   }
   face.normal = std::move(made.normal);
-  work.metric.insert(work.metric.end(), made.metric.begin(), made.metric.end());
+  work.sizes->add_face(made, first);
 }
 
 // Where the parametrisation is degenerate, the mean of the triangles around.
@@ -98,21 +97,10 @@ void mend_normals(GradedFace& face) {
   }
 }
 
-// A metric and a normal for each place.
 void set_normals(GradingWork& work, const GradedFace& face, std::size_t first) {
   for (std::size_t v = 0; v < face.uv.size(); ++v) {
-    const Vec3 n = work.graph.places[first + v].normal = face.normal[v];
-    if (!work.by_direction) continue;
-    // A pole has no directions of its own.
-    TangentMetric& m = work.metric[first + v];
-    if (!std::isfinite(m.h1)) {
-      m.d1 = unit(cross(n, std::abs(n.x()) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
-      continue;
-    }
-    // Those of a limit lie in the tangent plane of a meridian, where what a bound says along the normal of that plane
-    // would make all sizes vanish.
-    const Vec3 of_limit = cross(m.d1, m.d2), near = dot(of_limit, n) < 0 ? -1 * of_limit : of_limit;
-    if (dot(near, n) < parallel) m.d1 = roll(m.d1, near, n), m.d2 = roll(m.d2, near, n);
+    work.graph.places[first + v].normal = face.normal[v];
+    work.sizes->orient(first + v);
   }
 }
 
@@ -151,11 +139,7 @@ void locate_samples(GradingWork& work, std::size_t f) {
       const std::int32_t v = face.triangles[s.triangle][i];
       s.promised[i] = place.weight[i];
       const Vec3 way = step_on_surface(face.normal[v], s.xyz - face.xyz[v]);
-      const int at = static_cast<int>(work.place_of[f]) + v;
-      if (work.by_direction)
-        work.metric_sources.push_back({at, s.sizes, way});
-      else
-        work.sources.push_back({at, {s.h, -1 * way}});
+      work.sizes->add_source(static_cast<int>(work.place_of[f]) + v, s, way);
     }
   }
 }
@@ -166,6 +150,7 @@ PatchInput input_of(const GradingWork& work, std::size_t f, const SizeLimits& li
           .ref = work.model.model.faces[f].ref,
           .domain = &domain,
           .curve_xyz = positions_on_curves(domain, work.curves, work.model.topology),
+          .isotropic = work.sizes->isotropic(),
           .limits = limits,
           .tolerance = graph_tolerance};
 }
@@ -246,12 +231,7 @@ void make_graph(GradingWork& work, const std::vector<SizeSamples>& raw, const Gr
   work.domains = refine_domains(work.model, work.rules, work.options, limits, {}, work.curves, work.monitor);
   number_vertices(work, raw);
   add_faces(work, limits, before);
-  work.prescribed = work.metric;
-  work.prescribed_h = work.h;
-  if (!work.by_direction) return;
-  work.places_of.resize(work.graph.xyz.size());
-  for (std::size_t p = 0; p < work.graph.places.size(); ++p)
-    work.places_of[work.graph.places[p].vertex].push_back(static_cast<int>(p));
+  work.sizes->complete();
 }
 
 }  // namespace carreau::detail

@@ -4,7 +4,7 @@
 #include "support/ranks/triangle_packet.h"
 #include "plane/plane_mesher.h"
 #include "support/infinity.h"
-#include "surface/grade/grading_work.h"
+#include "surface/grade/graph_sizes.h"
 #include "surface/lift/lift.h"
 #include "surface/lift/steep_places.h"
 #include "surface/sample/face_metric.h"
@@ -13,15 +13,6 @@
 namespace carreau::detail {
 
 namespace {
-
-void keep_sample(const GradingWork& work, Vec2 uv, const SurfaceJet& jet, Metric2 metric,
-                 std::vector<GradingWork::Sample>& samples) {
-  if (!work.by_direction) {
-    if (const double h = isotropic_size(jet, metric); h > 0) samples.push_back({uv, jet.s, h});
-  } else if (const auto sizes = tangent_metric(jet, metric)) {
-    samples.push_back({uv, jet.s, 0, *sizes});
-  }
-}
 
 // The graph's own control space; what the host says meanwhile is kept.
 ControlSpace sample(const GradingWork& work, const PatchInput& input, std::span<const Vec2> probe_points,
@@ -35,11 +26,8 @@ ControlSpace sample(const GradingWork& work, const PatchInput& input, std::span<
     work.model.cad.surface(input.ref, want_position | prescribed.wants(), uv, jets);
     speeds.look(uv, jets);
     prescribed.at(uv, jets, metric);
-    for (std::size_t i = 0; i < uv.size(); ++i) keep_sample(work, uv[i], jets[i], metric[i], samples);
-    if (work.by_direction)
-      apply_metric_limits(input.limits, input.face, uv, jets, metric);
-    else
-      apply_limits(input.limits, input.face, uv, jets, metric);
+    for (std::size_t i = 0; i < uv.size(); ++i) work.sizes->keep_sample(uv[i], jets[i], metric[i], samples);
+    apply_limits(input.limits, input.isotropic, input.face, uv, jets, metric);
   };
   ControlSpaceOptions options;
   options.tolerance = input.tolerance;
@@ -75,10 +63,7 @@ void evaluate(const GradingWork& work, const PatchInput& input, FaceInGraph& fac
   const auto keep = [&](std::size_t v, const SurfaceJet& jet, Metric2 metric) {
     face.xyz.push_back(jet.s);
     face.normal.push_back(unit(cross(jet.su, jet.sv)));
-    if (!work.by_direction) return face.h.push_back(isotropic_size(jet, metric));
-    auto sizes = tangent_metric(jet, metric);
-    if (!sizes) sizes = prescribed.limit(uv[v], jet);
-    face.metric.push_back(sizes ? *sizes : TangentMetric{});
+    work.sizes->keep_vertex(prescribed, uv[v], jet, metric, face);
   };
   prescribed.sample(work.model.cad, input.ref, want_position, uv, keep);
 }

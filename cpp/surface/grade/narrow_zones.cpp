@@ -6,7 +6,7 @@
 
 #include "gradation/facing.h"
 #include "gradation/proximity.h"
-#include "surface/grade/grading_work.h"
+#include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
 namespace carreau::detail {
@@ -20,17 +20,8 @@ void bound_narrow_zones(GradingWork& work) {
   const double layers = work.options.proximity, share = 1 / std::max(layers, (layers - 1) * std::numbers::sqrt2);
   std::vector<double> wanted = work.h;  // diag where nothing is known
   for (double& h : wanted) h = std::min(h, work.largest / graph_share);
-  for (const NarrowPlace& n : find_narrow_places(work.graph, work.sides, wanted, work.monitor)) {
-    const double h = n.gap * share;
-    if (!work.by_direction) {
-      work.h[n.vertex] = std::min(work.h[n.vertex], h);
-      continue;
-    }
-    for (const int p : work.places_of[n.vertex]) {
-      const Vec3 normal = work.graph.places[p].normal, across = unit(n.across - dot(n.across, normal) * normal);
-      work.metric[p].bound_along(across, h);
-    }
-  }
+  for (const NarrowPlace& n : find_narrow_places(work.graph, work.sides, wanted, work.monitor))
+    work.sizes->bound_across(n.vertex, n.across, n.gap * share);
 }
 
 namespace {
@@ -56,28 +47,11 @@ void bound_facing_faces(GradingWork& work) {
   };
   const double layers = work.options.proximity;
   const auto reach = [&](int p) {
-    const double h =
-        work.by_direction ? std::max(work.metric[p].h1, work.metric[p].h2) : work.h[work.graph.places[p].vertex];
-    return layers * std::min(h, work.largest / graph_share);  // diag where nothing is known
+    return layers * std::min(work.sizes->largest_at(p), work.largest / graph_share);  // diag where nothing is known
   };
-  for (const FacingPlace& f : find_facing_places(work.graph, reach, apart, work.monitor)) {
-    const double h = f.gap / layers;
-    // What no size that is allowed can resolve is contact.
-    if (h < smallest_size(work)) continue;
-    if (work.by_direction) {
-      work.metric[f.place].h1 = std::min(work.metric[f.place].h1, h);
-      work.metric[f.place].h2 = std::min(work.metric[f.place].h2, h);
-      continue;
-    }
-    double& known = work.h[work.graph.places[f.place].vertex];
-    known = std::min(known, h);
-    // The other face may have no vertex near the foot.
-    for (const int p : work.graph.triangles[f.triangle]) {
-      const Vec3 way =
-          step_on_surface(work.graph.places[p].normal, f.foot - work.graph.xyz[work.graph.places[p].vertex]);
-      work.sources.push_back({p, {h, -1 * way}});
-    }
-  }
+  for (const FacingPlace& f : find_facing_places(work.graph, reach, apart, work.monitor))
+    // A gap that no allowed size resolves is contact.
+    if (const double h = f.gap / layers; h >= smallest_size(work)) work.sizes->bound_facing(f, h);
 }
 
 // Places of a face are numbered together; a face without any has the first of the next one.

@@ -6,8 +6,7 @@
 #include <cstdint>
 
 #include "curve/unit_discretisation.h"
-#include "surface/grade/grading_work.h"
-#include "surface/grade/kinds.h"
+#include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
 namespace carreau {
@@ -34,14 +33,13 @@ struct Round {
   std::size_t long_edges = 0;  ///< of the graph, for the graded sizes
 };
 
-template <typename Kind>
-std::size_t count_long_edges(const GradationGraph& graph, const Kind& kind) {
+std::size_t count_long_edges(const GradationGraph& graph, const GraphSizes& sizes) {
   std::size_t count = 0;
   for (const auto& t : graph.triangles)
     for (int i = 0; i < 3; ++i) {
       const int a = t[i], b = t[(i + 1) % 3];
       const Vec3 e = graph.xyz[graph.places[b].vertex] - graph.xyz[graph.places[a].vertex];
-      count += normalised_length(SizeLaw::linear, kind.along(a, unit(e)), kind.along(b, unit(e)), norm(e)) > too_long;
+      count += normalised_length(SizeLaw::linear, sizes.along(a, unit(e)), sizes.along(b, unit(e)), norm(e)) > too_long;
     }
   return count;
 }
@@ -60,8 +58,7 @@ std::vector<double> between(double from, double to, const std::vector<double>& k
 }
 
 // Sizes along a curve, between the graded ones at its vertices in the graph.
-template <typename Kind>
-SizeSamples graded_along(const DiscreteCurve& d, std::size_t c, const SizeSamples& raw, const Kind& kind,
+SizeSamples graded_along(const DiscreteCurve& d, std::size_t c, const SizeSamples& raw, const GraphSizes& sizes,
                          const GradedField& field) {
   SizeSamples result;
   const auto add = [&](double r, double size) {
@@ -70,32 +67,30 @@ SizeSamples graded_along(const DiscreteCurve& d, std::size_t c, const SizeSample
     result.physical.push_back(raw.physical_at(r));
   };
   std::vector<double> h;
-  for (std::size_t k = 0; k < d.r.size(); ++k) h.push_back(kind.at_node(c, k, raw));
+  for (std::size_t k = 0; k < d.r.size(); ++k) h.push_back(sizes.at_node(c, k, raw));
   for (std::size_t k = 0; k + 1 < d.r.size(); ++k) {
     add(d.r[k], h[k]);
     if (d.indivisible) continue;
     for (const double r : between(d.r[k], d.r[k + 1], raw.r)) {
       const double w = (r - d.r[k]) / (d.r[k + 1] - d.r[k]);
-      add(r, kind.between_nodes(c, k, w, std::lerp(h[k], h[k + 1], w), raw.size_at(r), field));
+      add(r, sizes.between_nodes(c, k, w, std::lerp(h[k], h[k + 1], w), raw.size_at(r), field));
     }
   }
   add(d.r.back(), h.back());
   return result;
 }
 
-/// The driver of both kinds.
-template <typename Kind>
 Round grade(GradingWork& work, const std::vector<SizeSamples>& raw) {
   const double slope = slope_of_gradation(work.options.gradation);
-  Kind kind(work);
-  kind.run(raw, slope);
+  GraphSizes& sizes = *work.sizes;
+  sizes.grade(raw, slope);
   Round round;
-  round.long_edges = count_long_edges(work.graph, kind);
-  for (std::size_t f = 0; f < work.faces.size(); ++f) kind.give_to_face(f);
+  round.long_edges = count_long_edges(work.graph, sizes);
+  for (std::size_t f = 0; f < work.faces.size(); ++f) sizes.give_to_face(f);
   round.graded.triangles = work.graph.triangles.size();
   round.graded.field = std::make_shared<GradedField>(slope, std::move(work.faces));
   for (std::size_t c = 0; c < raw.size(); ++c)
-    round.graded.curves.push_back(graded_along(work.curves[c], c, raw[c], kind, *round.graded.field));
+    round.graded.curves.push_back(graded_along(work.curves[c], c, raw[c], sizes, *round.graded.field));
   round.graded.missed = std::move(work.missed);
   return round;
 }
@@ -106,7 +101,7 @@ Round run_round(GradingWork& work, const std::vector<SizeSamples>& raw, const Gr
     bound_narrow_zones(work);
     bound_facing_faces(work);
   }
-  return work.by_direction ? grade<DirectionalGrading>(work, raw) : grade<IsotropicGrading>(work, raw);
+  return grade(work, raw);
 }
 
 }  // namespace

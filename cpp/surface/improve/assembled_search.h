@@ -37,15 +37,16 @@ class AssembledSearch {
 
   /// The vertex and its neighbours, where something may be left to do after a change; without those beyond the edits.
   [[nodiscard]] std::vector<std::int32_t> left_around(std::int32_t v) const;
-  /// Swaps the diagonal of a quadrilateral if that improves on `before` and turns no triangle much; else nothing
-  /// changes. `judge()`: of what is there, `after`.
+  /// Swaps the diagonal of a quadrilateral if the swap improves on `before` and turns no triangle much; else nothing
+  /// changes. `after`: the judgement by judge() of the swapped quadrilateral.
   template <typename Judge, typename Judgement>
-  bool swap_if_better(const EditableMesh::Quad& quad, const Judgement& before, const Judge& judge, Judgement& after) {
+  bool swap_if_better(const EditableMesh::Quad& quad, const Judgement& before, double good, const Judge& judge,
+                      Judgement& after) {
     const Vec3 mean = mesh_.mean_normal(quad.places());
     const std::size_t edits = mesh_.edits();
     if (!mesh_.swap(quad)) return false;
     after = judge();
-    if (after.improves(before) && agree(quad.places(), mean)) return true;
+    if (after.improves(before, good) && agree(quad.places(), mean)) return true;
     mesh_.undo(edits);
     return false;
   }
@@ -62,15 +63,15 @@ class AssembledSearch {
     Vec3 xyz;
     Known known;
   };
-  /// The best place of those tried for a vertex inside by `judge()`, which `best` becomes; none: where it is. Of
-  /// `criterion`: what it knows of a vertex is known(v), and changes by learn(v, jet) and set_known(v, known).
-  /// `accepts(now, before)`: whether a place comes into question.
+  /// Returns the best place of a vertex inside by `judge()`, and its judgement `best`; nothing if the vertex has the best
+  /// place already. The criterion keeps data of vertices: known(), learn(), set_known(). `accepts(now, before)` selects
+  /// places.
   template <typename Criterion, typename Judge, typename Accepts, typename Judgement>
   auto best_place(Criterion& criterion, Vertex v, const Judge& judge, const Accepts& accepts, Judgement& best) {
     const std::vector<Place>& fan = mesh_.fan(mesh_.global(v));
     const Vec2 home = mesh_.uv(v);
     const Vec3 mean = mesh_.mean_normal(fan);
-    const auto known = criterion.known(v);
+    const auto known = criterion.known(mesh_, v);
     const Judgement before = judge();
     best = before;
     std::optional<Found<std::remove_const_t<decltype(known)>>> found;
@@ -80,12 +81,12 @@ class AssembledSearch {
       const SurfaceJet jet = ask(v.face, uv);
       const std::size_t edits = mesh_.edits();
       mesh_.move(v, uv, jet.s);
-      criterion.learn(v, jet);
+      criterion.learn(*this, v, jet);
       const Judgement now = judge();
       if (accepts(now, before) && now.better_than(best) && agree(fan, mean))
-        best = now, found = {uv, jet.s, criterion.known(v)};
+        best = now, found = {uv, jet.s, criterion.known(mesh_, v)};
       mesh_.undo(edits);
-      criterion.set_known(v, known);
+      criterion.set_known(mesh_, v, known);
     });
     return found;
   }

@@ -64,7 +64,7 @@ inline constexpr double shortest_median = 0.3;
 inline constexpr double farthest = 1;
 }  // namespace refinement
 
-/// Searches over the assembled mesh, of either kind (improve/adjacent_lengths_test, grade/gradation_test,
+/// Searches over the assembled mesh, of either kind (improve/even_edges_test, grade/gradation_test,
 /// guarantees_test).
 namespace assembled {
 /// Cosine of the angle between a new triangle and the mean of those that it replaces.
@@ -78,12 +78,16 @@ inline constexpr double least_budget = 5'000, budget_a_vertex = 0.25;
 inline constexpr double shortest = std::numbers::sqrt2 / 2, longest = std::numbers::sqrt2;
 }  // namespace assembled
 
-/// Ratios of lengths at a vertex (improve/adjacent_lengths_test, grade/gradation_test).
-namespace length_ratio {
+/// Both criteria of neighbouring edges (improve/even_edges_test, grade/gradation_test).
+namespace evening {
 /// Share of a ratio: rounding of the lengths that are compared.
 inline constexpr double rounding = 1e-9;
-/// Share of the limit. What a change must gain in the sum of the excesses, so that changes come to an end.
+/// Share of the limit. Gain of a change in the sum of the excesses, so that changes come to an end.
 inline constexpr double least_gain = 1e-4;
+}  // namespace evening
+
+/// Ratios of lengths at a vertex (improve/even_edges_test, grade/gradation_test).
+namespace length_ratio {
 /// Shape. Such triangles are good whatever they were before.
 inline constexpr double good = 0.7;
 /// Length in the metric. A vertex put where nothing else helps, between imposed ones, may make edges as short as this.
@@ -96,9 +100,6 @@ inline constexpr int placements = 4;
 namespace chord_gradation {
 /// Share of the limit's logarithm up to which edges are mended: to be measured again, with other rounding.
 inline constexpr double aim = 0.999;
-/// Share of the limit. What a change that does not mend all must gain in the sum of the excesses, so that changes come
-/// to an end.
-inline constexpr double least_gain = 1e-3;
 /// Shape in the metric. Such triangles are good whatever they were before.
 inline constexpr double good = 0.5;
 /// Lengths in the metric of single edges where nothing else helps.

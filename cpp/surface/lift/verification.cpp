@@ -32,7 +32,7 @@ class LiftCheck {
       : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), team_(team) {}
 
   std::vector<Vec2> run() {
-    if (rules_.uses_metrics()) {
+    if (!input_.isotropic) {
       compare_lengths();
       compare_metrics();
       find_places(false);  // a mean size says nothing of an edge that is short by its direction
@@ -191,7 +191,7 @@ class LiftCheck {
       return 1.;
     };
     double h = no_size;
-    rules_.on_surface(input_.face, {&p, 1}, {}, no_answer, {&h, 1});
+    rules_.on_surface(input_.face, {&p, 1}, {}, no_answer, std::span<double>(&h, 1));
     return answered ? h : no_size;
   }
 

@@ -71,8 +71,8 @@ class Quadrilaterals {
     return space ? &*space : nullptr;
   }
 
-  // Where sizes differ by direction, good quadrilaterals may have any angles in space.
-  [[nodiscard]] double least_in_space() const { return work_.rules.uses_metrics() ? 0 : least_jacobian; }
+  // If sizes differ by direction, good quadrilaterals may have any angles in space.
+  [[nodiscard]] double least_in_space() const { return work_.isotropic() ? least_jacobian : 0; }
 
   void pair(FaceQuads& quads, Monitor& monitor) const {
     const double edge = turns_per_edge * work_.options.size.angle_mesh * std::numbers::pi / 180;

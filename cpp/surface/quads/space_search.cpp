@@ -24,7 +24,7 @@ class SpaceSearch {
         metric_(metric),
         charts_(metric),
         quads_(quads),
-        by_angles_(work.rules.uses_metrics()),
+        by_angles_(!work.isotropic()),
         poor_(by_angles_ ? poor_jacobian_in_metric : poor_in_space),
         monitor_(monitor),
         shape_(quads.patch.cells.size(), 0),

@@ -88,7 +88,7 @@ class Refiner {
             return closeness_->is_fine(f, curves_[edge.curve], edge.segment);
           });
         });
-    if (rules_.uses_metrics()) finest_.emplace(topology_, curves_);
+    if (!isotropic_) finest_.emplace(topology_, curves_);
     repeat(
         options_.check_adjacent_edges, [this](int f) { return Found{.ask_metric = may_be_unbalanced(f)}; },
         [this](int f, Found& found, Monitor& monitor) {
@@ -248,7 +248,7 @@ class Refiner {
   // Last, since halves of what was moved by half an edge would face each other again. Sides that were matched stay so,
   // and metrics by direction know no width in space.
   void stagger_strips() {
-    if (!options_.stagger_strips || !narrow_.empty() || rules_.uses_metrics()) return;
+    if (!options_.stagger_strips || !narrow_.empty() || !isotropic_) return;
     rebuild_stale();
     for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, options_.threads, monitor_)) {
       stagger(curves_[c], curve_model_);
@@ -299,7 +299,7 @@ class Refiner {
   // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
   // Costs no callback. Where metrics have directions, distances in space say nothing.
   [[nodiscard]] bool may_be_narrow(int f) const {
-    if (rules_.uses_metrics()) return true;
+    if (!isotropic_) return true;
     const FaceDomain& domain = *result_.domain[f];
     const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
     if (xyz.size() < domain.origin.size()) return true;  // imposed points
@@ -315,7 +315,7 @@ class Refiner {
   // Whether edges at a vertex differ so much that the balance needs a look. With one size everywhere lengths on curves
   // say so, without a callback; with a gradation they do with the most that sizes change to the middles of edges.
   [[nodiscard]] bool may_be_unbalanced(int f) const {
-    if (!rules_.constant() && (limits_.field == nullptr || rules_.uses_metrics())) return true;
+    if (!rules_.constant() && (limits_.field == nullptr || !isotropic_)) return true;
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
     const FaceDomain& domain = *result_.domain[f];
     struct Range {
@@ -342,7 +342,7 @@ class Refiner {
     auto& space = spaces_[f];
     if (!space) {
       const PatchInput input{
-          .face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}, .limits = limits_};
+          .face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}, .isotropic = isotropic_, .limits = limits_};
       space = sample_face(input, curve_model_.cad, rules_, {}, monitor);
     }
     return *space;
@@ -378,6 +378,7 @@ class Refiner {
   const Model& model_;
   const Topology& topology_;
   const SizeRules& rules_;
+  const bool isotropic_ = !rules_.uses_metrics();
   const CompositeOptions& options_;
   SizeLimits limits_;
   const NarrowModel& narrow_;

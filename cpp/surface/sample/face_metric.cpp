@@ -34,19 +34,12 @@ double FaceMetric::interpolated(Vec2 uv) {
 
 void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric) {
   const auto fallback = [this](Vec2 p) { return interpolated(p); };
-  if (rules_.uses_metrics()) {
-    rules_.metrics_on_surface(face_, uv, jets, fallback, metric);
-    if (!limits_.idle()) apply_metric_limits(limits_, face_, uv, jets, metric);
-    if (!rules_.uses_curvature() && limits_.field == nullptr) return;
-    for (std::size_t i = 0; i < uv.size(); ++i)
-      if (!TangentFrame::of(jets[i].su, jets[i].sv))
-        if (const auto sizes = limit(uv[i], jets[i])) metric[i] = metric_of(jets[i], *sizes);
-    return;
-  }
-  h_.resize(uv.size());
-  rules_.on_surface(face_, uv, jets, fallback, h_);
-  for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h_[i]);
-  if (!limits_.idle()) apply_limits(limits_, face_, uv, jets, metric);
+  rules_.on_surface(face_, uv, jets, fallback, metric);
+  apply_limits(limits_, !rules_.uses_metrics(), face_, uv, jets, metric);
+  if (!rules_.uses_metrics() || (!rules_.uses_curvature() && limits_.field == nullptr)) return;
+  for (std::size_t i = 0; i < uv.size(); ++i)
+    if (!TangentFrame::of(jets[i].su, jets[i].sv))
+      if (const auto sizes = limit(uv[i], jets[i])) metric[i] = metric_of(jets[i], *sizes);
 }
 
 // A place inside the domain, a little way from a degenerate one along its meridian.
@@ -76,8 +69,8 @@ std::optional<TangentMetric> FaceMetric::limit(Vec2 uv, const SurfaceJet& at_uv)
   if (!TangentFrame::of(jet.su, jet.sv)) return {};
   Metric2 there;
   const auto fallback = [this](Vec2 p) { return interpolated(p); };
-  rules_.metrics_on_surface(face_, {&*inside, 1}, {&jet, 1}, fallback, {&there, 1});
-  if (!limits_.idle()) apply_metric_limits(limits_, face_, {&*inside, 1}, {&jet, 1}, {&there, 1});
+  rules_.on_surface(face_, {&*inside, 1}, {&jet, 1}, fallback, std::span<Metric2>(&there, 1));
+  apply_limits(limits_, false, face_, {&*inside, 1}, {&jet, 1}, {&there, 1});
   return tangent_metric(jet, there);
 }
 
@@ -91,36 +84,41 @@ double geometric_mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
   return density > 0 && area > 0 ? std::sqrt(area / std::sqrt(density)) : 0;
 }
 
-void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                  std::span<Metric2> metric) noexcept {
-  for (std::size_t i = 0; i < uv.size(); ++i) {
-    const double h = isotropic_size(jets[i], metric[i]);
-    if (!(h > 0)) continue;
-    const double k = h / std::min(limits.factor * limits.bounded(face, uv[i], jets[i].s, h), limits.largest);
-    if (k != 1) metric[i] = (k * k) * metric[i];
-  }
+namespace {
+
+/// One size in all directions.
+void limit_size(const SizeLimits& limits, int face, const Vec2& uv, const SurfaceJet& jet, Metric2& metric) noexcept {
+  const double h = isotropic_size(jet, metric);
+  if (!(h > 0)) return;
+  const double k = h / std::min(limits.factor * limits.bounded(face, uv, jet.s, h), limits.largest);
+  if (k != 1) metric = (k * k) * metric;
 }
 
-void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                         std::span<Metric2> metric) noexcept {
-  for (std::size_t i = 0; i < uv.size(); ++i) {
-    auto sizes = tangent_metric(jets[i], metric[i]);
-    const double beside = limits.edges != nullptr ? limits.edges->at(jets[i].s) : infinity;
-    if (!sizes) {
-      const double h = isotropic_size(jets[i], metric[i]), bounded = std::min(h, beside);
-      const double graded =
-          limits.field != nullptr ? std::min(bounded, limits.field->smaller_size(face, uv[i])) : bounded;
-      const double k = h > 0 ? h / (limits.factor * graded) : 1 / limits.factor;
-      metric[i] = (k * k) * metric[i];
-      continue;
-    }
-    const TangentMetric before = *sizes;
-    if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv[i], jets[i].s, *sizes);
-    if (std::isfinite(limits.lean)) bound_lean(jets[i], limits.lean, *sizes);
-    sizes->h1 = std::min({limits.factor * sizes->h1, limits.largest, beside});
-    sizes->h2 = std::min({limits.factor * sizes->h2, limits.largest, beside});
-    if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric[i] = metric_of(jets[i], *sizes);
+void limit_metric(const SizeLimits& limits, int face, const Vec2& uv, const SurfaceJet& jet, Metric2& metric) noexcept {
+  auto sizes = tangent_metric(jet, metric);
+  const double beside = limits.edges != nullptr ? limits.edges->at(jet.s) : infinity;
+  if (!sizes) {
+    const double h = isotropic_size(jet, metric), bounded = std::min(h, beside);
+    const double graded = limits.field != nullptr ? std::min(bounded, limits.field->smaller_size(face, uv)) : bounded;
+    const double k = h > 0 ? h / (limits.factor * graded) : 1 / limits.factor;
+    metric = (k * k) * metric;
+    return;
   }
+  const TangentMetric before = *sizes;
+  if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv, jet.s, *sizes);
+  if (std::isfinite(limits.lean)) bound_lean(jet, limits.lean, *sizes);
+  sizes->h1 = std::min({limits.factor * sizes->h1, limits.largest, beside});
+  sizes->h2 = std::min({limits.factor * sizes->h2, limits.largest, beside});
+  if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric = metric_of(jet, *sizes);
+}
+
+}  // namespace
+
+void apply_limits(const SizeLimits& limits, bool isotropic, int face, std::span<const Vec2> uv,
+                  std::span<const SurfaceJet> jets, std::span<Metric2> metric) noexcept {
+  if (limits.idle()) return;
+  for (std::size_t i = 0; i < uv.size(); ++i)
+    (isotropic ? limit_size : limit_metric)(limits, face, uv[i], jets[i], metric[i]);
 }
 
 }  // namespace carreau

@@ -73,7 +73,6 @@ class FaceMetric {
     Vec2 middle, half;  // of the domain's box
   };
   std::optional<Inside> inside_;  // built only where the parametrisation is degenerate
-  std::vector<double> h_;
 };
 
 /// What is prescribed inside a patch that is being meshed, within input.limits, or without any.
@@ -90,13 +89,9 @@ double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;
 /// sqrt(h1 h2) of a metric of any kind; 0 where the parametrisation is degenerate.
 double geometric_mean_size(const SurfaceJet& jet, Metric2 metric) noexcept;
 
-/// Bounds isotropic metrics of a face in place. The jets hold first derivatives, and positions where there is a field.
-void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                  std::span<Metric2> metric) noexcept;
-
-/// The same for metrics of any kind; where the parametrisation is degenerate the smaller graded
-/// size counts.
-void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                         std::span<Metric2> metric) noexcept;
+/// Bounds metrics of a face in place. The jets hold first derivatives, and positions if there is a field. If the metrics
+/// have directions and the parametrisation is degenerate, the smaller graded size counts.
+void apply_limits(const SizeLimits& limits, bool isotropic, int face, std::span<const Vec2> uv,
+                  std::span<const SurfaceJet> jets, std::span<Metric2> metric) noexcept;
 
 }  // namespace carreau

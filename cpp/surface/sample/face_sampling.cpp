@@ -86,7 +86,7 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
     if (facts == nullptr) return;
     for (std::size_t i = 0; i < uv.size(); ++i) {
       if (facts->normals != nullptr) facts->normals->add(uv[i], cross(jets[i].su, jets[i].sv));
-      if (rules.uses_metrics()) facts->isotropic = facts->isotropic && has_one_size(jets[i], metric[i]);
+      if (!input.isotropic) facts->isotropic = facts->isotropic && has_one_size(jets[i], metric[i]);
     }
   };
   const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,

@@ -33,7 +33,7 @@ Metric2 metric_at(SizeRules& rules, AnalyticCad& cad, int face, Vec2 uv) {
   const int ref[] = {1, 4, 5, 8};
   const SurfaceJet jet = cad.surfaces.at(ref[face]).jet(uv);
   Metric2 m;
-  rules.metrics_on_surface(face, {&uv, 1}, {&jet, 1}, [](Vec2) { return 0.2; }, {&m, 1});
+  rules.on_surface(face, {&uv, 1}, {&jet, 1}, [](Vec2) { return 0.2; }, std::span<Metric2>(&m, 1));
   return m;
 }
 
@@ -100,7 +100,7 @@ TEST(GeometricMetrics, IsotropicOnesAreTheSmallestPrincipalSize) {
       const Vec2 uv{0.4, 0.3};
       const SurfaceJet jet = s.cad.surfaces.at(1).jet(uv);
       double h = 0;
-      scalar.on_surface(0, {&uv, 1}, {&jet, 1}, {}, {&h, 1});
+      scalar.on_surface(0, {&uv, 1}, {&jet, 1}, {}, std::span<double>(&h, 1));
       const LengthRatios ratios = length_ratios(metric_at(tensor, s.cad, 0, uv), induced_metric(jet.su, jet.sv, h));
       EXPECT_NEAR(ratios.largest, 1, 1e-12);
     }
@@ -124,7 +124,7 @@ TEST(GeometricMetrics, APoleTakesTheSizeOfTheNearestSoundPoint) {
   for (std::size_t i = 0; i < 2; ++i) jets[i] = s.cad.surfaces.at(1).jet(uv[i]);
   jets[0].su = {0, 0, 0};
   std::array<Metric2, 2> m;
-  rules.metrics_on_surface(0, uv, jets, {}, m);
+  rules.on_surface(0, uv, jets, {}, m);
   expect_near(m[0], induced_metric(jets[0].su, jets[0].sv, 2 * std::sin(8 * pi / 180) * 0.5), 1e-9);
 }
 
@@ -317,7 +317,7 @@ TEST(Sources, AreCombinedWithTheGeometryInOneOfTwoWays) {
   EXPECT_NEAR(size_along(metric_at(scaled, s.cad, 0, uv), jet, {1, 0}), h1, 1e-12);
   EXPECT_NEAR(size_along(metric_at(scaled, s.cad, 0, uv), jet, {0, 1}), h1, 1e-12);
   EXPECT_NEAR(scaled.on_curve(0, middle, 0.4), h1, 1e-12);
-  EXPECT_NEAR(scaled.physical_on_curve(0, middle, 0.4), 0.5, 1e-12);
+  EXPECT_NEAR(scaled.ask_on_curve(0, middle, 0.4).physical, 0.5, 1e-12);
 }
 
 TEST(Sources, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {

@@ -110,6 +110,25 @@ TEST(DirectedMeshes, CurvatureOfATorusIsFollowedByDirection) {
   expect_unit(run.session.delivered(), 0.95, 0.92);
 }
 
+// The smaller of both sizes counts along each principal direction: a prescribed size of no direction cuts the long ones.
+TEST(DirectedMeshes, CurvatureAndPrescribedSizesAreCombined) {
+  constexpr double R = 2, r = 0.7, prescribed = 0.3;
+  const GeometricRule rule{.criterion = GeometricCriterion::angle, .anisotropic = true, .angle_deg = 8};
+  DirectedRun run(built_on(torus(64, 32)));
+  run.curvature(8, 10);
+  run.prescribe([](const Vec3&) { return isotropic_metric3(prescribed); });
+  double wanted = 0;
+  constexpr int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const double v = 2 * pi * i / n, rho = R + r * std::cos(v), k2 = std::abs(std::cos(v)) / rho;
+    const auto sizes = geometric_sizes(rule, r, k2 > 0 ? 1 / k2 : infinity);
+    const double h1 = std::min(sizes[0], prescribed), h2 = std::min(sizes[1], prescribed);
+    wanted += 2 * pi * rho * r * 2 * pi / n / (h1 * h2) / unit_area;
+  }
+  EXPECT_NEAR(static_cast<double>(run.mesh().triangle_count()) / wanted, 1, 0.12);
+  expect_unit(run.session.delivered(), 0.95, 0.92);
+}
+
 // On the side of a cylinder edges lie around it or along it: sizes by direction meet at the rims, where the caps are
 // flat.
 TEST(DirectedMeshes, ACylinderKeepsItsRimsUnderLongTriangles) {

@@ -153,6 +153,23 @@ TEST(DiscreteMeshes, AnglesFollowTheCurvature) {
                 2 * std::numbers::pi / (2 * std::sin(8 * std::numbers::pi / 180)), 4);
 }
 
+// Quadrilaterals come from triangles that are twice as large: their edges have the sizes of the rule.
+TEST(DiscreteMeshes, AnglesOfQuadrilateralsFollowTheCurvature) {
+  const BuiltGeometry built = geometry(cylinder(36));
+  Monitor silent;
+  Session session(silent);
+  session.set_cad(built.cad);
+  session.set_model(built.model);
+  session.parameters().set("hphy_flag", 0);
+  session.parameters().set("hgeo_flag", 1);
+  session.parameters().set("angle_mesh", 8);
+  session.parameters().set("element", "q1.1");
+  session.make_mesh();
+  for (const CurveMesh& curve : session.mesh().curves)
+    EXPECT_NEAR(static_cast<double>(curve.vertices.size() - 1),
+                2 * std::numbers::pi / (2 * std::sin(8 * std::numbers::pi / 180)), 4);
+}
+
 TEST(DiscreteMeshes, OpenSurfacesKeepTheirBorders) {
   FlatMesh open = cylinder(36);
   std::erase_if(open.triangles, [&](const auto& t) { return std::find(t.begin(), t.end(), 72) != t.end(); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adjacent edges whose lengths differ too much.
-#include "surface/improve/adjacent_lengths.h"
+#include "surface/improve/even_edges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How changes of neighbouring edges are judged. Private to even_edges.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/improve/thresholds.h"
+
+namespace carreau {
+
+/// Lengths of edges in the metric that fit.
+struct LengthRange {
+  double shortest = thresholds::assembled::shortest, longest = thresholds::assembled::longest;
+
+  [[nodiscard]] bool excludes(double length) const noexcept { return length < shortest || length > longest; }
+};
+
+/// A judgement of some edges and triangles.
+struct EveningJudgement {
+  double excess = 0;   ///< sum over the limit, as a share of it
+  int out = 0;         ///< edges that are too long or too short
+  double quality = 1;  ///< of the worst triangle
+  double beyond = 0;   ///< largest angle or offset of a triangle, as a share of the bound
+
+  [[nodiscard]] bool better_than(const EveningJudgement& other) const noexcept {
+    if (std::abs(excess - other.excess) > thresholds::evening::rounding) return excess < other.excess;
+    return out != other.out ? out < other.out : quality > other.quality;
+  }
+  /// Ignores the excess. Triangles of quality `good` are never worse.
+  [[nodiscard]] bool no_worse_than(const EveningJudgement& before, double good) const noexcept {
+    return out <= before.out && quality >= std::min(before.quality, good) && beyond <= std::max(before.beyond, 1.);
+  }
+  [[nodiscard]] bool improves(const EveningJudgement& before, double good) const noexcept {
+    return excess < before.excess - thresholds::evening::least_gain && no_worse_than(before, good);
+  }
+};
+
+}  // namespace carreau
