@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/adaptation.md as it stands there, sizes and metrics by
+"""adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/how-to/adapt.md as it stands there, sizes and metrics by
 files, several fields at once, surfaces in space, a sentence for each mistake. FORMULAS is 1 when the program has muParser."""
 import math
 import os
@@ -71,7 +71,7 @@ class Adapt(WorkFolder):
     def test_the_loop_around_the_profile_of_the_report(self):
         """RR-2818 sec. 6.4 by docs/gallery/naca0012.sh: 1344, 2099, 2117, 2223 points."""
         environment = dict(os.environ, PATH=os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"])
-        script = os.path.join(os.path.dirname(PAGE), "gallery", "naca0012.sh")
+        script = os.path.join(os.path.dirname(PAGE), "..", "gallery", "naca0012.sh")
         done = subprocess.run(["sh", script, self.folder], env=environment, capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 

@@ -1,11 +1,13 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of docs/benchmarks.md, from the run that docs/benchmarks/run.py has written: `<!-- table: surface -->` is the place of one."""
+"""page.py [--check]: writes docs/reference/benchmarks.md from run.json, the run that run.py has recorded. --check: fails if the page differs."""
 import json
 import os
-import re
+import sys
 
 NO_BREAK = "\u00a0"
-MARK = re.compile(r"^<!-- table: (\w+) -->$", re.M)
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+PAGE = os.path.join(os.path.dirname(FOLDER), "reference", "benchmarks.md")
 
 
 def table(head, rows):
@@ -21,16 +23,16 @@ def seconds(number, digits):
     return f"{number:.{digits}f}{NO_BREAK}s"
 
 
-def busy(told):
-    return max(told["place"]["load_before"], told["place"]["load_after"]) > 1.5
+def busy(record):
+    return max(record["place"]["load_before"], record["place"]["load_after"]) > 1.5
 
 
-def place(told):
-    here = told["place"]
+def place(record):
+    here = record["place"]
     run = "the long run" if here["long"] else "the short run: one repetition, up to 100 000 triangles, coarse quadrilaterals"
-    return (f"Of {here['date']}, commit of {here['commit']}, {run}. {here['processor']}, {here['cores']} cores, {here['system']}, {here['compiler']}; Gmsh {here['gmsh']}. "
-            f"The load of the machine was {here['load_before']} before and {here['load_after']} after"
-            + (": it was busy, and processor times are longer than on a quiet one." if busy(told) else "."))
+    return (f"Date {here['date']}, commit of {here['commit']}, {run}; {here['carreau']}. {here['processor']}, {here['cores']} cores, {here['system']}, {here['compiler']}; Gmsh {here['gmsh']}. "
+            f"The load of the machine was {here['load_before']} before the run and {here['load_after']} after it"
+            + (": a busy machine, on which processor times are longer." if busy(record) else "."))
 
 
 def surface(rows):
@@ -75,32 +77,53 @@ def elements(rows):
     return table(("shape, size", "by", "elements", "speed", "shape, mean", "worst", "least Jacobian over its mean", "invalid"), out)
 
 
-def command(rows, told):
+def command(rows, record):
     """Wall clock says something on a quiet machine only, Q2 of triangles that are to be equilateral only."""
     head = ["input", "triangles", "between reading and writing", "Q2 mean", "worst"]
     out = []
     for row in rows:
         unlike = "direction" in row["case"] or "quadrilaterals" in row["case"]
         out.append([row["case"], thousands(row["triangles"]), seconds(row["processor"], 2)] + (["", ""] if unlike else [f"{row['q2_mean']:.3f}", f"{row['q2_min']:.3f}"]))
-    if not busy(told):
+    if not busy(record):
         head.append("whole run, wall clock")
         out = [cells + [seconds(row["seconds"], 2)] for cells, row in zip(out, rows)]
     return table(head, out)
 
 
-TABLES = {"surface": surface, "quads": quads, "elements": elements, "command": command}
+SECTIONS = [("surface", "Surface meshing beside Gmsh", "Gmsh's Frontal-Delaunay (`generate(2)`) and Carreau (sampling, plane meshes, lift) mesh the same surfaces, by "
+             "[compare_gmsh.py](../../tests/bench/compare_gmsh.py).", surface),
+            ("quads", "Quadrilaterals beside Gmsh", "By [compare_gmsh_quads.py](../../tests/bench/compare_gmsh_quads.py), beside Gmsh's method of the best mean quality. `q1.0` keeps a few "
+             "triangles, `q1.1` none.", quads),
+            ("elements", "Curved triangles beside Gmsh", "By [compare_gmsh_elements.py](../../tests/bench/compare_gmsh_elements.py): Gmsh's order 2, optimised or not, and `--element p2`. An element "
+             "is invalid if a Bernstein coefficient of its Jacobian is not positive.", elements),
+            ("command", "Whole runs of the command", "`carreau mesh INPUT ... --threads 1`.", command)]
 
 
-def filled(text, folder):
-    """A page with its tables; what the run lacks is said."""
-    path = os.path.join(folder, "run.json")
-    if not os.path.exists(path):
-        return MARK.sub("*No run is recorded.*", text)
-    with open(path, encoding="utf-8") as file:
-        told = json.load(file)
+def page(run):
+    """The text of the page of a run."""
+    text = f"""# Benchmarks
 
-    def lines(mark):
-        name = mark.group(1)
-        return place(told) if name == "place" else TABLES[name](told[name], *([told] if name == "command" else [])) if name in told else "*Not part of the run recorded.*"
+This page is generated. `python3 docs/benchmarks/run.py BUILD [--long]` runs the benchmarks and writes it, from a build with `-DCARREAU_BENCH=ON`.
 
-    return MARK.sub(lines, text)
+{place(run)}
+
+Times are of the processor, with one thread. Q2 is the shape of a triangle, 1 for an equilateral triangle.
+"""
+    for name, title, how, rows in SECTIONS:
+        shown = rows(run[name], *([run] if name == "command" else [])) if name in run else "*Not part of the recorded run.*"
+        text += f"\n## {title}\n{how}\n\n{shown}\n"
+    return text
+
+
+def main():
+    with open(os.path.join(FOLDER, "run.json"), encoding="utf-8") as file:
+        text = page(json.load(file))
+    if "--check" in sys.argv:
+        with open(PAGE, encoding="utf-8") as file:
+            sys.exit(0 if file.read() == text else f"{PAGE} is not the page of run.json: run docs/benchmarks/page.py")
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+if __name__ == "__main__":
+    main()
