@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # rt0232.sh: builds and runs the examples of RT-0232 sec. 6 in the folder runs.
-set -eu
+set -e
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 F=$(pkg-config --variable=fortrandir carreau)
 example() {  # FOLDER SOURCE...: the program blsurf of an example, in a folder of its own
