@@ -66,7 +66,8 @@ def link_by_cmake(block):
 def install():
     with open(INSTALL, encoding="utf-8") as file:
         text = file.read()
-    inline = [command for command in re.findall(r"`([^`\n]*)`", text) if command.startswith(("cc ", "cmake --install"))]
+    prose = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    inline = [command for command in re.findall(r"`([^`]*)`", prose) if command.startswith(("cc ", "cmake --install"))]
     CLONE.run(next(command for command in inline if "--prefix P" in command))
     links = [command for command in inline if command.startswith("cc ")]
     assert len(links) == 2, links
