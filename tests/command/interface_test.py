@@ -25,7 +25,7 @@ def commands():
 def options_of(command):
     """Spellings from the help of a sub-command."""
     names = set()
-    for line in output(PROGRAM, command, "--help").splitlines():
+    for line in output(PROGRAM, command, "--help-all").splitlines():
         if re.match(r"  -", line):
             for word in line.split()[0].split(","):
                 names.add(re.sub(r"\{.*\}", "", word))
