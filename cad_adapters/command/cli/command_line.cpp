@@ -120,7 +120,7 @@ void CommandLine::add_plane() {
       ->type_name(kind::file);
   plane
       ->add_flag("--smooth{50}", plane_.plane.corner_angle,
-                 "Replace polygons by splines; corners turn by more than --smooth=DEGREES degrees, 50 by default")
+                 "Replace polygons by splines; --smooth=DEGREES is the angle of corners, 50 by default")
       ->check(CLI::Range(0.1, 180.0));
   plane
       ->add_option("--sol", plane_.plane.sizes,
