@@ -3,7 +3,8 @@
 
 1. No sentence in the folders of clean_folders.txt opens with What, Who, Whoever, Of, Where, By or Nor. --add lists the folders that have become clean.
 2. Pages and manual pages use the patterns of PATTERNS at most 1.5 times as often, for 1000 words, as the model code bases do (pmp-library and
-   geometry-central). --rates prints the rates."""
+   geometry-central). --rates prints the rates.
+3. Pages are short: BUDGETS."""
 import os
 import re
 import sys
@@ -20,6 +21,7 @@ PATTERNS = [
     ("those of, that of, another one", r"\b(those (of|that|which|who)|that of|that which|another one|the same (of|as|for)|the ones?|as such|of theirs|of its own|of before|of now)\b", 0.5),
     ("nobody, not without, none of", r"\b(nobody|not without|no one|none of|nothing of|is none|there is none|is no \w+'s)\b", 0.1),
 ]
+BUDGETS = [("README.md", r"README\.md$", 7), ("docs/limits.md", r"docs/limits\.md$", 10), ("the pages of docs/", r"docs/.*\.md$", 130), ("all pages", r".*\.md$", 250)]  # KB of 1024 bytes
 LONG = 28, 3.0  # words of a long sentence; long sentences of the models for 1000 words
 OWN_LINE = {"c": r"^\s*(?:///?<?|//!|/?\*+)\s?(.*?)(?:\*/)?\s*$", "f": r"^\s*![>!<]?\s?(.*)$", "p": r"^\s*#\s?(.*)$"}
 BEHIND = {"c": r"^.*?\S\s*///?<?\s(.*)$", "f": r"^.*\S\s*!\s(.*)$", "p": r"^(?!)$"}
@@ -101,6 +103,13 @@ def too_many(root, print_them):
                 yield f"{group}: {name}: {rate:.2f} for 1000 words, {FACTOR * models[name]:g} at most"
 
 
+def too_long(root):
+    for name, pattern, limit in BUDGETS:
+        size = sum(os.path.getsize(os.path.join(root, path)) for path in files(root) if re.match(pattern, path)) / 1024
+        if size > limit:
+            yield f"{name}: {size:.1f} KB, {limit} at most"
+
+
 def openings(root):
     """Sentences with a forbidden opening, by folder."""
     found = {}
@@ -119,7 +128,7 @@ def main():
         with open(listed, "w", encoding="utf-8") as file:
             file.writelines(folder + "\n" for folder in sorted(set(clean) | {folder for folder, places in found.items() if not places}))
         return
-    faults = [place for folder in clean for place in found.get(folder, [])] + list(too_many(root, "--rates" in sys.argv))
+    faults = [place for folder in clean for place in found.get(folder, [])] + list(too_many(root, "--rates" in sys.argv)) + list(too_long(root))
     sys.exit("\n".join(faults) or 0)
 
 
