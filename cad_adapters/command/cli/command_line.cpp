@@ -143,7 +143,7 @@ void CommandLine::add_adapt() {
       ->type_name(kind::file);
   adapt->add_option("--host", adapt_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")
       ->type_name(kind::file);
-  adapt->add_option("--mesh", adapt_.adapt.mesh, "Last mesh: .mesh, .meshb, .bl2d, .vtu, ...")
+  adapt->add_option("--mesh", adapt_.adapt.mesh, "Last mesh: .mesh, .meshb, .bl2d, .vtu or another format")
       ->type_name(kind::file);
   adapt->add_option("--sol", adapt_.adapt.sol, "Values, sizes or metrics at its vertices: .sol, .solb, BL2D's .h")
       ->type_name(kind::file);
