@@ -15,9 +15,16 @@ struct GroupOf {
   const char* group;
 };
 
+constexpr const char* picture = "Picture";
+
 /// All options of all commands, in the order of help.
 constexpr GroupOf groups_of_options[] = {
     {"--output", "Output"},           {"--json", "Output"},         {"--quiet", "Output"},
+    {"--limit", "Lists"},             {"--worst", "Lists"},         {"--faces", "Lists"},
+    {"--atoms", "Lists"},             {"--closed", "Defects"},      {"--allow-crossings", "Defects"},
+    {"--view", picture},              {"--color", picture},         {"--edges", picture},
+    {"--label", picture},             {"--around", picture},        {"--metric", picture},
+    {"--ellipses", picture},          {"--samples", picture},
     {"--size", "Sizes"},              {"--min", "Sizes"},           {"--max", "Sizes"},
     {"--gradation", "Sizes"},         {"--face-size", "Sizes"},     {"--size-map", "Sizes"},
     {"--sol-field", "Sizes"},         {"--curve-edges", "Sizes"},   {"--curve-vertices", "Sizes"},
@@ -120,7 +127,8 @@ void set_help(CLI::App& app) {
 void arrange_options(CLI::App& app) {
   for (CLI::App* sub : app.get_subcommands({}))
     for (CLI::Option* option : sub->get_options())
-      if (const GroupOf* found = group_of(*option); found != nullptr && !option->get_group().empty()) option->group(found->group);
+      if (const GroupOf* found = group_of(*option); found != nullptr && !option->get_group().empty())
+        option->group(sub->get_name() == "picture" && has_name(*option, "--size") ? picture : found->group);
 }
 
 }  // namespace command
