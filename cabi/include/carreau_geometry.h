@@ -283,7 +283,7 @@ CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carr
                                             const int32_t counts[], const double nodes[]);
 
 /* The same from a file: PLOT3D (text or binary, any byte order and precision, with or without IBLANK), heights (ASCII grids
- * of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes; docs/grids.md has the
+ * of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes; docs/how-to/grid.md has the
  * layouts. Errors: those above, FILE (with the line or byte, and the block). */
 CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
                                              const char* path, int32_t format);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""run.py BUILD [--long] [--only NAME]...: runs the benchmarks whose tables docs/benchmarks.md shows, one after another, and writes their figures with the
-machine, its load, the versions and the date of the commit to docs/benchmarks/run.json.
+"""run.py BUILD [--long] [--only NAME]...: runs the benchmarks of docs/reference/benchmarks.md and writes that page. docs/benchmarks/run.json keeps the figures
+with the machine, its load, the versions and the date of the commit.
 
 BUILD: a build with -DCARREAU_BENCH=ON in which carreau_command and bench_surface are up to date. Needs Debian's gmsh, python3-gmsh, python3-numpy.
 --long: meshes of a million triangles, too, and three repetitions of each run."""
@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import page
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 SOURCE = os.path.dirname(os.path.dirname(FOLDER))
@@ -80,7 +82,7 @@ def command_runs(build, repeat):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="the benchmarks of docs/benchmarks.md")
+    parser = argparse.ArgumentParser(description="the benchmarks of docs/reference/benchmarks.md")
     parser.add_argument("build")
     parser.add_argument("--long", action="store_true")
     parser.add_argument("--only", action="append", choices=("surface", "quads", "elements", "command"))
@@ -102,6 +104,7 @@ def main():
             with open(os.path.join(FOLDER, "run.json"), "w", encoding="utf-8") as file:
                 json.dump(told, file, indent=1)
                 file.write("\n")
+    page.main()
 
 
 if __name__ == "__main__":

@@ -21,8 +21,8 @@ def main():
         subprocess.run(["cmake", "--install", build, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
         for page in pages:
             print(page, flush=True)
-            subprocess.run([sys.executable, os.path.join(SOURCE, "tests/readme/page.py"), page, os.path.join(folder, "work"), build,
-                            os.path.join(build, "tests/adapters/make_shapes"), SOURCE, prefix, "--slow", "--pictures"], check=True)
+            subprocess.run([sys.executable, os.path.join(SOURCE, "tests/readme/page.py"), page, os.path.join(folder, "work"), build, SOURCE,
+                            prefix, "--slow", "--pictures"], check=True)
 
 
 main()

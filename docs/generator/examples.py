@@ -8,11 +8,11 @@ from dataclasses import dataclass
 AROUND = 3  # lines before and behind a call, at most
 
 # In the order in which they are preferred: programs to read first, then tests. Pages have programs in blocks with a name.
-C = ["docs/tutorials", "docs", "fortran_examples/c_paraboloid", "fortran_examples/c_torus", "fortran_examples", "tests/cabi/hosts.c", "tests/cabi/c_reference.c",
+C = ["docs/tutorials", "docs/how-to", "docs", "fortran_examples/c_paraboloid", "fortran_examples/c_torus", "fortran_examples", "tests/cabi/hosts.c", "tests/cabi/c_reference.c",
      "tests/cabi", "tests/adapters", "tests/mpi", "cad_adapters/command", "cad_adapters/bl2d"]
-FORTRAN = ["docs/tutorials", "docs", "fortran_examples", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
-CPP = ["docs/tutorials", "docs", "fortran_examples", "tests/cabi", "tests/cpp_wrapper"]
-PYTHON = ["docs/tutorials", "docs", "cabi/python/examples", "tests/python"]
+FORTRAN = ["docs/tutorials", "docs/how-to", "docs", "fortran_examples", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
+CPP = ["docs/tutorials", "docs/how-to", "docs", "fortran_examples", "tests/cabi", "tests/cpp_wrapper"]
+PYTHON = ["docs/tutorials", "docs/how-to", "docs", "cabi/python/examples", "tests/python"]
 LANGUAGES = {"c": (C, (".c", ".cpp", ".h", ".md")), "fortran": (FORTRAN, (".f90", ".md")), "cpp": (CPP, (".cpp", ".md")), "python": (PYTHON, (".py", ".md"))}
 
 

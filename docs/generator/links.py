@@ -53,7 +53,7 @@ class Places:
             fence = FENCE.match(line)
             if fence and fenced is None:
                 fenced, toctree = fence.group(1), "{toctree}" in line
-                line = line.replace("```layers", "```text").replace("```sh slow", "```sh")
+                line = re.sub(r"^```layers.*", "```text", line).replace("```sh slow", "```sh")
             elif fence and fence.group(1) == fenced:
                 fenced = None
             elif fenced is not None:

@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 
-import benchmark_tables
 import c_pages
 import cpp_pages
 import fortran_pages
@@ -50,22 +49,11 @@ class Stage:
             for name in sorted(names):
                 path = os.path.relpath(os.path.join(folder, name), ROOT)
                 if name.endswith(".md"):
-                    self.write(markdown_page(path), self.places.rewritten(self.text(path), path))
+                    self.write(markdown_page(path), self.places.rewritten(read(path), path))
                 elif path.startswith("docs/") and name.endswith((".png", ".svg")):
                     target = os.path.join(self.folder, path.removeprefix("docs/"))
                     os.makedirs(os.path.dirname(target), exist_ok=True)
                     shutil.copy(os.path.join(ROOT, path), target)
-
-    @staticmethod
-    def text(path):
-        """Of a page: benchmarks with their tables, the index with the pages that it does not name."""
-        text = read(path)
-        if path == "docs/benchmarks.md":
-            return benchmark_tables.filled(text, os.path.join(ROOT, "docs/benchmarks"))
-        if path == "docs/index.md":
-            others = [name for name in sorted(os.listdir(os.path.join(ROOT, "docs"))) if name.endswith(".md") and name != "index.md" and f"\n{name}\n" not in text]
-            return text.replace("\nglossary.md\n", "\n" + "".join(name + "\n" for name in others) + "glossary.md\n")
-        return text
 
     def manual(self):
         """Manual pages as man shows them."""

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/adaptation.md as it stands there, sizes and metrics by
+"""adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/how-to/adapt.md as it stands there, sizes and metrics by
 files, several fields at once, surfaces in space, a sentence for each mistake. FORMULAS is 1 when the program has muParser."""
 import math
 import os
@@ -71,7 +71,7 @@ class Adapt(WorkFolder):
     def test_the_loop_around_the_profile_of_the_report(self):
         """RR-2818 sec. 6.4 by docs/gallery/naca0012.sh: 1344, 2099, 2117, 2223 points."""
         environment = dict(os.environ, PATH=os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"])
-        script = os.path.join(os.path.dirname(PAGE), "gallery", "naca0012.sh")
+        script = os.path.join(os.path.dirname(PAGE), "..", "gallery", "naca0012.sh")
         done = subprocess.run(["sh", script, self.folder], env=environment, capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
@@ -231,7 +231,7 @@ class Adapt(WorkFolder):
         self.done("picture", "six.mesh", "--metric", "mesh", "-o", "rings.png", *common)
         self.check_ring("rings.png", 0.92 * 200 / 1.5, (1, 0.5))
         self.fails_picture("six.mesh", "--view", "top", "--view", "iso", "--around", "0,0,0,1", sentence="--around shows one view")
-        self.fails_picture("six.mesh", "--around", "0,0,0,0", sentence="--around wants a radius above 0")
+        self.fails_picture("six.mesh", "--around", "0,0,0,0", sentence="--around requires a radius above 0")
 
     def test_ellipses_of_surfaces_lie_in_their_tangent_planes(self):
         """The plane z = x, by metrics of space with the sizes .8, .8 along it and another one across: from above the ring is narrower by sqrt(2)."""
@@ -275,9 +275,9 @@ class Adapt(WorkFolder):
         self.solution("full.sol", mesh, [4], lambda x, y: [1, 2, 3, 4])
         self.solution("minus.sol", mesh, [3], lambda x, y: [1, 0, -1])
         lost = ("square.poly", "-o", "next.mesh")
-        self.fails(*lost, sentence="An adaptation wants --mesh and --sol")
-        self.fails(*lost, "--mesh", "0.mesh", sentence="--mesh wants --sol")
-        self.fails(*lost, "--sol", "u.sol", sentence="--sol wants --mesh")
+        self.fails(*lost, sentence="An adaptation requires --mesh and --sol")
+        self.fails(*lost, "--mesh", "0.mesh", sentence="--mesh requires --sol")
+        self.fails(*lost, "--sol", "u.sol", sentence="--sol requires --mesh")
         self.fails(*lost, "--mesh", "none.mesh", "--sol", "u.sol", sentence="--mesh 'none.mesh': there is no such file")
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--formula", "x", sentence="--formula stands in the place")
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "short.sol", sentence="short.sol: it has values at 1 vertices, but 0.mesh has")

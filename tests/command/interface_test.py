@@ -25,7 +25,7 @@ def commands():
 def options_of(command):
     """Spellings from the help of a sub-command."""
     names = set()
-    for line in output(PROGRAM, command, "--help").splitlines():
+    for line in output(PROGRAM, command, "--help-all").splitlines():
         if re.match(r"  -", line):
             for word in line.split()[0].split(","):
                 names.add(re.sub(r"\{.*\}", "", word))
@@ -66,6 +66,25 @@ class Interface(unittest.TestCase):
                 heads = " ".join(re.findall(r"^\.TP\n(.*)$", section, re.M))
                 described = set(re.findall(r"(?<![\w-])(--?[a-z][a-z-]*)", heads))
                 self.assertEqual(described, options_of(command))
+
+    def test_short_help_has_twelve_options_and_names_the_rest(self):
+        for command in ("mesh", "plane", "adapt", "fields"):
+            lines = [line for line in output(PROGRAM, command, "--help").splitlines() if line.startswith("  -")]
+            self.assertLessEqual(len(lines), 17, command)
+            self.assertTrue(lines[-1].startswith("  --help-all"), command)
+        lines = [line for line in output(PROGRAM, "mesh", "--help").splitlines() if line.startswith("  -")]
+        self.assertEqual(len(lines), 12 + 1)
+
+    def test_each_option_has_one_line_in_a_group(self):
+        for command in commands():
+            text = output(PROGRAM, command, "--help-all")
+            groups = re.findall(r"^[A-Z][\w ]*:$", text, re.M)
+            self.assertEqual(len(groups), len(set(groups)), command)
+            self.assertNotIn("Options:", groups, command)
+            for line in text.splitlines():
+                if line.startswith("  -"):
+                    self.assertRegex(line, r"^  -\S.*?  +[A-Za-z]\S*.*[^.]$", command)
+                    self.assertLessEqual(len(line), 125, line)
 
     def test_pages_have_no_errors_of_roff(self):
         if shutil.which("groff") is None:

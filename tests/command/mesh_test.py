@@ -298,7 +298,7 @@ class Sizes(Folder):
         self.assertAlmostEqual(mean(between), 0.05, delta=0.005)
         self.refused(self.two, "-o", "a.mesh", "--face-size", "3=1", sentence="there is no face '3'")
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="NAME=VALUE")
-        self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is no length")
+        self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is not a length")
 
     def test_edges_of_a_curve_can_be_told(self):
         # Curve 2 of the first square is the first side of the second one, from (1, -1) to (1, 1) or back.

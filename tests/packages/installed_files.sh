@@ -11,7 +11,7 @@ need() {
   done
 }
 need include/carreau.h include/carreau_geometry.h include/carreau_atlas.h include/carreau_remesh.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
-  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md share/doc/carreau/docs/third_party.md
+  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md share/doc/carreau/docs/third_party.md share/doc/carreau/docs/third_party_notices.txt
 if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
     lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1

@@ -22,7 +22,8 @@ def work(tmp_path_factory):
     if os.environ.get("CARREAU_MAKE_SHAPES"):
         subprocess.run([os.environ["CARREAU_MAKE_SHAPES"], str(folder)], check=True)
         shutil.copy(folder / "assembly.step", folder / "part.step")
-    shutil.copy(os.path.join(SOURCE, "tests/data/molecule/1bna.pdb"), folder)
+    for name in ("tests/data/molecule/1bna.pdb", "docs/data/bracket.step"):
+        shutil.copy(os.path.join(SOURCE, name), folder)
     carreau.mesh("z = x * y", size=0.2).write(folder / "scan.stl")
     return folder
 
@@ -56,7 +57,7 @@ def test_step_field(work):
 
 
 @needs("CARREAU_MAKE_SHAPES")
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "cabi/python/README.md"])
+@pytest.mark.parametrize("page", ["docs/tutorials/python.md", "cabi/python/README.md"])
 def test_listings(work, page):
     with open(os.path.join(SOURCE, page), encoding="utf-8") as file:
         blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.MULTILINE | re.DOTALL)

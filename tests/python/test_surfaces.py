@@ -106,6 +106,7 @@ def test_derivatives_given_and_found_agree():
 def test_curves_by_functions_and_imposed_points():
     ellipse = carreau.Curve(lambda t: (2 * np.cos(t), np.sin(t)), 0, math.pi)
     back = carreau.Curve(lambda t: np.stack([2 * np.cos(t), np.sin(t)], axis=1), math.pi, 2 * math.pi)
+    assert ellipse.at(math.pi / 2) == pytest.approx((0, 1))
     patch = carreau.Patch(lambda u, v: (u, v, 0), [ellipse, back], points=[(0.3, 0.2)], point_refs=[7])
     mesh = carreau.mesh(patch, size=0.05)
     assert mesh.quality.area == pytest.approx(2 * math.pi, rel=2e-3)

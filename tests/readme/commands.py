@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""commands.py README WORK BUILD MAKE_SHAPES SOURCE [--refresh]: every command of README is run as pasted, every program built and run
-in each way that README has, and the listings compared with what is printed now. --refresh: writes the listings that differ into README.
+"""commands.py WORK BUILD SOURCE: runs the commands of README and of docs/how-to/install.md as pasted, in a clone, and builds and runs their programs in each
+way that these pages have.
 
 The build is not made again: `cmake` takes BUILD for build/release. Packages are not installed: `apt-get` does nothing."""
 import os
@@ -11,11 +11,15 @@ import subprocess
 import sys
 
 import samples
-from listings import listing
-from sandbox import Sandbox
+from sandbox import Clone
 
-README, WORK, BUILD, MAKE_SHAPES, SOURCE = sys.argv[1:6]
-SANDBOX = Sandbox(WORK, BUILD, MAKE_SHAPES, SOURCE)
+WORK, BUILD, SOURCE = sys.argv[1:4]
+README, INSTALL = os.path.join(SOURCE, "README.md"), os.path.join(SOURCE, "docs/how-to/install.md")
+CLONE = Clone(WORK, BUILD, SOURCE)
+
+
+def blocks(text):
+    return re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
 def check_bowl(folder):
@@ -25,31 +29,30 @@ def check_bowl(folder):
 
 def check_step(folder):
     """part.mesh of a program in a folder is closed and has no defect."""
-    SANDBOX.run(f"P/bin/carreau check '{os.path.join(folder, 'part.mesh')}' --closed")
-    os.remove(os.path.join(folder, "part.mesh"))
+    CLONE.run(f"P/bin/carreau check '{os.path.join(folder, 'part.mesh')}' --closed")
 
 
-def mesh_step(text):
-    links = re.findall(r"`((?:cc|c\+\+|gfortran) (?:-std=c\+\+20 )?step\.[^`]*)`", text)
-    assert len(links) == 3, links
-    for command in links:
-        SANDBOX.run(command)
-        SANDBOX.run("./a.out")
-        check_step(SANDBOX.clone)
-        os.remove(os.path.join(SANDBOX.clone, "a.out"))
+def prepare_programs():
+    """The reader's own files: programs, a part, a module cad_m."""
+    samples.write(README, CLONE.folder, [os.path.join(SOURCE, "docs/how-to", page) for page in ("cpp_host.md", "cad_in_program.md")])
+    for name, new in (("bowl.c", "program.c"), ("bowl.f90", "program.f90")):
+        shutil.copy(os.path.join(CLONE.folder, name), os.path.join(CLONE.folder, new))
+    shutil.copy(os.path.join(SOURCE, "docs/data/bracket.step"), os.path.join(CLONE.folder, "part.step"))
+    for name in ("tests/cabi/paraboloid/cad_m.f90", "tests/cabi/paraboloid/x.pardom", "tests/packages/blsurf/blsurf.env"):
+        shutil.copy(os.path.join(SOURCE, name), CLONE.folder)
 
 
 def link_by_cmake(block):
     folder = os.path.join(WORK, "by cmake")
     os.makedirs(folder)
     for name in ("program.c", "program.f90", "step.c", "part.step", "cad_m.f90", "x.pardom", "blsurf.env"):
-        shutil.copy(os.path.join(SANDBOX.clone, name), folder)
+        shutil.copy(os.path.join(CLONE.folder, name), folder)
     with open(os.path.join(folder, "CMakeLists.txt"), "w") as file:
         file.write("cmake_minimum_required(VERSION 3.25)\nproject(pasted LANGUAGES C Fortran)\nadd_executable(my_c_program program.c)\n"
                    "add_executable(my_fortran_program program.f90)\nadd_executable(my_step_program step.c)\n" + block)
     build = os.path.join(folder, "build")
     real = shutil.which("cmake")
-    subprocess.run([real, "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={os.path.join(SANDBOX.clone, 'P')}"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([real, "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={os.path.join(CLONE.folder, 'P')}"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run([real, "--build", build], check=True, stdout=subprocess.DEVNULL)
     for program in ("my_c_program", "my_fortran_program"):
         subprocess.run([os.path.join(build, program)], cwd=folder, check=True)
@@ -60,51 +63,51 @@ def link_by_cmake(block):
     assert os.path.exists(os.path.join(folder, "x.mesh"))
 
 
-def main():
-    SANDBOX.prepare()
-    with open(README, encoding="utf-8") as file:
+def install():
+    with open(INSTALL, encoding="utf-8") as file:
         text = file.read()
-    blocks = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    # Those in Python are run by tests/python/test_examples.py.
-    done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "python": 0, "cmake": 0, "": 0}
-    samples.write(text, SANDBOX.clone, "program")
-    # The tree P: the commands of "How to link" stand in its sentences.
-    inline = re.findall(r"`((?:cc|cmake) [^`]*)`", text[text.index("## How to link"):])
-    install = next(command for command in inline if "--prefix P" in command)
-    SANDBOX.run(install)
+    prose = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    inline = [command for command in re.findall(r"`([^`]*)`", prose) if command.startswith(("cc ", "cmake --install"))]
+    CLONE.run(next(command for command in inline if "--prefix P" in command))
     links = [command for command in inline if command.startswith("cc ")]
     assert len(links) == 2, links
     for command in links:
-        SANDBOX.run(command)
-        SANDBOX.run("./a.out")
-        check_bowl(SANDBOX.clone)
-        os.remove(os.path.join(SANDBOX.clone, "a.out"))
-    mesh_step(text)
-    refreshed_text = text
-    for language, block in blocks:
-        done[language] += 1  # another language is one that nobody runs
+        CLONE.run(f"export PKG_CONFIG_PATH=P/lib/pkgconfig; {command}; LD_LIBRARY_PATH=P/lib ./a.out")
+        check_bowl(CLONE.folder)
+    for language, block in blocks(text):
         if language == "sh":
-            SANDBOX.run(block)
-        elif language == "":
-            refreshed_text = listing(block.splitlines(), refreshed_text, SANDBOX.run)
+            CLONE.run(block)
         elif language == "cmake":
             link_by_cmake(block)
-    SANDBOX.run("./blsurf")
-    assert min(done.values()) > 0 and done["sh"] >= 5, done
-    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "wing.vtu", "volcano.mesh", "head.mesh", "part.mesh", "scan.mesh", "front.vtu", "torus.mesh",
-                 "out/teapot/teapot.png"):
-        assert os.path.getsize(os.path.join(SANDBOX.clone, made)) > 0, made
-    if refreshed_text != text:
-        with open(README, "w", encoding="utf-8") as file:
-            file.write(refreshed_text)
+    CLONE.run("./blsurf")
+    assert CLONE.size("x.mesh")
 
 
-# The list of what a person has installed is his.
+def readme():
+    with open(README, encoding="utf-8") as file:
+        text = file.read()
+    for language, block in blocks(text):
+        assert language in ("sh", "c"), f"a block of README that nobody runs: {language}"
+        if language == "sh":
+            CLONE.run(block)
+    proofs = [command for command in re.findall(r"^\|[^|]*\| `([^`]*)`", text, re.M) if command.startswith(("carreau", "for "))]
+    assert len(proofs) == 3, proofs
+    for command in proofs:
+        printed = CLONE.run(command)
+        if "--json" in command:
+            assert '"A0_bound"' in printed and '"A1_bound"' in printed
+    for made in ("part.vtu", "part.msh", "stretched.vtu", "out/teapot/teapot.png"):
+        assert CLONE.size(made), made
+
+
+# The user's list of installed files.
 MANIFEST = os.path.join(BUILD, "install_manifest.txt")
 if os.path.exists(MANIFEST):
     os.rename(MANIFEST, MANIFEST + ".kept")
 try:
-    main()
+    prepare_programs()
+    install()
+    readme()
 finally:
     if os.path.exists(MANIFEST):
         os.remove(MANIFEST)

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""page.py PAGE WORK BUILD MAKE_SHAPES SOURCE PREFIX [--refresh]: runs every listing of a page of docs/, in its order and in one folder; what BUILD has
-made is installed in PREFIX.
+"""page.py PAGE WORK BUILD SOURCE PREFIX [--refresh]: runs every listing of a page of docs/ in order, in a folder that is empty at first. BUILD is installed
+in PREFIX, and ~/carreau is the clone SOURCE.
 
     ```sh                    commands, run as they stand
     ```sh slow               the same; only with --slow
     ```console               commands after `$ `, and what they print
     ```{code-block} c        with `:caption: bowl.c`: a file of that name
-    ```text  ```json         what a file or a program shows, not run
+    ```text  ```json         content of a file or a program, not run
+    ```cmake  ```python      run by other tests (commands.py, tests/python)
 
-Another kind is an error, and so is a picture of the page that no command of it has made under its name (`img/x.png`: x.png), unless the gallery has it.
---refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page shows them, those above 150 kB
-with 256 colours (Debian's pngquant)."""
+Another kind is an error. So is a picture of the page that none of its commands makes (`img/x.png`: x.png), unless the gallery has it.
+--refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page shows them, with 256 colours above 150 kB
+(Debian's pngquant)."""
 import os
 import re
 import shutil
@@ -23,7 +24,7 @@ from sandbox import Sandbox
 
 BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LARGEST = 150_000  # bytes of a picture
-SHOWN = ("text", "json", "{toctree}", "{figure}", "{contents}")
+SHOWN = ("text", "json", "cmake", "python", "{toctree}", "{figure}", "{contents}")
 
 
 def file_of(block):
@@ -40,12 +41,12 @@ def pictures_of(block):
 
 def pictures_of_gallery(source):
     with open(os.path.join(source, "docs/gallery.md"), encoding="utf-8") as file:
-        return re.findall(r"!\[[^\]]*\]\((?:gallery/)?([^)/]+\.(?:png|svg))\)", file.read())
+        return re.findall(r"!\[[^\]]*\]\((?:\.\./)?(?:gallery/)?([^)/]+\.(?:png|svg))\)", file.read())
 
 
 def show(page, sandbox, shown):
     for name in shown:
-        made, target = os.path.join(sandbox.clone, os.path.basename(name)), os.path.join(os.path.dirname(os.path.abspath(page)), name)
+        made, target = os.path.join(sandbox.folder, os.path.basename(name)), os.path.join(os.path.dirname(os.path.abspath(page)), name)
         if not os.path.exists(made):
             continue
         if made.endswith(".png") and os.path.getsize(made) > LARGEST:  # 256 colours will do
@@ -56,9 +57,8 @@ def show(page, sandbox, shown):
 
 
 def main():
-    page, work, build, make_shapes, source, prefix = sys.argv[1:7]
-    sandbox = Sandbox(work, build, make_shapes, source, prefix)
-    sandbox.prepare()
+    page, work, build, source, prefix = sys.argv[1:6]
+    sandbox = Sandbox(work, build, source, prefix)
     with open(page, encoding="utf-8") as file:
         text = file.read()
     refreshed, run, later = text, 0, []

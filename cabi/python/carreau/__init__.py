@@ -12,7 +12,7 @@ Geometry is a file, a formula, arrays of triangles, or functions of (u, v) in Nu
     torus = lambda u, v: ((2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v))
     mesh = carreau.mesh(torus, domain=(0, 0, 2 * np.pi, 2 * np.pi), size=lambda x, y, z: 0.05 + 0.1 * abs(z))
 
-Lengths are in the units of the model, angles in degrees, times in seconds; indices count from 0. docs/python.md is the
+Lengths are in the units of the model, angles in degrees, times in seconds; indices count from 0. docs/tutorials/python.md is the
 tutorial, and carreau.h the manual of what the library does.
 """
 from . import capi, domains, errors, metric

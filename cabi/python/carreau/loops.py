@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Loops and annuli of the plane with smooth parameters, of which atlases are made (docs/atlas.md)."""
+"""Loops and annuli of the plane with smooth parameters, of which atlases are made (docs/explanation/triangles.md)."""
 from __future__ import annotations
 
 import weakref

@@ -127,7 +127,7 @@ def plane(source: Any, *, sizes: Optional[Path] = None, corner_angle: float = 0,
 
 def fields(source: Any, path: Path, *, longest: int = 0, channels: Any = (), face: int = 0, multi_part: bool = False,
            **words: Any) -> Mesh:
-    """Meshes a geometry, and writes what governed the mesh of each face as images .exr or .png (docs/fields.md); a Mesh of
+    """Meshes a geometry, and writes what governed the mesh of each face as images .exr or .png (docs/how-to/see_sizes.md); a Mesh of
     a session is taken as it is. longest: pixels of the longer side; channels: their groups, none: all; words: those of
     mesh()."""
     made = source if isinstance(source, Mesh) and source.session is not None else mesh(source, **words)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pieces of the plane that deform, break and touch tools, meshed anew increment by increment (docs/remesh.md)."""
+"""Pieces of the plane that deform, break and touch tools, meshed anew increment by increment (docs/how-to/deforming_piece.md)."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -16,7 +16,7 @@ Length parse_length(const std::string& text, const std::string& option) {
   if (length.relative) length.value /= 100;
   if (error != std::errc{} || (rest != end && !length.relative) || !std::isfinite(length.value) || length.value <= 0)
     throw Failure(option + " '" + text +
-                  "' is no length: a number above 0, or a share of the model's diagonal such as 1%.");
+                  "' is not a length: a number above 0, or a share of the model's diagonal such as 1%.");
   return length;
 }
 

@@ -12,6 +12,7 @@
 #include "base/lengths.h"
 #include "base/text_file.h"
 #include "cli/completion.h"
+#include "cli/help.h"
 #include "cli/option_groups.h"
 #include "cli/option_scope.h"
 #include "cli/parse_errors.h"
@@ -22,12 +23,10 @@ namespace {
 
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply, .vtk, .tri or .med";
 constexpr const char* several_files =
-    "; several files of triangles, patches (.bpt), grids and molecules are meshed together";
+    ". Several files of triangles, patches, grids and molecules make one mesh";
 constexpr const char* geometry_files =
-    "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
-    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
-    ".stl, .off, .obj, .ply, .mesh, .meshb, .vtu, .vtk, .msh, .inp, .bdf, .unv, .su2, .tri, .med, or a surface: "
-    "'z = ...' in x and y, or 'x = ...; y = ...; z = ...' in u and v";
+    "CAD file (.step, .iges, .brep), patches (.bpt), .pardom, molecule (.xyzr, .xyz, .pdb, .cif), grid (.fmt, .asc, .cyl, ...), "
+    "triangles (.stl, .off, .obj, .ply, .mesh, .vtu, .msh, ...), or a formula: 'z = ...' in x, y; 'x = ...; y = ...; z = ...' in u, v";
 constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
 constexpr int most_listed = 1'000'000;
 constexpr int unusable = 2;  // exit code
@@ -59,10 +58,11 @@ const CLI::App* find_command(const std::string& name, const CLI::App& app) {
 }  // namespace
 
 CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches.", "carreau") {
+  set_help(app_);
   app_.set_version_flag("--version", std::string("carreau ") + carreau_version());
   app_.require_subcommand(1);
   app_.footer(
-      "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
+      "Exit status: 0 success, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
       "command: carreau help COMMAND. Manual: man carreau");
   add_mesh();
   add_plane();
@@ -76,6 +76,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_fields();
   add_params();
   add_completion();
+  arrange_options(app_);
 }
 
 CLI::App* CommandLine::add(const char* name, const char* description) {
@@ -85,13 +86,12 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 }
 
 void CommandLine::add_mesh() {
-  CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, a .pardom, a grid, or the surface of a molecule");
+  CLI::App* mesh = add("mesh", "Mesh a CAD file, triangles, a molecule, a grid, a formula, or patches of a host");
   mesh->add_option("INPUT", inputs_, std::string(geometry_files) + several_files)->required()->type_name(kind::file);
-  mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
+  mesh->add_option("--host", mesh_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")
       ->type_name(kind::file);
   repeated(mesh->add_option("-o,--output", mesh_.outputs,
-                            "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2), .inp, .bdf, .unv, .su2, "
-                            ".off, .obj, .ply, .exr (fields) or .html (a report); may be repeated"))
+                            "File to write, format by suffix: .vtu, .msh, .mesh, .stl, .inp, .html, ...; repeatable"))
       ->required()
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);
@@ -101,99 +101,96 @@ void CommandLine::add_mesh() {
   add_domain_option(mesh, mesh_.domain);
   add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
-                   "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
+                   "Folder for the domains (.mesh) and fields (.exr) of failed faces")
       ->type_name(kind::file);
   add_parts_option(mesh, mesh_);
-  mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
-  mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
+  mesh->add_flag("--json", mesh_.json, "Print a summary as JSON");
+  mesh->add_flag("-q,--quiet", mesh_.quiet, "Print errors only");
 }
 
 void CommandLine::add_plane() {
   plane_.plane.is_plane = true;
-  CLI::App* plane = add("plane", "Mesh a domain of the plane: Triangle's .poly, a plane mesh's edges, BL2D's files");
+  CLI::App* plane = add("plane", "Mesh a plane domain: Triangle's .poly, edges of a plane mesh, BL2D's files");
   plane->add_option("DOMAIN", plane_.input, "File .poly, .mesh, .meshb or .bl2d of dimension 2, .data or .g")
       ->required()
       ->type_name(kind::file);
   repeated(plane->add_option("-o,--output", plane_.outputs,
-                             "File to write: .mesh or .meshb (dimension 2), .bl2d, .vtu, .stl, .msh (Gmsh 4.1), .msh2 "
-                             "(2.2), .exr (fields) or .html (a report); may be repeated"))
+                             "File to write, format by suffix: .mesh, .bl2d, .vtu, .msh, .html, ...; repeatable"))
       ->required()
       ->type_name(kind::file);
   plane
       ->add_flag("--smooth{50}", plane_.plane.corner_angle,
-                 "Polygons become splines that end where they turn by more than 50 degrees; --smooth=DEGREES: by more "
-                 "than these")
+                 "Replace polygons by splines; --smooth=DEGREES is the angle of corners, 50 by default")
       ->check(CLI::Range(0.1, 180.0));
   plane
       ->add_option("--sol", plane_.plane.sizes,
-                   "Sizes or metrics at the vertices of the file: .sol, .solb, or BL2D's .hg or .h")
+                   "Sizes or metrics at the vertices of the file: .sol, .solb, BL2D's .hg, .h")
       ->check(not_empty)
       ->type_name(kind::file);
   add_mesh_options(plane, plane_);
   add_parts_option(plane, plane_);
-  plane->add_flag("--json", plane_.json, "Print a summary as JSON on the standard output");
-  plane->add_flag("-q,--quiet", plane_.quiet, "Tell errors only");
+  plane->add_flag("--json", plane_.json, "Print a summary as JSON");
+  plane->add_flag("-q,--quiet", plane_.quiet, "Print errors only");
 }
 
 void CommandLine::add_adapt() {
   adapt_.adapt.is_adapt = true;
-  CLI::App* adapt = add("adapt", "Make the next mesh of a geometry from values, sizes or metrics on the last one");
+  CLI::App* adapt = add("adapt", "Make the next mesh of a geometry from values, sizes or metrics on the last mesh");
   adapt
       ->add_option("INPUT", adapt_.input,
-                   "The geometry: a file that `carreau mesh` or `carreau plane` reads; .mesh is a plane domain")
+                   "Geometry: a file of `carreau mesh` or `carreau plane`; .mesh is a plane domain")
       ->required()
       ->type_name(kind::file);
-  adapt->add_option("--host", adapt_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
+  adapt->add_option("--host", adapt_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")
       ->type_name(kind::file);
-  adapt->add_option("--mesh", adapt_.adapt.mesh, "The last mesh: .mesh, .meshb, .bl2d, .vtu, ...")
+  adapt->add_option("--mesh", adapt_.adapt.mesh, "Last mesh: .mesh, .meshb, .bl2d, .vtu or another format")
       ->type_name(kind::file);
-  adapt->add_option("--sol", adapt_.adapt.sol, "What is known at its vertices: .sol or .solb; sizes also BL2D's .h")
+  adapt->add_option("--sol", adapt_.adapt.sol, "Values, sizes or metrics at its vertices: .sol, .solb, BL2D's .h")
       ->type_name(kind::file);
   adapt
       ->add_option("--use", adapt_.adapt.use,
-                   "What --sol has: values of fields, which are estimated; or sizes, or metrics, which are taken")
+                   "Content of --sol: values (estimated), sizes or metrics; values by default")
       ->check(CLI::IsMember({"values", "sizes", "metrics"}))
       ->capture_default_str();
   adapt
       ->add_option("--transfer", adapt_.adapt.transfer,
-                   "Fields at the vertices of --mesh that the .sol of the next mesh gets; by default those of --sol")
+                   "Fields of --mesh for the .sol of the next mesh; --sol by default")
       ->type_name(kind::file);
-  adapt->add_option("--formula", adapt_.adapt.formula, "A field in x, y, z in place of --mesh and --sol: a whole loop")
+  adapt->add_option("--formula", adapt_.adapt.formula, "Field in x, y, z in place of --mesh and --sol; runs a whole loop")
       ->check(not_empty)
       ->type_name("FORMULA");
-  adapt->add_option("--iterations", adapt_.adapt.iterations, "Meshes that --formula makes")
+  adapt->add_option("--iterations", adapt_.adapt.iterations, "Number of meshes of --formula; 5 by default")
       ->check(CLI::Range(1, 1000))
       ->type_name(kind::number)
       ->capture_default_str();
   adapt->add_flag("--differences", adapt_.adapt.differences,
-                  "Of --formula: derivatives by differences of the formula itself, in the plane");
+                  "Derivatives by differences of the formula, in the plane");
   adapt->add_option("--convergence", adapt_.adapt.convergence,
-                    "Of --formula: end when the number of triangles changes by a smaller share; 0: all iterations")
+                    "End if the number of triangles changes by less; 0 (default): all iterations")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE");
   repeated(adapt->add_option("-o,--output", adapt_.outputs,
-                             "File to write: the mesh as .mesh, .meshb, .bl2d, .vtu, .stl, .msh, .msh2, .exr or .html, the "
-                             "fields on it as .sol or .solb (beside the mesh when not named); may be repeated"))
+                             "Mesh to write, format by suffix, and its fields (.sol, .solb); repeatable"))
       ->required()
       ->type_name(kind::file);
   add_estimator_options(adapt, adapt_.adapt.names);
-  adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Of a plane domain: see carreau plane")
+  adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Replace polygons by splines (plane domain); corner angle 50 degrees")
       ->check(CLI::Range(0.1, 180.0));
   add_molecule_options(adapt, adapt_.molecule);
   add_triangles_options(adapt, adapt_.triangles);
   add_cad_options(adapt, adapt_.cad);
   add_domain_option(adapt, adapt_.domain);
   add_mesh_options(adapt, adapt_);
-  adapt->add_flag("--json", adapt_.json, "Print a summary as JSON on the standard output");
-  adapt->add_flag("-q,--quiet", adapt_.quiet, "Tell errors only");
+  adapt->add_flag("--json", adapt_.json, "Print a summary as JSON");
+  adapt->add_flag("-q,--quiet", adapt_.quiet, "Print errors only");
 }
 
 void CommandLine::add_info() {
-  CLI::App* info = add("info", "Print what a file of geometry holds and what of it is hard to mesh");
+  CLI::App* info = add("info", "Print the content of a geometry and potential meshing problems");
   info->add_option("INPUT", info_.input, geometry_files)->required()->type_name(kind::file);
-  info->add_option("--host", info_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
+  info->add_option("--host", info_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")
       ->type_name(kind::file);
-  info->add_option("--limit", info_.limit, "Sentences of each kind")
+  info->add_option("--limit", info_.limit, "Most sentences of each kind; 10 by default")
       ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
@@ -206,32 +203,31 @@ void CommandLine::add_info() {
 }
 
 void CommandLine::add_refine() {
-  CLI::App* app = add("refine", "Cut triangles finer where the smooth surface over them is curved");
+  CLI::App* app = add("refine", "Divide triangles where the smooth surface over them is curved");
   app->add_option("TRIANGLES", refine_.input, "File .stl, .off, .obj, .ply, .mesh, .meshb, .vtu or .msh")
       ->required()
       ->type_name(kind::file);
   repeated(app->add_option("-o,--output", refine_.outputs,
-                           "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1) or .msh2 (2.2), with the edges of "
-                           "sharp lines; may be repeated"))
+                           "File to write, with the edges of sharp lines: .mesh, .vtu, .stl, .msh, ...; repeatable"))
       ->required()
       ->type_name(kind::file);
   app->add_option("--angle", refine_.angle,
-                  "Degrees between triangles and the surface beyond which they are cut into four; none are when not given")
+                  "Divide triangles farther from the surface than this angle, degrees; none by default")
       ->check(CLI::Range(0.01, 89.0))
       ->type_name(kind::number);
-  app->add_option("--depth", refine_.depth, "Times that a triangle is cut at most")
+  app->add_option("--depth", refine_.depth, "Most divisions of a triangle; 6 by default")
       ->check(CLI::Range(1, 20))
       ->type_name(kind::number)
       ->capture_default_str();
   add_triangles_options(app, refine_.triangles);
   app->add_flag("--json", refine_.json, "Print counts as JSON");
-  app->add_flag("-q,--quiet", refine_.quiet, "Tell errors only");
+  app->add_flag("-q,--quiet", refine_.quiet, "Print errors only");
 }
 
 void CommandLine::add_areas() {
-  CLI::App* areas = add("areas", "Print areas and volumes of a molecule's surfaces, in closed form");
+  CLI::App* areas = add("areas", "Print areas and volumes of the surfaces of a molecule, in closed form");
   areas->add_option("INPUT", areas_.input, molecule_files)->required()->type_name(kind::file);
-  areas->add_option("--probe", areas_.probe, "Radius of the probe that stands for the solvent")
+  areas->add_option("--probe", areas_.probe, "Radius of the probe, unit of the file; 1.4 by default (water)")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length)
       ->capture_default_str();
@@ -244,14 +240,14 @@ void CommandLine::add_areas() {
 void CommandLine::add_check() {
   CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
   check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
-  check->add_flag("--closed", check_.closed, "An edge with one triangle is a defect too");
-  check->add_flag("--allow-crossings", check_.allow_crossings, "Triangles that cross are no defect");
+  check->add_flag("--closed", check_.closed, "Count borders as defects");
+  check->add_flag("--allow-crossings", check_.allow_crossings, "Do not count crossing triangles as defects");
   check->add_flag_callback("--no-crossings", [] {}, "The default")->group("");  // earlier scripts have it
-  check->add_option("--limit", check_.limit, "Defects to look for")
+  check->add_option("--limit", check_.limit, "Most defects to list; 20 by default")
       ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
-  check->add_option("--worst", check_.worst, "Worst triangles to list")
+  check->add_option("--worst", check_.worst, "Number of worst triangles to list; 3 by default")
       ->check(CLI::Range(0, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
@@ -263,48 +259,44 @@ void CommandLine::add_picture() {
   CLI::App* picture = add("picture", "Draw a mesh into a PNG file");
   picture->add_option("MESH", picture_.mesh, mesh_files)->required()->type_name(kind::file);
   picture->add_option("-o,--output", picture_.out, "File to write")->required()->type_name(kind::file);
-  picture->add_option("--size", picture_size_, "Pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  picture->add_option("--size", picture_size_, "Pixels; 1200x900 by default")->type_name("WIDTHxHEIGHT")->capture_default_str();
   repeated(picture->add_option("--view", picture_.views,
-                               "iso, front, back, left, right, top, bottom, or a direction x,y,z from the mesh to the "
-                               "eye; may be repeated"))
+                               "iso, front, back, left, right, top, bottom, or x,y,z towards the eye; repeatable"))
       ->type_name(kind::view);
   picture
       ->add_option(
           "--color", paint_,
-          "face: their own colours when the file has some, else as reference; reference: a colour a reference, "
-          "another one than its neighbours; quality: violet 0 to yellow 1; size: violet the smallest triangles, "
-          "yellow the largest; none: grey")
+          "face (default: colours of the file), reference, quality, size or none")
       ->check(CLI::IsMember({"face", "reference", "quality", "size", "none"}))
       ->capture_default_str();
   picture->add_flag("--edges,!--no-edges", picture_.scene.edges,
-                    "Draw the sides of triangles or not; they are by default");
+                    "Draw the edges of triangles, or do not; drawn by default");
   picture
       ->add_option("--metric", picture_.metrics,
-                   "Sizes or metrics at the vertices, .sol, .solb or BL2D's .h, whose ellipses are drawn; mesh: those "
-                   "in which the triangles around each vertex are equilateral")
+                   "Draw ellipses of sizes or metrics at vertices (.sol, .solb, .h), or of the mesh itself (mesh)")
       ->check(not_empty)
       ->type_name(kind::file);
   picture
       ->add_option("--ellipses", picture_.scene.ellipse_scale,
-                   "Scale of the ellipses of --metric: 1, the ends of unit edges lie on them; .5, neighbours touch")
+                   "Scale of the ellipses: 1 (default), unit edges end on them; .5, neighbours touch")
       ->check(CLI::Range(1e-3, 10.0))
       ->type_name("SCALE")
       ->capture_default_str();
   picture
       ->add_option("--around", around_,
-                   "Place x, y, z and the radius around it that fill the picture; what is beside the eye is left out")
+                   "Show the neighbourhood of a place: x, y, z and a radius")
       ->delimiter(',')
       ->expected(4)
       ->type_name("X,Y,Z,RADIUS");
-  picture->add_option("--label", label_, "faces: their numbers are drawn where they are seen")
+  picture->add_option("--label", label_, "faces: print the numbers of faces")
       ->check(CLI::IsMember({"faces"}))
       ->type_name("WHAT");
   picture->add_option("--sharp", picture_.triangles.sharp,
-                      "Draw the sharp lines of triangles that differ by more than these degrees, as carreau info finds them")
+                      "Draw sharp lines of triangles, as carreau info finds them; degrees")
       ->check(CLI::Range(0.1, 180.0))
       ->type_name(kind::number);
-  picture->add_flag("--json", picture_.json, "Print what was drawn as JSON");
-  picture->add_option("--samples", picture_.samples, "Points a pixel in each direction")
+  picture->add_flag("--json", picture_.json, "Print the view as JSON");
+  picture->add_option("--samples", picture_.samples, "Points of a pixel in each direction; 3 by default")
       ->check(CLI::Range(1, 8))
       ->type_name(kind::number)
       ->capture_default_str();
@@ -313,37 +305,36 @@ void CommandLine::add_picture() {
 void CommandLine::add_report() {
   CLI::App* app = add("report", "Write a mesh as a page of HTML: a view in space, histograms, faces, defects");
   app->add_option("MESH", report_.mesh, mesh_files)->required()->type_name(kind::file);
-  app->add_option("-o,--output", report_.out, "File .html to write; by default that of the mesh with this suffix")
+  app->add_option("-o,--output", report_.out, "File .html to write; the name of the mesh by default")
       ->type_name(kind::file);
-  app->add_flag("--json", report_.json, "Print what carreau check prints as JSON, and the size of the page");
+  app->add_flag("--json", report_.json, "Print the figures of carreau check as JSON, and the size of the page");
 }
 
 void CommandLine::add_fields() {
-  CLI::App* fields = add("fields", "Mesh, and write what governed the mesh as OpenEXR images or pictures");
-  fields->add_option("INPUT", fields_.mesh.input, "CAD file, .bpt, .pardom, or .env whose actions are run")
+  CLI::App* fields = add("fields", "Mesh, and write the fields that govern the mesh as OpenEXR images or pictures");
+  fields->add_option("INPUT", fields_.mesh.input, "Geometry of carreau mesh, or an .env whose actions are run")
       ->required()
       ->type_name(kind::file);
   fields
       ->add_option("--host", fields_.mesh.host,
-                   "Geometry of a .pardom or .env: a shared library with the routines of cad_m")
+                   "Shared library with the routines of cad_m, the geometry of a .pardom or .env")
       ->type_name(kind::file);
   repeated(fields->add_option("-o,--output", fields_.mesh.outputs,
-                              "File .exr, or .png with the sizes in colours; a file a face: NAME.face.REF.exr; may be "
-                              "repeated"))
+                              "File .exr, or .png with colours of sizes; a file for each face, NAME.face.REF.exr; repeatable"))
       ->required()
       ->type_name(kind::file);
-  fields->add_option("--pixels", field_size_, "Pixels of the longer side, or WIDTHxHEIGHT")
+  fields->add_option("--pixels", field_size_, "Pixels of the longer side, or WIDTHxHEIGHT; 1024 by default")
       ->type_name("PIXELS")
       ->capture_default_str();
-  fields->add_option("--face", fields_.face, "Only this face, into the file as it is named")
+  fields->add_option("--face", fields_.face, "Only this face, into the file without a suffix of its number")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->type_name("REF");
-  fields->add_flag("--multi-part", fields_.multi_part, "All faces into one file .exr, a part each");
+  fields->add_flag("--multi-part", fields_.multi_part, "All faces in one .exr, a part for each face");
   repeated(fields->add_option("--channels", fields_.channels, "Groups of channels, separated by commas; all by default")
                ->delimiter(',')
                ->check(CLI::IsMember(field_groups())));
-  fields->add_flag("--piz", fields_.piz, "PIZ in place of ZIP; both are lossless");
-  fields->add_flag("--raw", fields_.raw, "What the geometry answers, without a mesh");
+  fields->add_flag("--piz", fields_.piz, "Compress by PIZ instead of ZIP; both are lossless");
+  fields->add_flag("--raw", fields_.raw, "Evaluate the geometry only, without a mesh");
   add_molecule_options(fields, fields_.mesh.molecule);
   add_grid_options(fields, fields_.mesh.grid);
   add_domain_option(fields, fields_.mesh.domain);
@@ -375,7 +366,7 @@ int CommandLine::run(int argc, char** argv) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
   try {
     if (first.empty())
-      throw Failure("A command is wanted: " + command_names(app_) + ". More: carreau help, man carreau.");
+      throw Failure("No command given. Commands: " + command_names(app_) + ". More: carreau help, man carreau.");
     if (first == "help") return help(words.size() > 1 ? words[1] : "");
     const CLI::App* const sub = find_command(first, app_);
     if (sub == nullptr && !first.starts_with('-')) throw Failure(unknown_command(first, app_));
@@ -425,7 +416,7 @@ int CommandLine::run_command() {
                                                    : Paint::none;
     picture_.labels = !label_.empty();
     if (around_.size() == 4) picture_.scene.around = {around_[0], around_[1], around_[2], around_[3]};
-    if (picture_.scene.around && !(around_[3] > 0)) throw Failure("--around wants a radius above 0 as its fourth number.");
+    if (picture_.scene.around && !(around_[3] > 0)) throw Failure("--around requires a radius above 0 as its fourth number.");
     return picture(picture_);
   }
   if (app_.got_subcommand("report")) return report(report_);

@@ -31,7 +31,7 @@ std::string not_empty(const std::string& value) { return value.empty() ? "nothin
 CLI::Option* repeated(CLI::Option* option) { return option->allow_extra_args(false); }
 
 CLI::Option* threads(CLI::App* app, int& value) {
-  return app->add_option("--threads", value, "Threads at work, 0: all cores; results do not depend on it")
+  return app->add_option("--threads", value, "Number of threads; 0 (default): all cores. The mesh does not depend on it")
       ->check(CLI::Range(0, 1024))
       ->type_name(kind::number)
       ->capture_default_str();
@@ -39,167 +39,159 @@ CLI::Option* threads(CLI::App* app, int& value) {
 
 void add_parts_option(CLI::App* app, MeshOptions& options) {
   app->add_flag("--parts", options.parts,
-                "Under mpirun: each process keeps its part, and none holds the whole mesh; writes .meshb and .pvtu");
+                "Under mpirun: each process keeps its part; writes .meshb or .pvtu");
 }
 
 void add_mesh_options(CLI::App* app, MeshOptions& options) {
   app->add_option("--size", options.size,
-                  "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")
+                  "Length of edges, or a share of the diagonal such as 1%; 2% by default")
       ->check(not_empty)
       ->type_name(kind::length);
   app->add_option("--size-map", options.size_map,
-                  "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
+                  "Sizes by a formula in x, y, z, u, v, or by a mesh with a .sol beside it")
       ->check(not_empty)
       ->type_name(kind::file);
   app->add_option("--sol-field", options.plane.field,
-                  "Field of a .sol(b) with several, from 1; 0: all that adapt estimates, else the only one")
+                  "Number of the field in a .sol, from 1; 0 (default): the only field")
       ->check(CLI::Range(0, 64))
       ->type_name(kind::number);
-  app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
+  app->add_option("--angle", options.angle, "Follow the curvature: angle between edges and surface, degrees; off by default")
       ->check(CLI::Range(0.01, 89.0))
       ->type_name(kind::number);
   app->add_option_function<int>(
          "--segments-per-circle", [&options](int n) { options.angle = 180.0 / n; },
-         "Edges of a full circle: sizes follow the curvature, as by --angle 180/N")
+         "Follow the curvature: number of edges of a full circle; as --angle 180/N")
       ->check(CLI::Range(3, 10000))
       ->type_name(kind::number)
       ->excludes("--angle");
-  app->add_option("--chord", options.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
+  app->add_option("--chord", options.chord, "Follow the curvature: distance between mesh and surface, length or share")
       ->check(not_empty)
       ->type_name(kind::length);
   app->add_option("--gradation", options.gradation,
-                  "Sizes grow by at most this ratio from one edge to the next; 0: by any. 1.3 with --anisotropic")
+                  "Largest growth from edge to edge; 0 (default): any; 1.3 with --anisotropic")
       ->check(is_gradation)
       ->type_name("RATIO");
   app->add_flag("--anisotropic{1000}", options.anisotropy,
-                "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
-                "--gradation 1.3")
+                "Stretch triangles along flat directions; --anisotropic=RATIO, 1000 by default")
       ->check(CLI::Range(1.0, 1e9));
   app->add_option("--element", options.element,
-                  "Elements: p1, p2 (curved), q1.0, q1.1 (quadrilaterals, .1 without triangles), q2.0, q2.1 (curved)")
+                  "p1 (default), p2 (curved), q1.0, q1.1 (quadrilaterals; .1: no triangle), q2.0, q2.1 (curved)")
       ->check(CLI::IsMember({"p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"}))
       ->type_name("ELEMENT");
-  CLI::Option* independent = app->add_flag("--independent", options.independent,
-                                           "Borders between faces that are not sharp mean nothing: triangles cross them");
+  CLI::Option* independent = app->add_flag("--cross-patch,--independent", options.independent,
+                                           "Let triangles cross borders between faces that meet smoothly");
   app->add_option("--sharp-angle", options.sharp_angle,
-                  "With --independent: degrees between faces beyond which their border is sharp; 1 when not given")
+                  "Angle between faces above which their border is sharp, degrees; 1 by default")
       ->check(CLI::Range(0.0, 180.0))
       ->needs(independent)
       ->type_name("DEGREES");
-  app->add_option("--min", options.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
-  app->add_option("--max", options.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
+  app->add_option("--min", options.minimum, "Smallest size, length or share; no bound by default")->check(not_empty)->type_name(kind::length);
+  app->add_option("--max", options.maximum, "Largest size, length or share; no bound by default")->check(not_empty)->type_name(kind::length);
   repeated(app->add_option("--face-size", options.face_sizes,
-                           "Size on a face given by number, or on all faces of a name; may be repeated"))
+                           "Size on a face by number or name (wildcards * and ?); repeatable"))
       ->type_name("FACE=LENGTH");
   repeated(app->add_option("--size-on", options.sizes_on,
-                           "Size on entities of a CAD file: edge:3-5=.2, vertex:7=.05, bore*=.3, solid:2=1; may be repeated"))
+                           "Size on edges, vertices, faces, solids: edge:3-5=.2, vertex:7=.05, bore*=.3; repeatable"))
       ->type_name("ENTITIES=LENGTH");
   repeated(app->add_option("--group", options.groups,
-                           "Put entities into a group of files: inlet=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, "
-                           "steel=solid:2; may be repeated"))
+                           "Name a group: inlet=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, steel=solid:2; repeatable"))
       ->type_name("NAME=ENTITIES");
-  app->add_option("--group-by", options.group_by, "Groups of faces: by part, by name or by color; own names when not given")
+  app->add_option("--group-by", options.group_by, "Group faces by part, name or color; by their own names by default")
       ->check(CLI::IsMember({"part", "name", "color"}));
   repeated(app->add_option("--curve-edges", options.curve_edges,
-                           "Number of edges of a curve, equally long or in a progression of their lengths (8, "
-                           "8,arithmetic:3 or 8,geometric:1.2); may be repeated"))
+                           "Number of edges of a curve: 8, 8,arithmetic:3 or 8,geometric:1.2; repeatable"))
       ->type_name("CURVE=EDGES");
   repeated(app->add_option("--curve-vertices", options.curve_vertices,
-                           "All vertices inside a curve, by their parameters; may be repeated"))
+                           "All vertices inside a curve, by their parameters; repeatable"))
       ->type_name("CURVE=T,...");
-  app->add_option("--env", options.env, "Parameters from a blsurf.env, up to its first action; options win")
+  app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
       ->type_name(kind::file);
   app->add_option("--effort", options.effort,
-                  "Work beyond the first mesh: 0 none; 1, the default, at most as much as the first mesh; 2 at most twice as much")
+                  "Work beyond the first mesh: 0 none; 1 (default) at most the first mesh's; 2 at most twice that")
       ->check(CLI::Range(0, 2))
       ->type_name(kind::number);
-  repeated(app->add_option("--set", options.settings, "Any parameter that `carreau params` lists; may be repeated"))
+  repeated(app->add_option("--set", options.settings, "Set a parameter that `carreau params` lists; repeatable"))
       ->type_name(kind::setting);
   threads(app, options.threads);
 }
 
 void radii(CLI::App* app, std::string& path) {
-  app->add_option("--radii", path, "Take radii of elements from lines \"symbol radius\" of this file")
+  app->add_option("--radii", path, "Radii of elements, lines \"symbol radius\" in angstrom; Bondi's by default")
       ->check(CLI::ExistingFile)
       ->type_name(kind::file);
 }
 
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
   app->add_option("--surface", choice.surface,
-                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent; ses, excluding it. Of "
-                  "closed triangles: atlas, a smooth surface over them")
+                  "vws (default, van der Waals), sas or ses (solvent); of triangles: atlas (C1)")
       ->check(CLI::IsMember(surface_names()))
       ->capture_default_str();
-  app->add_option("--probe", choice.probe, "Radius of the probe that stands for the solvent")
+  app->add_option("--probe", choice.probe, "Radius of the probe, unit of the file; 1.4 by default (water)")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length)
       ->capture_default_str();
   radii(app, choice.radii);
-  app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells of a molecule");
+  app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells");
 }
 
 void add_grid_options(CLI::App* app, GridChoice& choice) {
-  app->add_option("--grid", choice.format, "Read a structured grid in this format, whatever the suffix")
+  app->add_option("--grid", choice.format, "Format of a grid: plot3d, heights, scan or nodes; by the suffix by default")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(grid_formats), std::end(grid_formats))));
   app->add_option("--smooth", choice.smoothing,
-                  "Smooth a grid without shrinking: rounds, or rounds,w1,w2 (Taubin's weights, .06 and .061)")
+                  "Rounds of Taubin's filter: N or N,w1,w2 (.06 and .061 by default); 0 by default")
       ->check(smoothing_defect)
       ->type_name(kind::rounds);
-  app->add_flag("--lengths", choice.lengths, "Make lengths of edges the parameters of a grid: for abrupt steps");
+  app->add_flag("--lengths", choice.lengths, "Parameters by lengths of edges, for grids with abrupt steps");
   app->add_option("--join", choice.join_angle,
-                  "Give blocks of a grid one tangent plane where their normals differ by less than this")
+                  "Join tangent planes of blocks whose normals differ by less, degrees; off by default")
       ->check(CLI::Range(0.0, 180.0))
       ->type_name(kind::number);
-  app->add_flag("--fill", choice.fill, "Fill holes of a grid that none of its sides touches");
-  app->add_option("--step", choice.step, "Step of heights and scans whose file does not tell it")
+  app->add_flag("--fill", choice.fill, "Fill holes inside");
+  app->add_option("--step", choice.step, "Step of heights and scans if the file has none, length; 1 by default")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
-  app->add_option("--join-nodes", choice.tolerance, "Nodes on borders of grids are one when they are nearer than this")
+  app->add_option("--join-nodes", choice.tolerance, "Distance below which border nodes are one, length; 1e-6 of the diagonal by default")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
 }
 
 void add_domain_option(CLI::App* app, std::string& domain) {
   app->add_option("--domain", domain,
-                  "Of a surface by formulas: box:x0,y0,x1,y1, disc:x,y,radius or ring:x,y,inner,outer; box:-1,-1,1,1 when "
-                  "not given")
+                  "box:x0,y0,x1,y1, disc:x,y,radius or ring:x,y,inner,outer; box:-1,-1,1,1 by default")
       ->check(domain_defect)
       ->type_name("DOMAIN");
 }
 
 void add_cad_options(CLI::App* app, CadChoice& choice) {
-  app->add_flag("--imprint", choice.imprint, "CAD files: parts that touch share faces and edges, and have one mesh there");
-  app->add_option("--imprint-tolerance", choice.imprint_tolerance,
-                  "With --imprint: distance up to which parts touch; the tolerances of the file when not given")
+  app->add_flag("--imprint", choice.imprint, "Parts that touch share faces and edges, with one mesh there");
+  app->add_option("--imprint-tolerance", choice.imprint_tolerance, "Distance up to which parts touch; tolerances of the file by default")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
-  app->add_option("--min-feature", choice.min_feature,
-                  "CAD files: remove holes, bosses, fillets, chamfers, steps and faces of solids below this length")
+  app->add_option("--min-feature", choice.min_feature, "Remove holes, bosses, fillets, chamfers and steps below this length; off by default")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
-  app->add_option("--unit", choice.unit, "CAD files: unit of the mesh; mm when not given")
+  app->add_option("--unit", choice.unit, "Unit of the mesh; mm by default")
       ->check(CLI::IsMember({"nm", "um", "mm", "cm", "dm", "m", "km", "mil", "in", "ft", "yd"}));
-  app->add_option("--scale", choice.scale, "CAD files: factor of all coordinates")
+  app->add_option("--scale", choice.scale, "Factor of all coordinates; 1 by default")
       ->check(CLI::PositiveNumber)
-      ->type_name(kind::number)
-      ->capture_default_str();
-  app->add_flag("--loose-edges", choice.loose_edges, "CAD files: edges of no face are meshed, too");
+      ->type_name(kind::number);
+  app->add_flag("--loose-edges", choice.loose_edges, "Mesh edges that belong to no face, too");
 }
 
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice) {
   app->add_option("--sharp", choice.sharp,
-                  "Of triangles: degrees between two of them beyond which their edge is one of a sharp line; found when not given")
+                  "Angle of sharp edges, degrees; found between 20 and 45 by default")
       ->check(CLI::Range(0.1, 180.0))
       ->type_name(kind::number);
   app->add_option("--corner", choice.corner,
-                  "Of triangles: degrees by which a sharp line turns at a vertex that is a corner; 45")
+                  "Angle of corners of sharp lines, degrees; 45 by default")
       ->check(CLI::Range(0.1, 180.0))
       ->type_name(kind::number);
   app->add_flag("--given-edges", choice.given_edges,
-                "Of triangles: sharp lines are the edges of the file, and no others are sought");
+                "Take the edges of the file as sharp lines");
   app->add_flag("--ignore-references", choice.ignore_references,
-                "Of triangles: borders between different references are no lines");
+                "Do not make lines between different references");
 }
 
 void add_estimator_options(CLI::App* app, std::vector<std::string>& settings) {
@@ -208,21 +200,21 @@ void add_estimator_options(CLI::App* app, std::vector<std::string>& settings) {
         option, [&settings, name](const std::string& value) { settings.push_back(std::string(name) + "=" + value); },
         help);
   };
-  parameter("--tolerance", "adapt_tolerance", "Error of a field on the next mesh, in its unit; degrees with curvature")
+  parameter("--tolerance", "adapt_tolerance", "Interpolation error, unit of the field; degrees with --source curvature; .01 by default")
       ->check(CLI::PositiveNumber)
       ->type_name("ERROR");
-  parameter("--source", "adapt_source", "What the error is estimated from")
+  parameter("--source", "adapt_source", "Estimate: hessian (default), curvature or deformation")
       ->check(CLI::IsMember({"hessian", "curvature", "deformation"}));
-  parameter("--shape", "adapt_shape", "Sizes, circles in the tangent planes of the graph, or metrics")
+  parameter("--shape", "adapt_shape", "isotropic (default), graph (circles in tangent planes of the graph) or anisotropic")
       ->check(CLI::IsMember({"isotropic", "graph", "anisotropic"}));
-  parameter("--recovery", "adapt_recovery", "How derivatives are found from values")
+  parameter("--recovery", "adapt_recovery", "Derivatives from values: fit (default) or projection")
       ->check(CLI::IsMember({"fit", "projection"}));
   app->add_flag_callback("--relative", [&settings] { settings.emplace_back("adapt_relative=1"); },
-                         "The tolerance is a share of the field's absolute value");
-  parameter("--floor", "adapt_floor", "With --relative: a field counts as this share of its largest value at least")
+                         "Tolerance is a share of the absolute value of the field");
+  parameter("--floor", "adapt_floor", "With --relative: smallest value, as a share of the largest; .1 by default")
       ->check(CLI::PositiveNumber)
       ->type_name("SHARE");
-  parameter("--ratio", "adapt_ratio", "Largest ratio of the two sizes of a metric")
+  parameter("--ratio", "adapt_ratio", "Largest ratio of the two sizes of a metric; 1000 by default")
       ->check(CLI::Range(1.0, 1e9))
       ->type_name("RATIO");
 }

@@ -45,7 +45,7 @@ int picture(const PictureOptions& options) {
   SceneOptions scene = options.scene;
   if (scene.around && views.size() > 1) throw Failure("--around shows one view: --view comes once with it.");
   if (options.metrics == own_metrics) {
-    if (mesh.triangles.empty()) throw Failure("--metric mesh wants triangles; the mesh '" + options.mesh + "' has none.");
+    if (mesh.triangles.empty()) throw Failure("--metric mesh requires triangles; the mesh '" + options.mesh + "' has none.");
     scene.metrics = metrics_of_triangles(mesh);
   } else if (!options.metrics.empty()) {
     scene.metrics = read_metrics(handle.get(), mesh.vertices.size(), options.metrics);

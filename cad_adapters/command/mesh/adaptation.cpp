@@ -69,14 +69,14 @@ Adaptation::Adaptation(const AdaptChoice& choice) : choice_(choice) {
   const bool by_files = !choice.mesh.empty() || !choice.sol.empty();
   if (by_files == !choice.formula.empty())
     throw Failure(by_files ? "--formula stands in the place of --mesh and --sol: it does not go with them."
-                           : "An adaptation wants --mesh and --sol, the last mesh and what is known at its vertices, or "
+                           : "An adaptation requires --mesh and --sol, the last mesh and values at its vertices, or "
                              "--formula.");
-  if (by_files && choice.sol.empty()) throw Failure("--mesh wants --sol: values, sizes or metrics at its vertices.");
-  if (by_files && choice.mesh.empty()) throw Failure("--sol wants --mesh: the mesh that it belongs to.");
+  if (by_files && choice.sol.empty()) throw Failure("--mesh requires --sol: values, sizes or metrics at its vertices.");
+  if (by_files && choice.mesh.empty()) throw Failure("--sol requires --mesh: its mesh.");
   if (by_files && (choice.differences || choice.convergence > 0))
     throw Failure(std::string(choice.differences ? "--differences" : "--convergence") +
                   " is about the loop of --formula: it does not go with --mesh and --sol.");
-  if (!by_files && !choice.transfer.empty()) throw Failure("--transfer wants --mesh: the mesh that its fields are on.");
+  if (!by_files && !choice.transfer.empty()) throw Failure("--transfer requires --mesh: the mesh of its fields.");
   require_file("--mesh", choice.mesh);
   require_file("--sol", choice.sol);
   require_file("--transfer", choice.transfer);
