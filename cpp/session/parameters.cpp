@@ -81,11 +81,11 @@ constexpr std::array kTable = {
     integer_row("curve_groups", 0, 1, 1, "1: .msh files have the curves and corners too, as groups; 0: faces only"),
     real_row("edge_gradation", 0, infinity, 0,
              "largest ratio of sizes one unit edge apart, inward from short edges of curves, greater than 1 (0: any)"),
-    text_row("element", "p1", "p1|p2|q1.0|q1.1|q2.0|q2.1",
-             "type of the elements: triangles (p) or quadrilaterals (q; .1: no triangle), of order 1 or 2 (curved)"),
     integer_row("effort", classic_effort, more_effort, classic_effort,
                 "work beyond the first mesh: 0 none; 1 as carreau mesh, at most as much as the first mesh; 2 more, at most twice as much; "
                 "-1 as RT-0232"),
+    text_row("element", "p1", "p1|p2|q1.0|q1.1|q2.0|q2.1",
+             "type of the elements: triangles (p) or quadrilaterals (q; .1: no triangle), of order 1 or 2 (curved)"),
     diag_row("eps_chord", kPositive, 1.0 / 5000,
              "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),
     real_row("eps_collapse", 0, infinity, 0, "curves shorter than this are removed, model length (0: none)"),

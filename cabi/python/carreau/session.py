@@ -15,7 +15,7 @@ from .progress import Progress
 __all__ = ["Session", "parameters"]
 
 
-class Session(Geometries, SessionBase):
+class Session(SessionBase, Geometries):
     """Holds geometry, model, parameters and the mesh made of them.
 
         session = carreau.Session(hphydef=0.1)
