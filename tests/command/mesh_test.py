@@ -516,7 +516,7 @@ class Results(Folder):
 
     def test_a_summary_ends_the_run_and_a_quiet_one_says_nothing(self):
         done = self.run_mesh(TEAPOT, "-o", "a.mesh", "-o", "a.vtu", "--size", "0.3")
-        for pattern in (r"(?m)^faces +32 meshed, 0 mended, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
+        for pattern in (r"(?m)^faces +32 meshed, 0 repaired, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
                         r"(?m)^written +a\.vtu$", r"(?m)^interfaces \d+ curves of two faces, 0 seams, \d+ open", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
                         r"\d+ triangles"):
             self.assertRegex(done.stderr, pattern)
