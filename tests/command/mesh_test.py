@@ -461,7 +461,7 @@ class Sizes(Folder):
         self.run_mesh(bent, "--size", "0.2", "--env", env, "-o", "b.vtu", "-q")
         done = subprocess.run([PROGRAM, "check", self.path("b.vtu"), "--json"], capture_output=True, text=True, check=True)
         self.assertGreater(json.loads(done.stdout)["elements"]["triangles6"], 0)
-        self.refused(bent, "-o", "c.bl2d", "--element", "p2", sentence="knows straight triangles (p1) only")
+        self.refused(bent, "-o", "c.bl2d", "--element", "p2", sentence="holds straight triangles (p1) only")
         self.refused(bent, "-o", "c.mesh", "--element", "p3", sentence="--element")
 
     def test_a_gradation_lets_sizes_grow_gently(self):
