@@ -37,7 +37,7 @@ constexpr double narrower_than_cuts = 4e-4;
 /// Of sizes by direction, when none is given (the papers' value).
 constexpr double usual_gradation = 1.3;
 
-/// Sizes of a CAD file when none is given: 24 edges on a circle, flat faces of 20 edges across, fillets down to a thousandth of the part.
+/// Sizes of a CAD file when none is given: 12 edges on a circle, flat faces of 20 edges across, fillets down to a thousandth of the part.
 constexpr double usual_angle = 15, usual_largest = 0.05, usual_smallest = 1.0 / 2000;
 
 /// Lengths of the command line in model units.
