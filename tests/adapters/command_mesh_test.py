@@ -107,6 +107,24 @@ class Mesh(unittest.TestCase):
         self.assertEqual(figures(self.out("a.mesh"))["status"], 1)
         self.assertNotIn("crossing:", run("mesh", os.path.join(SHAPES, "sphere.brep"), "-o", self.out("b.mesh")).stderr)
 
+    def test_a_file_without_sizes_follows_its_curvature(self):
+        """15 degrees: 180 / 15 = 12 edges on each circle, whatever its radius."""
+        default, uniform = (run("mesh", os.path.join(SHAPES, "bracket.step"), "-o", self.out(f"{name}.mesh"), *options)
+                            for name, options in (("default", []), ("uniform", ["--size", "5%"])))
+        self.assertIn("sizes by curvature (default): angle 15 degrees, at most 5%, gradation 1.3", default.stderr)
+        self.assertNotIn("default", uniform.stderr.replace(self.out("default"), ""))
+        with open(self.out("default.mesh")) as file:
+            words = file.read().split()
+        at, ends = words.index("Edges"), {}
+        for k in range(int(words[at + 1])):
+            a, b, curve = words[at + 2 + 3 * k:at + 5 + 3 * k]
+            ends.setdefault(curve, []).extend((a, b))
+        circles = [len(each) // 2 for each in ends.values() if all(each.count(vertex) == 2 for vertex in each)]
+        self.assertEqual(len(circles), 13)
+        for edges in circles:
+            self.assertGreaterEqual(edges, 12)
+        self.assertGreaterEqual(circles.count(12), 8)
+
     def test_a_size_may_be_a_share_of_the_diagonal(self):
         # The box of the sphere has the diagonal 2 sqrt(3).
         mean = float(figures(self.mesh("sphere.step", "--size", "2%"))["edge length"].split()[-1])

@@ -284,7 +284,7 @@ class Adapt(WorkFolder):
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "full.sol", sentence="full.sol: it has tensors among other fields")
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "minus.sol", sentence="vertex 1 has a metric that is not positive definite")
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "h.sol", "--use", "sizes", sentence="has the size 0, which is not positive")
-        self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--use", "colours", sentence="--use 'colours' is none of: values, sizes, metrics")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--use", "colours", sentence="--use 'colours' is not one of: values, sizes, metrics")
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--tolerance", "0", sentence="--tolerance")
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--transfer", "short.sol", sentence="short.sol: it has values at 1 vertices")
         self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--use", "sizes", "-o", "a.mesh", "-o", "a.sol",

@@ -56,7 +56,7 @@ class Atlas(unittest.TestCase):
         self.check_torus(text)
 
     def check_torus(self, text):
-        self.assertIn(" 0 mended, 0 failed", text)
+        self.assertIn(" 0 repaired, 0 failed", text)
         self.assertNotIn("turned over", text)
         with open(os.path.join(self.folder, "out.mesh")) as file:
             words = file.read().split()

@@ -77,7 +77,7 @@ class FirstHour(unittest.TestCase):
         self.refused("mesh", "a.step", "--angle", "x", "-o", "a.vtu", sentence="--angle 'x' is not a number from 0.01 to 89")
         self.refused("check", "a.mesh", "--limit", "all", sentence="--limit 'all' is not a number from 1 to 1000000")
         self.refused("picture", "a.mesh", "-o", "a.png", "--color", "qualty",
-                     sentence="--color 'qualty' is none of: face, reference, quality, size, none; did you mean 'quality'?")
+                     sentence="--color 'qualty' is not one of: face, reference, quality, size, none; did you mean 'quality'?")
         self.refused("params", "hphydf", sentence="There is no parameter 'hphydf'; did you mean 'hphydef'? `carreau params` lists them all.")
         self.refused("params", "qqqqqqqq", sentence="There is no parameter 'qqqqqqqq'. `carreau params` lists them all.")
 

@@ -461,7 +461,7 @@ class Sizes(Folder):
         self.run_mesh(bent, "--size", "0.2", "--env", env, "-o", "b.vtu", "-q")
         done = subprocess.run([PROGRAM, "check", self.path("b.vtu"), "--json"], capture_output=True, text=True, check=True)
         self.assertGreater(json.loads(done.stdout)["elements"]["triangles6"], 0)
-        self.refused(bent, "-o", "c.bl2d", "--element", "p2", sentence="knows straight triangles (p1) only")
+        self.refused(bent, "-o", "c.bl2d", "--element", "p2", sentence="holds straight triangles (p1) only")
         self.refused(bent, "-o", "c.mesh", "--element", "p3", sentence="--element")
 
     def test_a_gradation_lets_sizes_grow_gently(self):
@@ -532,7 +532,7 @@ class Results(Folder):
 
     def test_a_summary_ends_the_run_and_a_quiet_one_says_nothing(self):
         done = self.run_mesh(TEAPOT, "-o", "a.mesh", "-o", "a.vtu", "--size", "0.3")
-        for pattern in (r"(?m)^faces +32 meshed, 0 mended, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
+        for pattern in (r"(?m)^faces +32 meshed, 0 repaired, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
                         r"(?m)^written +a\.vtu$", r"(?m)^interfaces \d+ curves of two faces, 0 seams, \d+ open", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
                         r"\d+ triangles"):
             self.assertRegex(done.stderr, pattern)

@@ -34,6 +34,13 @@ class Molecules(unittest.TestCase):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
+    def test_a_probe_alone_makes_the_surface_that_excludes_the_solvent(self):
+        file = os.path.join(DATA, "caffeine.xyzr")
+        areas = [json.loads(self.run_command("mesh", file, *options, "--size", "0.5", "-o", "a.mesh", "--json").stdout)["mesh"]["area"]
+                 for options in (["--probe", "1.4"], ["--surface", "ses", "--probe", "1.4"], ["--surface", "vws", "--probe", "1.4"])]
+        self.assertEqual(areas[0], areas[1])
+        self.assertNotEqual(areas[0], areas[2])
+
     def test_areas_of_two_balls_are_those_in_closed_form(self):
         areas = json.loads(self.run_command("areas", self.write("two.xyzr", TWO), "--atoms", "--json").stdout)
         self.assertEqual(areas["format"], "carreau areas 1")

@@ -55,6 +55,13 @@ def test_files_of_cad(shapes, tmp_path, name):
     agree(carreau.mesh(shapes / name, size="3%", angle=10), by_command(tmp_path, shapes / name, "--size", "3%", "--angle", "10"))
 
 
+@pytest.mark.parametrize("words, options", [({}, []), ({"max": 20, "min": "0.5%"}, ["--max", "20", "--min", "0.5%"]),
+                                            ({"anisotropic": True, "gradation": 1.5}, ["--anisotropic", "--gradation", "1.5"])])
+@needs("CARREAU_MAKE_SHAPES")
+def test_files_of_cad_without_sizes(shapes, tmp_path, words, options):
+    agree(carreau.mesh(shapes / "bracket.step", **words), by_command(tmp_path, shapes / "bracket.step", *options))
+
+
 @needs("CARREAU_MAKE_SHAPES")
 def test_sizes_of_named_faces(shapes, tmp_path):
     part = shapes / "assembly.step"

@@ -44,6 +44,7 @@ class Source:
     match = 0.0                    # how far uses of one curve may be apart: eps_match
     short_ends = False             # short curves are exact, and no mistake of a file
     answers_face_sizes = False
+    follows_curvature = False      # where no size is given
 
     def __init__(self, **options: Any) -> None:
         self.given = options
@@ -119,6 +120,7 @@ class PatchSource(Source):
 
 class CadSource(Source):
     answers_face_sizes = True
+    follows_curvature = True
 
     def __init__(self, source: Any, progress: Progress, options: dict[str, Any]) -> None:
         super().__init__()

@@ -21,6 +21,8 @@ CHOICES: dict[str, Union[int, float, str]] = {
     "effort": 1, "narrow_faces": "collapse", "flag": 1, "failing_faces": "leave_out"}
 NARROW_RATIO = 4e-4  # faces narrower than this share of the size collapse
 USUAL_GRADATION = 1.3  # of sizes by direction
+# Parameters that prescribe sizes.
+PRESCRIBING = ("hphydef", "hphy_flag", "hgeo_flag", "angle_mesh", "eps_chord", "background_mesh")
 
 
 @dataclass
@@ -99,7 +101,17 @@ def _set_geometric(session: Session, sizes: Sizes, h: dict[str, float], diagonal
     _set_new(session, "hgeomax", diagonal / 5)
 
 
-def _set_sizes(session: Session, sizes: Sizes, source: Source, diagonal: float, env: bool) -> None:
+def _set_usual(session: Session, h: dict[str, float], diagonal: float) -> None:
+    """Sizes of a CAD file when none is given, as the command chooses them."""
+    session["hphy_flag"] = 0
+    session["hgeo_flag"] = 1
+    session["angle_mesh"] = 15.0
+    session["hgeomin"] = h.get("min", min(diagonal / 2000, h.get("max", diagonal)))
+    session["hgeomax"] = h.get("max", max(diagonal * 0.05, h.get("min", 0.0)))
+    session["gradation"] = USUAL_GRADATION
+
+
+def _set_sizes(session: Session, sizes: Sizes, source: Source, diagonal: float, env: bool, named: Mapping[str, Any]) -> None:
     h = {name: length(value, name, diagonal) for name in ("size", "min", "max", "chord") if (value := getattr(sizes, name)) is not None}
     if "min" in h and "max" in h and h["min"] > h["max"]:
         raise ArgumentError(f"min {sizes.min} is above max {sizes.max}")
@@ -108,7 +120,10 @@ def _set_sizes(session: Session, sizes: Sizes, source: Source, diagonal: float, 
             session["hphy" + name] = session["hgeo" + name] = h[name]
     by_curvature = bool(sizes.angle) or "chord" in h
     wanted = "size" in h or sizes.face_size or sizes.size_map is not None or sizes.adapts or source.has_sizes(session)
-    if wanted or not (env or by_curvature):
+    usual = source.follows_curvature and not (wanted or env or by_curvature) and not any(name in named for name in PRESCRIBING)
+    if usual:
+        _set_usual(session, h, diagonal)
+    elif wanted or not (env or by_curvature):
         _set_physical(session, sizes, h, source, diagonal)
     elif not env:
         session["hphy_flag"] = 0  # the curvature alone governs
@@ -204,7 +219,7 @@ def prepare(session: Session, source: Source, sizes: Sizes, *, element: Optional
     if effort is not None:
         _set_effort(session, effort)
     if not own or sizes.any:
-        _set_sizes(session, sizes, source, diagonal, env is not None)
+        _set_sizes(session, sizes, source, diagonal, env is not None, named)
     if element is not None:
         session["element"] = element
     _set_named(session, named, diagonal)

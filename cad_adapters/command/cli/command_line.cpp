@@ -55,6 +55,13 @@ const CLI::App* find_command(const std::string& name, const CLI::App& app) {
   return nullptr;
 }
 
+/// A probe has no meaning on a van der Waals surface: without --surface it chooses the solvent excluded surface.
+void choose_surface(const CLI::App& sub, MoleculeChoice& molecule, bool quiet) {
+  if (sub.count("--probe") == 0 || sub.count("--surface") > 0) return;
+  molecule.surface = "ses";
+  if (!quiet) std::fputs("surface ses (default with --probe)\n", stderr);
+}
+
 }  // namespace
 
 CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches.", "carreau") {
@@ -392,6 +399,7 @@ int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) {
     mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
     check_scope(*app_.get_subcommand("mesh"), inputs_, mesh_, false);
+    choose_surface(*app_.get_subcommand("mesh"), mesh_.molecule, mesh_.quiet);
     return mesh(mesh_);
   }
   if (app_.got_subcommand("plane")) return mesh(plane_);

@@ -44,7 +44,7 @@ void add_parts_option(CLI::App* app, MeshOptions& options) {
 
 void add_mesh_options(CLI::App* app, MeshOptions& options) {
   app->add_option("--size", options.size,
-                  "Length of edges, or a share of the diagonal such as 1%; 2% by default")
+                  "Uniform length of edges, or a share of the diagonal; by default 2%, CAD: by curvature")
       ->check(not_empty)
       ->type_name(kind::length);
   app->add_option("--size-map", options.size_map,
@@ -124,7 +124,7 @@ void radii(CLI::App* app, std::string& path) {
 
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
   app->add_option("--surface", choice.surface,
-                  "vws (default, van der Waals), sas or ses (solvent); of triangles: atlas (C1)")
+                  "vws (default), sas or ses (default with --probe); of triangles: atlas (C1)")
       ->check(CLI::IsMember(surface_names()))
       ->capture_default_str();
   app->add_option("--probe", choice.probe, "Radius of the probe, unit of the file; 1.4 by default (water)")

@@ -35,7 +35,7 @@ std::string choice_sentence(const std::string& name, const std::string& word, co
     if (std::find(choices.begin(), choices.end(), word) != choices.end()) return "";
     std::string all;
     for (const std::string& each : choices) all += (all.empty() ? "" : ", ") + each;
-    return name + " '" + word + "' is none of: " + all + did_you_mean(word, choices);
+    return name + " '" + word + "' is not one of: " + all + did_you_mean(word, choices);
   }
   const std::size_t range = type.find(" in [");
   double number = 0;

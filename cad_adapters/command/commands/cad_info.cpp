@@ -63,7 +63,7 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
     std::printf("  %s\n", i == static_cast<std::size_t>(limit) ? "..." : losses[i].c_str());
   for (const std::string& note : notes_of(file)) std::printf("note: %s\n", note.c_str());
   for (const std::string& line : small_features_of(file)) std::printf("%s\n", line.c_str());
-  if (count.empty() && losses.empty()) std::puts("nothing looks dangerous");
+  if (count.empty() && losses.empty()) std::puts("no problems found");
   std::map<std::string, int> told;
   for (const carreau_cad_danger& danger : dangers) {
     int& n = told[danger.kind];

@@ -66,7 +66,7 @@ int info(const InfoOptions& options) {
   }
   std::printf("faces       %d\nsides       %d\npoints      %d\ndiagonal    %.6g\npoles       %d\nshortest side %.6g\n",
               figures.faces, figures.sides, figures.points, input->diagonal(), figures.poles, figures.shortest);
-  if (figures.dangers.empty()) std::puts("nothing looks dangerous");
+  if (figures.dangers.empty()) std::puts("no problems found");
   int told = 0;
   std::string kind;
   for (const ModelDanger& d : figures.dangers) {

@@ -76,9 +76,9 @@ void refuse_elements(carreau_session* session, const std::vector<std::string>& o
   const std::string asked = element;
   for (const std::string& path : outputs) {
     if (asked != "p1" && suffix_of(path) == ".bl2d")
-      throw Failure("'" + path + "' cannot hold elements " + asked + ": .bl2d knows straight triangles (p1) only.");
+      throw Failure("'" + path + "' cannot hold elements " + asked + ": .bl2d holds straight triangles (p1) only.");
     if ((asked.starts_with("p2") || asked.starts_with("q2")) && is_one_of(suffix_of(path), {".su2", ".off", ".obj", ".ply", ".tri"}))
-      throw Failure("'" + path + "' cannot hold elements " + asked + ": " + suffix_of(path) + " knows those of order 1 only.");
+      throw Failure("'" + path + "' cannot hold elements " + asked + ": " + suffix_of(path) + " holds elements of order 1 only.");
   }
 }
 
@@ -127,6 +127,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
               const Ranks* ranks, Ranks::Part& part, FailedFaces& failed, Progress& progress) {
   progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
+  if (const std::string sizes = chosen_sizes(options, input); !sizes.empty()) progress.line(sizes);
   refuse_elements(run.session, options.outputs);
   for (const std::string& sentence : sizes_beyond_bounds(options, input.diagonal())) progress.warning(sentence);
   for (const std::string& sentence : contradicting_face_sizes(options, input)) progress.warning(sentence);

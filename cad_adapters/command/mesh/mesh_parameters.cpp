@@ -12,6 +12,7 @@
 #include "base/lengths.h"
 #include "base/parameters.h"
 #include "base/suggestions.h"
+#include "base/text_file.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
 #include "mesh/selection.h"
@@ -37,6 +38,9 @@ constexpr double narrower_than_cuts = 4e-4;
 
 /// Of sizes by direction, when none is given (the papers' value).
 constexpr double usual_gradation = 1.3;
+
+/// Sizes of a CAD file when none is given: 12 edges on a circle, flat faces of 20 edges across, fillets down to a thousandth of the part.
+constexpr double usual_angle = 15, usual_largest = 0.05, usual_smallest = 1.0 / 2000;
 
 /// Lengths of the command line in model units.
 struct Lengths {
@@ -97,17 +101,43 @@ void set_geometric_sizes(carreau_session* session, const MeshOptions& options, c
   if (!is_set(session, "hgeomax")) set(session, "hgeomax", diagonal / 5);
 }
 
+bool asks_for(const MeshOptions& options, const std::string& name) {
+  return std::any_of(options.settings.begin(), options.settings.end(),
+                     [&](const std::string& each) { return parse_assignment(each, "--set").first == name; });
+}
+
+/// No option, parameter or file prescribes a size, and the input is a CAD file.
+bool has_usual_sizes(const MeshOptions& options) {
+  constexpr std::array suffixes = {".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
+  constexpr std::array prescribing = {"hphydef", "hphy_flag", "hgeo_flag", "angle_mesh", "eps_chord", "background_mesh"};
+  const std::string suffix = suffix_of(options.input);
+  return std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end() && options.size.empty() && options.size_map.empty() &&
+         options.angle == 0 && options.chord.empty() && options.face_sizes.empty() && options.sizes_on.empty() && options.env.empty() && !options.adapt.is_adapt && !options.parts &&
+         std::none_of(prescribing.begin(), prescribing.end(), [&](const char* name) { return asks_for(options, name); });
+}
+
+void set_usual_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths, double diagonal) {
+  set(session, "hphy_flag", 0);
+  set(session, "hgeo_flag", 1);
+  set(session, "angle_mesh", usual_angle);
+  set(session, "hgeomin", lengths.minimum.value_or(std::min(diagonal * usual_smallest, lengths.maximum.value_or(diagonal))));
+  set(session, "hgeomax", lengths.maximum.value_or(std::max(diagonal * usual_largest, lengths.minimum.value_or(0))));
+  if (!options.gradation) set(session, "gradation", usual_gradation);
+}
+
 void set_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths, const CadInput& input) {
   for (const auto& [bound, names] : {std::pair{lengths.minimum, std::array{"hphymin", "hgeomin"}},
                                      std::pair{lengths.maximum, std::array{"hphymax", "hgeomax"}}})
     for (const char* name : names)
       if (bound) set(session, name, *bound);
+  const bool usual = has_usual_sizes(options) && !input.has_sizes();
+  if (usual) set_usual_sizes(session, options, lengths, input.diagonal());
   const bool by_curvature = options.angle > 0 || lengths.chord;
   const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.sizes_on.empty() || !options.size_map.empty() || input.has_sizes() ||
                            options.adapt.is_adapt;
-  if (sizes_typed || (options.env.empty() && !by_curvature))
+  if (sizes_typed || (options.env.empty() && !by_curvature && !usual))
     set_physical_sizes(session, options, lengths, input);
-  else if (options.env.empty())
+  else if (options.env.empty() && !usual)
     set(session, "hphy_flag", 0);  // the curvature alone governs
   if (by_curvature) set_geometric_sizes(session, options, lengths, input.diagonal());
   if (options.anisotropy > 0) {
@@ -145,11 +175,6 @@ void set_effort(carreau_session* session, int level) {
   for (const carreau_parameter& parameter : known_parameters())
     if (is_synonym(parameter)) require(session, carreau_reset_parameter(session, parameter.name));
   set(session, "effort", level);
-}
-
-bool asks_for(const MeshOptions& options, const std::string& name) {
-  return std::any_of(options.settings.begin(), options.settings.end(),
-                     [&](const std::string& each) { return parse_assignment(each, "--set").first == name; });
 }
 
 int threads_of(const MeshOptions& options) {
@@ -234,6 +259,12 @@ void check_words(const MeshOptions& options) {
   if (options.settings.empty()) return;
   const SessionHandle session = make_session();
   for (const std::string& each : options.settings) check_setting(session.get(), each, "--set");
+}
+
+std::string chosen_sizes(const MeshOptions& options, const CadInput& input) {
+  if (!has_usual_sizes(options) || input.has_sizes()) return "";
+  return "sizes by curvature (default): angle 15 degrees, at most " + (options.maximum.empty() ? "5%" : options.maximum) +
+         (options.gradation ? "" : ", gradation 1.3") + "; --size gives a uniform size";
 }
 
 std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double diagonal) {

@@ -16,6 +16,9 @@ namespace command {
 /// Throws Failure for words that mean nothing, before the input is read.
 void check_words(const MeshOptions& options);
 
+/// The sizes that the command chooses for a CAD file when none is given; "": it chooses none.
+std::string chosen_sizes(const MeshOptions& options, const CadInput& input);
+
 /// A sentence for each size that was typed and that --min or --max changes.
 std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double diagonal);
 

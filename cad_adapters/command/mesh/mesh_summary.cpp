@@ -117,7 +117,7 @@ std::string short_edges_line(const ShortEdges& edges) {
          list_of(edges.faces, listed);
 }
 
-/// A line for each face that failed; faces that are mended or collapsed for one reason share a line.
+/// A line for each face that failed; faces that are repaired or collapsed for one reason share a line.
 std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
   constexpr int listed = 50;           // lines
   constexpr std::size_t numbers = 15;  // faces in one
@@ -125,7 +125,7 @@ std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
   std::map<std::string, std::vector<std::int32_t>> alike;
   int failed = 0;
   for (const FaceResult& face : faces) {
-    const std::string what = status_word(face.status) + reason_of(face);
+    const std::string what = (face.status == CARREAU_FACE_MENDED ? "repaired" : status_word(face.status)) + reason_of(face);
     if (face.status == CARREAU_FACE_MENDED || face.status == CARREAU_FACE_COLLAPSED)
       alike[what].push_back(face.ref);
     else if (face.status != CARREAU_FACE_MESHED && ++failed <= listed)
@@ -212,7 +212,7 @@ namespace {
 std::vector<std::string> first_lines(const MeshRun& run) {
   const carreau_quality& q = run.quality;
   const auto of = [&](std::int32_t status) { return whole(count(run.faces, status)); };
-  std::vector<std::string> lines{text("faces      %lld meshed, %lld mended, %lld failed", of(CARREAU_FACE_MESHED),
+  std::vector<std::string> lines{text("faces      %lld meshed, %lld repaired, %lld failed", of(CARREAU_FACE_MESHED),
                                       of(CARREAU_FACE_MENDED), of(CARREAU_FACE_FAILED))};
   if (const std::int64_t n = count(run.faces, CARREAU_FACE_COLLAPSED); n > 0)
     lines.front() += text(", %lld collapsed", whole(n));

