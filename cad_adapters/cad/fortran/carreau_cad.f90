@@ -154,7 +154,8 @@ contains
   end function address_of
 
   !> sign: room for the unit, which lives as long as the options
-  function options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, min_feature) result(options)
+  function options_of(sign, trap_faults, progress, user, loose_edges, imprint, imprint_tolerance, unit, scale, &
+      min_feature) result(options)
     character(kind=c_char), intent(inout), target :: sign(16)
     logical, intent(in), optional :: trap_faults
     procedure(carreau_cad_progress_fn), optional :: progress
