@@ -148,7 +148,7 @@ class Mesh(unittest.TestCase):
         path = self.mesh("cone.step", "--size", "0.2", "--independent", "--sharp-angle", "30")
         self.assertEqual(figures(path, "--closed")["defects"], "none")
         self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("x.mesh"), "--sharp-angle", "30",
-                     sentence="--independent")
+                     sentence="--cross-patch")
 
     def test_all_formats_appear_together(self):
         names = ["a.mesh", "a.meshb", "a.vtu", "a.stl", "a.msh", "a.msh2"]
