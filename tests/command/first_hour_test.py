@@ -93,6 +93,13 @@ class FirstHour(unittest.TestCase):
                 self.assertNotIn("none.bpt", done.stderr)
         self.assertEqual(run("mesh", self.three, "-o", self.path("a.mesh"), "--set", "hphydef=3%", "-q").returncode, 0)
 
+    def test_details_of_a_run_come_with_verbose_only(self):
+        plain, verbose = (run("mesh", TEAPOT, "-o", os.path.join(self.folder, "a.mesh"), "--angle", "12", "--gradation", "1.3", *options).stderr
+                          for options in ([], ["--verbose"]))
+        for detail in ("evaluations of surfaces", "sizes graded on"):
+            self.assertNotIn(detail, plain)
+            self.assertIn(detail, verbose)
+
     def test_help_is_a_command(self):
         self.assertEqual(run("help").stdout, run("--help").stdout)
         for command in ("mesh", "info", "check", "picture", "fields", "params", "completion"):

@@ -336,6 +336,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   const bool asked = asks_for(options, "narrow_faces") || std::strcmp(narrow_faces, "collapse") != 0;
   if (asked && real(session, "narrow_ratio") == narrower_than_cuts) set(session, "narrow_ratio", usual_ratio);
   if (options.threads > 0) set(session, "threads", options.threads);
+  if (options.verbose && !options.quiet) set(session, "verb", static_cast<std::int32_t>(CARREAU_LEVEL_DETAIL));
   if (options.independent) require(session, carreau_set_text(session, "patches", "independent"));
   if (options.sharp_angle) set(session, "sharp_angle", *options.sharp_angle);
   set_sizes(session, options, lengths_of(options, diagonal), input);
