@@ -42,7 +42,8 @@ class Sandbox:
     def environment(self):
         libraries = os.path.join(self.prefix, "lib")
         return os.environ | {"HOME": self.home, "PATH": self.bin + ":" + os.path.join(self.prefix, "bin") + ":" + os.environ["PATH"], "NO_COLOR": "1",
-                             "PKG_CONFIG_PATH": os.path.join(libraries, "pkgconfig"), "LD_LIBRARY_PATH": libraries, "CMAKE_PREFIX_PATH": self.prefix}
+                             "PKG_CONFIG_PATH": os.path.join(libraries, "pkgconfig"), "LD_LIBRARY_PATH": libraries, "CMAKE_PREFIX_PATH": self.prefix,
+                             "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
     def run(self, script, check=True):
         """What a script of bash prints; its status is 0 unless `check` is False."""
