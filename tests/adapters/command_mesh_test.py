@@ -29,7 +29,7 @@ def content(path, binary=False):
 
 
 def figures(path, *options):
-    """What `carreau check` prints, by the first word of each line."""
+    """The output of `carreau check`, by the first word of each line."""
     done = run("check", path, *options)
     return {line[:12].strip(): line[12:] for line in done.stdout.splitlines()} | {"status": done.returncode}
 
@@ -229,7 +229,7 @@ class Mesh(unittest.TestCase):
         self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("a.mesh"), "--set", "hphydeff=1", sentence="hphydef")
 
     def test_fields_of_a_cad_file_are_an_image_a_face(self):
-        # What is in such files is tested in tests/command/fields_test.py and tests/cpp/fields.
+        # The content of such files is tested in tests/command/fields_test.py and tests/cpp/fields.
         done = run("fields", os.path.join(SHAPES, "sphere.step"), "-o", self.out("s.exr"), "--pixels", "30", "--set",
                    "hgeo_flag=1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -222,7 +222,7 @@ def check(folder, geometry, options):
 
 
 def check_su2_of_space(folder):
-    """Of a surface in space faces are markers, and there is nothing else."""
+    """A surface in space has faces as markers, and nothing else."""
     import meshio
     corner, name = os.path.join(folder, "space.bpt"), os.path.join(folder, "space.su2")
     with open(corner, "w") as file:
