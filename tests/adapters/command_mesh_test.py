@@ -369,7 +369,7 @@ class Mesh(unittest.TestCase):
         self.assertNotIn("\r", done.stderr)
         self.assertNotIn("\033", done.stderr)
         self.assertRegex(done.stderr, r"(?m)^reading .*torus\.step$")
-        self.assertRegex(done.stderr, r"(?m)^ *\d+ % patches, face 1$")
+        self.assertRegex(done.stderr, r"(?m)^ *\d+ % of the run: meshing faces, face 1$")
         self.assertRegex(done.stderr, r"(?m)^1 face: \d+ vertices")
         # Both curves of the torus are circles with exact images, but for digits of the file: below its tolerance.
         gap = float(re.search(r"(?m)^gaps +largest (\S+) \(edge \d on face [01]\); 0 above twice", done.stderr)[1])
@@ -388,7 +388,7 @@ class Mesh(unittest.TestCase):
                 break
             text += block
         self.assertEqual(process.wait(timeout=60), 0)
-        self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % patches, face 1")
+        self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % of the run: meshing faces, face 1")
 
     def interrupt(self, *options, after="", delay=0.05, number=signal.SIGINT):
         """Exit code, and what was told after the line with `after` ("": at once)."""
@@ -406,7 +406,7 @@ class Mesh(unittest.TestCase):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with open(self.out("a.mesh"), "w") as old:
                 old.write("old")
-            status, rest = self.interrupt("--size", "0.08%", after="patches", number=number)
+            status, rest = self.interrupt("--size", "0.08%", after="meshing faces", number=number)
             self.assertEqual(status, -number)  # as a shell expects that goes on, or not, with its script
             self.assertIn("stopped; nothing was written", rest)
             self.assertEqual(os.listdir(self.folder), ["a.mesh"])

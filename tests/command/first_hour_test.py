@@ -235,7 +235,7 @@ class FirstHour(unittest.TestCase):
     def test_progress_never_goes_back(self):
         for options in (("--size", "0.1", "--set", "measure=1"), ("--angle", "10", "--gradation", "1.3", "-o", self.path("b.exr"), "-o", self.path("c.vtu"))):
             done = run("mesh", TEAPOT, "-o", self.path("a.vtu"), *options)
-            percent = [int(number) for number in re.findall(r"(?m)^ *(\d+) % \w", done.stderr)]
+            percent = [int(number) for number in re.findall(r"(?m)^ *(\d+) % of the run: \w", done.stderr)]
             self.assertGreater(len(percent), 5)
             self.assertEqual(percent, sorted(percent), done.stderr)
             self.assertEqual(percent[-1], 100)
