@@ -11,7 +11,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils locales \
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev libocct-modeling-algorithms-dev \
   libocct-modeling-data-dev libocct-foundation-dev \
-  libgtest-dev libmuparser-dev libmedc-dev libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev openexr zsh fish groff-base clang libclang-rt-dev \
+  libgtest-dev libmuparser-dev libmedc-dev libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev openexr gmsh zsh fish groff-base clang libclang-rt-dev \
   python3-vtk9 python3-gmsh python3-meshio libcgal-dev python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel python3-venv mypy \
   chromium chromium-driver python3-selenium calculix-ccx \
   python3-sphinx python3-myst-parser furo doxygen python3-breathe \

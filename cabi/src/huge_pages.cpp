@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Large arrays of the library ask for pages of 2 MiB where Linux gives them on request (transparent_hugepage/enabled is
 // madvise): an array that is new costs a fault for each of its pages, and one that is old a miss of the processor's table.
-// docs/explanation/processes.md has what that saves.
 //
 // The linker turns the calls of operator new in this library into those of the function below (--wrap); memory comes from
 // the host's operator new and goes to its operator delete, as before.

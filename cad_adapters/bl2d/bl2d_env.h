@@ -9,7 +9,7 @@
 
 namespace bl2d {
 
-/// What stops the program, as a sentence.
+/// The sentence of the error that stops the program.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -94,7 +94,7 @@ class Step {
     require(session_.get(), carreau_set_background_mesh(session_.get(), mesh.c_str(), sizes.c_str()));
   }
 
-  /// What is prescribed counts, however small or large.
+  /// Prescribed sizes apply, however small or large.
   void set_parameters() {
     carreau_session* const session = session_.get();
     constexpr double smallest = 1e-9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file holds: counts, names, colours, places.
+// The content of a file: counts, names, colours, places.
 #include "handle.h"
 
 using namespace carreau_occ;

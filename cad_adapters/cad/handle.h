@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the handle of carreau_cad.h holds, and the only place where an exception becomes a status.
+// The content of the handle of carreau_cad.h, and the only place where an exception becomes a status.
 #pragma once
 
 #include <brep_host.h>
@@ -72,7 +72,7 @@ carreau_status status_of(Body&& body, Keep&& keep) noexcept {
   }
 }
 
-/// What every function that has a file does.
+/// The frame of every function that has a file.
 template <typename Body>
 carreau_status guarded_call(carreau_cad_file* file, Body&& body) noexcept {
   if (file == nullptr) return CARREAU_ERR_ARGUMENT;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a file is hard to mesh, and figures of its faces.
+// Potential meshing problems of a file, and figures of its faces.
 #include <cstdio>
 
 #include "handle.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a STEP or IGES file makes of its shapes: parts, assemblies of parts that are placed, and their names and
+// The structure of a STEP or IGES file: parts, assemblies of parts that are placed, and their names and
 // colours.
 #pragma once
 
@@ -36,7 +36,7 @@ class Document {
   /// shape.
   int add_inside(int item, const TopoDS_Shape& shape);
 
-  /// What stands for a shape: its item, the first component at its place, or, if asked for, what add_inside() makes of
+  /// The item of a shape: its own, the first component at its place, or, if asked for, what add_inside() makes of
   /// it.
   int find(const TopoDS_Shape& shape, bool inside);
   /// A component at the shape's place, or else its part; what is inside of parts is not looked at.
@@ -46,7 +46,7 @@ class Document {
   [[nodiscard]] bool is_assembly(int item) const { return at(item).assembly; }
 
   void set_name(int item, const std::string& name) { at(item).name = name; }
-  /// What add_inside() made has this shape.
+  /// The item of add_inside() has this shape.
   void set_shape(int item, const TopoDS_Shape& shape);
   enum class Colour { surface, general };
   void set_colour(int item, Colour kind, const Quantity_ColorRGBA& colour);

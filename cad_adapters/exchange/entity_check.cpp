@@ -18,7 +18,7 @@
 namespace carreau_occ {
 namespace {
 
-/// What makes no sense in numbers that can be read; "" when nothing does.
+/// Absurd values in readable numbers; "": none.
 std::string nonsense(const Spline& spline) {
   for (const std::vector<double>& knots : spline.knots)
     if (!std::all_of(knots.begin(), knots.end(), usable) || !std::is_sorted(knots.begin(), knots.end()))
@@ -43,7 +43,7 @@ std::string error_of(const Handle(Interface_Check) & check) {
   return "";
 }
 
-/// Of a STEP entity with several types, "(A,B,C)", the longest that says something.
+/// The longest meaningful type of a STEP entity with several types, "(A,B,C)".
 std::string type_of(std::string name) {
   if (name.empty() || name.front() != '(') return name;
   std::string longest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the check of entities has to know of a format.
+// The properties of a format for the check of entities.
 #pragma once
 
 #include <Interface_EntityIterator.hxx>
@@ -34,7 +34,7 @@ class EntityKinds {
  public:
   virtual ~EntityKinds() = default;
   [[nodiscard]] virtual bool is_face(const Entity& entity) const = 0;
-  /// Entities of which a shape is made. What else a file holds (styles, notes, persons) may be wrong.
+  /// Entities of which a shape is made. Other entities (styles, notes, persons) may be wrong.
   [[nodiscard]] virtual bool is_geometry(const Entity& entity) const = 0;
   /// Whether faces may be missing or misplaced when this entity cannot be read. Annotations, texts and curves carry none.
   [[nodiscard]] virtual bool carries_faces(const Entity& entity, const Interface_Graph& graph) const = 0;
@@ -42,7 +42,7 @@ class EntityKinds {
   /// Numbers that could not be read hold anything, and OpenCASCADE searches without end where coordinates are not
   /// finite.
   virtual bool mend_numbers(const Entity&) const { return false; }
-  /// What OpenCASCADE 7.6 does not do with a placement that scales; "" for all other entities.
+  /// The scale of a placement that OpenCASCADE 7.6 drops; "" for all other entities.
   [[nodiscard]] virtual std::string lost_scale(const Entity& entity) const = 0;
   /// Entities of which a faulty one is a part.
   [[nodiscard]] virtual std::vector<Entity> wholes_of(const Entity& entity, const Interface_Graph& graph) const {

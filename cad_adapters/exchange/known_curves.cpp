@@ -181,7 +181,7 @@ class KnownCurvesOfShape {
   std::vector<Given> given_;
 };
 
-/// What was there before, with such curves while it heals.
+/// The previous curves, with such curves while it heals.
 class Healer final : public XSAlgo_AlgoContainer {
  public:
   explicit Healer(const Handle(XSAlgo_AlgoContainer) & inner) : inner_(inner) {

@@ -25,7 +25,7 @@
 namespace carreau_occ {
 namespace {
 
-// What OpenCASCADE's records call a list inside an entity, and an entity without a number.
+// The name of a list inside an entity, and of an entity without a number, in OpenCASCADE's records.
 constexpr const char* untyped = "/* (SUB) */";
 constexpr const char* unnumbered = "#0";
 constexpr const char* no_name = "''";

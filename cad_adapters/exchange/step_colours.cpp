@@ -65,7 +65,7 @@ Handle(StepRepr_AssemblyComponentUsage) use_of(const Handle(Standard_Transient) 
   return Handle(StepRepr_AssemblyComponentUsage)::DownCast(shape->Definition().ProductDefinitionRelationship());
 }
 
-/// Where a style of a component holds. False: in one place of a part that is in several assemblies, which is not told.
+/// The scope of a style of a component. False: in one place of a part that is in several assemblies, which is not told.
 bool find_component(const StepVisual_StyledItem& item, const StepParts& parts, TopoDS_Shape& shape) {
   const Handle(StepShape_ShapeRepresentation) context = context_of(item);
   if (context.IsNull()) return true;

@@ -28,7 +28,7 @@ struct StepParts {
   std::vector<Product> products{};                                      // that have shapes
   std::map<const StepBasic_ProductDefinition*, std::size_t> numbers{};  // of them
 
-  /// Of what an entity became; none: nothing.
+  /// The shapes of an entity; none: nothing.
   [[nodiscard]] int item_of(const Handle(Standard_Transient) & entity) const;
 };
 

@@ -95,7 +95,7 @@ class StepReader {
   /// Roots of a file and all that they refer to. False: there is none, or it was stopped.
   bool translate(STEPControl_Reader& reader, const Message_ProgressRange& progress, int* first_item = nullptr);
 
-  /// What the files that the first one refers to have lost.
+  /// Losses of the files to which the first file refers.
   [[nodiscard]] const std::vector<std::string>& losses() const { return losses_; }
   [[nodiscard]] const std::vector<std::pair<TopoDS_Shape, std::string>>& doubtful() const { return doubtful_; }
 

@@ -39,7 +39,7 @@ inline void refuse_tessellated(const std::string& path) {
 
 }  // namespace carreau_occ
 
-/// What the libraries of translators export.
+/// The exports of the libraries of translators.
 #define CARREAU_TRANSLATOR extern "C" __attribute__((visibility("default"))) void
 CARREAU_TRANSLATOR carreau_translate_step(const std::string& path, const Message_ProgressRange& progress,
                                           carreau_occ::ShapeFile& file);

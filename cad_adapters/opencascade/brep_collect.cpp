@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a BrepHost takes from a shape: topology, names, doubts.
+// The data that a BrepHost takes from a shape: topology, names, doubts.
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -120,7 +120,7 @@ bool is_outside(const EdgeImage& image, const TopoDS_Face& face) {
   return true;
 }
 
-/// What all loops of a face enclose in the parameter plane, as shares of the boxes of the loops.
+/// The area that all loops of a face enclose in the parameter plane, as shares of the boxes of the loops.
 struct Enclosed {
   double largest = 0;  ///< of one loop
   double sum = 0;      ///< of all; outer loops are counterclockwise
@@ -190,7 +190,7 @@ std::vector<EdgeImage> images_of(std::vector<std::vector<EdgeImage>> loops, cons
 
 }  // namespace
 
-/// What more there is to report of a face without edges.
+/// Further problems of a face without edges.
 std::string BrepHost::State::endless(int number) const {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces(number)));
   if (surface.IsNull()) return ", and it has no surface";

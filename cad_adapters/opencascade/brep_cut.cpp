@@ -37,7 +37,7 @@ struct Bent {
   gp_XY extent;  // of its box of parameters
 };
 
-/// Where an edge is cut: its parameter on one of its curves, and the place.
+/// The place of a cut of an edge: its parameter on one of its curves, and the place.
 struct EdgeCut {
   int face = 0, curve = 0;  // number of the face, index of its curve
   double t = 0;
@@ -45,7 +45,7 @@ struct EdgeCut {
   int vertex = 0;
 };
 
-/// What cuts one file's faces. Numbers and indices as in the host's state.
+/// The cutter of the faces of one file. Numbers and indices as in the host's state.
 class KinkCutter {
  public:
   struct Result {

@@ -57,7 +57,7 @@ class BrepHost {
   [[nodiscard]] int wire_count() const noexcept;
   /// Faces and parts of faces: references are from 1 to this.
   [[nodiscard]] int reference_count() const noexcept;
-  /// Of a face or a part of one.
+  /// The name of a face or of a part.
   [[nodiscard]] int curve_count(int reference) const noexcept;
   /// The face of the shape that a reference of the model is, or is a part of; other numbers stay.
   [[nodiscard]] int whole_face(int reference) const noexcept;
@@ -67,7 +67,7 @@ class BrepHost {
   [[nodiscard]] int whole_edge(int reference) const noexcept;
   /// Faces that bend inside and could not be cut there, ascending.
   [[nodiscard]] const std::vector<int>& bent_faces() const noexcept;
-  /// What was mended so that faces can be meshed: a sentence each.
+  /// Repairs that let faces be meshed: a sentence each.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept;
   [[nodiscard]] int edge_count() const noexcept;
   [[nodiscard]] int vertex_count() const noexcept;
@@ -91,11 +91,11 @@ class BrepHost {
   /// curve number ic, from 1. False: OpenCASCADE fails.
   [[nodiscard]] std::vector<std::int32_t> curves(int face) const;
   bool on_curve(int face, int ic, double share, double* uv) const noexcept;
-  /// What OpenCASCADE said when a callback failed on this face; "" when none did.
+  /// The message of OpenCASCADE for a callback that failed on this face; "": none.
   [[nodiscard]] std::string failure(int face) const;
 
  private:
-  /// Of a face, from 1.
+  /// Returns the number of a face, from 1.
   [[nodiscard]] int seed_curve(int number) const;
   carreau_status add_face(carreau_session* session, std::size_t index) const;
   carreau_status add_wire(carreau_session* session, std::size_t index) const;

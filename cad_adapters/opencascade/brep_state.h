@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a BrepHost knows of its shape, and the callbacks that a session gets. Private to BrepHost.
+// The data of a BrepHost about its shape, and the callbacks of a session. Private to BrepHost.
 #pragma once
 
 #include <Standard_Failure.hxx>
@@ -71,7 +71,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   std::map<int, std::string> failures;  // by face
   int sessions = 0;                     // that ask the callbacks
   std::shared_ptr<State> self;          // while there are some
-  // By number - 1: faces whose surface, or curves, failed or could not be had. Not asked again, since a fault may have
+  // Indexed by number - 1: faces whose surface, or curves, failed or could not be had. Not asked again, since a fault may have
   // left locks behind.
   std::unique_ptr<std::atomic<bool>[]> surface_failed, curves_failed;
 
@@ -86,7 +86,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   /// Faces become parts that do not bend inside, where that can be done.
   void cut_kinks();
   void collect_wires(bool beside_faces);
-  /// Of faces that are known.
+  /// Boxes of known faces.
   void let_evaluate();
   /// The edge of a reference that is that of a wire; nullptr: of a face.
   [[nodiscard]] const LooseEdge* wire(int reference) const noexcept;

@@ -10,7 +10,7 @@
 
 namespace carreau_occ {
 
-/// Where a domain is cut; each ascends.
+/// The parameters of the cuts of a domain; each ascends.
 struct CutLines {
   std::vector<double> u, v;  ///< of constant u, of constant v
 };

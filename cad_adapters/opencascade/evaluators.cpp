@@ -87,8 +87,8 @@ Evaluators::Surface Evaluators::surface(std::size_t face) {
 }
 
 // Next to a line the adaptor may take the polynomials of either side: derivatives come from a little inside, and are
-// carried to the place by Taylor's formula. What it leaves out is of the second order of the distance in first
-// derivatives, of the first in second ones.
+// carried to the place by Taylor's formula. The error is of second order in the distance in first
+// derivatives, of first order in second ones.
 void Evaluators::Surface::d2_beside(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv,
                                     gp_Vec& suv) const {
   u = std::clamp(u, box_->low_u, box_->high_u), v = std::clamp(v, box_->low_v, box_->high_v);

@@ -17,13 +17,13 @@
 
 namespace carreau_occ {
 
-/// Where a parameter enters the next polynomial. An adaptor keeps the polynomial that it used last, and takes it again
+/// The parameter at which the next polynomial begins. An adaptor keeps the polynomial that it used last, and takes it again
 /// for a parameter that lies a rounding error before its end, where a new search would take the next one: results would
 /// depend on what was asked before. So such parameters are moved onto the end.
 class Breaks {
  public:
   Breaks() = default;
-  /// Of an adaptor's direction. `breaks` ascend, with both ends.
+  /// The knots of one direction of an adaptor. `breaks` ascend, with both ends.
   Breaks(std::vector<double> breaks, bool periodic, double period);
   [[nodiscard]] double settle(double t) const noexcept;
   [[nodiscard]] bool several() const noexcept { return !breaks_.empty(); }
@@ -36,7 +36,7 @@ class Breaks {
   double period_ = 0;
 };
 
-/// Where a part of a face ends on lines along which its surface bends: there derivatives are those of its own side, and
+/// The ends of a part of a face on lines of bends: there derivatives belong to its own side, and
 /// beyond them, where rounding gets, there is nothing. Infinite: no line.
 struct PartBox {
   static constexpr double none = std::numeric_limits<double>::infinity();
@@ -48,8 +48,8 @@ struct PartBox {
   }
 };
 
-/// Every thread has its own adaptors, since these keep the polynomial of the span that they evaluated last. What is
-/// returned does not depend on the thread or on what was asked before.
+/// Every thread has its own adaptors, since these keep the polynomial of the span that they evaluated last.
+/// Results do not depend on the thread or on earlier calls.
 class Evaluators {
  public:
   /// Room for `n` faces, counted from 0.
@@ -59,7 +59,7 @@ class Evaluators {
   /// As they were given.
   [[nodiscard]] const std::vector<Handle(Geom2d_Curve)>& curves(std::size_t face) const { return faces_[face].curves; }
 
-  /// Of the calling thread, and for it alone. Throw Standard_Failure.
+  /// The evaluators of the calling thread, for it alone. Throw Standard_Failure.
   class Surface {
    public:
     void d0(double u, double v, gp_Pnt& p) const {
@@ -84,7 +84,7 @@ class Evaluators {
 
     /// Whether it is made of several polynomials, each of which an adaptor prepares again when it comes back to it.
     [[nodiscard]] bool has_patches() const noexcept { return !closed_ && (u_.several() || v_.several()); }
-    /// Of points of one polynomial the same, of others another.
+    /// Equal for points of one polynomial, different for others.
     [[nodiscard]] std::size_t patch_of(double u, double v) const noexcept {
       return (u_.span_of(u) << 32) + v_.span_of(v);
     }

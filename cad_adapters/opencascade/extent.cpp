@@ -86,7 +86,7 @@ class FaceBox {
 
   // A spline may have a hill in each of its intervals.
   static int cells_of(int intervals) { return std::clamp(4 * intervals, least_cells, most_cells); }
-  // Who is outside costs more than where it is.
+  // Finding the faces outside costs more than their places.
   bool is_inside(gp_Pnt2d uv) {
     if (!inside_) {
       inside_.emplace(face_, Precision::PConfusion());

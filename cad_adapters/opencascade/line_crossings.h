@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where curves of a parameter plane cross lines of constant u or v.
+// Crossings of curves of a parameter plane with lines of constant u or v.
 #pragma once
 
 #include <Geom2d_Curve.hxx>

@@ -123,7 +123,7 @@ class SeamMaker {
     return !rounds_.empty() && rounds_.size() <= 2;
   }
 
-  /// The inside is on the left of a loop. Where the surface ends there in one point, this is the other loop.
+  /// The inside is on the left of a loop. If the surface ends there in one point, this is the other loop.
   bool add_pole() {
     const Round& round = rounds_.front();
     double u1 = 0, u2 = 0, v1 = 0, v2 = 0;

@@ -25,9 +25,9 @@ struct ShapeFile {
   };
   std::vector<Label> labels;
   std::string unit;  ///< of its coordinates, "" when it has none
-  /// What the file holds and the shape does not, or not as it should: a sentence each, which names the entity.
+  /// Entities of the file that the shape lacks or has in another form: a sentence each, which names the entity.
   std::vector<std::string> losses{};
-  /// What was passed over or repaired without the loss of a face: a sentence each.
+  /// Ignored or repaired entities, without the loss of a face: a sentence each.
   std::vector<std::string> notes{};
   /// Faces of the shape that stand on data with an error, and why.
   std::vector<std::pair<TopoDS_Shape, std::string>> doubtful{};

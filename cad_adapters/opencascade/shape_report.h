@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a shape holds, and what of it is hard to mesh: before anything is meshed.
+// The content of a shape, and potential meshing problems, before meshing.
 #pragma once
 
 #include <array>

@@ -21,7 +21,7 @@ using ThreadValues = tbb::enumerable_thread_specific<T>;
 template <typename T>
 class ThreadValues {
  public:
-  /// Of the calling thread; made by T() when it asks first. A thread may find the value of one that has ended.
+  /// The value of the calling thread; made by T() at the first call. A thread may find the value of one that has ended.
   T& local() {
     const std::thread::id me = std::this_thread::get_id();
     {

@@ -64,7 +64,7 @@ void describe(const std::vector<WholeFace>& all, const Extent& extent, const Com
     return std::count_if(all.begin(), all.end(), [&](const WholeFace& each) { return each.face.status == status; });
   };
   std::string faces = whole(static_cast<std::int64_t>(all.size())) + (all.size() == 1 ? " face" : " faces");
-  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them mended";
+  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them repaired";
   if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
   monitor.message(Level::summary,
@@ -79,12 +79,12 @@ void describe(const std::vector<WholeFace>& all, const Extent& extent, const Com
                                       short_text(q.q2.p1) + ", worst " + not_zero(q.q2.min) + "; angles " +
                                       short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
   if (r.gradation_rounds > 0)
-    monitor.message(Level::summary,
+    monitor.message(Level::detail,
                     "gradation: sizes graded on " + whole(static_cast<std::int64_t>(r.gradation_triangles)) +
                         " triangles" +
                         (r.gradation_rounds > 1 ? ", made " + whole(r.gradation_rounds) + " times" : "") + "; " +
                         short_text(r.seconds_gradation) + " s");
-  monitor.message(Level::summary, "diag " + not_zero(r.diag) + "; " + whole(r.calls.surface()) +
+  monitor.message(Level::detail, "diag " + not_zero(r.diag) + "; " + whole(r.calls.surface()) +
                                       " evaluations of surfaces; " + short_text(r.seconds_total) + " s (curves " +
                                       short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +
                                       ", plane meshes " + short_text(r.seconds_plane) + ", lift " +

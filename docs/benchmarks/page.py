@@ -48,7 +48,7 @@ def surface(rows):
 
 
 def best_ways(rows, quality):
-    """Of each case and element Gmsh's way of the best quality."""
+    """Returns Gmsh's method of the best quality for each case and element."""
     best = {}
     for row in rows:
         key = row["case"], row["size"], row.get("element", "p2")
@@ -92,9 +92,9 @@ def command(rows, record):
 
 SECTIONS = [("surface", "Surface meshing beside Gmsh", "Gmsh's Frontal-Delaunay (`generate(2)`) and Carreau (sampling, plane meshes, lift) mesh the same surfaces, by "
              "[compare_gmsh.py](../../tests/bench/compare_gmsh.py).", surface),
-            ("quads", "Quadrilaterals beside Gmsh", "By [compare_gmsh_quads.py](../../tests/bench/compare_gmsh_quads.py), beside Gmsh's method of the best mean quality. `q1.0` keeps a few "
+            ("quads", "Quadrilaterals beside Gmsh", "[compare_gmsh_quads.py](../../tests/bench/compare_gmsh_quads.py) compares with Gmsh's method of the best mean quality. `q1.0` keeps a few "
              "triangles, `q1.1` none.", quads),
-            ("elements", "Curved triangles beside Gmsh", "By [compare_gmsh_elements.py](../../tests/bench/compare_gmsh_elements.py): Gmsh's order 2, optimised or not, and `--element p2`. An element "
+            ("elements", "Curved triangles beside Gmsh", "[compare_gmsh_elements.py](../../tests/bench/compare_gmsh_elements.py) compares with Gmsh's order 2, optimised or not, and `--element p2`. An element "
              "is invalid if a Bernstein coefficient of its Jacobian is not positive.", elements),
             ("command", "Whole runs of the command", "`carreau mesh INPUT ... --threads 1`.", command)]
 

@@ -41,7 +41,7 @@ def processor():
 
 
 def place(build):
-    """Where and of what the figures are."""
+    """Machine, versions and date of the figures."""
     with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as file:
         compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", file.read(), re.M).group(1)
     git = ["git", "-C", SOURCE]

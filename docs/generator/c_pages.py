@@ -85,7 +85,7 @@ class CPages:
         return lines
 
     def rules(self, source, section):
-        """What other sections say of the errors here."""
+        """Errors that other sections describe."""
         functions = [entity for entity in section.entities if entity.returns_status]
         inherited = {text for entity in functions for text in rules_about(source, entity) if "functions below" in text}
         return [line for text in sorted(inherited) for line in self.names.paragraph(text)]

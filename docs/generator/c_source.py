@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a header of the C interface declares, in its order, each with the comment that is about it.
+"""The declarations of a header of the C interface, in order, each with its comment.
 
 The headers follow one style: `/* ---- X ---- */` begins a section; a comment is about all declarations that follow it without
 an empty line or another comment between; a comment that nothing follows is about its section.

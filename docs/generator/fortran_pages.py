@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages of the Fortran modules: one for each section. What the C interface says of the entity of the same name is said here, too."""
+"""Pages of the Fortran modules: one for each section. The comment of the C entity is repeated here."""
 from c_pages import example_lines, file_name
 from text import heading, indented, summary
 
@@ -19,7 +19,7 @@ class FortranPages:
         self.calls, self.listings = calls, listings
 
     def shared(self, entity):
-        """What C says. Its indices count from 0, as the rule of the module tells."""
+        """The comment of C. Its indices count from 0, as the rule of the module tells."""
         twin = self.c.get(entity.name)
         return self.names.block(twin.text) if twin else []
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the files of the repository stand among the pages, and the links of Markdown that follow."""
+"""The places of the files of the repository among the pages, and links of Markdown."""
 import os
 import re
 

@@ -82,7 +82,7 @@ def described(node, module):
 
 
 def of_package(trees, package, names):
-    """What __all__ of a package names: defined in it, or imported from its modules."""
+    """The names of __all__ of a package: defined in it, or imported from its modules."""
     nodes = defined(trees["__init__"], names)
     for node in trees["__init__"].body:
         if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module in trees:
@@ -91,7 +91,7 @@ def of_package(trees, package, names):
 
 
 def modules(package):
-    """[(module, docstring, entities)] of a package. Where it has an __all__, those of its modules that this names are public, and no others."""
+    """[(module, docstring, entities)] of a package. With an __all__, only the modules that it names are public."""
     trees, name = parsed(package), os.path.basename(package)
     names = listed(trees["__init__"])
     inside = [described(node, name) for node in defined(trees["__init__"])] if names is None else of_package(trees, name, names)

@@ -130,7 +130,7 @@ contains
     print '(a12, i8, a)', what, size(triangles, 2), " triangles"
   end subroutine make
 
-  !> Of the lengths of edges over the size that is wanted in their middles.
+  !> Mean of the lengths of edges over the sizes in their middles.
   real(c_double) function mean_ratio()
     integer :: t, k
     real(c_double) :: a(3), b(3)

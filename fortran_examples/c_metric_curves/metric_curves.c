@@ -100,7 +100,7 @@ static int64_t metrics_around(const struct plane_curve* curve, double s) {
   return i;
 }
 
-/* By midpoints and chords. */
+/* Computes by midpoints and chords. */
 static double measured_length(const struct plane_curve* curve, int law, double from, double to) {
   enum { steps = 400 };
   double sum = 0, p[2], q[2];

@@ -50,7 +50,7 @@ program cutting
   metal%friction = 0.1_dp
   tool(1) = wedge([0.02_dp, -depth], [cos(8*degree), sin(8*degree)], [sin(5*degree), cos(5*degree)], 0.2_dp, 60._dp)
   tool(1)%velocity = [-0.02_dp*speed_of_sound(metal), 0._dp]
-  ! What leaves the clearance face does so by .05 sin 8 degrees an increment: a longer reach would bind it for ever.
+  ! Nodes leave the clearance face by .05 sin 8 degrees an increment: a longer reach would bind them for ever.
   wanted = sizes(h_min=0.1_dp, h_max=10._dp, step=0.05_dp, reach=0.003_dp)
   call carreau_mesh_create(mesh, status)
   call remesh(mesh, block, tool, wanted, told)

@@ -55,7 +55,7 @@ contains
     end do
   end subroutine prepare
 
-  !> Of the shape functions of an element.
+  !> Derivatives of the shape functions of an element.
   subroutine gradients(b, e, grad, area)
     type(body), intent(in) :: b
     integer, intent(in) :: e

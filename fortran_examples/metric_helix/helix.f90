@@ -65,7 +65,7 @@ contains
     status = 0
   end function metric
 
-  !> Of a straight edge of the unrolled cylinder.
+  !> Length of a straight edge of the unrolled cylinder.
   function length(d) result(l)
     real(c_double), intent(in) :: d(2)
     real(c_double) :: l

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What governs a mesh, as images in OpenEXR, from Fortran: the sheet z = (x^2 + y^2)/2 over [-1, 1]^2, one patch of Bezier.
+!> The fields that govern a mesh, as OpenEXR images from Fortran: the sheet z = (x^2 + y^2)/2 over [-1, 1]^2, one patch of Bezier.
 !> Sizes follow the curvature where it is strong, and are hphydef elsewhere. `exrheader sheet.exr` lists the channels; any
 !> viewer opens the file.
 program images

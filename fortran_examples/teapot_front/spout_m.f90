@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where the spout of the Utah teapot enters the body: the borders of the body patches are moved there, by splines through
+!> The line where the spout of the Utah teapot enters the body: the borders of the body patches are moved there, by splines through
 !> points of the intersection (RT-0232 sec. 6.2).
 module spout_m
   use bezier_m

@@ -96,7 +96,7 @@ TEST_P(Bent, SizesByAngleAndChordKeepTheBends) {
   }
 }
 
-// Of each edge of the shape all its edges have the number; those on bends have numbers behind.
+// All edges of an edge of the shape have its number; those on bends have numbers behind.
 TEST_P(Bent, EdgesOfTheShapeKeepTheirNumbers) {
   const TopoDS_Shape shape = shape_of(GetParam()).make();
   carreau_occ::BrepHost host(file_of(shape));

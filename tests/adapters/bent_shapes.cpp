@@ -37,7 +37,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Of degree 1, through the points; knots at 0, 1, 2, ...
+/// A curve of degree 1 through the points; knots at 0, 1, 2, ...
 Handle(Geom_BSplineCurve) polyline(const std::vector<gp_Pnt>& points) {
   const int n = static_cast<int>(points.size());
   TColgp_Array1OfPnt poles(1, n);
@@ -92,7 +92,7 @@ TopoDS_Shape pyramid() {
   return BRepBuilderAPI_MakeFace(surface, 1e-7).Face();
 }
 
-/// Of one periodic surface, whose seam lies inside a side.
+/// A solid of one periodic surface, whose seam lies inside a side.
 TopoDS_Shape square_pipe() {
   TColgp_Array2OfPnt poles(1, 5, 1, 2);
   const double xy[5][2] = {{0, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};

@@ -114,7 +114,7 @@ class Broken(unittest.TestCase):
     def test_coordinates_of_step_that_are_none(self):
         text = content("plate.step")
         points = list(re.finditer(r"#(\d+) = CARTESIAN_POINT\('',\(([^,()]*),([^,()]*),([^,()]*)\)\)", text))
-        # Of vertices and poles: each stands in one to three faces. The first is the origin of the whole part.
+        # Vertices and poles: each stands in one to three faces. The first is the origin of the whole part.
         for i in range(1, len(points), 12):
             for value in ("NaN", "1.E30", "1.E300", "-1.E999", "$", "'x'", ""):
                 broken = text[:points[i].start(2)] + value + text[points[i].end(2):]

@@ -29,7 +29,7 @@ def content(path, binary=False):
 
 
 def figures(path, *options):
-    """What `carreau check` prints, by the first word of each line."""
+    """The output of `carreau check`, by the first word of each line."""
     done = run("check", path, *options)
     return {line[:12].strip(): line[12:] for line in done.stdout.splitlines()} | {"status": done.returncode}
 
@@ -148,7 +148,7 @@ class Mesh(unittest.TestCase):
         path = self.mesh("cone.step", "--size", "0.2", "--independent", "--sharp-angle", "30")
         self.assertEqual(figures(path, "--closed")["defects"], "none")
         self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("x.mesh"), "--sharp-angle", "30",
-                     sentence="--independent")
+                     sentence="--cross-patch")
 
     def test_all_formats_appear_together(self):
         names = ["a.mesh", "a.meshb", "a.vtu", "a.stl", "a.msh", "a.msh2"]
@@ -229,7 +229,7 @@ class Mesh(unittest.TestCase):
         self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("a.mesh"), "--set", "hphydeff=1", sentence="hphydef")
 
     def test_fields_of_a_cad_file_are_an_image_a_face(self):
-        # What is in such files is tested in tests/command/fields_test.py and tests/cpp/fields.
+        # The content of such files is tested in tests/command/fields_test.py and tests/cpp/fields.
         done = run("fields", os.path.join(SHAPES, "sphere.step"), "-o", self.out("s.exr"), "--pixels", "30", "--set",
                    "hgeo_flag=1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -369,7 +369,7 @@ class Mesh(unittest.TestCase):
         self.assertNotIn("\r", done.stderr)
         self.assertNotIn("\033", done.stderr)
         self.assertRegex(done.stderr, r"(?m)^reading .*torus\.step$")
-        self.assertRegex(done.stderr, r"(?m)^ *\d+ % patches, face 1$")
+        self.assertRegex(done.stderr, r"(?m)^ *\d+ % of the run: meshing faces, face 1$")
         self.assertRegex(done.stderr, r"(?m)^1 face: \d+ vertices")
         # Both curves of the torus are circles with exact images, but for digits of the file: below its tolerance.
         gap = float(re.search(r"(?m)^gaps +largest (\S+) \(edge \d on face [01]\); 0 above twice", done.stderr)[1])
@@ -388,7 +388,7 @@ class Mesh(unittest.TestCase):
                 break
             text += block
         self.assertEqual(process.wait(timeout=60), 0)
-        self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % patches, face 1")
+        self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % of the run: meshing faces, face 1")
 
     def interrupt(self, *options, after="", delay=0.05, number=signal.SIGINT):
         """Exit code, and what was told after the line with `after` ("": at once)."""
@@ -406,7 +406,7 @@ class Mesh(unittest.TestCase):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with open(self.out("a.mesh"), "w") as old:
                 old.write("old")
-            status, rest = self.interrupt("--size", "0.08%", after="patches", number=number)
+            status, rest = self.interrupt("--size", "0.08%", after="meshing faces", number=number)
             self.assertEqual(status, -number)  # as a shell expects that goes on, or not, with its script
             self.assertIn("stopped; nothing was written", rest)
             self.assertEqual(os.listdir(self.folder), ["a.mesh"])

@@ -72,7 +72,7 @@ TEST(Faults, BecomeTheErrorOfTheFace) {
     }
 }
 
-// What fails on its boundary is known before anything is meshed, and costs no second run.
+// A failure on a boundary is known before meshing, and costs no second run.
 TEST(Faults, OnTheBoundaryLeaveTheFaceOutAtOnce) {
   const carreau_occ::FaultTrap trap;
   for (const Fault& fault : faults) {
@@ -109,7 +109,7 @@ TEST(Faults, OfAnyThreadAreItsOwn) {
   }
 }
 
-// Who lets numbers trap wants that after a fault as well.
+// Traps of the caller stay set after a fault.
 TEST(Faults, LeaveTheProcessorsModesAsTheyWere) {
   const carreau_occ::FaultTrap trap;
   std::fenv_t before;

@@ -71,7 +71,7 @@ class Explainer {
     return std::sqrt(dot(away, away)) < small_feature * mesh_.size;
   }
 
-  // What is forced at a corner is forced farther on between the same two curves.
+  // A shape forced at a corner is forced farther on between these two curves.
   void spread_along_wedges(std::vector<FlatTriangle>& flat) const {
     for (bool changed = true; changed;) {
       changed = false;

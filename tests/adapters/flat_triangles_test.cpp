@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sweep takes for forced by the input: each cause on a mesh of a few triangles, and a flat one that has none.
+// The causes that the sweep takes for forced by the input: each on a mesh of a few triangles, and a flat one that has none.
 #include "flat_triangles.h"
 
 #include <gtest/gtest.h>

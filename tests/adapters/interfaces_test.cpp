@@ -141,7 +141,7 @@ TEST(Unsewn, WiderGapsStayOpenAndAreTold) {
     }
 }
 
-// What the file says of edges that are shared is not looked at again: two boxes that touch stay two.
+// Edges that the file shares are not compared again: two boxes that touch stay two.
 TEST(Unsewn, ShapesThatAreSewnAreLeftAlone) {
   TopoDS_Compound all;
   const BRep_Builder builder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What files of other programs hold: edges without curves in parameter planes, thin plates, edges of nearly no length.
+// Odd content of files of other programs: edges without curves in parameter planes, thin plates, edges of nearly no length.
 #include <gtest/gtest.h>
 #include <shape_file.h>
 #include <shape_report.h>

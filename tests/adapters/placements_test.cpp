@@ -309,7 +309,7 @@ TEST(Placements, ThatScaleAreToldOfStep) {
   EXPECT_EQ(read.mesh.trouble(true), "");
 }
 
-// What no face holds has edges of its own, and shares of the diagonal do not count it.
+// Free curves have edges, and shares of the diagonal do not count them.
 TEST(Placements, EdgesOfNoFaceChangeNoFace) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
   const TopoDS_Shape far = BRepBuilderAPI_MakeEdge(gp_Pnt(5, 5, 5), gp_Pnt(90, 90, 90)).Edge();

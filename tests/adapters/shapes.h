@@ -19,7 +19,7 @@ struct NamedShape {
 /// All are solids.
 const std::vector<NamedShape>& torture_set();
 
-/// By name; throws std::runtime_error when there is none.
+/// Returns a shape by name; throws std::runtime_error for unknown names.
 TopoDS_Shape make(const std::string& name);
 
 /// One B-spline face of degree 1 over [0, 1]^2 whose sides fall by 30 degrees from a ridge at u = 0.25.

@@ -53,7 +53,7 @@ def shell(x0, x1, sector, along):
 
 
 def thickness(xi):
-    """Of NACA 0012 with a sharp trailing edge, for a chord of 1."""
+    """Half thickness of NACA 0012 with a sharp trailing edge, for a chord of 1."""
     return 0.6 * (0.2969 * math.sqrt(xi) - 0.126 * xi - 0.3516 * xi**2 + 0.2843 * xi**3 - 0.1036 * xi**4) if xi < 1 else 0.0
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of our algebra against Eigen's for the same: "bench_algebra". What is not faster here is kept for its accuracy
+// Time of our algebra against Eigen's for the same: "bench_algebra". Functions that are not faster here are kept for their accuracy
 // (tests/cpp/metric/eigen_comparison_test.cpp).
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

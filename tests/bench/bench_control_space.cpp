@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a control space costs and how well it interpolates: samples and build time for each vertex of the mesh to come,
+// Cost and accuracy of a control space: samples and build time for each vertex of the mesh to come,
 // time of at(), errors of lengths. Usage: bench_control_space [factor on sizes, default 1]
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using carreau::Metric2;
 using carreau::Vec2;
 using carreau::fields::Field;
 
-// Of the processor: other work on the machine does not count.
+// Time of the processor: other work on the machine does not count.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 ControlSpace build(const Field& field) {

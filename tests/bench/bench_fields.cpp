@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fields cost: nanoseconds a triangle of the plane mesher and of the control space for size fields and anisotropic
+// Cost of fields: nanoseconds a triangle of the plane mesher and of the control space for size fields and anisotropic
 // fields of ratio 10, and both together against a mesh of uniform size in space with about as many triangles, all in
 // one run and in turns. Usage: bench_fields [ROUNDS [CASE]].
 #include <algorithm>
@@ -34,7 +34,7 @@ FieldCase of_metric(const std::string& name, const MetricCase& c) {
   return {name, c.domain, [c] { return control_space(c); }};
 }
 
-// Of the processor: other work on the machine does not count.
+// Time of the processor: other work on the machine does not count.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void run(FieldCase& c) {

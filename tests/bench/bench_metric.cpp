@@ -60,7 +60,7 @@ void print_json(const MetricQuality& q, double meshing, double sampling) {
       q.triangles, q.mean, q.p1, q.worst, q.mean_length, q.fitting, meshing, sampling);
 }
 
-// Of the processor: other work on the machine does not count.
+// Time of the processor: other work on the machine does not count.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace

@@ -38,7 +38,7 @@ PlaneCase make_case(const std::string& name, double h) {
   std::exit(2);
 }
 
-// Of the processor: other work on the machine does not count.
+// Time of the processor: other work on the machine does not count.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 double clock_on_the_wall() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

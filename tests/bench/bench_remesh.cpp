@@ -16,7 +16,7 @@ namespace {
 using namespace carreau;
 using namespace carreau::variable;
 
-// Of the processor: other work on the machine does not count.
+// Time of the processor: other work on the machine does not count.
 double now() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// A fan about the centre: the first remeshing makes a mesh of it.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What two builds take for the same work: every program of tests/bench and runs of the command, by turns.
+"""Times of two builds for equal work: every program of tests/bench and runs of the command, by turns.
 
     python3 tests/bench/compare_builds.py BUILD_BEFORE BUILD_AFTER [CAD_FILE]... [--repeat N] [--only TEXT] [--json FILE]
 

@@ -140,7 +140,7 @@ def by_edtsurf(folder, stem, scale):
 
 
 def radius_of_edtsurf(folder, element):
-    """Of the vertices of one atom's surface on its finest grid, in the mean; 0: it has none."""
+    """Mean distance of the vertices of one atom's surface on its finest grid from the centre; 0: it has none."""
     with open(os.path.join(folder, "one.pdb"), "w") as file:
         file.write(f"ATOM      1  {element:<3} ALA A   1       0.000   0.000   0.000  1.00  0.00          {element:>2}\nEND\n")
     timed(["EDTSurf", "-i", "one.pdb", "-o", "one", "-s", "1", "-c", "1", "-h", "1", "-f", "20"], folder)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What elements of all six kinds deliver, in tables: areas, shapes, interpolation, Jacobians, anisotropic sizes, speed.
+"""Figures of elements of all six kinds, in tables: areas, shapes, interpolation, Jacobians, anisotropic sizes, speed.
 
     apt-get install gmsh python3-gmsh python3-numpy
     python3 tests/bench/element_figures.py CARREAU [FILE.step ...] [--sizes 3%,2%] [--tables plate,fields,...] [--json FILE]
@@ -39,7 +39,7 @@ def wanted(good, text):
 
 
 def meshed(program, path, size, element, out):
-    """What `carreau mesh` tells, and what `carreau check` does."""
+    """The output of `carreau mesh` and of `carreau check`."""
     status, text, problem, _ = run_process([program, "mesh", path, "-o", out, "--size", str(size), "--element", element, "--threads", "1", "--json", "-q"])
     if status not in (0, 1):
         sys.exit(f"{path} {size} {element}: {problem}")

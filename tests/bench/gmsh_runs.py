@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the comparisons with Gmsh share: its sessions, its triangles, the quality of triangles, time of processes."""
+"""Common parts of the comparisons with Gmsh: its sessions, its triangles, the quality of triangles, time of processes."""
 import argparse
 import contextlib
 import json
@@ -18,7 +18,7 @@ except ImportError as error:
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FRONTAL_DELAUNAY, BAMG = 6, 7
-# What the command `gmsh` and the sessions here are told: sizes are as given, nothing else changes them.
+# Options of the command `gmsh` and of the sessions here: sizes are as given, nothing else changes them.
 PLAIN_SIZES = {"Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0}
 
 
@@ -102,7 +102,7 @@ def build(name):
 
 
 def file_of(name, folder):
-    """What `carreau mesh` reads."""
+    """The input of `carreau mesh`."""
     if name == "teapot":
         return TEAPOT
     if name not in SHAPES:

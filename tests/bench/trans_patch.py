@@ -70,7 +70,7 @@ def read_mesh(path):
 
 
 def away_from_lines(path, size, sharp):
-    """Of one size everywhere. `sharp`: references of curves; None: all that are left."""
+    """Shares of edges away from sharp lines, for a uniform size. `sharp`: references of curves; None: all that are left."""
     vertices, triangles, on_curves = read_mesh(path)
     lines = {v for a, b, ref in on_curves if sharp is None or ref in sharp for v in (a, b)}
     near = lines | {v for t in triangles if any(w in lines for w in t) for v in t}

@@ -82,7 +82,7 @@ class Inputs(WorkFolder):
             yield "STEP", ["cylinder.step"], "mesh"
 
     def mean_ratio(self, mesh, wanted):
-        """Of lengths of edges over the sizes wanted in their middles."""
+        """Mean of the lengths of edges over the sizes in their middles."""
         sides = {tuple(sorted((t[k], t[k - 1]))) for t in mesh.triangles for k in range(3)}
         ratios = []
         for i, j in sides:

@@ -109,7 +109,7 @@ class Adapt(WorkFolder):
         mesh = self.start()
         self.solution("h.sol", mesh, [1], lambda x, y: [0.05])
         self.solution("m.sol", mesh, [3], lambda x, y: [2500, 0, 100])
-        # What is linear in x and y arrives exactly, whatever its type.
+        # Linear functions of x and y arrive exactly, whatever their type.
         self.solution("all.sol", mesh, [1, 2, 3, 4], lambda x, y: [x + 2 * y, x, -y, 1 + x, y, 3, 1, 2 * x, y, 4])
         for sizes, use, wanted in (("h.sol", "sizes", 4 / math.sqrt(3) / 0.05 ** 2 * 4), ("m.sol", "metrics", 4 / math.sqrt(3) * 500 * 4)):
             self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", sizes, "--use", use, "--transfer", "all.sol", "-o", "next.mesh")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """fields_test.py CARREAU PARTIAL HOST...: `carreau fields` with geometries in shared libraries, C and Fortran: the same paraboloid.
-What the pixels hold is tested in tests/cpp/fields/fields_test.cpp."""
+The content of pixels is tested in tests/cpp/fields/fields_test.cpp."""
 import os
 import shutil
 import struct

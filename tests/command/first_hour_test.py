@@ -93,6 +93,13 @@ class FirstHour(unittest.TestCase):
                 self.assertNotIn("none.bpt", done.stderr)
         self.assertEqual(run("mesh", self.three, "-o", self.path("a.mesh"), "--set", "hphydef=3%", "-q").returncode, 0)
 
+    def test_details_of_a_run_come_with_verbose_only(self):
+        plain, verbose = (run("mesh", TEAPOT, "-o", os.path.join(self.folder, "a.mesh"), "--angle", "12", "--gradation", "1.3", *options).stderr
+                          for options in ([], ["--verbose"]))
+        for detail in ("evaluations of surfaces", "sizes graded on"):
+            self.assertNotIn(detail, plain)
+            self.assertIn(detail, verbose)
+
     def test_help_is_a_command(self):
         self.assertEqual(run("help").stdout, run("--help").stdout)
         for command in ("mesh", "info", "check", "picture", "fields", "params", "completion"):
@@ -228,7 +235,7 @@ class FirstHour(unittest.TestCase):
     def test_progress_never_goes_back(self):
         for options in (("--size", "0.1", "--set", "measure=1"), ("--angle", "10", "--gradation", "1.3", "-o", self.path("b.exr"), "-o", self.path("c.vtu"))):
             done = run("mesh", TEAPOT, "-o", self.path("a.vtu"), *options)
-            percent = [int(number) for number in re.findall(r"(?m)^ *(\d+) % \w", done.stderr)]
+            percent = [int(number) for number in re.findall(r"(?m)^ *(\d+) % of the run: \w", done.stderr)]
             self.assertGreater(len(percent), 5)
             self.assertEqual(percent, sorted(percent), done.stderr)
             self.assertEqual(percent[-1], 100)

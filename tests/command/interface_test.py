@@ -94,7 +94,7 @@ class Interface(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
 
     def completed_by_bash(self, *words):
-        """What bash offers for the last of the words."""
+        """Completions of bash for the last of the words."""
         line = " ".join(f"'{word}'" for word in ("carreau", *words))
         program = (f"source '{self.script('bash')}'\ncompopt() {{ :; }}\nCOMP_WORDS=({line})\nCOMP_CWORD={len(words)}\n_carreau\n"
                    'printf "%s\\n" "${COMPREPLY[@]}"\n')

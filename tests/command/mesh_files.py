@@ -72,7 +72,7 @@ def write_sol(path, mesh, types, value):
 
 
 def area(mesh):
-    """Of the triangles of a mesh in space."""
+    """Area of the triangles of a mesh in space."""
     total = 0.0
     for triangle in mesh.triangles:
         a, b, c = (mesh.vertices[v] for v in triangle[:3])

@@ -42,7 +42,7 @@ class Folder(unittest.TestCase):
         return done
 
     def mesh(self, *arguments, code=0):
-        """Of the mesh that these arguments give."""
+        """The mesh that these arguments give."""
         done = self.run_mesh(*arguments, "-o", "out.mesh", code=code)
         self.assertEqual(done.stdout, "")
         return mesh_files.read_mesh(self.path("out.mesh"))

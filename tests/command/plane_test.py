@@ -177,7 +177,7 @@ class Plane(unittest.TestCase):
 
     @staticmethod
     def area_of_spline(n):
-        """Of the closed spline of Catmull and Rom through n points of the unit circle: n equal pieces, by Green."""
+        """Area of the closed spline of Catmull and Rom through n points of the unit circle: n equal pieces, by Green."""
         a = 2 * math.pi / n
         b, c = (1.0, 0.0), (math.cos(a), math.sin(a))
         tangents = (0.0, math.sin(a)), (-math.sin(a) * math.sin(a), math.sin(a) * math.cos(a))

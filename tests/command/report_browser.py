@@ -8,7 +8,7 @@ from selenium.webdriver.chrome.service import Service
 
 
 def missing():
-    """What is not there; "": all is."""
+    """The missing part; "": none."""
     return ", ".join(name for name in ("chromium", "chromedriver") if shutil.which(name) is None)
 
 
@@ -58,7 +58,7 @@ class Browser:
         self.wait("for (let i = 0; i < given[0]; ++i) await new Promise(requestAnimationFrame);", n)
 
     def processor_seconds(self):
-        """Of all processes of this browser so far: on a busy machine the honest time."""
+        """Processor time of all processes of this browser so far."""
         total = 0
         for number in filter(str.isdigit, os.listdir("/proc")):
             try:

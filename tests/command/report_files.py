@@ -30,7 +30,7 @@ class Page:
         with open(path, encoding="utf-8") as file:
             self.text = file.read()
         self.scripts = dict(re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', self.text, re.S))
-        # What a browser does not read as markup is taken out; the rest is XML, which is stricter than HTML.
+        # Text that a browser does not read as markup is removed; the rest is XML, which is stricter than HTML.
         bare = re.sub(r"(<(script|style)[^>]*>).*?(</\2>)", r"\1\3", self.text, flags=re.S)
         assert bare.startswith("<!DOCTYPE html>\n")
         self.root = ElementTree.fromstring(bare.split("\n", 1)[1])

@@ -157,7 +157,7 @@ class Triangles(unittest.TestCase):
         self.run_command("check", self.path("c.mesh"), "--closed")
 
     def test_each_defect_is_told_mended_or_refused(self):
-        # What is mended or only told: figures of `carreau info`, and words of the warning with its place.
+        # Repairs and reports: figures of `carreau info`, and words of the warning with its place.
         for name, figures, words in (
                 ("turned.off", {"turned_triangles": 1, "border_edges": 0, "euler_number": 2, "triangles": 8},
                  "triangle 1 (from 0) at (-1, 0, 0) ran against its neighbours: turned"),
@@ -187,7 +187,7 @@ class Triangles(unittest.TestCase):
             made = self.path(name + ".mesh")
             self.run_command("mesh", path, "-o", made, "--size", "10%", "-q")
             self.run_command("check", made)
-        # What is refused.
+        # Rejected input.
         for name, words in (("out_of_range.off", "line 12: "), ("not_a_number.stl", "line 34: ")):
             told = self.run_command("info", os.path.join(DATA, name), code=2).stderr
             self.assertIn(words, told, name)

@@ -29,7 +29,7 @@ class WorkFolder(unittest.TestCase):
         return subprocess.run([self.program, *words], cwd=self.folder, capture_output=True, text=True, timeout=240)
 
     def done(self, *words):
-        """What a run without errors has said."""
+        """Messages of a run without errors."""
         result = self.run_program(*words)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stderr

@@ -16,7 +16,7 @@
 
 namespace carreau::testing {
 
-/// What the processes share.
+/// Data that the processes share.
 struct CommonOfThreads {
   explicit CommonOfThreads(int n) : given(static_cast<std::size_t>(n)), meeting(n) {}
   std::vector<std::string> given;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests and benchmarks have in common: surfaces in Python, and those of host.c."""
+"""Common parts of tests and benchmarks: surfaces in Python and in host.c."""
 import ctypes
 import math
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ctypes is told is what the headers say, and what the compiler makes of them."""
+"""Declarations for ctypes agree with the headers and with the compiler."""
 import ctypes
 import glob
 import os

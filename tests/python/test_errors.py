@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes wrong is an exception with its place, and leaves the session of use."""
+"""Errors are exceptions with their places, and the session stays usable."""
 import math
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a session and the modules do besides meshes of callbacks, by mathematics."""
+"""Other functions of a session and of the modules, by mathematics."""
 import math
 import os
 
@@ -207,7 +207,7 @@ def test_loops_and_annuli():
     phi = np.linspace(0.05, 6.2, 40)
     points, derivatives = loop.points(phi)
     assert np.allclose(loop.invert(points), phi, atol=1e-9) and np.allclose(loop.points([0.0])[0], hexagon[0])
-    # Of this polygon: at most its circumscribed circle, at least the inscribed one.
+    # Points of this polygon lie between its inscribed and circumscribed circles.
     assert np.all(np.linalg.norm(points, axis=1) <= 1 + 1e-12) and np.all(np.linalg.norm(points, axis=1) >= math.sqrt(3) / 2 - 1e-12)
     ahead = loop.points(phi + 1e-6)[0]
     assert np.median(np.linalg.norm((ahead - points) / 1e-6 - derivatives, axis=1)) < 1e-4

@@ -103,6 +103,36 @@ def test_derivatives_given_and_found_agree():
     assert len(given.triangles) == pytest.approx(len(found.triangles), rel=0.03)
 
 
+@pytest.mark.parametrize("derivatives, options, beyond, most_calls", [
+    (True, {"size": 0.05}, 0, 1.6), (True, {"angle": 6}, 0, None), (False, {"size": 0.05}, 1e-5, 2.5), (False, {"angle": 6}, 2e-4, None)])
+def test_places_of_callbacks(derivatives, options, beyond, most_calls):
+    """In the closed domain, a disc in a box of side 2; differences reach shares of the box beyond it (docs/explanation/guarantees.md)."""
+    reach = []
+
+    def seen(u, v):
+        reach.append(np.hypot(u, v).max())
+        return np.zeros_like(u), np.ones_like(u)
+
+    def point(u, v):
+        seen(u, v)
+        return u, v, (u * u + v * v) / 2
+
+    def first(u, v):
+        zero, one = seen(u, v)
+        return (one, zero, u), (zero, one, v)
+
+    def second(u, v):
+        zero, one = seen(u, v)
+        return (zero, zero, one), (zero, zero, zero), (zero, zero, one)
+
+    surface = carreau.Surface(point, first, second) if derivatives else carreau.Surface(point)
+    mesh = carreau.mesh(carreau.Patch(surface, carreau.disc(0, 0, 1)), **options)
+    assert max(reach) <= 1 + 2 * beyond + 1e-15
+    calls = mesh.session.report
+    if most_calls:
+        assert calls.surf0_calls + calls.surf1_calls + calls.surf2_calls <= most_calls * len(mesh.vertices)
+
+
 def test_curves_by_functions_and_imposed_points():
     ellipse = carreau.Curve(lambda t: (2 * np.cos(t), np.sin(t)), 0, math.pi)
     back = carreau.Curve(lambda t: np.stack([2 * np.cos(t), np.sin(t)], axis=1), math.pi, 2 * math.pi)

@@ -222,7 +222,7 @@ def check(folder, geometry, options):
 
 
 def check_su2_of_space(folder):
-    """Of a surface in space faces are markers, and there is nothing else."""
+    """A surface in space has faces as markers, and nothing else."""
     import meshio
     corner, name = os.path.join(folder, "space.bpt"), os.path.join(folder, "space.su2")
     with open(corner, "w") as file:
@@ -276,5 +276,5 @@ with tempfile.TemporaryDirectory(prefix="carreau readers ") as home:
     for element in ("p2", "q1.0", "q1.1", "q2.0", "q2.1"):
         folder = os.path.join(home, element)
         os.mkdir(folder)
-        # Coarser curved quadrilaterals of the teapot are not all valid (docs/limits.md).
+        # Coarser curved quadrilaterals of the teapot are not all valid.
         check_elements(folder, TEAPOT, element, ("--size", "0.1" if element.startswith("q2") else "0.4"))

@@ -21,7 +21,8 @@ def pages():
     """All pages of the repository, builds and hidden folders left out."""
     found = []
     for folder, folders, names in os.walk(SOURCE):
-        folders[:] = [name for name in folders if name not in ("build", "out") and not name.startswith(".")]
+        folders[:] = [name for name in folders if name not in ("build", "out") and not name.startswith((".", "build-")) and
+                      not os.path.exists(os.path.join(folder, name, "CMakeCache.txt"))]
         found += [os.path.relpath(os.path.join(folder, name), SOURCE) for name in names if name.endswith(".md")]
     return sorted(found)
 

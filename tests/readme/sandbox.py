@@ -42,10 +42,11 @@ class Sandbox:
     def environment(self):
         libraries = os.path.join(self.prefix, "lib")
         return os.environ | {"HOME": self.home, "PATH": self.bin + ":" + os.path.join(self.prefix, "bin") + ":" + os.environ["PATH"], "NO_COLOR": "1",
-                             "PKG_CONFIG_PATH": os.path.join(libraries, "pkgconfig"), "LD_LIBRARY_PATH": libraries, "CMAKE_PREFIX_PATH": self.prefix}
+                             "PKG_CONFIG_PATH": os.path.join(libraries, "pkgconfig"), "LD_LIBRARY_PATH": libraries, "CMAKE_PREFIX_PATH": self.prefix,
+                             "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
     def run(self, script, check=True):
-        """What a script of bash prints; its status is 0 unless `check` is False."""
+        """Returns the output of a script of bash; its status is 0 unless `check` is False."""
         done = subprocess.run(["bash", "-e", "-c", script], cwd=self.folder, env=self.environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, timeout=600)
         if check and done.returncode != 0:
@@ -57,7 +58,7 @@ class Sandbox:
             file.write(text)
 
     def size(self, name):
-        """Of a file, in bytes; 0 when it is not there."""
+        """Size of a file in bytes; 0 if it is missing."""
         path = os.path.join(self.folder, name)
         return os.path.getsize(path) if os.path.exists(path) else 0
 

@@ -310,7 +310,7 @@ class RemeshSummary(NamedTuple):
 
 
 class CadContent(NamedTuple):
-    """What a file holds, counted."""
+    """The content of a file, counted."""
 
     faces: int
     edges: int
@@ -343,7 +343,7 @@ class CadSmallFeature(NamedTuple):
 
 
 class CadFace(NamedTuple):
-    """What the file tells of a face."""
+    """The data of a face in the file."""
 
     number: int
     rgb: int
@@ -367,7 +367,7 @@ class CadFigures(NamedTuple):
 
 
 class CadReport(NamedTuple):
-    """What a file holds, and how much of it is hard to mesh."""
+    """The content of a file, and the number of potential meshing problems."""
 
     solids: int
     shells: int

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran 2003 face of carreau_cad.h: STEP, IGES and BREP files. What each routine means and its errors are written there.
+!> Fortran 2003 face of carreau_cad.h: STEP, IGES and BREP files. The meaning of each routine and its errors are written there.
 !! Different here: losses, dangers and kinds of surfaces count from 1; texts are copies; arguments that may be NULL are
 !! optional.
 module carreau_cad

@@ -20,7 +20,7 @@ module carreau_cad_c
     real(c_double) :: scale = 0, min_feature = 0
   end type c_cad_options
 
-  !> What a file holds, counted.
+  !> The content of a file, counted.
   type, bind(c) :: c_cad_content
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: faces = 0, edges = 0, vertices = 0, closed = 0
@@ -41,7 +41,7 @@ module carreau_cad_c
     type(c_ptr) :: faces = c_null_ptr
   end type c_cad_small_feature
 
-  !> What the file tells of a face.
+  !> The data of a face in the file.
   type, bind(c) :: c_cad_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: number = 0, rgb = 0
@@ -59,7 +59,7 @@ module carreau_cad_c
     real(c_double) :: area = 0, perimeter = 0, low(3) = 0, high(3) = 0
   end type c_cad_figures
 
-  !> What a file holds, and how much of it is hard to mesh.
+  !> The content of a file, and the number of potential meshing problems.
   type, bind(c) :: c_cad_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: solids = 0, shells = 0, faces = 0, edges = 0, vertices = 0, seams = 0, poles = 0, &

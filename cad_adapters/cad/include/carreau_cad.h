@@ -127,7 +127,7 @@ CARREAU_CAD_API carreau_status carreau_cad_set_size(carreau_cad_file* file, int3
 
 /* ---- What a file holds ---- */
 
-/* What a file holds, counted. */
+/* The content of a file, counted. */
 typedef struct carreau_cad_content {
   size_t struct_size;
   int32_t faces, edges, vertices;
@@ -172,7 +172,7 @@ CARREAU_CAD_API carreau_status carreau_cad_small_feature_at(carreau_cad_file* fi
 /* Tells what of the file could not be read: a sentence, which names the entity. index: from 0. NULL: no such index. */
 CARREAU_CAD_API const char* carreau_cad_loss(carreau_cad_file* file, int64_t index);
 
-/* What the file tells of a face. */
+/* The data of a face in the file. */
 typedef struct carreau_cad_face {
   size_t struct_size;
   int32_t number;   /* from 1 */
@@ -205,7 +205,7 @@ CARREAU_CAD_API carreau_status carreau_cad_measure_face(carreau_cad_file* file, 
 
 /* ---- What is hard to mesh ---- */
 
-/* What a file holds, and how much of it is hard to mesh. */
+/* The content of a file, and the number of potential meshing problems. */
 typedef struct carreau_cad_report {
   size_t struct_size;
   int32_t solids, shells, faces, edges, vertices;

@@ -26,13 +26,13 @@ struct CadFace {
   int solid = 0, other_solid = 0; ///< from 1; triangles look out of `solid`, into `other_solid`; 0: none
   std::string solid_name, other_solid_name;
 };
-/// What a face measures: carreau_cad_figures.
+/// The figures of a face: carreau_cad_figures.
 struct CadFigures {
   std::string kind;
   double area = 0, perimeter = 0;
   Point3 low{}, high{};
 };
-/// What is hard to mesh: carreau_cad_danger.
+/// A potential meshing problem: carreau_cad_danger.
 struct CadDanger {
   std::string kind, sentence;
   int face = 0, edge = 0;
@@ -103,7 +103,7 @@ class CadFile {
   void set_size(int dimension, int number, double size) { done(carreau_cad_set_size(get(), dimension, number, size)); }
 
   [[nodiscard]] carreau_cad_content info() const { return filled(carreau_cad_info); }
-  /// What could not be read: a sentence each.
+  /// Entities that could not be read: a sentence each.
   [[nodiscard]] std::vector<std::string> losses() const {
     std::vector<std::string> out;
     for (std::int64_t i = 0; const char* loss = carreau_cad_loss(get(), i); ++i) out.emplace_back(loss);
@@ -146,7 +146,7 @@ class CadFile {
     }
     return out;
   }
-  /// What inspect has found, worst first of each kind.
+  /// The problems that inspect has found, worst first of each kind.
   [[nodiscard]] std::vector<CadDanger> dangers(const carreau_cad_report& report) const {
     std::vector<CadDanger> out;
     for (std::int64_t i = 0; i < report.dangers; ++i) {

@@ -40,7 +40,7 @@ void give_back_heap() {
 #if __GLIBC_PREREQ(2, 33)
   constexpr std::size_t much = std::size_t{128} << 20;  // bytes: less is soon in use again
   const struct mallinfo2 now = mallinfo2();
-  // What lies ahead is free, but has not been used. Giving it back costs as much as a mesh of some hundred triangles.
+  // The bytes ahead are free, but have not been used. Giving it back costs as much as a mesh of some hundred triangles.
   if (now.fordblks - std::min<std::size_t>(now.keepcost, ahead) >= much) malloc_trim(0);
 #endif
 }

@@ -5,7 +5,7 @@
 namespace command {
 
 /// Before anything large is allocated: lets glibc keep what is freed instead of giving it back and asking again, and asks
-/// Linux for large pages there. Each new page of 4 KiB costs a fault (docs/scale.md).
+/// Linux for large pages there. Each new page of 4 KiB costs a fault.
 /// Does nothing with another C library. The library itself leaves its host's memory alone.
 void prepare_heap();
 

@@ -20,13 +20,13 @@
 namespace command {
 namespace {
 
-/// What a signal handler removes: fixed before `active` becomes true, and only read after that.
+/// The files that a signal handler removes: fixed before `active` becomes true, and only read after that.
 struct Staged {
   std::string folder, file, temporary;
 };
 std::vector<Staged> staged;
 volatile std::sig_atomic_t active = 0;
-/// Of all OutputFiles: writes that have succeeded, and objects that have not come to one.
+/// Counts over all OutputFiles: writes that have succeeded, and objects without one.
 volatile std::sig_atomic_t successes = 0, unwritten = 0;
 
 void remove_staged() noexcept {
@@ -48,7 +48,7 @@ std::string name_of(const std::string& path) { return path.substr(path.find_last
   throw Failure("'" + path + "' cannot be written: " + why + ".");
 }
 
-/// Where a path leads: itself (also where links form a ring), or the end of a chain of symbolic links, which need not
+/// The target of a path: itself (also if links form a ring), or the end of a chain of symbolic links, which need not
 /// exist.
 std::string behind_links(const std::string& path) {
   namespace fs = std::filesystem;

@@ -39,7 +39,7 @@ int first_number(std::initializer_list<const char*> variables) {
   return 0;
 }
 
-/// Of Open MPI; of MPICH, Intel MPI and what speaks PMI.
+/// Variables of Open MPI; of MPICH, Intel MPI and what speaks PMI.
 int processes() { return first_number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}); }
 int processes_here() { return first_number({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}); }
 

@@ -22,7 +22,7 @@ class Ranks {
   Ranks& operator=(const Ranks&) = delete;
 
   [[nodiscard]] int size() const noexcept { return size_; }
-  /// The first one: it tells, and gives files their names. What others print is not seen.
+  /// The first one: it tells, and gives files their names. Output of the others is not shown.
   [[nodiscard]] bool speaks() const noexcept { return rank_ == 0; }
   /// Threads for each rank of this machine, when all its cores are shared evenly.
   [[nodiscard]] int threads() const noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Ctrl-C, `kill` and a closed terminal do.
+// The effect of Ctrl-C, `kill` and a closed terminal.
 #pragma once
 
 namespace command {

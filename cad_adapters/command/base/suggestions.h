@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person may have meant by a word that is not known.
+// Suggestions for an unknown word.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the standard error stream can show.
+// The abilities of the standard error stream.
 #pragma once
 
 namespace command {

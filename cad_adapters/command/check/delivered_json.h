@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh delivers as JSON.
+// The measures of a mesh as JSON.
 #pragma once
 
 #include <carreau.h>

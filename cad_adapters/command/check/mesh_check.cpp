@@ -66,7 +66,7 @@ bool holds_elements(carreau_mesh* mesh) {
   return false;
 }
 
-/// What the mesh itself tells of its shapes.
+/// The shape figures of the mesh itself.
 void ask_shapes(carreau_mesh* mesh, const std::vector<std::int32_t>& refs, const Crossings* known, MeshCheck& c) {
   c.quality.struct_size = sizeof c.quality;
   require(mesh, carreau_mesh_quality(mesh, &c.quality));

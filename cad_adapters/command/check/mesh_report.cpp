@@ -268,7 +268,7 @@ class DoublePoints {
  public:
   DoublePoints(const std::vector<Point>& points, double tolerance) : points_(points), tolerance_(tolerance) {}
 
-  /// Of the vertices in `of`, which loses their order. Ascending.
+  /// The median of the vertices in `of`, whose order is lost. Ascending.
   std::vector<std::uint32_t> find(std::vector<std::uint32_t>& of) {
     part(of.data(), of.data() + of.size(), 0, 0);
     std::sort(found_.begin(), found_.end());

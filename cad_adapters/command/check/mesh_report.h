@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is right and wrong with a mesh, beside the figures of carreau_mesh_quality.
+// The state of a mesh, beside the figures of carreau_mesh_quality.
 #pragma once
 
 #include <array>

@@ -113,6 +113,7 @@ void CommandLine::add_mesh() {
   add_parts_option(mesh, mesh_);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Print errors only");
+  mesh->add_flag("--verbose", mesh_.verbose, "Print evaluations, times of phases, gluing and other details");
 }
 
 void CommandLine::add_plane() {
@@ -138,6 +139,7 @@ void CommandLine::add_plane() {
   add_parts_option(plane, plane_);
   plane->add_flag("--json", plane_.json, "Print a summary as JSON");
   plane->add_flag("-q,--quiet", plane_.quiet, "Print errors only");
+  plane->add_flag("--verbose", plane_.verbose, "Print evaluations, times of phases, gluing and other details");
 }
 
 void CommandLine::add_adapt() {
@@ -190,6 +192,7 @@ void CommandLine::add_adapt() {
   add_mesh_options(adapt, adapt_);
   adapt->add_flag("--json", adapt_.json, "Print a summary as JSON");
   adapt->add_flag("-q,--quiet", adapt_.quiet, "Print errors only");
+  adapt->add_flag("--verbose", adapt_.verbose, "Print evaluations, times of phases, gluing and other details");
 }
 
 void CommandLine::add_info() {

@@ -20,6 +20,7 @@ constexpr const char* picture = "Picture";
 /// All options of all commands, in the order of help.
 constexpr GroupOf groups_of_options[] = {
     {"--output", "Output"},           {"--json", "Output"},         {"--quiet", "Output"},
+    {"--verbose", "Output"},
     {"--limit", "Lists"},             {"--worst", "Lists"},         {"--faces", "Lists"},
     {"--atoms", "Lists"},             {"--closed", "Defects"},      {"--allow-crossings", "Defects"},
     {"--view", picture},              {"--color", picture},         {"--edges", picture},

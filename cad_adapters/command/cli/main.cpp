@@ -16,8 +16,8 @@ namespace {
 
 constexpr int unusable = 2;
 
-/// A standard file that is closed would be the next one that opens, and what is printed would be among its bytes. What
-/// is opened in its place cannot be written (or read), as before.
+/// A standard file that is closed would be the next one that opens, and what is printed would be among its bytes. The file
+/// opened in its place cannot be written (or read), as before.
 void open_standard_files() {
   for (int file = 0; file < 3; ++file) {
     if (fcntl(file, F_GETFD) != -1 || errno != EBADF) continue;
@@ -25,7 +25,7 @@ void open_standard_files() {
   }
 }
 
-/// What was printed may still be in a buffer, and the disk full.
+/// Output may still be in a buffer, and the disk full.
 int flushed(int code) {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

@@ -25,19 +25,19 @@ inline constexpr const char* rounds = "ROUNDS";
 std::string not_empty(const std::string& value);
 /// `--set`, and options like it, take one value each time they are given.
 CLI::Option* repeated(CLI::Option* option);
-/// Of commands that mesh once.
+/// Adds --parts to commands that mesh once.
 void add_parts_option(CLI::App* app, MeshOptions& options);
 CLI::Option* threads(CLI::App* app, int& value);
 void radii(CLI::App* app, std::string& path);
 
-/// What governs a mesh.
+/// Adds the options of sizes, curvature, elements and parameters.
 void add_mesh_options(CLI::App* app, MeshOptions& options);
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
 void add_grid_options(CLI::App* app, GridChoice& choice);
 void add_cad_options(CLI::App* app, CadChoice& choice);
-/// Of a surface given as triangles.
+/// Adds the options of triangles.
 void add_triangles_options(CLI::App* app, TrianglesChoice& choice);
-/// Of a surface by formulas.
+/// Adds --domain for surfaces by formulas.
 void add_domain_option(CLI::App* app, std::string& domain);
 /// How fields become sizes: `settings` gets the parameters adapt_*, "NAME=VALUE".
 void add_estimator_options(CLI::App* app, std::vector<std::string>& settings);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sub-commands do. Each returns the exit code, and throws Failure when it cannot be done.
+// The functions of the sub-commands. Each returns the exit code, and throws Failure when it cannot be done.
 #pragma once
 
 #include <optional>

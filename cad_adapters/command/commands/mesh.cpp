@@ -117,7 +117,7 @@ void take_mesh(MeshRun& run, const Ranks* ranks, const Ranks::Part& part) {
   for (FaceResult& face : run.faces) face.why = in_terms_of_file(run.input, face.why);
 }
 
-/// What is wrong with a mesh in parts.
+/// Warns of problems of a mesh in parts.
 void warn_of_parts(const MeshRun& run, Progress& progress) {
   if (const std::string open = free_edges_of_parts(run); !open.empty()) progress.warning(open);
   if (const std::string cross = crossings_of_parts(run); !cross.empty()) progress.warning(cross);
@@ -230,7 +230,7 @@ std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress)
   return open_several(all, options);
 }
 
-/// What a program would be told, and what there is of faces that failed, needs the whole mesh.
+/// JSON and files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
   for (const auto& [given, name] : {std::pair{options.json, "--json"}, {!options.dump_failed.empty(), "--dump-failed"}})
     if (given) throw Failure(std::string("--parts and ") + name + " exclude each other: no process has the whole mesh.");

@@ -14,7 +14,7 @@ namespace command {
 /// A piece of an element: curved ones are drawn as several.
 struct DrawnTriangle {
   std::array<Point, 3> corners;
-  /// Of the side from each corner to the next: that of the element which it is a part of, by the element's corners
+  /// For the side from each corner to the next: the side of its element, by the element's corners
   /// (ends[k], ends[k + 1]); -1: it lies inside.
   std::array<int, 3> side{-1, -1, -1};
   int half = 0;  ///< of a quadrilateral: 0: it is of corners 0, 1, 2, 1: of 0, 2, 3

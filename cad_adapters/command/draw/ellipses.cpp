@@ -9,7 +9,7 @@ namespace {
 
 constexpr int sides = 48;                ///< of a ring
 constexpr double stroke = 1.3;           ///< pixels
-/// Of the longer half axis: rings are drawn as if they were so much nearer to the eye, or they would go under triangles that
+/// Share of the longer half axis: rings are drawn so much nearer to the eye, or they would go under triangles that
 /// bend towards it. On edges of two sines of 30 degrees of the radius a surface leaves its tangent plane by a quarter.
 constexpr double nearer = 0.25;
 constexpr Colour ink{0.55f, 0.02f, 0.03f};  ///< linear light
@@ -91,7 +91,7 @@ VertexMetrics read_metrics(carreau_mesh* mesh, std::size_t vertices, const std::
 VertexMetrics metrics_of_triangles(const MeshArrays& mesh) {
   std::vector<char> used;
   const std::vector<Point> normals = normals_of(mesh, used);
-  // Of each vertex the sum of (x^2, xy, y^2) over the sides of the triangles around, in its own frame, and their number.
+  // For each vertex, the sum of (x^2, xy, y^2) over the sides of the triangles around, in its own frame, and their number.
   std::vector<std::array<double, 4>> sums(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
     for (const std::int32_t v : t) {

@@ -14,7 +14,7 @@ namespace command {
 /// Of 0xRRGGBB.
 Colour srgb(int hex);
 
-/// Of what has no colour of its own, 0xRRGGBB.
+/// Colour of faces without one, 0xRRGGBB.
 inline constexpr int grey = 0xbcc6d2;
 
 /// One number for the side between two vertices, whichever comes first.

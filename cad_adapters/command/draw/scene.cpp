@@ -172,7 +172,7 @@ double SizeScale::share(const Point& a, const Point& b, const Point& c) const {
 
 namespace {
 
-/// What the picture has to hold: the ends of the axes of a ball, or the mesh.
+/// The content of the picture: the ends of the axes of a ball, or the mesh.
 std::vector<Point> shown_points(const MeshArrays& mesh, const Edges& loose, const View& view,
                                 const SceneOptions& options) {
   std::vector<Point> used;

@@ -33,7 +33,7 @@ struct SizeScale {
   [[nodiscard]] double share(const Point& a, const Point& b, const Point& c) const;
 };
 
-/// Of Paint::quality and Paint::size, linear light: colour_scale.h. 0: dark violet, 1/2: blue-green, 1: yellow.
+/// Colours of Paint::quality and Paint::size, linear light: colour_scale.h. 0: dark violet, 1/2: blue-green, 1: yellow.
 Colour scale_colour(double x);
 
 /// The triangles of `mesh` as `view` shows them in the rectangle [x0, x0 + width] x [y0, y0 + height], in pixels.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a picture is taken from, and how the mesh is fitted into it.
+// The view of a picture, and how the mesh is fitted into it.
 #pragma once
 
 #include <string>

@@ -38,7 +38,7 @@ void require_writers(const std::vector<std::string>& paths);
 /// Throws Failure with the sentence of the last call on `mesh` when `status` is an error.
 void require(carreau_mesh* mesh, carreau_status status);
 
-/// What the library says of a face.
+/// The status of a face, from the library.
 struct FaceResult {
   std::int32_t ref = 0, status = CARREAU_FACE_FAILED;
   std::int64_t triangles = 0;

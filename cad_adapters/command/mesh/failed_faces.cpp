@@ -135,7 +135,7 @@ void FailedFaces::dump_without_mesh(carreau_session* session, const CadInput& in
   try {
     for (const std::int32_t part : input.parts(face)) write_fields(session, part, true, fields_name(path, face, part));
   } catch (const Failure& failure) {
-    // Where not even the model is one there are no fields.
+    // An invalid model has no fields.
     progress.warning("face " + std::to_string(face) + " has no fields to dump: " + failure.what());
   }
 }

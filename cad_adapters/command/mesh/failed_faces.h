@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What there is of faces that cannot be meshed, for their owner to look at.
+// Domains and fields of failed faces.
 #pragma once
 
 #include <carreau.h>

@@ -38,6 +38,7 @@ struct MeshOptions : InputChoice {
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores
   bool quiet = false;
+  bool verbose = false;  ///< details of the run, too
   bool json = false;  ///< a summary on the standard output
   bool parts = false;  ///< each process keeps its part of the mesh
 };

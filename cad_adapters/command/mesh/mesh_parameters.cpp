@@ -36,7 +36,7 @@ double real(carreau_session* session, const char* name) {
 /// Faces narrower than this share of the size are left to flat triangles: no edge is cut for them.
 constexpr double narrower_than_cuts = 4e-4;
 
-/// Of sizes by direction, when none is given (the papers' value).
+/// Default gradation of sizes by direction (the papers' value).
 constexpr double usual_gradation = 1.3;
 
 /// Sizes of a CAD file when none is given: 12 edges on a circle, flat faces of 20 edges across, fillets down to a thousandth of the part.
@@ -147,7 +147,7 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
       throw Failure("--anisotropic stretches sizes that follow the curvature: it goes with --angle or --chord.");
     set(session, "geo_metric", 1);
     set(session, "anisotropy_max", options.anisotropy);
-    // Where sizes jump from face to face, stretched triangles leave half of all lengths out of range.
+    // If sizes jump from face to face, stretched triangles leave half of all lengths out of range.
     if (real(session, "gradation") == 0) set(session, "gradation", usual_gradation);
   }
   if (options.gradation) set(session, "gradation", *options.gradation);
@@ -348,13 +348,14 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);
   if (!options.env.empty()) require(session, carreau_read_env(session, options.env.c_str()));
-  // Who asks for narrow faces means those of the library's own ratio, unless he gives another.
+  // A request for narrow faces uses the library's ratio, unless another is given.
   const char* narrow_faces = nullptr;
   require(session, carreau_get_text(session, "narrow_faces", &narrow_faces));
   const bool asked = asks_for(options, "narrow_faces") || std::strcmp(narrow_faces, "collapse") != 0;
   if (asked && real(session, "narrow_ratio") == narrower_than_cuts) set(session, "narrow_ratio", usual_ratio);
   if (options.threads > 0) set(session, "threads", options.threads);
   if (options.effort) set_effort(session, *options.effort);
+  if (options.verbose && !options.quiet) set(session, "verb", static_cast<std::int32_t>(CARREAU_LEVEL_DETAIL));
   if (options.independent) require(session, carreau_set_text(session, "patches", "independent"));
   if (options.sharp_angle) set(session, "sharp_angle", *options.sharp_angle);
   set_sizes(session, options, lengths_of(options, diagonal), input);

@@ -49,7 +49,7 @@ std::vector<carreau_interface> interfaces_of(carreau_session* session) {
 
 bool is_open(const carreau_interface& i) { return i.boundary != 0 && i.uses == 1 && i.degenerate == 0; }
 
-/// What became of curves where the file has faces that are not sewn.
+/// Glued and open curves of faces that are not sewn.
 struct Gluing {
   std::int64_t glued = 0, open = 0;
   double widest = 0;
@@ -107,7 +107,7 @@ std::string list_of(const std::vector<std::int32_t>& refs, std::size_t most) {
   return list + (refs.size() > most ? ", ..." : "");
 }
 
-/// What narrow zones and short curves made smaller than sizes may be; "": nothing.
+/// Edges that narrow zones and short curves made shorter than the smallest size; "": none.
 std::string short_edges_line(const ShortEdges& edges) {
   constexpr std::size_t listed = 15;
   if (edges.count == 0) return "";
@@ -154,7 +154,7 @@ nlohmann::ordered_json interfaces_json(const CadInput& input, const std::vector<
   return list;
 }
 
-/// What is implied and nobody has asked for.
+/// Parameters that are implied.
 std::string gradation_line(const MeshRun& run) {
   if (!(run.options.anisotropy > 0) || run.options.gradation) return "";
   double ratio = 0;
@@ -208,7 +208,7 @@ std::string unexpectedly_open(const MeshRun& run) {
 
 namespace {
 
-/// Of faces and edges.
+/// Returns the lines about faces and edges.
 std::vector<std::string> first_lines(const MeshRun& run) {
   const carreau_quality& q = run.quality;
   const auto of = [&](std::int32_t status) { return whole(count(run.faces, status)); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `carreau mesh` has done: for a person, and for a program.
+// The summary of `carreau mesh`, as text and as JSON.
 #pragma once
 
 #include <carreau.h>
@@ -16,7 +16,7 @@
 
 namespace command {
 
-/// What the last run of a session did.
+/// The figures of the last run of a session.
 carreau_report report_of(carreau_session* session);
 
 /// A run with its results, besides what session and mesh know.
@@ -40,7 +40,7 @@ std::string failed_faces(const std::vector<FaceResult>& faces);
 /// "2 entities of the file could not be read: #12 ADVANCED_FACE, ..."; "" when all could.
 std::string lost_entities(const CadInput& input);
 
-/// Where the faces of the file close, or were glued, and the mesh has free edges all the same: how many, and on which
+/// If the faces of the file close, or were glued, and the mesh has free edges: how many, and on which
 /// curves;
 /// "" when it has none, or faces failed.
 std::string unexpectedly_open(const MeshRun& run);

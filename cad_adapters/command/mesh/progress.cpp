@@ -24,19 +24,19 @@ const char* phase_name(std::int32_t phase) {
     case phase_reading:
       return "reading";
     case CARREAU_PHASE_MODEL:
-      return "model";
+      return "gluing";
     case CARREAU_PHASE_CURVES:
-      return "curves";
+      return "cutting curves";
     case CARREAU_PHASE_PATCHES:
-      return "patches";
+      return "meshing faces";
     case CARREAU_PHASE_ASSEMBLY:
-      return "assembly";
+      return "joining faces";
     case CARREAU_PHASE_WRITING:
       return "writing";
     case CARREAU_PHASE_MEASURE:
-      return "measure";
+      return "measuring";
     case CARREAU_PHASE_GRADATION:
-      return "gradation";
+      return "grading sizes";
     default:
       return "at work";
   }
@@ -167,7 +167,7 @@ void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
     const bool ends = percent == 100 && tenth_ < 10;
     if (phase == phase_ && !ends && (of_files || percent / 10 == tenth_)) return;
     tenth_ = percent / 10, phase_ = phase;
-    std::fprintf(stderr, "%3d %% %s%s\n", percent, phase_name(phase), entity_name(phase, entity).c_str());
+    std::fprintf(stderr, "%3d %% of the run: %s%s\n", percent, phase_name(phase), entity_name(phase, entity).c_str());
     return;
   }
   const auto now = Clock::now();
@@ -176,7 +176,7 @@ void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
   bar_is_shown(true);
   std::string bar(static_cast<std::size_t>(bar_width * percent / 100), '#');
   bar.resize(bar_width, '.');
-  std::fprintf(stderr, "\r\033[K[%s%s%s] %3d %% %s%s", colours_ ? colour::green : "", bar.c_str(),
+  std::fprintf(stderr, "\r\033[K[%s%s%s] %3d %% of the run: %s%s", colours_ ? colour::green : "", bar.c_str(),
                colours_ ? colour::plain : "", percent, phase_name(phase), entity_name(phase, entity).c_str());
   std::fflush(stderr);
 }

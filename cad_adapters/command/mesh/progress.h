@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run tells the person who waits for it, on the standard error stream.
+// Progress and messages of a run, on the standard error stream.
 #pragma once
 
 #include <carreau.h>
@@ -16,7 +16,7 @@ class CadInput;
 
 /// A bar on a terminal, a line a tenth of the way in a log, nothing when quiet (errors are always told).
 /// Errors are red, warnings yellow and the bar green on a terminal, unless NO_COLOR is set or TERM is dumb.
-/// Of warnings that differ in their numbers only, a few are shown and the others counted.
+/// A few warnings that differ in their numbers only are shown, and the others counted.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -27,7 +27,7 @@ class Progress {
   /// Messages and progress of this session, which has the geometry of `input`, come here; both must not outlive this
   /// object.
   void listen_to(carreau_session* session, const CadInput& input);
-  /// What is told from now on is this share of all: bars and lines never go back.
+  /// Sets the share of all work that follows: bars and lines never go back.
   void part(double from, double to);
   /// How much of all is done, 0 to 1.
   [[nodiscard]] double reached() const noexcept { return reached_; }
@@ -41,7 +41,7 @@ class Progress {
   void attention(const char* word, const std::vector<std::string>& lines);
   /// All of them, in their order, also those that were not shown.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
-  /// What a quiet run shows as well.
+  /// Prints a line that a quiet run shows, too.
   void error(const std::string& text);
   /// Takes the bar away.
   void clear();

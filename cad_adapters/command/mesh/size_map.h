@@ -29,7 +29,7 @@ class SizeMap {
   /// the session. Throws Failure.
   void give_to(carreau_session* session, const CadInput& input);
 
-  /// What the formula gave that is no size, with the place; "" when nothing.
+  /// An invalid value of the formula, with its place; "": none.
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
 
  private:

@@ -17,7 +17,7 @@ struct CurvedPieces {
   std::vector<Point> points;                         ///< numbered behind the vertices of the mesh
   std::vector<std::array<std::int32_t, 3>> corners;  ///< of vertices, and of points behind them
   std::vector<std::uint32_t> triangle;               ///< by piece: its triangle of the mesh
-  /// By piece: bit k: its side from corner k to the next lies on a curve, bit 3 + k: it lies inside an element.
+  /// Bits of each piece: bit k: its side from corner k to the next lies on a curve, bit 3 + k: it lies inside an element.
   std::vector<std::uint32_t> sides;
 };
 

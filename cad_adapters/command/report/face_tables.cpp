@@ -73,7 +73,7 @@ std::map<std::int32_t, double> largest_of(const ReportContent& content, const Tr
   return largest;
 }
 
-/// Of a face with triangles.
+/// Returns the cells of a face with triangles.
 void add_figures(const FaceFigures* f, std::vector<HtmlCell>& row) {
   if (f == nullptr) {
     row.insert(row.end(), 6, HtmlCell{"", true, "-1e999"});

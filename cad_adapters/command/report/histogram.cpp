@@ -11,7 +11,7 @@
 namespace command {
 namespace {
 
-/// Of the drawing, in its own units.
+/// Measures of the drawing, in its own units.
 constexpr double bar_width = 15, drawn_height = 120, label_height = 20;
 
 double share_of(const TriangleValues& values, double x) {

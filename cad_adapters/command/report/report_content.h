@@ -32,7 +32,7 @@ struct ReportContent {
 
 constexpr int defects_told = 100;
 
-/// Of a mesh: all but the names and the run. `known`: its crossings. Throws Failure.
+/// The content about a mesh, without the names and the run. `known`: its crossings. Throws Failure.
 ReportContent content_of(carreau_mesh* mesh, const Crossings* known = nullptr);
 
 /// Parameters of a session after its run. Throws Failure.

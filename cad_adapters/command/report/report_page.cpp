@@ -42,7 +42,7 @@ std::string plural(std::int64_t n, const char* one, const char* many) {
   return count_text(n) + " " + (n == 1 ? one : many);
 }
 
-/// What there is, and what of it is drawn otherwise than it is.
+/// The elements, and the ones that are drawn in another way.
 std::string lead_of(const ReportContent& content) {
   const MeshCheck& c = content.check;
   std::string text = plural(c.faces, "face", "faces") + ", " + plural(c.vertices, "vertex", "vertices") + ", " +

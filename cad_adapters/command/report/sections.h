@@ -8,7 +8,7 @@
 
 namespace command {
 
-/// What a reader must know first: whether all is well, else what is not.
+/// The verdict: no problems, or the list of problems.
 std::string verdict_section(const ReportContent& content);
 /// The elements of least quality, and of largest distance and angle to the surface, with buttons that show them.
 std::string worst_section(const ReportContent& content);

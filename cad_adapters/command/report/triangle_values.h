@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a report knows of each triangle: its shape, its size, its distance and angle to the surface.
+// Values of each triangle in a report: its shape, its size, its distance and angle to the surface.
 #pragma once
 
 #include <carreau.h>

@@ -10,7 +10,7 @@
 
 namespace command {
 
-/// What the viewer draws; all members live as long as the call.
+/// The data that the viewer draws; all members live as long as the call.
 struct ViewerMesh {
   const MeshArrays& mesh;                    ///< finite numbers, indices in range, at least one triangle
   const std::vector<std::uint8_t>& halves;   ///< of halves_of()

@@ -41,7 +41,7 @@ class PlainStep : public testing::Test {
     stream << text;
   }
 
-  /// What a model holds: entities with their numbers, types and values, as OpenCASCADE writes them, and its complaints.
+  /// The content of a model: entities with their numbers, types and values, as OpenCASCADE writes them, and its complaints.
   /// It cannot write those that it complained of.
   [[nodiscard]] std::string dump(const Model& model) const {
     std::ostringstream out;

@@ -78,9 +78,9 @@ class CadInput {
   /// (u, v), as callbacks of the session get them, at a share of curve number ic, from 1. False: the geometry fails.
   [[nodiscard]] virtual bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
                                       double& v) const noexcept = 0;
-  /// What the file holds and the geometry does not, since it could not be read: a sentence each.
+  /// Entities of the file that could not be read: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
-  /// What was passed over or repaired without the loss of a face: a sentence each.
+  /// Ignored or repaired entities, without the loss of a face: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   /// A table of the small features that were found and removed, or stay: a line each.
   [[nodiscard]] virtual std::vector<std::string> small_features() const { return {}; }
@@ -97,7 +97,7 @@ class CadInput {
   [[nodiscard]] virtual bool is_wires() const { return false; }
   /// Whether no edge of the file has one face alone.
   [[nodiscard]] virtual bool closed() const { return false; }
-  /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
+  /// A sentence of the geometry about the mesh of a session; "": none. Throws Failure.
   [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }

@@ -85,7 +85,7 @@ struct Inside {
   double u = 0, v = 0;
 };
 
-/// By the even-odd rule.
+/// Uses the even-odd rule.
 bool holds(const std::vector<std::pair<Inside, Inside>>& sides, Inside p) {
   bool inside = false;
   for (const auto& [a, b] : sides)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What inputs have in common whose model is in memory: Bezier patches, and faces with a shared library.
+// Common base of inputs whose model is in memory: Bezier patches, and faces with a shared library.
 #pragma once
 
 #include "inputs/base/cad_input.h"
@@ -24,9 +24,9 @@ struct ModelFigures {
 class ModelInput : public CadInput {
  public:
   carreau_status give_to(carreau_session* session) override;
-  /// Of the box of the curves, sampled: the `diag` of parameters.
+  /// Diagonal of the box of the curves, sampled: the `diag` of parameters.
   [[nodiscard]] double diagonal() const final { return diagonal_; }
-  /// What the sides look like, sampled: poles, tiny sides (below a thousandth of the diagonal), places where the
+  /// Properties of the sides, sampled: poles, tiny sides (below a thousandth of the diagonal), places where the
   /// geometry fails.
   [[nodiscard]] ModelFigures look_at() const;
   [[nodiscard]] std::string summary() const override;

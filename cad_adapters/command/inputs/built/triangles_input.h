@@ -21,7 +21,7 @@ inline constexpr const char* triangles_suffixes[] = {".stl", ".off",  ".obj", ".
 /// Whether the suffix is that of a file of triangles, or a STEP file has no other faces.
 bool is_triangles(const std::string& path);
 
-/// What was found in the triangles of a session. Throws Failure.
+/// Findings in the triangles of a session. Throws Failure.
 carreau_triangles_report triangles_report(carreau_session* session);
 /// The place of (u, v) of a face of a session whose surface is given as triangles; false: there is none.
 bool locate_by(carreau_session* session, std::int32_t face, double u, double v, Place& place) noexcept;
@@ -36,7 +36,7 @@ std::unique_ptr<CadInput> open_triangles(const std::string& path, const Triangle
 MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth,
                              bool quiet);
 
-/// What `carreau info` prints of a file of triangles. Throws Failure.
+/// The output of `carreau info` for a file of triangles. Throws Failure.
 void print_triangles_info(const std::string& path, const TrianglesChoice& choice, bool json);
 
 }  // namespace command

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a geometry in a shared library does to the process that calls it.
+// Faults of a geometry in a shared library.
 #pragma once
 
 #include <string>

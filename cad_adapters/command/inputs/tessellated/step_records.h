@@ -47,7 +47,7 @@ class StepRecords {
 
  private:
   void find();
-  /// Where the record that begins here ends.
+  /// The end of the record that begins here.
   std::size_t take(std::size_t at);
 
   std::string path_, text_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the tessellated parts of a STEP assembly stand.
+// Places of the tessellated parts of a STEP assembly.
 #pragma once
 
 #include <array>

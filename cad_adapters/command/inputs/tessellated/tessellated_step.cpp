@@ -73,7 +73,7 @@ class TessellationReader {
     }
   }
 
-  /// Where the points of a list begin among the vertices.
+  /// First vertex of each list of points.
   std::int64_t points(int list, int from, std::int64_t& count) {
     const StepRecords::Record& record = records_.at(list, from);
     if (record.type != "COORDINATES_LIST") records_.fail(from, "its coordinates are no COORDINATES_LIST");

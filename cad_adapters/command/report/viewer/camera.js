@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the mesh is seen from: a parallel projection, turned about its target.
+// The view of the mesh: a parallel projection, turned about its target.
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -47,7 +47,7 @@ class Camera {
   /** Half the height of what is seen, model length: not beyond what single precision tells apart. */
   zoom(factor) { this.half = Math.min(20 * this.radius, Math.max(2e-6 * this.radius, this.half / factor)); }
 
-  /** By angles about the vertical and the horizontal of the screen. */
+  /** Turns by angles about the vertical and the horizontal of the screen. */
   turn(across, over) {
     const { right, up, toward } = this.frame;
     const spun = plus(toward.map((x) => x * Math.cos(across)), right, -Math.sin(across));
@@ -57,7 +57,7 @@ class Camera {
     this.frame.up = cross(this.frame.toward, side);
   }
 
-  /** By shares of half the height. */
+  /** Moves by shares of half the height. */
   move(x, y) {
     this.target = plus(plus(this.target, this.frame.right, x * this.half), this.frame.up, y * this.half);
   }

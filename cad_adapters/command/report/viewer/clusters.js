@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn of a large mesh while it moves and the machine is slow: vertices of a cell of a grid become one, triangles that
+// A coarse version of a large mesh for slow machines: vertices of a cell of a grid become one, triangles that
 // have lost a corner go (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations", 1993).
 
 /** Twice the area of all triangles, model units. */

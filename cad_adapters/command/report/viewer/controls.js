@@ -18,7 +18,7 @@ class Controls {
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
-  /** Of an event, shares of the canvas. */
+  /** Place of an event, as shares of the canvas. */
   place(event) {
     const box = this.canvas.getBoundingClientRect();
     return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The data of the page: numbers as planes of bytes, zlib's stream, base64 (packing.h tells the same from the other side).
 
-/** What the numbers are: counts, box, faces, scales. */
+/** The header: counts, box, faces, scales. */
 function readHead() {
   return JSON.parse(document.getElementById('viewer-data').textContent);
 }
@@ -49,7 +49,7 @@ function valueOf(scale, code) {
   return scale.logarithmic ? scale.low * (scale.high / scale.low) ** share : scale.low + share * (scale.high - scale.low);
 }
 
-/** What is drawn: the triangles, or, where elements are curved, pieces of them: corners, sides, the triangle of each. */
+/** The drawn triangles, or, where elements are curved, pieces of them: corners, sides, the triangle of each. */
 async function readPieces(head, mesh) {
   if (!head.blocks['piece-corners']) return { corners: mesh.corners, sides: mesh.sides, triangle: null };
   const [corners, sides, triangle] = await Promise.all(['piece-corners', 'piece-sides', 'piece-triangle'].map((name) => unpack(head, name)));

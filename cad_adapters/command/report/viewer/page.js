@@ -5,7 +5,7 @@ const byId = (id) => document.getElementById(id);
 
 function nameOfFace(face) { return face.name ? `${face.reference} (${face.name})` : String(face.reference); }
 
-/** What is known of a triangle, pairs of a name and a text. */
+/** Values of a triangle, pairs of a name and a text. */
 function factsOf(mesh, triangle) {
   const facts = [['Triangle', String(triangle + 1)], ['Face', nameOfFace(mesh.head.faces[mesh.faces[triangle]])]];
   for (const scale of mesh.head.values) {
