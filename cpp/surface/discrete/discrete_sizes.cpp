@@ -121,6 +121,9 @@ void DiscreteSizes::bend(const discrete::RefinedMesh& mesh, std::vector<double>&
   }
 }
 
+/// A size grows by so much a length from the place that it is refined at; near the place it is that of the place.
+constexpr double growth_from_fine_places = 0.5;
+
 MeshSizes DiscreteSizes::at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const {
   const bool told = options_.size.physical != PhysicalSizes::ignored && !options_.size.sources.empty();
   if (curvature_ || told)
@@ -128,6 +131,9 @@ MeshSizes DiscreteSizes::at_vertices(const discrete::RefinedMesh& mesh, Monitor&
   std::vector<double> size(mesh.vertices.size(), infinity);
   prescribe(mesh, size, monitor);
   if (options_.size.geometric != GeometricSizes::ignored) bend(mesh, size);
+  for (std::size_t v = 0; v < size.size(); ++v)
+    for (const FinePlace& place : fine_)
+      size[v] = std::min(size[v], std::max(place.size, growth_from_fine_places * norm(mesh.vertices[v] - place.at)));
   if (options_.gradation > 0)
     grade_over_edges(mesh.vertices, mesh.triangles, slope_of_gradation(options_.gradation), size);
   return {std::move(size), {}, {}};

@@ -27,11 +27,20 @@ struct MeshSizes {
   [[nodiscard]] double over(const discrete::RefinedMesh& mesh, std::size_t triangle) const;
 };
 
+/// A place around which meshes are finer than the rules want.
+struct FinePlace {
+  Vec3 at;
+  double size;
+};
+
 /// What size rules ask for at vertices of a mesh of the surface.
 class DiscreteSizes {
  public:
   /// Keeps references. `cad`: the surface itself, or what asks it.
   DiscreteSizes(const Model& model, Cad& cad, const discrete::DiscreteCad& surface, const CompositeOptions& options);
+
+  /// Sizes around these places grow from theirs; the rules hold where they want smaller ones.
+  void refine_around(std::vector<FinePlace> places) { fine_ = std::move(places); }
 
   /// With the gradation of the options over the mesh.
   [[nodiscard]] MeshSizes at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const;
@@ -57,6 +66,7 @@ class DiscreteSizes {
   const CompositeOptions& options_;
   std::vector<double> radius_;  // by corner of the surface's triangles: smallest radius of curvature
   std::optional<CurvatureTensors> curvature_;  // where sizes may differ by direction
+  std::vector<FinePlace> fine_;
 };
 
 /// The largest sizes that are no larger and grow along edges by `slope` at most.
