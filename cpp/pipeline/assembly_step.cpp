@@ -66,7 +66,7 @@ void report_narrow(CompositeRun& run) {
     const bool point = std::all_of(curves.begin(), curves.end(), [&](int c) {
       return run.topology.curves[static_cast<std::size_t>(c)].degenerate;
     });
-    mesh.why = Where{.face = mesh.ref}.prefix() +
+    mesh.why = Where{.face = mesh.shown_ref()}.prefix() +
                (point ? "the face is a point of space: each of its sides is so short beside the model (a "
                         "hundred-thousandth) that it counts as one"
                       : "the face has no width: its sides are the same curves");
@@ -74,7 +74,7 @@ void report_narrow(CompositeRun& run) {
   for (const NarrowFace& face : run.narrow.strips) {
     FaceMesh& mesh = run.result.mesh.faces[face.face];
     mesh.status = FaceStatus::mended;
-    mesh.why = Where{.face = mesh.ref}.prefix() + "the face is narrow (" + format_number(face.width) +
+    mesh.why = Where{.face = mesh.shown_ref()}.prefix() + "the face is narrow (" + format_number(face.width) +
                " where the size is " + format_number(face.size) + "): one layer of triangles";
   }
 }

@@ -13,6 +13,7 @@
 #include "pipeline/mesh_rounds.h"
 #include "pipeline/parts/shares.h"
 #include "surface/assembly/cracks.h"
+#include "surface/free_elements/invalid_elements.h"
 
 namespace carreau {
 
@@ -87,6 +88,10 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   MeshRounds rounds(run);
   rounds.mesh_first();
   for (const std::unique_ptr<Inspector>& inspector : inspectors_of(run)) rounds.refine(*inspector);
+  if (!run.options.parts && fail_unsound_faces(run.result)) {
+    run.result.report.crossings = -1;  // numbers of triangles have changed
+    run.result.crossings.clear();
+  }
   place_on_curves(run);
   report_prescribed(run);
   if (options.cracks) open_cracks(run.result);

@@ -39,6 +39,37 @@ def countersink(n=36, slope=41.0):
     return x, t
 
 
+def hinge(thickness=0.4, width=3.0):
+    """Vertices and triangles of a leaf that kinks by 25 and by -35 degrees and ends in a barrel of 16 facets of 12 degrees."""
+    path, angle = [(0.0, 0.0)], 0.0
+    for turn, length in [(0, 3), (25, 2), (-35, 2)] + [(12, 0.8 * math.radians(12))] * 16:
+        angle += math.radians(turn)
+        path.append((path[-1][0] + length * math.cos(angle), path[-1][1] + length * math.sin(angle)))
+    n, x, t = len(path), [], []
+    for i, p in enumerate(path):
+        before, after = path[max(i - 1, 0)], path[min(i + 1, n - 1)]
+        normals = [(q[1] - r[1], r[0] - q[0]) for q, r in ((before, p), (p, after)) if q != r]
+        normals = [(u / math.hypot(u, v), v / math.hypot(u, v)) for u, v in normals]
+        u, v = sum(m[0] for m in normals), sum(m[1] for m in normals)
+        share = thickness * len(normals) / (u * u + v * v)
+        for q in (p, (p[0] + share * u, p[1] + share * v)):
+            x += [(q[0], q[1], 0.0), (q[0], q[1], width)]
+
+    def quad(a, b, c, d):
+        t.extend([(a, b, c), (a, c, d)])
+
+    for i in range(n - 1):
+        a, b = 4 * i, 4 * (i + 1)
+        quad(a, b, b + 1, a + 1)
+        quad(b + 2, a + 2, a + 3, b + 3)
+        quad(b, a, a + 2, b + 2)
+        quad(a + 1, b + 1, b + 3, a + 3)
+    last = 4 * (n - 1)
+    quad(0, 1, 3, 2)
+    quad(last + 2, last + 3, last + 1, last)
+    return x, t
+
+
 def stl(x, t):
     facets = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.17g %.17g %.17g\n" % x[v] for v in c) +
                      "endloop\nendfacet\n" for c in t)
@@ -94,6 +125,21 @@ class Triangles(unittest.TestCase):
         place = re.search(r"warning: the mesh is (\S+) away from the triangles at \((\S+), (\S+), (\S+)\), (\S+) of the size there", lost)
         self.assertGreater(float(place[5]), 0.1)
         self.assertLess(math.hypot(float(place[2]), float(place[3])), 4.1)
+
+    def test_kinks_of_a_hinge_stay_and_a_lost_one_is_told_with_its_place(self):
+        source, target = self.path("a.stl", stl(*hinge())), self.path("b.mesh")
+        found = self.info(source)
+        self.assertEqual((found["euler_number"], found["border_edges"], found["regions"]), (2, 0, 10))
+        self.assertLess(found["sharp_angle"], 25)
+        self.assertEqual(self.info(source, "--sharp", "45")["regions"], 6)
+        for size in (0.2, 0.3):
+            kept = self.run_command("mesh", source, "-o", target, "--size", str(size)).stderr
+            self.assertNotIn("away from the triangles", kept)
+            self.assertLess(float(re.search(r"(?m)^distance +(\S+) at most", kept)[1]), 0.1 * size)
+            lost = self.run_command("mesh", source, "-o", target, "--size", str(size), "--sharp", "45").stderr
+            place = re.search(r"warning: the mesh is (\S+) away from the triangles at \((\S+), (\S+), (\S+)\), (\S+) of the size there", lost)
+            self.assertGreater(float(place[5]), 0.1)
+            self.assertLess(float(place[2]), 7)  # on the leaf, not on the barrel
 
     def test_meshes_lie_on_the_cylinder_that_the_triangles_stand_for(self):
         source, target = self.path("a.stl", stl(*cylinder())), self.path("b.mesh")

@@ -35,7 +35,7 @@ class CellDefects {
 
  private:
   void add(const std::string& sentence) { defects_.push_back(sentence); }
-  static std::string name(const FaceMesh& face) { return "face " + std::to_string(face.ref) + ": "; }
+  static std::string name(const FaceMesh& face) { return "face " + std::to_string(face.shown_ref()) + ": "; }
 
   void check_lists(const FaceMesh& face) {
     if (face.quads < 0 || 2 * static_cast<std::size_t>(face.quads) > face.triangles.size()) {

@@ -57,7 +57,7 @@ class DefectFinder {
     return face.status == FaceStatus::meshed || face.status == FaceStatus::mended;
   }
   static std::string of_face(std::size_t t, const FaceMesh& face) {
-    return "triangle " + std::to_string(t) + " of face " + std::to_string(face.ref) + ": ";
+    return "triangle " + std::to_string(t) + " of face " + std::to_string(face.shown_ref()) + ": ";
   }
   static Key ordered(std::int32_t a, std::int32_t b) { return a < b ? Key{a, b} : Key{b, a}; }
 
@@ -81,7 +81,7 @@ class DefectFinder {
 
   void check_face(std::size_t f) {
     const FaceMesh& face = mesh_.faces[f];
-    const std::string name = "face " + std::to_string(face.ref);
+    const std::string name = "face " + std::to_string(face.shown_ref());
     if (!meshed(face) && !face.triangles.empty()) add(name + ": not meshed, yet it has triangles");
     if (meshed(face) && face.triangles.empty()) add(name + ": no triangle");
     if (face.uv.size() != face.vertex.size()) add(name + ": local vertices and (u, v) differ in number");
@@ -127,7 +127,7 @@ class DefectFinder {
     bucket_sort(directed, face.uv.size(), [](const Key& edge) { return edge[0]; });
     for (std::size_t i = 1; i < directed.size(); ++i)
       if (directed[i] == directed[i - 1])
-        add_joint("face " + std::to_string(face.ref) + ": two triangles run along one edge the same way, near u = " +
+        add_joint("face " + std::to_string(face.shown_ref()) + ": two triangles run along one edge the same way, near u = " +
                       std::to_string(face.uv[directed[i][0]].x()) + ", v = " + std::to_string(face.uv[directed[i][0]].y()),
                   Key{face.vertex[directed[i][0]], face.vertex[directed[i][1]]});
   }
@@ -199,7 +199,7 @@ class DefectFinder {
       while (k < expected.size() && expected[k] == edge) ++k, ++want;
       if (want > 0 ? have == want : have == 2 || mesh_.independent) continue;
       const std::string name = "edge " + std::to_string(edge.key[0]) + " - " + std::to_string(edge.key[1]) +
-                               " of face " + std::to_string(mesh_.faces[edge.face].ref) + ": ";
+                               " of face " + std::to_string(mesh_.faces[edge.face].shown_ref()) + ": ";
       if (want > 0)
         add_joint(name + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want), edge.key);
       else

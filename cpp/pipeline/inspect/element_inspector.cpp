@@ -67,7 +67,7 @@ void report_invalid(CompositeRun& run, const QuadraticReport& report) {
   for (const InvalidElements& invalid : report.invalid) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
     const std::string what =
-        Where{.face = face.ref, .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
+        Where{.face = face.shown_ref(), .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
         (invalid.count == 1 ? " element has" : " elements have") +
         " a Jacobian that is not positive everywhere";
     face.status = FaceStatus::mended;

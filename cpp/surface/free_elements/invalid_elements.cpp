@@ -98,7 +98,7 @@ void tell_invalid(SurfaceMesh& mesh) {
       if (++count == 1) uv = face.uv[cell.nodes[0]];
     }
     if (count == 0) continue;
-    const std::string what = Where{.face = face.ref, .uv = uv}.prefix() + std::to_string(count) +
+    const std::string what = Where{.face = face.shown_ref(), .uv = uv}.prefix() + std::to_string(count) +
                              (count == 1 ? " element has" : " elements have") + " a Jacobian that is not positive everywhere";
     face.status = FaceStatus::mended;
     face.why += (face.why.empty() ? "" : "; ") + what;
@@ -113,7 +113,7 @@ void fail_wrong_joints(SizedMesh& made) {
     const auto found = std::ranges::find_if(face.triangles, [&](const auto& t) { return std::ranges::count_if(t, is_wrong) > 1; });
     if (found == face.triangles.end()) continue;
     const Vec3 at = made.mesh.vertices[face.vertex[*std::ranges::find_if(*found, is_wrong)]];
-    const std::string why = Where{.face = face.ref}.prefix() + "elements would run along one edge more than once, near x = " +
+    const std::string why = Where{.face = face.shown_ref()}.prefix() + "elements would run along one edge more than once, near x = " +
                             std::to_string(at[0]) + ", y = " + std::to_string(at[1]) + ", z = " + std::to_string(at[2]);
     FaceMesh failed;
     failed.ref = face.ref, failed.name = face.name, failed.rgb = face.rgb, failed.part_of = face.part_of;
@@ -122,6 +122,136 @@ void fail_wrong_joints(SizedMesh& made) {
     if (f < made.feet.size()) made.feet[f].clear();
     if (f < made.mid_feet.size()) made.mid_feet[f].clear();
   }
+}
+
+namespace {
+
+/// An edge, or a triangle, at a vertex of a curve, and its face.
+template <std::size_t N>
+struct AtCurves {
+  std::array<std::int32_t, N> vertices;
+  std::int32_t face;
+  friend auto operator<=>(const AtCurves&, const AtCurves&) = default;
+};
+
+template <std::size_t N>
+std::array<std::int32_t, N> ascending(std::array<std::int32_t, N> vertices) {
+  std::ranges::sort(vertices);
+  return vertices;
+}
+
+/// Edges of curves, once for each triangle that they should have.
+std::vector<AtCurves<2>> wanted_at_curves(const SurfaceMesh& mesh) {
+  std::vector<AtCurves<2>> wanted;
+  for (const CurveMesh& curve : mesh.curves)
+    for (const CurveMeshUse& use : curve.uses) {
+      const FaceStatus status = mesh.faces[use.face].status;
+      if (status != FaceStatus::meshed && status != FaceStatus::mended) continue;
+      for (std::size_t k = 1; k < curve.vertices.size(); ++k)
+        for (int n = use.internal ? 2 : 1; n > 0; --n)
+          wanted.push_back({ascending<2>({curve.vertices[k - 1], curve.vertices[k]}), static_cast<std::int32_t>(use.face)});
+    }
+  std::ranges::sort(wanted);
+  return wanted;
+}
+
+bool joins_wrongly_at_curves(const SurfaceMesh& mesh) {
+  std::vector<char> on_curve(mesh.vertices.size(), 0);
+  for (const CurveMesh& curve : mesh.curves)
+    for (const std::int32_t v : curve.vertices) on_curve[v] = 1;
+  std::vector<AtCurves<2>> edges;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (const auto& t : mesh.faces[f].triangles) {
+      std::array<std::int32_t, 3> v{};
+      for (std::size_t i = 0; i < 3; ++i) v[i] = mesh.faces[f].vertex[t[i]];
+      const std::array<bool, 3> on{on_curve[v[0]] != 0, on_curve[v[1]] != 0, on_curve[v[2]] != 0};
+      if (on[0] || on[1] || on[2]) triangles.push_back(ascending(v));
+      for (std::size_t i = 0; i < 3; ++i)
+        if (on[i] || on[(i + 1) % 3]) edges.push_back({ascending<2>({v[i], v[(i + 1) % 3]}), static_cast<std::int32_t>(f)});
+    }
+  std::ranges::sort(triangles);
+  if (std::ranges::adjacent_find(triangles) != triangles.end()) return true;
+  std::ranges::sort(edges);
+  const std::vector<AtCurves<2>> wanted = wanted_at_curves(mesh);
+  std::size_t w = 0;
+  for (std::size_t i = 0; i < edges.size();) {
+    const std::array<std::int32_t, 2> key = edges[i].vertices;
+    if (w < wanted.size() && wanted[w].vertices < key) return true;  // a triangle is missing
+    const bool of_curve = w < wanted.size() && wanted[w].vertices == key;
+    std::size_t all = 0;
+    while (i < edges.size() && edges[i].vertices == key) {
+      const AtCurves<2> edge = edges[i];
+      std::size_t have = 0, want = 0;
+      while (i < edges.size() && edges[i] == edge) ++i, ++have;
+      while (w < wanted.size() && wanted[w] == edge) ++w, ++want;
+      // Triangles of meshes free of patches have neighbours in other faces.
+      if (want > 0 ? have != want : have != 2 && !mesh.independent) return true;
+      all += have;
+    }
+    if (!of_curve && mesh.independent && all != 2) return true;
+  }
+  return w < wanted.size();
+}
+
+/// Numbers of what is kept, in its order; -1: dropped.
+std::vector<std::int32_t> numbers_of(const std::vector<char>& kept) {
+  std::vector<std::int32_t> number(kept.size(), -1);
+  std::int32_t next = 0;
+  for (std::size_t v = 0; v < kept.size(); ++v)
+    if (kept[v] != 0) number[v] = next++;
+  return number;
+}
+template <typename T>
+void keep(const std::vector<char>& kept, std::vector<T>& values) {
+  if (values.size() != kept.size()) return;
+  std::size_t next = 0;
+  for (std::size_t v = 0; v < kept.size(); ++v)
+    if (kept[v] != 0) values[next++] = values[v];
+  values.resize(next);
+}
+
+// Drops vertices and nodes that only faces without a mesh had.
+void drop_lost(SizedMesh& made) {
+  SurfaceMesh& mesh = made.mesh;
+  std::vector<char> vertex(mesh.vertices.size(), 0), node(mesh.mid_vertices.size(), 0);
+  for (const FaceMesh& face : mesh.faces) {
+    for (const std::int32_t v : face.vertex) vertex[v] = 1;
+    for (const std::int32_t v : face.mid_vertex) node[v] = 1;
+  }
+  for (CurveMesh& curve : mesh.curves) {
+    for (const std::int32_t v : curve.vertices) vertex[v] = 1;
+    const bool lost = std::ranges::all_of(curve.uses, [&](const CurveMeshUse& use) { return mesh.faces[use.face].status == FaceStatus::failed; });
+    if (lost) curve.mid.clear();  // its vertices stay
+    for (const std::int32_t v : curve.mid) node[v] = 1;
+  }
+  const std::vector<std::int32_t> of_vertex = numbers_of(vertex), of_node = numbers_of(node);
+  keep(vertex, mesh.vertices), keep(vertex, mesh.vertex_ref), keep(vertex, made.vertex_size), keep(node, mesh.mid_vertices);
+  const auto renumber = [](const std::vector<std::int32_t>& number, std::vector<std::int32_t>& all) {
+    for (std::int32_t& v : all) v = number[v];
+  };
+  for (FaceMesh& face : mesh.faces) renumber(of_vertex, face.vertex), renumber(of_node, face.mid_vertex);
+  for (CurveMesh& curve : mesh.curves) renumber(of_vertex, curve.vertices), renumber(of_node, curve.mid);
+}
+
+// False: all faces that are meshed have triangles.
+bool fail_empty_faces(SurfaceMesh& mesh) {
+  bool any = false;
+  for (FaceMesh& face : mesh.faces) {
+    if (!face.triangles.empty() || (face.status != FaceStatus::meshed && face.status != FaceStatus::mended)) continue;
+    face.status = FaceStatus::failed, any = true;
+    face.why += (face.why.empty() ? Where{.face = face.shown_ref()}.prefix() : std::string("; ")) + "no triangle is left of the face";
+  }
+  return any;
+}
+
+}  // namespace
+
+bool fail_unsound_faces(SizedMesh& made) {
+  const bool empty = fail_empty_faces(made.mesh), wrong = joins_wrongly_at_curves(made.mesh);
+  if (wrong) fail_wrong_joints(made);
+  if (empty || wrong) drop_lost(made);
+  return empty || wrong;
 }
 
 }  // namespace carreau

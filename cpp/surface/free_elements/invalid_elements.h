@@ -36,4 +36,9 @@ void tell_invalid(SurfaceMesh& mesh);
 /// Faces with an edge between wrong joints (find_wrong_joints) become `failed`, with a place of such a joint, and lose their elements.
 void fail_wrong_joints(SizedMesh& made);
 
+/// The same where an edge or a triangle at a vertex of a curve is joined wrongly, and faces without a triangle; other edges
+/// are not looked at. Faces whose curves meet in more vertices than they should are joined so. Vertices that are lost with
+/// faces are dropped. False: nothing has failed.
+bool fail_unsound_faces(SizedMesh& made);
+
 }  // namespace carreau

@@ -38,6 +38,7 @@ ChartPlane::ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const
     for (const Vec3& n : atlas.corner[t]) least_ = std::min(least_, dot(n, axis));
   enclose(triangles);
   for (const std::int32_t t : triangles) fill(t);
+  shown_.assign(triangles.begin(), triangles.end());
   std::set<std::int32_t> met;  // beyond
   std::vector<std::int32_t> ring(triangles.begin(), triangles.end());
   for (int k = 0; k < rings_beyond; ++k) {
@@ -48,6 +49,7 @@ ChartPlane::ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const
           next.push_back(u), fill(u);
     ring = std::move(next);
   }
+  shown_.insert(shown_.end(), met.begin(), met.end());
   spread();
 }
 
@@ -134,6 +136,7 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
     for (int k = std::max(j - 1, 0); k <= std::min(j + 1, rows_ - 1); ++k)
       for (int n = std::max(i - 1, 0); n <= std::min(i + 1, columns_ - 1) && found.outside > 0; ++n)
         if (const Found other = find_around(raster_[cell(n, k)], p); other.outside < found.outside) found = other;
+  if (found.outside > most_miss * step_) found = find_anywhere(p, found);
   return foot_in(found.triangle, weights_in(corners(found.triangle), p));
 }
 
@@ -179,6 +182,16 @@ std::int32_t ChartPlane::straight_to(const Vec2& p, std::int32_t first) const {
     before = t, t = next;
   }
   return t;
+}
+
+// The triangle that holds a place, or the nearest one, behind all barriers: needles that lean away part what they cross.
+ChartPlane::Found ChartPlane::find_anywhere(const Vec2& p, Found best) const {
+  for (const std::int32_t t : shown_) {
+    if (!is_shown(t)) continue;
+    if (const double d = outside(t, p); d < best.outside) best = {t, d};
+    if (!(best.outside > 0)) break;
+  }
+  return best;
 }
 
 // Where no straight way leads there: from triangle to triangle, the nearest one first.

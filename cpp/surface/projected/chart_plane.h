@@ -41,6 +41,7 @@ class ChartPlane {
     double outside;
   };
   [[nodiscard]] std::int32_t straight_to(const Vec2& p, std::int32_t first) const;
+  [[nodiscard]] Found find_anywhere(const Vec2& p, Found best) const;
   [[nodiscard]] Found find_around(std::int32_t first, const Vec2& p) const;
   [[nodiscard]] std::array<Vec2, 3> corners(std::int32_t t) const;
   [[nodiscard]] std::size_t cell(int i, int j) const {
@@ -55,6 +56,7 @@ class ChartPlane {
   double step_ = 1;
   int columns_ = 1, rows_ = 1;
   std::vector<std::int32_t> raster_;  // a triangle near each cell
+  std::vector<std::int32_t> shown_;   // triangles of the chart, and some beyond
 };
 
 }  // namespace carreau
