@@ -37,6 +37,8 @@ class Refinement {
     if (wrong.empty()) return {};
     const std::size_t vertices = mesh_.xyz.size();
     depth_.assign(mesh_.plane.triangles.size(), 0);
+    // A bend needs two or three halvings. More divisions are a host whose surface is rough at every scale.
+    constexpr std::size_t most_divisions = 32;
     left_ = Budget(static_cast<std::int64_t>(most_divisions * wrong.size()));
     std::vector<int> still = improve_ring_by_ring(
         wrong, {}, left_, monitor_, [this](int t) { return !is_sound(t); }, [this](int t) { return mend(t); },
@@ -234,7 +236,8 @@ class Refinement {
   // Across a longest side there may be a longer one, and so on; the last one is divided, so that no thinner triangles
   // come out than went in (Rivara's path of longest edges).
   bool divide(int t) {
-    // Medians of triangles that are narrow already may be much shorter than halves.
+    // Medians of triangles that are narrow already may be much shorter than halves. Share of the shortest edge that is divided.
+    constexpr double shortest_median = 0.3;
     const double least = agrees(triangle(t)) ? shortest_median * kept_.shortest_divided : 0;
     std::optional<Quad> side = longest_side(t);
     while (side) {
@@ -252,7 +255,8 @@ class Refinement {
     if (!editable_->can_split(q, uv)) return false;
     const SurfaceJet jet = jet_at(uv);
     const Vec3 m = jet.s;
-    if (!(norm(m - lerp(a, b, 0.5)) < farthest * norm(b - a)) || norm(m - c) < least || norm(m - d) < least)
+    // The surface jumps where it is farther from the middle of an edge than the edge is long.
+    if (!(norm(m - lerp(a, b, 0.5)) < norm(b - a)) || norm(m - c) < least || norm(m - d) < least)
       return false;
     if (is_flat(a, m, c) || is_flat(m, b, c) || is_flat(b, m, d) || is_flat(m, a, d)) return false;
     editable_->split(q, uv, m);

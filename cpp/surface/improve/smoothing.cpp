@@ -35,6 +35,7 @@ class Smoothing {
 
   std::vector<std::int32_t> run() {
     std::vector<std::int32_t> moved;
+    constexpr int most_passes = 12;  // most patches need three
     improve_in_passes(
         most_passes, monitor_, [this] { return corners_of_bad(); },
         [&](std::int32_t v) {

@@ -25,6 +25,7 @@ class Swapper {
       for (const std::int32_t t : region_.triangles()) touched_[t] = 0;
       return region_.below(poor);
     };
+    constexpr int most_passes = 100;  // a fan of n triangles in a narrow wedge is undone in n; most patches need three
     return improve_in_passes(most_passes, monitor, list, [this](std::int32_t t) { return improve(t); });
   }
 

@@ -16,8 +16,6 @@ namespace shape {
 inline constexpr double good = 0.8;
 /// Shape. Below, the worst one counts whatever it costs the others.
 inline constexpr double poor = 0.6;
-/// Passes of swaps and of moves over a region, each of which makes room for the other.
-inline constexpr int most_rounds = 4;
 }  // namespace shape
 
 /// Swaps judged in space (poles_test, narrow/narrow_faces_test).
@@ -27,14 +25,10 @@ inline constexpr double least_gain = 1e-6;
 /// Cosine to the nearer of the two old triangles, of a new one: across a tube or around an apex of three edges the best
 /// shape is the cross-section.
 inline constexpr double least_agreement = 0.7;
-/// Passes. A fan of n triangles in a narrow wedge is undone in n; nearly all patches need two or three.
-inline constexpr int most_passes = 100;
 }  // namespace swaps
 
 /// Vertices moved for shapes in space (improve/smoothing_test).
 namespace smoothing {
-/// Passes over the corners of bad triangles; most patches need three.
-inline constexpr int most_passes = 12;
 /// Shape. A move must raise the worst around a vertex by so much.
 inline constexpr double least_gain = 1e-3;
 /// Mean lengths of the edges around: steps of the search, from the first, halved down to the last.
@@ -51,17 +45,9 @@ inline constexpr double least_agreement = 0.08;
 /// Cosine, below which triangles are looked at more closely: at a corner the surface may be turned by 60 degrees on the
 /// way to the middle of a coarse one.
 inline constexpr double doubtful = 0.5;
-/// Edges divided for each triangle that was wrong to begin with; a bend needs two or three halvings. More are a host
-/// whose surface is rough at every scale.
-inline constexpr std::size_t most_divisions = 32;
 /// Times that a triangle was divided to make another: beside a chord so coarse that each triangle on it is turned over
 /// divisions would go on until vertices coincide.
 inline constexpr std::uint8_t deepest = 12;
-/// Share of the shortest edge that is divided: what exceeds an angle or a distance is not divided where a median would
-/// be shorter.
-inline constexpr double shortest_median = 0.3;
-/// Lengths of an edge. The surface is not divided where it is farther from the middle of one: it jumps there.
-inline constexpr double farthest = 1;
 }  // namespace refinement
 
 /// Searches over the assembled mesh, of either kind (improve/even_edges_test, grade/gradation_test,
@@ -71,9 +57,6 @@ namespace assembled {
 inline constexpr double least_agreement = 0.7;
 /// A change beside a vertex is judged by what is around its neighbours' neighbours; one beside these may follow.
 inline constexpr int rings = 3;
-/// Points of surfaces that may be asked, whatever the mesh, and for each vertex of larger ones: a model whose curves
-/// contradict its sizes, or a field that its own gradation does not reach, leaves something to mend everywhere.
-inline constexpr double least_budget = 5'000, budget_a_vertex = 0.25;
 /// Length in the metric of a unit mesh.
 inline constexpr double shortest = std::numbers::sqrt2 / 2, longest = std::numbers::sqrt2;
 }  // namespace assembled
@@ -90,10 +73,6 @@ inline constexpr double least_gain = 1e-4;
 namespace length_ratio {
 /// Shape. Such triangles are good whatever they were before.
 inline constexpr double good = 0.7;
-/// Length in the metric. A vertex put where nothing else helps, between imposed ones, may make edges as short as this.
-inline constexpr double shortest_divided = 0.5;
-/// Times that a new vertex is moved.
-inline constexpr int placements = 4;
 }  // namespace length_ratio
 
 /// Gradation along chords (grade/gradation_test, guarantees_test).
@@ -102,12 +81,6 @@ namespace chord_gradation {
 inline constexpr double aim = 0.999;
 /// Shape in the metric. Such triangles are good whatever they were before.
 inline constexpr double good = 0.5;
-/// Lengths in the metric of single edges where nothing else helps.
-inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
-/// Rings of changes that follow each other.
-inline constexpr int most_rings = 10;
-/// Length in the metric. Lengths are summed up from pieces no longer than this.
-inline constexpr double finest = 0.1;
 }  // namespace chord_gradation
 
 }  // namespace carreau::thresholds

@@ -45,7 +45,7 @@ class Pass {
   int run() {
     int changes = 0;
     for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {
-      if (c % searches_between_checks == 0) monitor_.checkpoint();
+      if (c % steps_between_checks == 0) monitor_.checkpoint();
       if (is_irregular(c) && (remove_doublet(c) || draw_together(c) || turn_edge(c))) ++changes;
     }
     std::erase(cells_, none);
@@ -285,7 +285,8 @@ void clean(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& 
   // What a pass makes of a cell depends on the cells at its corners: where nothing there has changed or moved since the
   // pass before, it would be tried in vain again.
   std::vector<char> active;
-  for (int round = 0; round < cleanup_passes; ++round) {
+  constexpr int most_rounds = 6;
+  for (int round = 0; round < most_rounds; ++round) {
     Pass<Quads> pass(quads, is_imposed, ideal, active, monitor);
     if (pass.run() == 0) break;
     std::vector<char> moving;  // all, the first time

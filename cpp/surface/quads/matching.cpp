@@ -31,6 +31,7 @@ class Matching {
     std::vector<std::int32_t> todo;
     for (std::size_t t = 0; t < chosen_.size(); ++t)
       if (!is_content(static_cast<std::int32_t>(t))) todo.push_back(static_cast<std::int32_t>(t));
+    constexpr int most_rounds = 20;
     for (int round = 0; round < most_rounds && !todo.empty(); ++round) todo = improve(todo);
     std::vector<std::int32_t> result;
     for (std::size_t t = 0; t < chosen_.size(); ++t)
@@ -61,11 +62,13 @@ class Matching {
 
   // Nearly all that a pair can weigh: what gains starts elsewhere.
   [[nodiscard]] bool is_content(std::int32_t t) const {
+    constexpr double content = 0.92;
     return chosen_[t] >= 0 && pairs_[chosen_[t]].weight > content * heaviest_;
   }
 
   // By classes of weights that are all but equal; in a class, as they come.
   [[nodiscard]] std::vector<std::int32_t> heaviest_first() const {
+    static constexpr std::size_t weight_classes = 4096;
     const auto class_of = [&](const WeightedPair& pair) {
       return static_cast<std::size_t>(clamped_int((1 - pair.weight / heaviest_) * (weight_classes - 1),
                                                 0, static_cast<int>(weight_classes) - 1));
@@ -93,7 +96,7 @@ class Matching {
     std::vector<std::int32_t> changed;
     int n = 0;
     for (const std::int32_t t : todo) {
-      if (++n % searches_between_checks == 0) monitor_.checkpoint();
+      if (++n % steps_between_checks == 0) monitor_.checkpoint();
       if (is_content(t) || !search_from(t)) continue;
       for (std::size_t k = 0; k < best_path_.size; ++k) {
         changed.push_back(best_path_.triangle[k]);
@@ -108,7 +111,7 @@ class Matching {
 
   // The best alternating path or circle from t, applied if it gains.
   bool search_from(std::int32_t t) {
-    best_gain_ = least_gain;
+    best_gain_ = 1e-9;  // more than rounding
     best_path_.size = path_.size = 0;
     path_.push(t);
     on_path_[t] = 1;
@@ -160,6 +163,7 @@ class Matching {
     path_.push(w);
     on_path_[w] = 1;
     keep_if_best(gain, false);
+    constexpr double most_loss = 2.5;  // of a path on its way
     if (gain > -most_loss) add_pairs(w, gain);
     on_path_[w] = 0;
     path_.pop();

@@ -48,7 +48,7 @@ class Pairing {
     const Incidence around(vertices_, with_first);
     int n = 0;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(cells_.size()); ++t) {
-      if (++n % searches_between_checks == 0) monitor_.checkpoint();
+      if (++n % steps_between_checks == 0) monitor_.checkpoint();
       for (int k = 0; k < 3; ++k) {
         const std::int32_t a = cells_[t][k], b = cells_[t][(k + 1) % 3];
         if (a < b) continue;

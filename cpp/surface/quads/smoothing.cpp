@@ -57,7 +57,7 @@ class Smoothing {
       if (!how.moving.empty() &&
           std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return how.moving[v] != 0; }))
         continue;
-      if (cells_.size() % cells_between_checks == 0) monitor.checkpoint();
+      if (cells_.size() % steps_between_checks == 0) monitor.checkpoint();
       cells_.push_back(cell), frames_.add(cell);
       for (int k = 0; k < n; ++k) count[cell[k]] += weight(n);
     }
@@ -73,7 +73,7 @@ class Smoothing {
       before_ = quads_.places();
       const double kept = pass + plain_passes < how_.passes ? how_.momentum : 0;
       for (std::size_t i = 0; i < movers_.size(); ++i) {
-        if (i % cells_between_checks == 0) monitor_.checkpoint();
+        if (i % steps_between_checks == 0) monitor_.checkpoint();
         Mover& m = movers_[i];
         m.step = kept * m.step + m.share * sum_[m.vertex];
         quads_.move(m.vertex, m.step);
@@ -95,7 +95,7 @@ class Smoothing {
   void propose() {
     std::fill(sum_.begin(), sum_.end(), Quads::no_way());
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (c % cells_between_checks == 0) monitor_.checkpoint();
+      if (c % steps_between_checks == 0) monitor_.checkpoint();
       if (corners_of(cells_[c]) == 4)
         propose_square(c, cells_[c]);
       else

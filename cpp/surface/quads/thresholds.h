@@ -27,23 +27,14 @@ inline constexpr double least_angle_in_curve = 110, least_angle_of_curves = 150;
 inline constexpr double pair_bonus = 0.7;
 /// Triangles on an alternating path or circle.
 inline constexpr std::size_t longest_path = 10;
-/// Of weights, which are looked at in turn.
-inline constexpr std::size_t weight_classes = 4096;
-/// Share of the heaviest pair's weight. Triangles of such pairs start no search.
-inline constexpr double content = 0.92;
-/// Least gain that counts, more than rounding.
-inline constexpr double least_gain = 1e-9;
-/// A path that has lost so much on its way is given up.
-inline constexpr double most_loss = 2.5;
-inline constexpr int most_rounds = 20;
-inline constexpr int searches_between_checks = 4096;
+/// Searches, and cells: work between two looks for a stop.
+inline constexpr int steps_between_checks = 4096;
 
 // Smoothing
 /// Of what a triangle proposes beside a quadrilateral.
 inline constexpr double triangle_weight = 0.5;
 /// Passes without momentum in the end: they take back what it has squeezed.
 inline constexpr int plain_passes = 2;
-inline constexpr std::size_t cells_between_checks = 4096;
 /// Quality. Vertices of worse cells are moved one by one.
 inline constexpr double poor = 0.6;
 /// Units. Of the search for a better place: its first steps, and those at which it ends.
@@ -62,14 +53,10 @@ inline constexpr double poor_jacobian_in_metric = 0.01;
 inline constexpr double least_jacobian = 0.2;
 
 // Walks of triangles
-/// Cells from a triangle to another one.
-inline constexpr int longest_walk = 8;
 /// Quality of the cells that it leaves behind, for smoothing to mend.
 inline constexpr double least_on_walk = 0.15;
-inline constexpr int walk_passes = 3;
 
 // Clean-up
-inline constexpr int cleanup_passes = 6;
 /// Of smoothing around changes, before the next pass.
 inline constexpr int passes_after_changes = 3;
 /// Quality. Changes of the topology may leave so poor cells for smoothing to mend.

@@ -55,6 +55,7 @@ class Walks {
   bool walk_to_another(std::int32_t c) {
     std::vector<std::int32_t> ring{c};
     met_[c] = c, from_[c] = -1;
+    constexpr int longest_walk = 8;  // cells
     for (int length = 0; length < longest_walk && !ring.empty(); ++length) {
       std::vector<std::int32_t> next;
       for (const std::int32_t x : ring)
@@ -152,7 +153,8 @@ class Walks {
 template <typename Quads>
 void join(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
   const auto is_triangle = [](const MixedCell& cell) { return corners_of(cell) == 3; };
-  for (int pass = 0; pass < walk_passes; ++pass)
+  constexpr int passes = 3;
+  for (int pass = 0; pass < passes; ++pass)
     if (std::count_if(quads.cells().begin(), quads.cells().end(), is_triangle) < 2 || Walks<Quads>(quads, is_imposed, monitor).run() == 0) break;
 }
 

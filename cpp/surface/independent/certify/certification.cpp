@@ -41,6 +41,7 @@ class Certifier::Work {
     const double mean = beyond.empty() ? 0 : shapes_mean();
     const std::int64_t end = bounds_.evaluations() + std::max(always_evaluations, most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size()));
     std::vector<std::int32_t> worked;
+    constexpr int most_rounds_of_groups = 3;  // a group may leave two
     for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
       const std::int64_t before = edits();
       for (const std::vector<std::int32_t>& group : groups(beyond)) {
@@ -165,6 +166,8 @@ class Certifier::Work {
     State best = start;
     const double first = excess().sum;
     double least = first;
+    // A round halves edges once. What splits help is nearer after two rounds.
+    constexpr int most_rounds = 6, rounds_without_success = 3;
     for (int round = 0; round < most_rounds && least > 0; ++round) {
       const std::int64_t before = edits();
       const std::vector<std::int32_t> here = touched_;
@@ -215,6 +218,7 @@ class Certifier::Work {
     const auto& all = mesh_.triangles();
     share_.resize(all.size(), unknown);
     std::vector<char> suspect(all.size(), 0);
+    static constexpr std::size_t bounded_at_once = 512;  // [time only]
     const std::size_t parts = (all.size() + bounded_at_once - 1) / bounded_at_once;
     std::vector<std::int64_t> evaluations(parts, 0);
     const auto look = [&](std::size_t part, Monitor& own) {

@@ -11,14 +11,6 @@ namespace carreau::thresholds::certify {
 inline constexpr double suspect_share = 0.5;
 /// Share of a tolerance. What is below is within: measures see triangles from places that differ a little.
 inline constexpr double within = 0.98;
-/// Triangles that one thread bounds [time only].
-inline constexpr std::size_t bounded_at_once = 512;
-/// Rounds of edits: each halves edges once.
-inline constexpr int most_rounds = 6;
-/// Rounds after which a group that is no nearer is given up. What splits help is nearer after two.
-inline constexpr int rounds_without_success = 3;
-/// Times that all groups are worked at: what is left of one may be two.
-inline constexpr int most_rounds_of_groups = 3;
 /// Ratio. The largest share of a group may grow so much where others come to be within tolerances.
 inline constexpr double most_growth = 1.05;
 /// Share of the excess over tolerances of a group that may be left.
