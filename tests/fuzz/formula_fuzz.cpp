@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "failure.h"
-#include "formula.h"
+#include "base/failure.h"
+#include "inputs/built/formula.h"
 #include "fuzz_check.h"
 
 namespace {

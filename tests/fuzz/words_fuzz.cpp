@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "failure.h"
+#include "base/failure.h"
 #include "fuzz_check.h"
-#include "lengths.h"
+#include "base/lengths.h"
 
 namespace {
 

@@ -15,7 +15,7 @@ from .sources import SessionSource, Source
 
 #: A model length, or a share of the diagonal of the geometry: "1%".
 Length = Union[float, str]
-#: What the command chooses where the library leaves things alone; cad_adapters/command/mesh_parameters.cpp has the reasons.
+#: What the command chooses where the library leaves things alone; cad_adapters/command/mesh/mesh_parameters.cpp has the reasons.
 CHOICES: dict[str, Union[int, float, str]] = {
     "CheckCloseEdges": 20, "CoefRectangle": 0.06, "CheckAdjacentEdges": 20, "edge_gradation": 1.5, "stagger_strips": 1,
     "shape_trials": 1, "crossing_rounds": 10, "narrow_faces": "collapse", "flag": 1, "failing_faces": "leave_out"}

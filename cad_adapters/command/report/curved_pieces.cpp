@@ -6,8 +6,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "drawn_elements.h"
-#include "face_colours.h"
+#include "draw/drawn_elements.h"
+#include "draw/face_colours.h"
 
 namespace command {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh_file.h"
+#include "draw/view.h"
+#include "files/mesh_file.h"
 #include "report/triangle_values.h"
-#include "view.h"
 
 namespace command {
 

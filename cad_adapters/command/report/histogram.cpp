@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "colour_scale.h"
+#include "draw/colour_scale.h"
 #include "report/html_text.h"
 
 namespace command {

@@ -3,7 +3,7 @@
 
 #include <zlib.h>
 
-#include "failure.h"
+#include "base/failure.h"
 
 namespace command {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "mesh_summary.h"
+#include "files/session_handle.h"
+#include "mesh/mesh_summary.h"
 #include "report/html_text.h"
-#include "session_handle.h"
 
 namespace command {
 namespace {

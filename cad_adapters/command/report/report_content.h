@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh_check.h"
-#include "mesh_file.h"
+#include "check/mesh_check.h"
+#include "files/mesh_file.h"
 #include "report/triangle_values.h"
 
 namespace command {

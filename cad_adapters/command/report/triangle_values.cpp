@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/triangle_values.h"
+#include "check/triangle_shape.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +8,9 @@
 #include <limits>
 #include <set>
 
-#include "drawn_elements.h"
-#include "scene.h"
-#include "session_handle.h"
+#include "draw/drawn_elements.h"
+#include "draw/scene.h"
+#include "files/session_handle.h"
 
 namespace command {
 namespace {

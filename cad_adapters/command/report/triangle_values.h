@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh_file.h"
+#include "files/mesh_file.h"
 
 namespace command {
 

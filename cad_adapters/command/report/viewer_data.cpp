@@ -6,11 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "colour_scale.h"
-#include "face_colours.h"
+#include "draw/colour_scale.h"
+#include "draw/face_colours.h"
+#include "draw/view.h"
 #include "report/curved_pieces.h"
 #include "report/packing.h"
-#include "view.h"
 
 namespace command {
 namespace {

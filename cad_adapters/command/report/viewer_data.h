@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh_file.h"
+#include "files/mesh_file.h"
 #include "report/triangle_values.h"
 
 namespace command {

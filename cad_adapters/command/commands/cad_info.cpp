@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `carreau info` on STEP, IGES and BREP files.
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/json_output.h"
+#include "commands/commands.h"
+#include "inputs/cad/cad_file.h"
+#include "inputs/cad/cad_library.h"
+
+namespace command {
+namespace {
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string name_of(carreau_cad_file* file, std::int32_t number_of_face) {
+  carreau_cad_face face{};
+  face.struct_size = sizeof face;
+  require(file, cad_library().file_face(file, number_of_face, &face));
+  return face.name;
+}
+
+/// Kinds and how many, by name.
+std::vector<std::pair<std::string, int>> surfaces_of(carreau_cad_file* file, const carreau_cad_report& report) {
+  std::vector<std::pair<std::string, int>> surfaces;
+  for (std::int32_t i = 0; i < report.kinds; ++i) {
+    const char* kind = "";
+    std::int32_t count = 0;
+    require(file, cad_library().surfaces(file, i, &kind, &count));
+    surfaces.emplace_back(kind, count);
+  }
+  return surfaces;
+}
+
+void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit) {
+  const std::string unit = content_of(file).unit;
+  const std::vector<std::string> losses = losses_of(file);
+  std::printf("solids      %d\nshells      %d\nfaces       %d\nedges       %d\nvertices    %d\n", r.solids, r.shells,
+              r.faces, r.edges, r.vertices);
+  std::printf("unit        %s\n", unit.empty() ? "not said" : unit.c_str());
+  std::printf("diagonal    %s\narea        %s\nvolume      %s\n", number(r.diagonal).c_str(), number(r.area).c_str(),
+              number(r.volume).c_str());
+  std::string kinds;
+  for (const auto& [name, n] : surfaces_of(file, r)) kinds += (kinds.empty() ? "" : ", ") + std::to_string(n) + " " + name;
+  std::printf("surfaces    %s\n", kinds.c_str());
+  std::printf("seams       %d\npoles       %d\nclosed edges %d\ninner wires %d\ninternal    %d\n", r.seams, r.poles,
+              r.closed_edges, r.inner_wires, r.internal_edges);
+  std::printf("shortest edge %s\nlargest tolerance %s\nlargest gap %s\n", number(r.shortest_edge).c_str(),
+              number(r.largest_tolerance).c_str(), number(r.largest_gap).c_str());
+  std::map<std::string, int> count;
+  const std::vector<carreau_cad_danger> dangers = dangers_of(file, r);
+  for (const carreau_cad_danger& danger : dangers) ++count[danger.kind];
+  if (!losses.empty()) std::printf("not read: %d\n", static_cast<int>(losses.size()));
+  for (std::size_t i = 0; i < losses.size() && i <= static_cast<std::size_t>(limit); ++i)
+    std::printf("  %s\n", i == static_cast<std::size_t>(limit) ? "..." : losses[i].c_str());
+  for (const std::string& note : notes_of(file)) std::printf("note: %s\n", note.c_str());
+  if (count.empty() && losses.empty()) std::puts("nothing looks dangerous");
+  std::map<std::string, int> told;
+  for (const carreau_cad_danger& danger : dangers) {
+    int& n = told[danger.kind];
+    if (n == 0) std::printf("%s: %d\n", danger.kind, count[danger.kind]);
+    if (++n <= limit) std::printf("  %s\n", danger.sentence);
+    if (n == limit + 1) std::puts("  ...");
+  }
+}
+
+nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report& r, const InfoOptions& options) {
+  nlohmann::ordered_json surfaces = nlohmann::ordered_json::object(), dangers = nlohmann::ordered_json::array();
+  for (const auto& [name, n] : surfaces_of(file, r)) surfaces[name] = n;
+  nlohmann::ordered_json contacts = nlohmann::ordered_json::array();
+  for (const carreau_cad_danger& d : dangers_of(file, r)) {
+    if (d.solids[0] > 0)
+      contacts.push_back({{"solids", {d.solids[0], d.solids[1]}}, {"overlap", std::string("overlapping solids") == d.kind}});
+    dangers.push_back({{"kind", d.kind},
+                       {"face", d.face},
+                       {"edge", d.edge},
+                       {"name", d.face > 0 ? name_of(file, d.face) : ""},
+                       {"value", d.value},
+                       {"text", d.sentence}});
+  }
+  return {{"input", options.input},
+          {"solids", r.solids},
+          {"shells", r.shells},
+          {"faces", r.faces},
+          {"edges", r.edges},
+          {"vertices", r.vertices},
+          {"unit", content_of(file).unit},
+          {"diagonal", r.diagonal},
+          {"area", r.area},
+          {"volume", r.volume},
+          {"surfaces", surfaces},
+          {"seams", r.seams},
+          {"poles", r.poles},
+          {"closed_edges", r.closed_edges},
+          {"inner_wires", r.inner_wires},
+          {"internal_edges", r.internal_edges},
+          {"shortest_edge", r.shortest_edge},
+          {"largest_tolerance", r.largest_tolerance},
+          {"largest_gap", r.largest_gap},
+          {"not_read", losses_of(file)},
+          {"contacts", contacts},
+          {"notes", notes_of(file)},
+          {"dangers", dangers}};
+}
+
+}  // namespace
+
+int print_cad_info(const InfoOptions& options) {
+  const CadFileHandle file = read_cad(options.input, true);
+  const carreau_cad_report report = inspect(file.get());
+  if (options.json) {
+    nlohmann::ordered_json value = json_of(file.get(), report, options);
+    if (options.faces) value["face_list"] = faces_json(faces_of(file.get()));
+    print_json("info", value);
+    return 0;
+  }
+  print_report(file.get(), report, options.limit);
+  if (options.faces) print_faces(faces_of(file.get()));
+  return 0;
+}
+
+}  // namespace command

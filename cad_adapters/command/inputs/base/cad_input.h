@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A file of geometry as a host of the C interface, whatever its format.
+#pragma once
+
+#include <carreau.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "inputs/base/face_list.h"
+#include "inputs/base/input_choice.h"
+
+namespace command {
+
+/// A point of a face: in space, and the parameters that the file gives it.
+struct Place {
+  double x = 0, y = 0, z = 0, u = 0, v = 0;
+};
+
+/// Geometry and model of a file. Sessions that were given it must not outlive it.
+class CadInput {
+ public:
+  virtual ~CadInput() = default;
+  /// Hands geometry, model and names of faces to a session, and why faces are left out. A status of carreau.h; the
+  /// sentence is in the session.
+  virtual carreau_status give_to(carreau_session* session) = 0;
+  /// Diagonal of the box of the geometry.
+  [[nodiscard]] virtual double diagonal() const = 0;
+  /// Distance below which curves that one face only has are one, as the file's own tolerances have it; 0: none is.
+  [[nodiscard]] virtual double glue_tolerance() const { return 0; }
+  /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
+  [[nodiscard]] virtual double open_tolerance() const { return 0; }
+  /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
+  [[nodiscard]] virtual double ends_tolerance() const { return 0; }
+  /// Faces are divided by curves that mean nothing, and may be crooked: edges on them are not cut for the sake of the
+  /// shapes beside them.
+  [[nodiscard]] virtual bool has_arbitrary_borders() const { return false; }
+  /// "375 faces, 958 edges, 632 vertices, lengths in mm".
+  [[nodiscard]] virtual std::string summary() const = 0;
+  /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.
+  virtual bool set_face_size(const std::string& face, double size) = 0;
+  /// Whether the geometry answers with the sizes of set_face_size() itself, when hphy_flag = 2.
+  [[nodiscard]] virtual bool answers_face_sizes() const = 0;
+  /// The size of set_face_size() where it does not; 0: none.
+  [[nodiscard]] virtual double face_size(std::int32_t face) const = 0;
+  /// The point at (u, v), as callbacks of the session get them. May be called from several threads when the geometry
+  /// may. False: the geometry fails there.
+  [[nodiscard]] virtual bool locate(std::int32_t face, double u, double v, Place& place) const noexcept = 0;
+  /// The faces of the file. Samples the geometry.
+  [[nodiscard]] virtual std::vector<FaceLook> faces() const = 0;
+  /// Numbers of the faces of the file.
+  [[nodiscard]] virtual std::vector<std::int32_t> face_numbers() const = 0;
+  /// "" when it has none.
+  [[nodiscard]] virtual std::string face_name(std::int32_t) const { return ""; }
+  /// The part that a face of the file is of: a solid, or a file of several. Number 0: no part.
+  struct Part {
+    std::int32_t number = 0;
+    std::string name;  ///< "" when it has none
+  };
+  [[nodiscard]] virtual Part part_of_face(std::int32_t) const { return {}; }
+  /// "solid", "file": the kind of those parts.
+  [[nodiscard]] virtual const char* part_word() const { return "solid"; }
+  /// References of the curves of a face, as far as they are known.
+  [[nodiscard]] virtual std::vector<std::int32_t> curves(std::int32_t face) const = 0;
+  /// (u, v), as callbacks of the session get them, at a share of curve number ic, from 1. False: the geometry fails.
+  [[nodiscard]] virtual bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
+                                      double& v) const noexcept = 0;
+  /// What the file holds and the geometry does not, since it could not be read: a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
+  /// What was passed over or repaired without the loss of a face: a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+  /// The face of the file that a face of the session is or is a part of; the same for curves, and the parts of a face
+  /// of the file. A geometry that cuts no faces has none.
+  [[nodiscard]] virtual std::int32_t whole_face(std::int32_t face) const { return face; }
+  [[nodiscard]] virtual std::int32_t whole_curve(std::int32_t curve) const { return curve; }
+  [[nodiscard]] virtual std::vector<std::int32_t> parts(std::int32_t face) const { return {face}; }
+  /// Faces that bend inside and could not be cut there, which curvatures do not tell: a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
+  /// Whether the geometry, or a file beside it, prescribes sizes of its own, when hphy_flag = 2.
+  [[nodiscard]] virtual bool has_sizes() const { return false; }
+  /// Whether the file has edges and no face: its mesh has edges alone.
+  [[nodiscard]] virtual bool is_wires() const { return false; }
+  /// Whether each edge of the file has two faces.
+  [[nodiscard]] virtual bool closed() const { return false; }
+  /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
+  [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }
+  /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
+  [[nodiscard]] virtual std::string gaps() const { return ""; }
+};
+
+/// Receives the share of a file that is read.
+using ReadingProgress = std::function<void(double fraction)>;
+
+/// A sentence of the library with faces as the file numbers them.
+std::string in_terms_of_file(const CadInput& input, const std::string& sentence);
+
+}  // namespace command

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plane domains as geometry.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "inputs/base/input_choice.h"
+
+namespace command {
+
+class CadInput;
+
+/// Whether the name is that of a file of plane domains.
+bool is_plane_file(const std::string& path);
+
+/// Throws Failure.
+std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice);
+
+}  // namespace command

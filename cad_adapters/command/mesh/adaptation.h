@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `carreau adapt`: what the next mesh follows, files of the last one or a formula.
+#pragma once
+
+#include <carreau.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "inputs/built/formula.h"
+
+namespace command {
+
+class Progress;
+
+/// As typed.
+struct AdaptChoice {
+  bool is_adapt = false;           ///< the command is `carreau adapt`
+  std::string mesh, sol;           ///< the last mesh and what is known at its vertices
+  std::string use = "values";      ///< what `sol` has: "values", "sizes" or "metrics"
+  std::string transfer;            ///< fields for the next mesh; empty: those of `sol`, unless they are not values
+  std::string formula;             ///< of a field, in place of `mesh` and `sol`
+  std::vector<std::string> names;  ///< parameters adapt_* that options stand for, "name=value"
+  int iterations = 5;              ///< by a formula
+  bool differences = false;        ///< derivatives of the formula itself, not of its values at vertices
+  double convergence = 0;          ///< share of triangles; 0: all iterations
+};
+
+/// Whether a name is that of a file of values at vertices.
+bool is_solution(const std::string& path);
+
+/// One run of it.
+class Adaptation {
+ public:
+  /// Throws Failure for what does not go together, files that do not exist, and a formula that is wrong.
+  explicit Adaptation(const AdaptChoice& choice);
+
+  /// Files that are read.
+  [[nodiscard]] std::vector<std::string> inputs() const;
+  /// `outputs` and, when there are fields for the next mesh and none of them is a .sol, one beside the first mesh that has
+  /// the format's name. Throws Failure for a .sol without fields.
+  [[nodiscard]] std::vector<std::string> with_fields(std::vector<std::string> outputs) const;
+
+  /// Makes the mesh in a session that has its model, of this diagonal, and its parameters. A status of carreau.h; the sentence is in the
+  /// session, or in failure().
+  carreau_status run(carreau_session* session, double diagonal);
+  [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+
+  /// Writes the fields on the session's mesh. Throws Failure.
+  void write_fields(carreau_session* session, const std::string& path, Progress& progress) const;
+
+ private:
+  carreau_status run_formula(carreau_session* session, double diagonal);
+  static std::int32_t field_at(std::int64_t n, const double* xyz, double* values, void* user) noexcept;
+
+  AdaptChoice choice_;
+  std::unique_ptr<Formula> formula_;
+  std::string failure_;
+};
+
+}  // namespace command

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of `carreau mesh`, as the command line has them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "inputs/base/input_choice.h"
+#include "mesh/adaptation.h"
+
+namespace command {
+
+struct MeshOptions : InputChoice {
+  std::string input;
+  std::vector<std::string> more_inputs;  ///< of `carreau mesh`: files beside it
+  std::string repeat;       ///< shell_line() of all of this, for reports
+  PlaneChoice plane;        ///< of a plane domain
+  AdaptChoice adapt;        ///< of `carreau adapt`
+  std::vector<std::string> outputs;
+  std::string env;                            ///< blsurf.env; empty: none
+  std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
+  std::string size_map;                       ///< formula or file; empty: none
+  double angle = 0;                           ///< degrees; 0: not given
+  std::optional<double> gradation;            ///< 0: none
+  std::string element;                        ///< p1, p2, q1.0, ...; "": p1, unless the env file says otherwise
+  bool independent = false;                   ///< borders of patches that are not sharp mean nothing
+  std::optional<double> sharp_angle;          ///< degrees
+  double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
+  std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
+  std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
+  std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
+  std::vector<std::string> settings;          ///< "parameter=value"
+  std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
+  int threads = 0;                            ///< 0: all cores
+  bool quiet = false;
+  bool json = false;  ///< a summary on the standard output
+  bool parts = false;  ///< each process keeps its part of the mesh
+};
+
+}  // namespace command
