@@ -201,7 +201,7 @@ std::optional<double> SizeRules::ask_point(int point) const {
 }
 
 /// The uses of a curve are asked in their order, the first being the one that defines it; the first answer counts.
-std::optional<double> SizeRules::ask_curve(int curve, std::span<const double> t) {
+std::optional<double> SizeRules::ask_curve(int curve, std::span<const double> t) const {
   const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const Where where = where_of(uses[u], t[u]);
@@ -216,7 +216,7 @@ std::optional<double> SizeRules::mean_of(const std::vector<double>& answers) con
   return mean_size(parameters_.mean, answers);
 }
 
-std::vector<SizeRules::CurveEnd> SizeRules::ends_at(int point) {
+std::vector<SizeRules::CurveEnd> SizeRules::ends_at(int point) const {
   std::vector<CurveEnd> ends;
   for (const int c : topology_.points[static_cast<std::size_t>(point)].curves) {
     const Curve& curve = topology_.curves[static_cast<std::size_t>(c)];
@@ -235,7 +235,7 @@ std::vector<SizeRules::CurveEnd> SizeRules::ends_at(int point) {
 
 /// Corners of parameter domains at which the curves end, each once: a face that holds the point at both sides of a
 /// seam has two.
-std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>& ends) {
+std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>& ends) const {
   std::vector<Corner> all;
   for (const CurveEnd& end : ends) {
     const auto& uses = topology_.curves[static_cast<std::size_t>(end.curve)].uses;
@@ -272,7 +272,7 @@ std::optional<double> SizeRules::host_radius_of_surface(int face, const Vec2& uv
   return checked_radius(cad_.surface_radius(ref, uv), "cad_rads", Where{.face = ref, .uv = uv});
 }
 
-std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const double> t) {
+std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const double> t) const {
   if (parameters_.geometric != GeometricSizes::radii) return {};
   const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
   for (std::size_t u = 0; u < uses.size(); ++u) {
@@ -293,7 +293,7 @@ std::optional<double> SizeRules::radius_in_face(int face, const Vec2& uv, const 
 
 /// Radius of the surface beside a curve; at a pole, that of a point a little way towards the curve's middle.
 /// `jet` is the surface's at t when known, else nullptr.
-std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, const SurfaceJet* jet) {
+std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, const SurfaceJet* jet) const {
   if (model_.faces[static_cast<std::size_t>(use.face)].is_wire()) return {};  // there is no surface
   const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
   const auto uv_at = [&](double at) { return cad_.curve(ref, use.curve + 1, want_position, at).c; };
@@ -302,7 +302,7 @@ std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, co
 }
 
 /// `jet` becomes that of the first use, which defines the curve's shape, when it had to be evaluated.
-double SizeRules::radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet) {
+double SizeRules::radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet) const {
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
   if (c.degenerate) return infinity;
   if (const auto radius = host_radius_of_curve(curve, t)) return *radius;

@@ -93,6 +93,10 @@ struct CurveSizes {
   double h = 0;           ///< with the geometric size
 };
 
+/// Size: double, or Metric2 of the tangent plane in an orthonormal basis (sizes_at_places.cpp).
+template <typename Size>
+class SizesAtPlaces;
+
 /// Prescribed sizes and metrics of a model. Keeps references to the first three arguments of its constructor and caches
 /// the sizes at points. A size that the host returns is clamped, whatever its sign (RT-0232 sec. 3.1.3 a); NaN and
 /// infinity cause a CallbackError that names the routine, the entity and the value. A radius may have either sign; only
@@ -170,6 +174,9 @@ class SizeRules {
   double interpolated_on_curve(int curve, double r);
 
  private:
+  template <typename Size>
+  friend class SizesAtPlaces;
+
   /// A corner of a face's domain.
   struct Corner {
     int face = 0;  ///< index in Model::faces
@@ -188,54 +195,19 @@ class SizeRules {
                                                const Vec2& p);
   std::optional<double> ask_surface(int face, const Vec2& uv) const;
   std::optional<double> ask_point(int point) const;
-  std::optional<double> ask_curve(int curve, std::span<const double> t);
+  std::optional<double> ask_curve(int curve, std::span<const double> t) const;
   std::optional<double> mean_of(const std::vector<double>& answers) const;
   std::optional<double> host_radius_of_surface(int face, const Vec2& uv) const;
-  std::optional<double> host_radius_of_curve(int curve, std::span<const double> t);
-  std::optional<double> radius_beside(const CurveUse& use, double t, const SurfaceJet* jet);
+  std::optional<double> host_radius_of_curve(int curve, std::span<const double> t) const;
+  std::optional<double> radius_beside(const CurveUse& use, double t, const SurfaceJet* jet) const;
   std::optional<double> radius_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const;
-  std::vector<CurveEnd> ends_at(int point);
-  std::vector<Corner> corners_of(const std::vector<CurveEnd>& ends);
-  double radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet);
+  std::vector<CurveEnd> ends_at(int point) const;
+  std::vector<Corner> corners_of(const std::vector<CurveEnd>& ends) const;
+  double radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet) const;
   [[nodiscard]] bool needs_positions() const noexcept;
   [[nodiscard]] bool asks_curves_only() const noexcept;
 
-  // sizes_at_places.cpp. Size: double, or Metric2 of the tangent plane in an orthonormal basis.
-  template <typename Size>
-  struct Answers;
-  template <typename Size>
-  struct Place;
-  struct AlongCurve;
-  std::vector<Prescription> told_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets) const;
-  template <typename Size>
-  Answers<Size> answers_on_surface(int face, const Vec2& uv, std::span<const Prescription> told) const;
-  template <typename Size>
-  Answers<Size> answers_on_curve(int curve, std::span<const double> t);
-  template <typename Size>
-  Answers<Size> answers_beside(const CurveUse& use, double t, const Place<Size>& place);
-  Answers<Metric2> answers_at_point(int point);
-  [[nodiscard]] Metric2 clamped_in_plane(Metric2 tangent) const noexcept;
-  template <typename Size>
-  [[nodiscard]] Size physical_size(const Answers<Size>& answers, const Place<Size>& place) const;
-  [[nodiscard]] Metric2 degenerate_metric(const Answers<Metric2>& answers, const SurfaceJet& jet,
-                                          double geometric) const;
-  std::optional<DirectedSizes> directed_sizes(int face, const Vec2& uv, const SurfaceJet& jet) const;
-  template <typename Size>
-  Place<Size> place_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const;
-  template <typename Size>
-  Place<Size> place_on_curve(const CurveUse& use, double t, const SurfaceJet* jet);
-  template <typename Size, typename Regular, typename Degenerate>
-  void sizes_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                        const std::function<double(Vec2)>& fallback, const Regular& regular,
-                        const Degenerate& degenerate) const;
-  template <typename Size, typename Silent>
-  AlongCurve along_curve(int curve, std::span<const double> t, const Answers<Size>* given, const Silent& silent);
-  template <typename Size>
-  CurveSizes sizes_on_curve(int curve, std::span<const double> t, double r);
-  template <typename Size>
-  double size_at_point(int point);
   double mean_of_answers_around(int point);
-  double physical_along_curves_at(int point);
 
   const Model& model_;
   const Topology& topology_;

@@ -42,7 +42,7 @@ void find_size_minima(GradedFace& face) {
         const GradationFront& f = face.front[w];
         if (dot(f.line, f.line) == 0 || f.source_h != face.h[v]) minimum[v] = 0;
       }
-  for (std::size_t v = 0; v < minimum.size() && face.size_minima.size() < most_size_minima; ++v)
+  for (std::size_t v = 0; v < minimum.size(); ++v)
     if (minimum[v] != 0) face.size_minima.push_back(face.uv[v]);
 }
 

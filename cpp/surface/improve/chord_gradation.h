@@ -144,7 +144,7 @@ class ChordGradation {
     const double roughly = norm(chord) / std::max(p, q);
     if (!std::isfinite(change) || change <= 0.5 * log_limit_ * roughly) return 0;
     const double l = field_length([&](const Vec2& at) { return metric(face, at); }, uv(face, a), uv(face, b),
-                                  0.1);
+                                  0.1 /* longest piece of the sum */);
     return std::max(0., change / (log_limit_ * l) - 1);
   }
 

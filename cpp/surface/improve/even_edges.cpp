@@ -25,7 +25,7 @@ class Evening {
     if constexpr (Criterion::divides) {
       change_each(std::move(uneven), &Evening::divide_one);
     } else {
-      range_ = {0.5, 1.6};
+      range_ = {0.5, 1.6};  // lengths of single edges if no other change helps
       uneven = change_each(std::move(uneven), &Evening::move_one);
       change_each(std::move(uneven), &Evening::swap_one);
     }
@@ -121,7 +121,7 @@ class Evening {
   std::optional<Found> best_division(const Quad& q, Judgement& after) {
     const Vec2 middle = 0.5 * (mesh_.uv({q.face, q.a}) + mesh_.uv({q.face, q.b}));
     if (!mesh_.can_split(q, middle)) return {};
-    constexpr LengthRange range{.shortest = 0.5};
+    constexpr LengthRange range{.shortest = 0.5};  // between imposed vertices no longer edges are possible
     const Judgement before = criterion_.judge(mesh_, mesh_.corners(q), range);
     const Vec3 mean = mesh_.mean_normal(q.places());
     const std::size_t edits = mesh_.edits();
