@@ -73,6 +73,7 @@ class Groups(unittest.TestCase):
             self.assertEqual(names["base"][0], 2)
             self.assertEqual(sorted(gmsh.model.getEntitiesForPhysicalGroup(*names["rim"])), [1, 2, 3])
             self.assertEqual(names["foot"][0], 0)
+            gmsh.model.mesh.createGeometry([(3, 1), (3, 2)])
             gmsh.model.mesh.generate(3)
             for solid, expected in ((1, 16), (2, 8)):
                 kinds, tags, _ = gmsh.model.mesh.getElements(3, solid)
@@ -129,7 +130,7 @@ class Groups(unittest.TestCase):
             self.assertEqual(done.returncode, 2, rule)
             self.assertIn(said, done.stderr)
             self.assertFalse(os.path.exists(path))
-        done = run("mesh", os.path.join(SHAPES, "named_faces.step"), "--group", "a=topp")
+        done = run("mesh", os.path.join(SHAPES, "named_faces.step"), "-o", os.path.join(self.folder, "none.mesh"), "--group", "a=topp")
         self.assertIn("did you mean 'top'", done.stderr)
 
     def test_an_entity_has_one_group(self):
@@ -152,7 +153,7 @@ class Groups(unittest.TestCase):
         self.assertLessEqual(longest, 0.1 * math.sqrt(2))
         self.assertGreaterEqual(count * longest, 1 - 1e-12)  # its length is 1 or 4
         for rule, said in (("edge:99=1", "number 99 does not exist"), ("edge:1=0", "--size-on"), ("bolt=1", "no face and no solid")):
-            done = run("mesh", os.path.join(SHAPES, "touching.brep"), "--size-on", rule)
+            done = run("mesh", os.path.join(SHAPES, "touching.brep"), "-o", os.path.join(self.folder, "none.mesh"), "--size-on", rule)
             self.assertEqual(done.returncode, 2)
             self.assertIn(said, done.stderr)
 
@@ -164,7 +165,7 @@ class Groups(unittest.TestCase):
             self.assertEqual(by_count, by_angle)
 
     def test_units_that_contradict_are_rejected(self):
-        done = run("mesh", os.path.join(SHAPES, "touching.brep"), "--unit", "m")
+        done = run("mesh", os.path.join(SHAPES, "touching.brep"), "-o", os.path.join(self.folder, "none.mesh"), "--unit", "m")
         self.assertEqual(done.returncode, 2)
         self.assertIn("the file has no unit", done.stderr)
         self.assertIn("unit        m (the file has in)", run("info", os.path.join(SHAPES, "inch.step"), "--unit", "m").stdout)
