@@ -24,7 +24,7 @@ Lengths lengths_of(const carreau_cad_options& options) {
   return {.unit = options.unit != nullptr ? options.unit : "", .scale = options.scale > 0 ? options.scale : 1};
 }
 
-/// Where the bytes of a file are.
+/// A file by its path or its bytes.
 struct Source {
   const char* path = nullptr;
   std::string_view bytes{};  // when there is no path
@@ -57,7 +57,7 @@ void take_shape(carreau_cad_file& file) {
 class Listener {
  public:
   Listener(carreau_cad_progress_fn progress, void* user) : progress_(progress), user_(user) {}
-  /// Of the part of the work from `begin` to `end`.
+  /// A progress for the part of the work from `begin` to `end`.
   [[nodiscard]] ReadingProgress part(double begin, double end) {
     return [this, begin, end](double fraction) {
       if (progress_ != nullptr && progress_(begin + (end - begin) * fraction, user_) != 0) stopped_ = true;

@@ -12,10 +12,10 @@
 namespace carreau_occ {
 
 struct Solids {
-  /// By face from 0: number, from 1, of the solid that its triangles look out of, and of the one on the other side; 0:
-  /// none.
+  /// For each face, from 0, the number, from 1, of the solid that its triangles look out of, and of the solid on the
+  /// other side; 0: none.
   std::vector<std::array<int, 2>> of_face;
-  /// By solid from 0; "": none. Solids of one name are told apart by numbers: bolt, bolt_2.
+  /// For each solid, from 0; "": none. Solids of one name are told apart by numbers: bolt, bolt_2.
   std::vector<std::string> names;
 
   /// From 1.

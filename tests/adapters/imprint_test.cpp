@@ -62,7 +62,7 @@ double volume_of(const TopoDS_Shape& shape) {
   return properties.Mass();
 }
 
-/// What the triangles around each solid enclose, and how many of their edges do not have two of them, run once each way.
+/// The volume that the triangles around a solid enclose, and the number of edges that two of them do not run along in opposite ways.
 struct Enclosed {
   double volume = 0;
   int open_edges = 0;

@@ -19,7 +19,7 @@ pytestmark = needs("CARREAU_MAKE_SHAPES")
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Of the files that make_shapes writes."""
+    """The folder of the files that make_shapes writes."""
     path = tmp_path_factory.mktemp("shapes")
     subprocess.run([os.environ["CARREAU_MAKE_SHAPES"], str(path)], check=True, capture_output=True)
     return path

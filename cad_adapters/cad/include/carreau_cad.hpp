@@ -109,7 +109,7 @@ class CadFile {
     for (std::int64_t i = 0; const char* loss = carreau_cad_loss(get(), i); ++i) out.emplace_back(loss);
     return out;
   }
-  /// What the option min_feature found, and whether each is gone.
+  /// The features that the option min_feature found, and whether each is gone.
   [[nodiscard]] std::vector<CadSmallFeature> small_features() const {
     std::vector<CadSmallFeature> out;
     for (std::int64_t i = 0; i < info().small_features; ++i) {

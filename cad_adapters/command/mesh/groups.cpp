@@ -14,7 +14,7 @@
 namespace command {
 namespace {
 
-/// By dimension and reference: the name of its group.
+/// The name of the group of an entity, by dimension and reference.
 using Groups = std::map<std::pair<int, std::int32_t>, std::string>;
 
 std::string colour_name(std::int32_t rgb) {

@@ -28,7 +28,7 @@ carreau_cad_content content_of(carreau_cad_file* file);
 std::vector<FaceLook> faces_of(carreau_cad_file* file);
 std::vector<std::string> losses_of(carreau_cad_file* file);
 std::vector<std::string> notes_of(carreau_cad_file* file);
-/// What --min-feature found: a line each.
+/// The features that --min-feature found: a line each.
 std::vector<std::string> small_features_of(carreau_cad_file* file);
 /// Looks for dangers; they are in the order of the report.
 carreau_cad_report inspect(carreau_cad_file* file);
