@@ -217,7 +217,6 @@ class LengthEvening {
   std::optional<Found> best_division(const Quad& q, Judgement& after) {
     const Vec2 middle = 0.5 * (mesh_.uv({q.face, q.a}) + mesh_.uv({q.face, q.b}));
     if (!mesh_.can_split(q, middle)) return {};
-    constexpr double shortest_divided = 0.5;  // in the metric: nothing else helps between imposed vertices
     const Judgement before = ratio_.judge(mesh_.corners(q), shortest_divided);
     const Vec3 mean = mesh_.mean_normal(q.places());
     const std::size_t edits = mesh_.edits();
@@ -226,7 +225,6 @@ class LengthEvening {
     Found found{middle, jet.s, 0};
     ratio_.learn(v, jet);
     found.known = ratio_.known(v);
-    constexpr int placements = 4;
     for (int k = 0; k < placements; ++k)
       if (const auto to = best_place(v, after)) move(v, found = *to);
     const std::int32_t m = mesh_.global(v);

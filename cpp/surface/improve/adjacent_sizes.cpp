@@ -47,7 +47,7 @@ struct Range {
   double shortest, longest;
 };
 constexpr Range usual{thresholds::assembled::shortest, thresholds::assembled::longest};
-constexpr Range at_last{0.5, 1.6};  // of single edges where nothing else helps
+constexpr Range at_last{shortest_at_last, longest_at_last};
 
 /// Of some edges and triangles.
 struct Judgement {
@@ -97,7 +97,6 @@ class ChordGradation {
     // Lengths are seldom needed: of nearly all edges this is far more than they have.
     const double roughly = norm(chord) / std::max(p, q);
     if (!std::isfinite(change) || change <= 0.5 * log_limit_ * roughly) return 0;
-    constexpr double finest = 0.1;  // longest piece of the sum, in the metric
     const double l = field_length([&](const Vec2& at) { return metric(face, at); }, uv(face, a), uv(face, b), finest);
     return std::max(0., change / (log_limit_ * l) - 1);
   }
@@ -194,7 +193,6 @@ class SizeEvening {
 
   // Around these vertices; returns those where nothing helps.
   std::vector<std::int32_t> mend(std::vector<std::int32_t> steep) {
-    constexpr int most_rings = 10;  // of changes that follow each other
     return improve_ring_by_ring(
         std::move(steep), {.ascending = true, .most = most_rings}, search_.budget(), monitor_,
         [this](std::int32_t v) { return is_steep(v); }, [this](std::int32_t v) { return move(v) || swap_one(v); },
