@@ -46,7 +46,7 @@ class ChordGradation {
   using Vertex = EditableMesh::Vertex;
   using Place = EditableMesh::Place;
   static constexpr double good = thresholds::chord_gradation::good;
-  static constexpr Rings rings{.ascending = true, .most = 10};
+  static constexpr Rings rings{.ascending = true, .most = thresholds::chord_gradation::most_rings};
   static constexpr bool divides = false;
   static constexpr auto size_of = geometric_mean_size;
 
@@ -144,7 +144,7 @@ class ChordGradation {
     const double roughly = norm(chord) / std::max(p, q);
     if (!std::isfinite(change) || change <= 0.5 * log_limit_ * roughly) return 0;
     const double l = field_length([&](const Vec2& at) { return metric(face, at); }, uv(face, a), uv(face, b),
-                                  0.1 /* longest piece of the sum */);
+                                  thresholds::chord_gradation::finest);
     return std::max(0., change / (log_limit_ * l) - 1);
   }
 

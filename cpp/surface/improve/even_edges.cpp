@@ -25,7 +25,7 @@ class Evening {
     if constexpr (Criterion::divides) {
       change_each(std::move(uneven), &Evening::divide_one);
     } else {
-      range_ = {0.5, 1.6};  // lengths of single edges if no other change helps
+      range_ = {thresholds::chord_gradation::shortest_at_last, thresholds::chord_gradation::longest_at_last};
       uneven = change_each(std::move(uneven), &Evening::move_one);
       change_each(std::move(uneven), &Evening::swap_one);
     }
@@ -121,7 +121,7 @@ class Evening {
   std::optional<Found> best_division(const Quad& q, Judgement& after) {
     const Vec2 middle = 0.5 * (mesh_.uv({q.face, q.a}) + mesh_.uv({q.face, q.b}));
     if (!mesh_.can_split(q, middle)) return {};
-    constexpr LengthRange range{.shortest = 0.5};  // between imposed vertices no longer edges are possible
+    constexpr LengthRange range{.shortest = thresholds::length_ratio::shortest_divided};
     const Judgement before = criterion_.judge(mesh_, mesh_.corners(q), range);
     const Vec3 mean = mesh_.mean_normal(q.places());
     const std::size_t edits = mesh_.edits();
@@ -129,8 +129,7 @@ class Evening {
     const Vertex v = divide(q, middle, jet.s);
     criterion_.learn(search_, v, jet);
     Found found{middle, jet.s, criterion_.known(mesh_, v)};
-    constexpr int placements = 4;
-    for (int k = 0; k < placements; ++k)
+    for (int k = 0; k < thresholds::length_ratio::placements; ++k)
       if (const auto to = best_place(v, after)) move(v, found = *to);
     const std::int32_t m = mesh_.global(v);
     after = criterion_.judge_around(mesh_, m, range);

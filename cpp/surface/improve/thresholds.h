@@ -73,6 +73,10 @@ inline constexpr double least_gain = 1e-4;
 namespace length_ratio {
 /// Shape. Such triangles are good whatever they were before.
 inline constexpr double good = 0.7;
+/// Length in the metric. A vertex put where nothing else helps, between imposed ones, may make edges as short as this.
+inline constexpr double shortest_divided = 0.5;
+/// Times that a new vertex is moved.
+inline constexpr int placements = 4;
 }  // namespace length_ratio
 
 /// Gradation along chords (grade/gradation_test, guarantees_test).
@@ -81,6 +85,12 @@ namespace chord_gradation {
 inline constexpr double aim = 0.999;
 /// Shape in the metric. Such triangles are good whatever they were before.
 inline constexpr double good = 0.5;
+/// Lengths in the metric of single edges where nothing else helps.
+inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
+/// Rings of changes that follow each other.
+inline constexpr int most_rings = 10;
+/// Length in the metric. Lengths are summed up from pieces no longer than this.
+inline constexpr double finest = 0.1;
 }  // namespace chord_gradation
 
 }  // namespace carreau::thresholds
