@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! cad_fortran_test FILE: the module carreau_cad tells of named_faces.step what C tells, and meshes it.
 program cad_fortran_test
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t
   use carreau
   use carreau_cad
   use carreau_geometry
@@ -20,6 +20,11 @@ program cad_fortran_test
   character(len=1000) :: path
   character(len=:), allocatable :: kind
   integer(c_int32_t), allocatable :: edges(:), parts(:)
+  type(carreau_session) :: other
+  type(carreau_cad_content) :: more
+  type(carreau_cad_small_feature) :: feature
+  character(kind=c_char), allocatable :: bytes(:)
+  integer(c_int32_t) :: sides(2)
   integer(c_int32_t) :: status, f, tops, count
   real(c_double) :: area, xyz(3), uv(2)
 
@@ -67,7 +72,26 @@ program cad_fortran_test
   call carreau_cad_create(again, status)
   call carreau_cad_read(again, path, status)
   call check(status == CARREAU_OK, carreau_cad_last_error(again))
+  call read_bytes(path, bytes)
+  call carreau_cad_read_bytes(again, bytes, 'step', status, unit='cm', min_feature=1d-3)
+  call check(status == CARREAU_OK, carreau_cad_last_error(again))
+  call carreau_cad_info(again, more, status)
+  call check(more%unit == 'cm' .and. more%solids == 1 .and. more%small_features == 0, 'bytes in centimetres')
+  call carreau_cad_small_feature_at(again, 1_c_int64_t, feature, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'no small feature')
+  call carreau_cad_name_solids(again, ['block'], status, [int(z'40A030', c_int32_t)])
+  call check(status == CARREAU_OK, carreau_cad_last_error(again))
+  call carreau_cad_imprint(again, 0d0, status)
+  call check(status == CARREAU_OK, carreau_cad_last_error(again))
+  call carreau_cad_file_face(again, 1, face, status)
+  call check(face%solid == 1 .and. face%solid_name == 'block' .and. face%other_solid == 0, 'the solid of a face')
+  call carreau_cad_set_size(again, 1, 1, -1d0, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'a size below zero on an edge')
   call carreau_cad_close(again)
+  call carreau_session_create(other, status)
+  call carreau_cad_open_bytes(other, bytes, '', status)
+  call check(status == CARREAU_OK, carreau_last_error(other))
+  call carreau_session_free(other)
   call carreau_cad_file_face(file, 7, face, status)
   call check(status == CARREAU_ERR_ARGUMENT .and. index(carreau_cad_last_error(file), 'face 7') > 0, 'no such face')
   call carreau_cad_add(file, session, status)
@@ -79,10 +103,24 @@ program cad_fortran_test
   call carreau_mesh_generate(session, status)
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_session_mesh(session, mesh, status)
+  call carreau_mesh_face_sides(mesh, 1, sides, status)
+  call check(status == CARREAU_OK .and. all(sides == [1, 0]), 'the solid beside a face')
+  call check(carreau_mesh_entity_name(mesh, 1, 1) == '', 'an edge without a name')
   call carreau_mesh_quality(mesh, quality, status)
   call check(abs(quality%area - 2 * area) < 1d-9 * area .and. quality%open_edges == 0, 'the area of two boxes')
   call carreau_session_free(session)
 contains
+  subroutine read_bytes(name, all)
+    character(len=*), intent(in) :: name
+    character(kind=c_char), allocatable, intent(out) :: all(:)
+    integer :: unit, n
+    open (newunit=unit, file=trim(name), access='stream', form='unformatted', status='old')
+    inquire (unit=unit, size=n)
+    allocate (all(n))
+    read (unit) all
+    close (unit)
+  end subroutine read_bytes
+
   subroutine check(good, what)
     logical, intent(in) :: good
     character(len=*), intent(in) :: what

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -162,6 +163,101 @@ TEST(CadLibrary, TellsWhatAFileHolds) {
   EXPECT_EQ(carreau_cad_danger_at(file, report.dangers, nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_cad_file_face(file, 7, nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_NE(std::string(sentence(file)).find("face 7"), std::string::npos);
+}
+
+std::string bytes_of_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(CadLibrary, ReadsBytes) {
+  const std::string bytes = bytes_of_file(shapes() + "/inch.step");
+  const auto size = static_cast<std::int64_t>(bytes.size());
+  auto options = empty<carreau_cad_options>();
+  options.unit = "in", options.scale = 3;
+  Session session;
+  EXPECT_OK(session, carreau_cad_open_bytes(session, bytes.data(), size, "step", &options, nullptr));
+  EXPECT_NEAR(mesh(session, 0.5).area, 6 * 3 * 3, 1e-9);
+  File file;
+  EXPECT_EQ(carreau_cad_create(&file.handle), CARREAU_OK);
+  EXPECT_OK(file, carreau_cad_read_bytes(file, bytes.data(), size, nullptr, nullptr));
+  auto content = empty<carreau_cad_content>();
+  EXPECT_OK(file, carreau_cad_info(file, &content));
+  EXPECT_EQ(content.faces, 6);
+  EXPECT_EQ(content.solids, 1);
+  EXPECT_STREQ(content.unit, "mm");
+  EXPECT_STREQ(content.file_unit, "in");
+  EXPECT_EQ(carreau_cad_read_bytes(file, bytes.data(), size, "iges", nullptr), CARREAU_ERR_FILE);
+  EXPECT_EQ(carreau_cad_read_bytes(file, bytes.data(), -1, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_cad_read_bytes(file, nullptr, 0, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  options.scale = -1;
+  EXPECT_EQ(carreau_cad_read_bytes(file, bytes.data(), size, nullptr, &options), CARREAU_ERR_ARGUMENT);
+}
+
+// A cube of side 2 on a plate of 4 x 4 x 1: named, then with one face between them, of a size of its own.
+TEST(CadLibrary, NamesAndImprintsParts) {
+  File file;
+  EXPECT_EQ(carreau_cad_create(&file.handle), CARREAU_OK);
+  EXPECT_OK(file, carreau_cad_read(file, (shapes() + "/touching.brep").c_str(), nullptr));
+  const std::array<const char*, 2> names{"part", "part"};
+  const std::array<std::int32_t, 2> colours{0xFF0000, -1};
+  EXPECT_EQ(carreau_cad_name_solids(file, 1, names.data(), nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_OK(file, carreau_cad_name_solids(file, 2, names.data(), colours.data()));
+  EXPECT_EQ(carreau_cad_imprint(file, -1, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  const carreau_cad_progress_fn stop = [](double, void*) -> std::int32_t { return 1; };
+  EXPECT_EQ(carreau_cad_imprint(file, 0, stop, nullptr), CARREAU_ERR_CANCELLED);
+  EXPECT_OK(file, carreau_cad_imprint(file, 0, nullptr, nullptr));
+  auto content = empty<carreau_cad_content>();
+  EXPECT_OK(file, carreau_cad_info(file, &content));
+  EXPECT_EQ(content.shared_faces, 1);
+  EXPECT_EQ(content.closed, 1);
+  std::int32_t shared = 0;
+  for (std::int32_t f = 1; f <= content.faces; ++f) {
+    auto face = empty<carreau_cad_face>();
+    EXPECT_OK(file, carreau_cad_file_face(file, f, &face));
+    if (face.other_solid == 0) continue;
+    shared = f;
+    EXPECT_STREQ(face.solid_name, "part");
+    EXPECT_STREQ(face.other_solid_name, "part_2");  // distinct
+    EXPECT_EQ(face.rgb, 0xFF0000);
+  }
+  EXPECT_OK(file, carreau_cad_set_size(file, 2, shared, 0.1));
+  EXPECT_EQ(carreau_cad_set_size(file, 3, 3, 1), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_cad_set_size(file, 4, 1, 1), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_cad_set_size(file, 1, 1, 0), CARREAU_ERR_ARGUMENT);
+  Session session;
+  EXPECT_OK(session, carreau_cad_add(file, session));
+  EXPECT_OK(session, carreau_set_integer(session, "hphy_flag", 2));
+  EXPECT_NEAR(mesh(session, 0.5).area, 2 * 16 + 4 * 4 + 5 * 4, 1e-9);
+  carreau_mesh* made = nullptr;
+  EXPECT_OK(session, carreau_session_mesh(session, &made));
+  std::array<std::int32_t, 2> sides{};
+  EXPECT_EQ(carreau_mesh_face_sides(made, shared, sides.data()), CARREAU_OK);
+  EXPECT_EQ(sides, (std::array<std::int32_t, 2>{1, 2}));
+  EXPECT_STREQ(carreau_mesh_entity_name(made, 3, 2), "part_2");
+  // 4 of about 800 triangles of edge .1 in a square of side 2
+  const auto on_shared = static_cast<double>(triangles_of(session, shared, shared).size() / 9);
+  EXPECT_NEAR(on_shared * 0.1 * 0.1 * std::sqrt(3) / 4, 4, 1);
+}
+
+TEST(CadLibrary, SmallFeaturesAreListed) {
+  auto options = empty<carreau_cad_options>();
+  options.min_feature = 1000;
+  File file;
+  EXPECT_EQ(carreau_cad_create(&file.handle), CARREAU_OK);
+  EXPECT_OK(file, carreau_cad_read(file, (shapes() + "/bracket.step").c_str(), &options));
+  auto content = empty<carreau_cad_content>();
+  EXPECT_OK(file, carreau_cad_info(file, &content));
+  EXPECT_GT(content.small_features, 0);
+  for (std::int32_t i = 0; i < content.small_features; ++i) {
+    auto feature = empty<carreau_cad_small_feature>();
+    EXPECT_OK(file, carreau_cad_small_feature_at(file, i, &feature));
+    EXPECT_GT(feature.size, 0);
+    EXPECT_STRNE(feature.faces, "");
+  }
+  EXPECT_EQ(carreau_cad_small_feature_at(file, content.small_features, nullptr), CARREAU_ERR_ARGUMENT);
+  options.min_feature = -1;
+  EXPECT_EQ(carreau_cad_read(file, (shapes() + "/bracket.step").c_str(), &options), CARREAU_ERR_ARGUMENT);
 }
 
 TEST(CadLibrary, PutsPointsOnCurves) {

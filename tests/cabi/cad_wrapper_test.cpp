@@ -4,7 +4,11 @@
 
 #include <carreau_cad.hpp>
 #include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 namespace {
 
@@ -60,6 +64,31 @@ TEST(CadWrapper, SizesOfFacesCount) {
     return static_cast<double>(session.mesh().triangle_count());
   };
   EXPECT_NEAR(triangles(0.1) / triangles(0.2), 4, 0.4);
+}
+
+TEST(CadWrapper, BytesNamesAndSizes) {
+  std::ifstream stream(sphere, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(text));
+  carreau::Session session;
+  const carreau::CadFile opened = carreau::cad_open(session, bytes);
+  EXPECT_EQ(opened.info().faces, 1);
+  carreau::CadFile file(sphere);
+  auto options = carreau::detail::sized<carreau_cad_options>();
+  options.scale = 2, options.min_feature = 1e-9;
+  file.read(bytes, "", options);
+  EXPECT_NEAR(file.measure_face(1).area / opened.measure_face(1).area, 4, 1e-9);
+  EXPECT_TRUE(file.small_features().empty());
+  if (file.info().solids == 1) file.name_solids({"ball"}, {0x123456});
+  double last = 0;
+  file.imprint(0, [&](double fraction) { return last = fraction, true; });
+  EXPECT_EQ(file.info().shared_faces, 0);
+  file.set_size(2, 1, 0.5);
+  EXPECT_THROW(file.set_size(0, 99, 0.5), carreau::Error);
+  EXPECT_THROW(file.name_solids({"one", "two", "three"}), carreau::Error);
+  session.set("hphydef", 0.3);
+  session.generate();
+  EXPECT_EQ(session.mesh().face_sides(1)[1], 0);
 }
 
 TEST(CadWrapper, Fails) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -413,6 +414,26 @@ TEST_F(MeshFileTest, FacesThatAreLeftOutAreInTheMeshAndInFiles) {
   ASSERT_EQ(carreau_model_leave_out_face(session, 2, nullptr), CARREAU_OK);
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_MODEL);
   EXPECT_EQ(error(), "face 2: the face has no curve");
+}
+
+TEST_F(MeshFileTest, EntitiesHaveNamesAndFacesHaveSides) {
+  use_paraboloid(0.8);
+  EXPECT_EQ(carreau_model_name_entity(session, 3, 7, "bowl"), CARREAU_ERR_ARGUMENT);  // no face has it
+  EXPECT_EQ(carreau_model_set_face_sides(session, 1, -1, 0), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_model_set_face_sides(session, 1, 7, 0), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_model_name_entity(session, 3, 7, "bowl"), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_model_name_entity(session, 2, 1, "dish"), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_model_name_entity(session, 1, 1, "rim"), CARREAU_OK) << error();
+  EXPECT_EQ(carreau_model_name_entity(session, 1, 99, "rim"), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_name_entity(session, 4, 1, "rim"), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  std::array<std::int32_t, 2> sides{};
+  ASSERT_EQ(carreau_mesh_face_sides(mesh(), 1, sides.data()), CARREAU_OK);
+  EXPECT_EQ(sides, (std::array<std::int32_t, 2>{7, 0}));
+  EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 3, 7), "bowl");
+  EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 2, 1), "dish");
+  EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 1, 1), "rim");
+  EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 0, 1), "");
 }
 
 TEST_F(MeshFileTest, NamesOfFacesAreInTheMeshAndInFiles) {

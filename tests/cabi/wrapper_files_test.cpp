@@ -78,6 +78,8 @@ TEST_F(WrapperFiles, FacesHaveNamesColoursAndParts) {
   carreau::Session session = session_of(paraboloid());
   session.name_face(1, "bowl");
   session.color_face(1, 0x8000ff);
+  session.set_face_sides(1, 1, 0);
+  session.name_entity(3, 1, "glass");
   wrapper_tests::add_sides(session, 2);
   session.part_of_face(2, 1);
   session.leave_out_face(2, "it is the first one once more");
@@ -88,6 +90,8 @@ TEST_F(WrapperFiles, FacesHaveNamesColoursAndParts) {
   EXPECT_EQ(faces[0].rgb, 0x8000ff);
   EXPECT_EQ(faces[0].status, CARREAU_FACE_FAILED);
   EXPECT_EQ(faces[0].why, "it is the first one once more");
+  EXPECT_EQ(session.mesh().face_sides(1), (std::array<std::int32_t, 2>{1, 0}));
+  EXPECT_EQ(session.mesh().entity_name(3, 1), "glass");
   EXPECT_EQ(error_of([&] { session.part_of_curve(77, 1); }).status(), carreau::Status::argument);
 }
 

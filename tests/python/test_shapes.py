@@ -131,6 +131,22 @@ def test_names_follow_an_imprint(folder):
     assert made.quality.area == pytest.approx(2 * 16 + 4 * 4 + 5 * 4, rel=1e-12)
 
 
+def test_names_and_sizes_by_number(folder):
+    file = carreau.CadFile(folder / "touching.brep")
+    file.name_solids(["plate", "cube"])
+    file.imprint()
+    file.set_size(3, 2, 0.2)  # all faces of the cube
+    with pytest.raises(errors.ArgumentError, match="there is no edge 999"):
+        file.set_size(1, 999, 1)
+    made = carreau.mesh(file, size=1, gradation=1.5)
+    shared, = (face.number for face in file.faces if face.other_solid > 0)
+    assert made.face_sides(shared) == (1, 2) and made.entity_name(3, 2) == "cube"
+    on_cube = [face.number for face in file.faces if 2 in (face.solid, face.other_solid)]
+    longest = max(float(((made.vertices[t] - made.vertices[t[[1, 2, 0]]]) ** 2).sum(axis=1).max()) ** 0.5
+                  for t, face in zip(made.triangles, made.face_ids) if face in on_cube)
+    assert longest < 0.2 * 1.5
+
+
 def test_what_is_no_shape_is_rejected():
     with pytest.raises(errors.ArgumentError, match="has no exportBrep"):
         shapes.brep_of(object())

@@ -229,6 +229,12 @@ class CadFile {
   std::unique_ptr<carreau_cad_file, Closed> handle_{created()};
 };
 
+/// Reads the bytes of a file and adds all of its faces to a session; format: "step", "iges", "brep", or "" (as they say).
+inline CadFile cad_open(Session& session, std::span<const std::byte> bytes, const std::string& format = "") {
+  carreau_cad_file* made = nullptr;
+  session.done(carreau_cad_open_bytes(session.get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), format.c_str(), nullptr, &made));
+  return CadFile(made);
+}
 /// Reads a file and adds all of its faces to a session.
 inline CadFile cad_open(Session& session, const std::string& path) {
   carreau_cad_file* made = nullptr;
