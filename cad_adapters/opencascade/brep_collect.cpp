@@ -325,7 +325,6 @@ void BrepHost::State::collect_names(const ShapeFile& file) {
     for (const int number : held) {
       HostFace& face = host_faces[static_cast<std::size_t>(number - 1)];
       if (!label->name.empty()) face.name = label->name;
-      if (label->part.ShapeType() == TopAbs_FACE) face.own_name = label->name;
       if (label->has_colour) face.rgb = byte(label->red) << 16 | byte(label->green) << 8 | byte(label->blue);
     }
 }

@@ -135,10 +135,10 @@ carreau_status BrepHost::add_face(carreau_session* session, std::size_t index) c
     orientation = seed * (curve.forward != face.swapped ? 1 : -1);
   }
   carreau_status status = carreau_model_add_face(session, ref, orientation);
+  if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
   if (status == CARREAU_OK && ref == face.whole) {
     const std::array<int, 2>& sides = state_->solids.of_face[index];
-    status = carreau_model_name_face(session, ref, face.own_name.c_str());
-    if (status == CARREAU_OK) status = carreau_model_set_face_sides(session, ref, sides[0], sides[1]);
+    status = carreau_model_set_face_sides(session, ref, sides[0], sides[1]);
   }
   if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);
   if (status == CARREAU_OK && ref != face.whole) status = carreau_model_part_of_face(session, ref, face.whole);

@@ -34,8 +34,7 @@ struct HostFace {
   int whole = 0;         // number of the face of the shape that it is, or is a part of
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
-  std::string name;      // its own, or the name of the smallest part that holds it
-  std::string own_name;  // "": the file does not name it
+  std::string name;
   int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
   double size = 0;     // 0: no size of its own
   std::string broken;  // why it cannot be meshed; "": it can

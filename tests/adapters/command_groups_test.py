@@ -125,8 +125,12 @@ class Groups(unittest.TestCase):
         self.assertEqual(bytes(int(text.GetValue(i)) for i in range(text.GetNumberOfTuples())), b"rim\0rim\0rim\0")
 
     def test_groups_by_part_and_by_color(self):
-        names = self.mesh("named.inp", "--group-by", "name", shape="named_faces.step")
-        self.assertIn("ELSET=top", content(names))
+        parts = content(self.mesh("parts.inp", "--group-by", "part", shape="assembly.step"))
+        self.assertRegex(parts, r"ELSET=ball\n")
+        self.assertRegex(parts, r"ELSET=block_2\n")  # of two blocks
+        self.assertRegex(content(self.mesh("names.su2", shape="assembly.step")), r"MARKER_TAG= block\n")
+        faces = re.findall(r"MARKER_TAG= (\w+)", content(self.mesh("faces.su2", "--group-by", "face", shape="assembly.step")))
+        self.assertEqual(len(faces), 13)  # a ball and two blocks
         colours = content(self.mesh("coloured.inp", "--group-by", "color", shape="named_faces.step"))
         self.assertIn("ELSET=color_40a030", colours)
         self.assertRegex(content(self.mesh("red.inp", "--group", "green=color:#40A030", shape="named_faces.step")), r"ELSET=green\n")

@@ -138,7 +138,7 @@ def test_names_and_sizes_by_number(folder):
     file.set_size(3, 2, 0.2)  # all faces of the cube
     with pytest.raises(errors.ArgumentError, match="there is no edge 999"):
         file.set_size(1, 999, 1)
-    made = carreau.mesh(file, size=1, gradation=1.5)
+    made = carreau.mesh(file, size=1, gradation=1.5, hphy_flag=2)
     shared, = (face.number for face in file.faces if face.other_solid > 0)
     assert made.face_sides(shared) == (1, 2) and made.entity_name(3, 2) == "cube"
     on_cube = [face.number for face in file.faces if 2 in (face.solid, face.other_solid)]

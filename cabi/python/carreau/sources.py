@@ -249,17 +249,22 @@ def source_of(given: Any, progress: Progress, options: dict[str, Any]) -> Source
     return _of_object(given, progress, options)
 
 
+def _is_cad(given: Any) -> bool:
+    """A file that was read, the bytes of a file, an open file, or a shape of another program."""
+    return isinstance(given, (CadFile, bytes, bytearray, memoryview)) or is_shape(given) or hasattr(given, "read")
+
+
 def _of_object(given: Any, progress: Progress, options: dict[str, Any]) -> Source:
     if isinstance(given, Session):
         return SessionSource()
     if isinstance(given, Patch):
         return PatchSource([given])
-    if isinstance(given, (CadFile, bytes, bytearray, memoryview)) or is_shape(given) or hasattr(given, "read"):
-        return CadSource(given, progress, options)
     if isinstance(given, Atlas):
         return Loaded("add_atlas", given, short_ends=True)
     if isinstance(given, PlaneDomain):
         return Loaded("add_plane", given)
+    if not isinstance(given, Mesh) and _is_cad(given):
+        return CadSource(given, progress, options)
     own = {name: options.pop(name) for name in TRIANGLES_OPTIONS if name in options}
     if isinstance(given, Mesh):
         return Loaded("add_triangles", given.vertices, given.triangles, **own)

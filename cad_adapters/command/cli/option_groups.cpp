@@ -94,10 +94,10 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                            "Size on edges, vertices, faces, solids: edge:3-5=.2, vertex:7=.05, bore*=.3; repeatable"))
       ->type_name("ENTITIES=LENGTH");
   repeated(app->add_option("--group", options.groups,
-                           "Name a group: inlet=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, steel=solid:2; repeatable"))
+                           "Name a group: in=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, hub=solid:2; repeatable"))
       ->type_name("NAME=ENTITIES");
-  app->add_option("--group-by", options.group_by, "Group faces by part, name or color; by their own names by default")
-      ->check(CLI::IsMember({"part", "name", "color"}));
+  app->add_option("--group-by", options.group_by, "Group faces by part, face or color; by names of faces, else of parts, by default")
+      ->check(CLI::IsMember({"part", "face", "color"}));
   repeated(app->add_option("--curve-edges", options.curve_edges,
                            "Number of edges of a curve: 8, 8,arithmetic:3 or 8,geometric:1.2; repeatable"))
       ->type_name("CURVE=EDGES");

@@ -23,13 +23,19 @@ std::string colour_name(std::int32_t rgb) {
   return text;
 }
 
+/// "bolt" of "bolt_2": the name of a solid before it was made distinct.
+std::string without_number(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  return end != std::string::npos && end + 1 < name.size() && name[end] == '_' ? name.substr(0, end) : name;
+}
+
 void group_faces(const CadInput& input, const std::string& by, Groups& groups) {
   for (const std::int32_t face : input.face_numbers()) {
-    std::string name;
-    if (by == "part") name = input.parts_beside(face)[0].name;
-    if (by == "name") name = input.face_name(face);
-    if (by == "color" && input.face_colour(face) >= 0) name = colour_name(input.face_colour(face));
-    if (!name.empty()) groups[{2, face}] = name;
+    const std::string part = input.parts_beside(face)[0].name;
+    if (by == "part" && !part.empty()) groups[{2, face}] = part;
+    if (by == "color" && input.face_colour(face) >= 0) groups[{2, face}] = colour_name(input.face_colour(face));
+    // A face without a name of its own has the name of a part.
+    if (by == "face" && input.face_name(face) == without_number(part)) groups[{2, face}] = "";
   }
 }
 

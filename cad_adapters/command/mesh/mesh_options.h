@@ -31,7 +31,7 @@ struct MeshOptions : InputChoice {
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> sizes_on;          ///< "entities=length", the entities by selection.h
   std::vector<std::string> groups;            ///< "name=selector" (selection.h)
-  std::string group_by;                       ///< part, name or color; empty: faces keep their own names
+  std::string group_by;                       ///< part, face or color; empty: faces keep their names
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
   std::vector<std::string> settings;          ///< "parameter=value"
