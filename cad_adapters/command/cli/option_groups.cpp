@@ -94,7 +94,7 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                            "Size on edges, vertices, faces, solids: edge:3-5=.2, vertex:7=.05, bore*=.3; repeatable"))
       ->type_name("ENTITIES=LENGTH");
   repeated(app->add_option("--group", options.groups,
-                           "Name a group: in=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000, hub=solid:2; repeatable"))
+                           "Name a group: in=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000; repeatable"))
       ->type_name("NAME=ENTITIES");
   app->add_option("--group-by", options.group_by, "Group faces by part, face or color; by names of faces, else of parts, by default")
       ->check(CLI::IsMember({"part", "face", "color"}));
