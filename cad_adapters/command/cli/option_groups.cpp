@@ -108,7 +108,7 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
       ->check(not_empty)
       ->type_name(kind::file);
   app->add_option("--effort", options.effort,
-                  "Work beyond the first mesh: 0 none; 1 (default) at most the first mesh's; 2 at most twice that")
+                  "Work beyond the first mesh: 0 none; 1 (default) at most as much; 2 at most twice as much")
       ->check(CLI::Range(0, 2))
       ->type_name(kind::number);
   repeated(app->add_option("--set", options.settings, "Set a parameter that `carreau params` lists; repeatable"))
