@@ -91,11 +91,11 @@ class Finder {
     find_round("hole", true);
     find_round("boss", false);
     find_fillets();
-    find_strips("chamfer", [this](const Look& look) { return has_two(look, [](const Meeting& a, const Meeting& b) {
+    find_strips("chamfer", [](const Look& look) { return has_two(look, [](const Meeting& a, const Meeting& b) {
       const auto blunt = [](const Meeting& m) { return m.angle > blunt_least && m.angle < blunt_most; };
       return blunt(a) && blunt(b) && a.convex == b.convex;
     }); });
-    find_strips("step", [this](const Look& look) { return has_two(look, [](const Meeting& a, const Meeting& b) {
+    find_strips("step", [](const Look& look) { return has_two(look, [](const Meeting& a, const Meeting& b) {
       return a.angle > smooth && b.angle > smooth && a.convex != b.convex;
     }); });
     find_small_faces();
