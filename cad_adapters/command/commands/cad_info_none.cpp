@@ -6,7 +6,7 @@
 namespace command {
 
 int print_cad_info(const InfoOptions& options) {
-  open_cad(options.input, false, {});
+  open_cad(options.input, options.cad, {});
   return 0;
 }
 

@@ -5,7 +5,7 @@
 
 namespace command {
 
-std::unique_ptr<CadInput> open_cad(const std::string& path, bool, const ReadingProgress&) {
+std::unique_ptr<CadInput> open_cad(const std::string& path, const CadChoice&, const ReadingProgress&) {
   throw Failure("'" + path +
                 "' cannot be read: this program was built without OpenCASCADE, which STEP, IGES and BREP files need.");
 }
