@@ -6,7 +6,12 @@
 
 #include "support/helpers.h"
 
-// oneTBB is not instrumented: what it hands from one thread to another the thread sanitizer has to be told.
+// oneTBB is not instrumented, so the thread sanitizer needs to know when it hands work to another thread.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)  // Clang
+#define __SANITIZE_THREAD__ 1
+#endif
+#endif
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
 namespace {
