@@ -53,6 +53,15 @@ void take_shape(carreau_cad_file& file) {
   file.sentences.clear();
 }
 
+/// On an error the old content stays.
+void replace_shape(carreau_cad_file& file, ShapeFile shape) {
+  carreau_cad_file fresh;
+  fresh.trap = file.trap, fresh.loose_edges = file.loose_edges, fresh.features = file.features;
+  fresh.shape = std::move(shape);
+  take_shape(fresh);
+  file = std::move(fresh);
+}
+
 /// Hands the share of a step on, and remembers whether the caller stopped.
 class Listener {
  public:
@@ -111,8 +120,7 @@ void imprint(carreau_cad_file& file, double tolerance, carreau_cad_progress_fn p
     const std::scoped_lock lock(reading);
     ShapeFile shape = file.shape;
     imprint_parts(shape, tolerance, listener.part(0, 1));
-    file.shape = std::move(shape);
-    take_shape(file);
+    replace_shape(file, std::move(shape));
   });
 }
 
@@ -133,8 +141,10 @@ void name_solids(carreau_cad_file& file, std::int64_t n, const char* const* name
     }
     if (!label.name.empty() || label.has_colour) labels.push_back(label);
   }
-  file.shape.labels.insert(file.shape.labels.end(), labels.begin(), labels.end());
-  take_shape(file);
+  const std::scoped_lock lock(reading);
+  ShapeFile shape = file.shape;
+  shape.labels.insert(shape.labels.end(), labels.begin(), labels.end());
+  replace_shape(file, std::move(shape));
 }
 
 /// Sets eps_match unless it has a value already: of the caller, or of a file before.

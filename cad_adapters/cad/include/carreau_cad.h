@@ -97,7 +97,7 @@ CARREAU_CAD_API carreau_status carreau_cad_read_bytes(carreau_cad_file* file, co
                                                       const char* format, const carreau_cad_options* options);
 
 /* Makes parts that touch share faces and edges: see carreau_cad_options.imprint. Numbers of faces, edges and vertices
- * change; names and colours follow. A fuse that fails is a loss (carreau_cad_loss), and the parts stay as they are.
+ * change, and sizes that were set are gone; names and colours follow. A fuse that fails is a loss (carreau_cad_loss), and the parts stay as they are.
  * Sessions that the file was added to before do not change. tolerance: distance up to which parts touch; 0: the
  * tolerances of the file. progress may be NULL. Errors: CANCELLED, MEMORY, ARGUMENT. */
 CARREAU_CAD_API carreau_status carreau_cad_imprint(carreau_cad_file* file, double tolerance,
@@ -105,7 +105,7 @@ CARREAU_CAD_API carreau_status carreau_cad_imprint(carreau_cad_file* file, doubl
 
 /* Names the solids, and faces without a name of their own, of a file whose format has no names (BREP). n: the number of
  * solids (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours, 0xRRGGBB in sRGB,
- * -1: none; NULL: all none. Errors: ARGUMENT, MEMORY. */
+ * -1: none; NULL: all none. Sizes that were set are gone. Errors: ARGUMENT, MEMORY. */
 CARREAU_CAD_API carreau_status carreau_cad_name_solids(carreau_cad_file* file, int64_t n, const char* const names[],
                                                        const int32_t colours[]);
 

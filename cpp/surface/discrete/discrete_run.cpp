@@ -5,7 +5,6 @@
 #include <chrono>
 #include <numbers>
 
-#include "support/infinity.h"
 #include "surface/discrete/start_mesh.h"
 #include "surface/free_elements/free_elements.h"
 #include "surface/projected/projected_mesh.h"
@@ -44,9 +43,6 @@ constexpr double same_size = 1e-6;
 /// Q2. Triangles that are worse in the mean are as large as what they show: edits, which price collapses, serve better.
 constexpr double least_mean_shape = 0.93;
 
-/// Times that sizes are halved around places where triangles of a mesh made in planes cross.
-constexpr int most_refinements = 2;
-
 /// A run on its way: the triangles, cut by the sizes.
 struct Start {
   discrete::RefinedMesh refined;
@@ -78,37 +74,16 @@ double longest_of_atlas(const MeshSizes& wanted) {
   return *most <= (1 + same_size) * *least ? longest_in_planes : std::numbers::sqrt2;
 }
 
-// False: it is not made so; `crossed` has the places where triangles crossed, if they did.
 bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor,
-                    Start& start, std::vector<Vec3>& crossed) {
+                    Start& start) {
   RemeshingFrame frame = start_frame(surface, start.refined, start.result.mesh, start.wanted, options, cad, monitor);
   frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
   const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
-  crossed.clear();
-  for (const TriangleIntersection& pair : frame.crossed) crossed.push_back(pair.place);
-  if (!why.empty()) monitor.message(Level::detail, "the mesh is not made in planes: " + why);
+  if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);
   return why.empty();
-}
-
-double size_near(const Start& start, const Vec3& place) {
-  double nearest = infinity, size = 0;
-  for (std::size_t v = 0; v < start.wanted.h.size(); ++v)
-    if (const double d = norm(start.refined.vertices[v] - place); d < nearest) nearest = d, size = start.wanted.h[v];
-  return size;
-}
-
-// Places with half of the sizes there; those that others hold already are left out.
-void halve_sizes(const Start& start, std::span<const Vec3> crossed, std::vector<FinePlace>& places) {
-  for (const Vec3& at : crossed) {
-    const FinePlace place{at, size_near(start, at) / 2};
-    const bool known = std::ranges::any_of(places, [&](const FinePlace& other) {
-      return other.size <= place.size && norm(other.at - at) <= place.size;
-    });
-    if (!known) places.push_back(place);
-  }
 }
 
 // Of what is left of the run: edges are collapsed, split and swapped until the mesh is as wanted.
@@ -137,21 +112,13 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   CompositeOptions options = given;
   options.size = enlarged(given.size, enlargement_for(given.element));
   const auto begun = std::chrono::steady_clock::now();
-  DiscreteSizes sizes(model, cad, surface, options);
+  const DiscreteSizes sizes(model, cad, surface, options);
   const MeshSizes known = sizes.at_vertices(unrefined(surface.discrete()), monitor);
   Start start;
   bool made = false;
   if (may_be_made_in_planes(options, known)) {
-    std::vector<FinePlace> places;
-    std::vector<Vec3> crossed;
-    for (int round = 0; round <= most_refinements; ++round) {
-      begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
-      made = make_in_planes(surface, options, cad, monitor, start, crossed);
-      if (made || crossed.empty()) break;
-      halve_sizes(start, crossed, places);
-      sizes.refine_around(places);
-    }
-    sizes.refine_around({});
+    begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
+    made = make_in_planes(surface, options, cad, monitor, start);
   }
   if (!made) {
     begin(model, surface, sizes, options, std::numbers::sqrt2, monitor, start);

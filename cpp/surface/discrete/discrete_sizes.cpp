@@ -265,9 +265,6 @@ MeshSizes DiscreteSizes::by_direction(const RefinedMesh& mesh, const Sides& side
   return made;
 }
 
-/// A size grows by this share of the distance from the place at which it is refined.
-constexpr double growth_from_fine_places = 0.5;
-
 MeshSizes DiscreteSizes::at_vertices(const RefinedMesh& mesh, Monitor& monitor) const {
   SizeParameters physical = options_.size;
   const bool prescribes = physical.physical != PhysicalSizes::ignored;
@@ -298,9 +295,6 @@ MeshSizes DiscreteSizes::at_vertices(const RefinedMesh& mesh, Monitor& monitor) 
     }
     if (most > least_ratio) return by_direction(mesh, sides, std::move(graph), std::move(sizes), monitor);
   }
-  for (std::size_t v = 0; v < h.size(); ++v)
-    for (const FinePlace& place : fine_)
-      h[v] = std::min(h[v], std::max(place.size, growth_from_fine_places * norm(mesh.vertices[v] - place.at)));
   if (options_.gradation > 0)
     grade_over_edges(mesh, slope_of_gradation(options_.gradation), h, monitor);
   return {std::move(h), {}, {}};

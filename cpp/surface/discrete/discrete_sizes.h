@@ -27,20 +27,11 @@ struct MeshSizes {
   [[nodiscard]] double over(const discrete::RefinedMesh& mesh, std::size_t triangle) const;
 };
 
-/// A place around which meshes are finer than the rules prescribe.
-struct FinePlace {
-  Vec3 at;
-  double size;
-};
-
 /// Computes sizes at the vertices of a mesh of the surface from size rules and curvature.
 class DiscreteSizes {
  public:
   /// Keeps references. `cad`: the surface itself, or a wrapper of it.
   DiscreteSizes(const Model& model, Cad& cad, const discrete::DiscreteCad& surface, const CompositeOptions& options);
-
-  /// Isotropic sizes grow from the sizes of these places; smaller prescribed sizes hold.
-  void refine_around(std::vector<FinePlace> places) { fine_ = std::move(places); }
 
   /// With the gradation of the options over the mesh.
   [[nodiscard]] MeshSizes at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const;
@@ -65,7 +56,6 @@ class DiscreteSizes {
   const CompositeOptions& options_;
   GeometricRule rule_;
   std::vector<double> radius_;  // by corner of the surface's triangles: smallest radius of curvature
-  std::vector<FinePlace> fine_;
   std::optional<CurvatureTensors> curvature_;  // if geometric sizes differ by direction
 };
 

@@ -206,7 +206,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
       const bool stays = round > 0 && found.count >= last;
       const bool all_found = found.count == static_cast<std::int64_t>(found.pairs.size());
       if (round == most_untanglings || (stays && keeps) || !all_found) return "triangles would cross";
-      if (round == 0) first = found.count, frame.crossed = found.pairs;
+      if (round == 0) first = found.count;
       last = found.count;
       guard_around(found, made, *frame.charts);
       if (!stays) {
@@ -220,7 +220,6 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
       if (!placed) return "it is not made in planes";
       continue;
     }
-    frame.crossed.clear();
     std::string why = why_worse(made.mesh, result.mesh, options.threads, monitor);
     if (!why.empty()) return why;
     if (result.report.crossings >= 0) result.report.crossings = found.count, result.crossings = std::move(found.pairs);

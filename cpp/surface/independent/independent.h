@@ -11,7 +11,6 @@
 
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
-#include "mesh/crossings/intersections.h"
 #include "surface/independent/base/charts.h"
 #include "surface/independent/base/free_mesh.h"
 #include "surface/independent/base/sharp_edges.h"
@@ -40,7 +39,6 @@ struct RemeshingFrame {
   /// Makes the mesh at once, for mend_in_frame(); none: it does not.
   std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
-  std::vector<TriangleIntersection> crossed = {};  ///< of the mesh that `made` made first, if it was given up for them
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
   RemeshingWorkers workers = {};
 };
