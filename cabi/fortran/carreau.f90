@@ -34,7 +34,7 @@ module carreau
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_divide_curve, carreau_model_divide_curve_at
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
-  public :: carreau_model_name_entity, carreau_model_set_face_sides, carreau_mesh_face_sides, carreau_mesh_entity_name
+  public :: carreau_model_name_entities, carreau_model_set_face_sides, carreau_mesh_face_sides, carreau_mesh_entity_name
   public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
@@ -769,13 +769,13 @@ contains
     status = c_model_name_face(session%handle, face_ref, c_text(name))
   end subroutine carreau_model_name_face
 
-  subroutine carreau_model_name_entity(session, dimension, ref, name, status)
+  subroutine carreau_model_name_entities(session, dimension, refs, name, status)
     type(carreau_session), intent(in) :: session
-    integer(c_int32_t), intent(in) :: dimension, ref
+    integer(c_int32_t), intent(in) :: dimension, refs(:)
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(out) :: status
-    status = c_model_name_entity(session%handle, dimension, ref, c_text(name))
-  end subroutine carreau_model_name_entity
+    status = c_model_name_entities(session%handle, dimension, size(refs, kind=c_int64_t), refs, c_text(name))
+  end subroutine carreau_model_name_entities
 
   subroutine carreau_model_set_face_sides(session, face_ref, solid, other_solid, status)
     type(carreau_session), intent(in) :: session

@@ -390,16 +390,18 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_name_face
 
-    !> Names entities of one dimension: the points of a reference (dimension 0), its curves (1), a face (2) or a solid
-    !! (3).
-    function c_model_name_entity(session, dimension, ref, name) result(status) bind(c, name="carreau_model_name_entity")
-      import :: c_char, c_int32_t, c_ptr
+    !> Names n entities of one dimension by their references: points (dimension 0), curves (1), faces (2) or solids (3).
+    function c_model_name_entities(session, dimension, n, refs, name) result(status) &
+        bind(c, name="carreau_model_name_entities")
+      import :: c_char, c_int32_t, c_int64_t, c_ptr
       implicit none
       type(c_ptr), value :: session
-      integer(c_int32_t), value :: dimension, ref
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), intent(in) :: refs(*)
       character(kind=c_char), intent(in) :: name(*)
       integer(c_int32_t) :: status
-    end function c_model_name_entity
+    end function c_model_name_entities
 
     !> Sets the solids on both sides of a face, by references of the host's own from 1: the one that its triangles look
     !! out of, and the one that they look into; 0: none.
@@ -1124,7 +1126,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_face_sides
 
-    !> Returns the name that carreau_model_name_entity gave to points (dimension 0), curves (1), a face (2) or a solid
+    !> Returns the name that carreau_model_name_entities gave to points (dimension 0), curves (1), a face (2) or a solid
     !! (3); "": none, or no such entity.
     function c_mesh_entity_name(mesh, dimension, ref) result(name) bind(c, name="carreau_mesh_entity_name")
       import :: c_int32_t, c_ptr

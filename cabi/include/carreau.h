@@ -346,11 +346,11 @@ CARREAU_API carreau_status carreau_model_add_point(carreau_session* session, int
 /* Names a face, for people and for files that hold names (.vtu, .msh, .stl). Several faces may have one name; "" takes
  * it away. Errors: ARGUMENT (no such face, NULL). */
 CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name);
-/* Names entities of one dimension: the points of a reference (dimension 0), its curves (1), a face (2) or a solid (3).
+/* Names n entities of one dimension by their references: points (dimension 0), curves (1), faces (2) or solids (3).
  * Entities with one name form a group in files that hold groups (.msh, .inp, .unv, .bdf, .su2, .med, .vtu); curves and points are in
  * files when the parameter flag is 1. "" takes the name away. Errors: ARGUMENT (no such entity, NULL, a solid that no face has). */
-CARREAU_API carreau_status carreau_model_name_entity(carreau_session* session, int32_t dimension, int32_t ref,
-                                                     const char* name);
+CARREAU_API carreau_status carreau_model_name_entities(carreau_session* session, int32_t dimension, int64_t n,
+                                                       const int32_t refs[], const char* name);
 /* Sets the solids on both sides of a face, by references of the host's own from 1: the one that its triangles look out of, and
  * the one that they look into; 0: none. A file .msh then has volumes that Gmsh fills. Errors: ARGUMENT (no such face, below 0). */
 CARREAU_API carreau_status carreau_model_set_face_sides(carreau_session* session, int32_t face_ref, int32_t solid,
@@ -938,7 +938,7 @@ CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, 
 
 /* Gets the solids on both sides of a face by its reference (carreau_model_set_face_sides); 0: none. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t face_ref, int32_t out_solids[2]);
-/* Returns the name that carreau_model_name_entity gave to points (dimension 0), curves (1), a face (2) or a solid (3); "": none, or no
+/* Returns the name that carreau_model_name_entities gave to points (dimension 0), curves (1), a face (2) or a solid (3); "": none, or no
  * such entity. It lives until the next call on the mesh. NULL: no mesh. */
 CARREAU_API const char* carreau_mesh_entity_name(carreau_mesh* mesh, int32_t dimension, int32_t ref);
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/model.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <string>
+#include <unordered_set>
 
 #include "arguments.h"
 #include "curve/prescribed_edges.h"
@@ -46,19 +49,23 @@ void put(std::int32_t* array, std::size_t index, std::int32_t value) {
   if (array != nullptr) array[index] = value;
 }
 
-/// Of a dimension other than that of faces.
-bool has_entity(const Model& model, std::int32_t dimension, std::int32_t ref) {
-  if (dimension == 3)
-    return ref > 0 && std::any_of(model.names.face_solids.begin(), model.names.face_solids.end(), [ref](const auto& each) {
-             return each.second[0] == ref || each.second[1] == ref;
-           });
+/// All references of a dimension.
+std::unordered_set<int> references_of(const Model& model, std::int32_t dimension) {
+  std::unordered_set<int> known;
+  for (const auto& [face, solids] : model.names.face_solids)
+    if (dimension == 3) known.insert(solids.begin(), solids.end());
   for (const Face& face : model.faces) {
-    for (const carreau::FaceCurve& curve : face.curves)
-      if (dimension == 1 ? curve.ref == ref || curve.shown_as == ref : curve.end1 == ref || curve.end2 == ref) return true;
-    for (const carreau::FacePoint& point : face.points)
-      if (dimension == 0 && point.ref == ref) return true;
+    if (dimension == 2) known.insert(face.ref);
+    if (dimension < 2)
+      for (const carreau::FaceCurve& curve : face.curves) {
+        known.insert(dimension == 1 ? curve.ref : curve.end1);
+        known.insert(dimension == 1 ? curve.shown_as : curve.end2);
+      }
+    if (dimension == 0)
+      for (const carreau::FacePoint& point : face.points) known.insert(point.ref);
   }
-  return false;
+  known.erase(0);
+  return known;
 }
 
 }  // namespace
@@ -145,20 +152,24 @@ carreau_status carreau_model_name_face(carreau_session* session, int32_t face_re
   return guarded(session, [&] { face_of(session->edited_model(), face_ref).name = required(name, "name"); });
 }
 
-carreau_status carreau_model_name_entity(carreau_session* session, int32_t dimension, int32_t ref, const char* name) {
+carreau_status carreau_model_name_entities(carreau_session* session, int32_t dimension, int64_t n, const int32_t refs[],
+                                           const char* name) {
   return guarded(session, [&] {
+    constexpr std::array<const char*, 4> kinds{"point", "curve", "face", "solid"};
     Model& model = session->edited_model();
     const std::string given = required(name, "name");
-    if (dimension == 2) {
-      face_of(model, ref).name = given;
-      return;
-    }
     if (dimension < 0 || dimension > 3) throw InvalidArgument("the dimension is " + std::to_string(dimension) + ", not 0 to 3");
-    if (!has_entity(model, dimension, ref))
-      throw InvalidArgument(std::string("the model has no ") + (dimension == 0 ? "point" : dimension == 1 ? "curve" : "solid") +
-                            " of reference " + std::to_string(ref));
+    if (n < 0) throw InvalidArgument("n is " + std::to_string(n));
+    if (n == 0) return;
+    const std::unordered_set<int> wanted(required(refs, "refs"), refs + n), known = references_of(model, dimension);
+    for (const int ref : std::span(refs, std::size_t(n)))
+      if (!known.contains(ref))
+        throw InvalidArgument(std::string("the model has no ") + kinds[std::size_t(dimension)] + " of reference " + std::to_string(ref));
+    for (Face& face : model.faces)
+      if (dimension == 2 && wanted.contains(face.ref)) face.name = given;
     carreau::EntityNames& names = model.names;
-    (dimension == 0 ? names.points : dimension == 1 ? names.curves : names.solids)[ref] = given;
+    for (const int ref : wanted)
+      if (dimension != 2) (dimension == 0 ? names.points : dimension == 1 ? names.curves : names.solids)[ref] = given;
   });
 }
 

@@ -111,8 +111,8 @@ carreau_status BrepHost::add_faces(carreau_session* session) const {
     if (status == CARREAU_OK) status = add_wire(session, w);
   const std::vector<std::string>& names = state_->solids.names;
   for (std::size_t s = 0; s < names.size(); ++s)
-    if (status == CARREAU_OK && !names[s].empty() && state_->solids.has_face(static_cast<int>(s) + 1))
-      status = carreau_model_name_entity(session, 3, static_cast<int32_t>(s + 1), names[s].c_str());
+    if (const auto solid = static_cast<int32_t>(s + 1); status == CARREAU_OK && !names[s].empty() && state_->solids.has_face(solid))
+      status = carreau_model_name_entities(session, 3, 1, &solid, names[s].c_str());
   for (const auto& [piece, whole] : state_->whole_edge)
     if (status == CARREAU_OK) status = carreau_model_part_of_curve(session, piece, whole);
   return status;

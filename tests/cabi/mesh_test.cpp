@@ -418,14 +418,20 @@ TEST_F(MeshFileTest, FacesThatAreLeftOutAreInTheMeshAndInFiles) {
 
 TEST_F(MeshFileTest, EntitiesHaveNamesAndFacesHaveSides) {
   use_paraboloid(0.8);
-  EXPECT_EQ(carreau_model_name_entity(session, 3, 7, "bowl"), CARREAU_ERR_ARGUMENT);  // no face has it
+  const auto name_entity = [this](std::int32_t dimension, std::int32_t ref, const char* name) {
+    return carreau_model_name_entities(session, dimension, 1, &ref, name);
+  };
+  EXPECT_EQ(carreau_model_name_entities(session, 1, -1, nullptr, "rim"), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_name_entities(session, 1, 1, nullptr, "rim"), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_name_entities(session, 1, 0, nullptr, "rim"), CARREAU_OK);
+  EXPECT_EQ(name_entity(3, 7, "bowl"), CARREAU_ERR_ARGUMENT);  // no face has it
   EXPECT_EQ(carreau_model_set_face_sides(session, 1, -1, 0), CARREAU_ERR_ARGUMENT);
   ASSERT_EQ(carreau_model_set_face_sides(session, 1, 7, 0), CARREAU_OK) << error();
-  ASSERT_EQ(carreau_model_name_entity(session, 3, 7, "bowl"), CARREAU_OK) << error();
-  ASSERT_EQ(carreau_model_name_entity(session, 2, 1, "dish"), CARREAU_OK) << error();
-  ASSERT_EQ(carreau_model_name_entity(session, 1, 1, "rim"), CARREAU_OK) << error();
-  EXPECT_EQ(carreau_model_name_entity(session, 1, 99, "rim"), CARREAU_ERR_ARGUMENT);
-  EXPECT_EQ(carreau_model_name_entity(session, 4, 1, "rim"), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(name_entity(3, 7, "bowl"), CARREAU_OK) << error();
+  ASSERT_EQ(name_entity(2, 1, "dish"), CARREAU_OK) << error();
+  ASSERT_EQ(name_entity(1, 1, "rim"), CARREAU_OK) << error();
+  EXPECT_EQ(name_entity(1, 99, "rim"), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(name_entity(4, 1, "rim"), CARREAU_ERR_ARGUMENT);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   std::array<std::int32_t, 2> sides{};
   ASSERT_EQ(carreau_mesh_face_sides(mesh(), 1, sides.data()), CARREAU_OK);

@@ -86,7 +86,7 @@ program model_fortran_test
   ! Names and colours; a run that nobody stops.
   call carreau_model_name_face(session, 2, 'right', status)
   call carreau_model_set_face_sides(session, 2, 5, 0, status)
-  call carreau_model_name_entity(session, 3, 5, 'right half', status)
+  call carreau_model_name_entities(session, 3, [5], 'right half', status)
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_model_color_face(session, 2, int(z'ff8000', c_int32_t), status)
   call check(status == CARREAU_OK, carreau_last_error(session))

@@ -79,7 +79,7 @@ TEST_F(WrapperFiles, FacesHaveNamesColoursAndParts) {
   session.name_face(1, "bowl");
   session.color_face(1, 0x8000ff);
   session.set_face_sides(1, 1, 0);
-  session.name_entity(3, 1, "glass");
+  session.name_entities(3, {1}, "glass");
   wrapper_tests::add_sides(session, 2);
   session.part_of_face(2, 1);
   session.leave_out_face(2, "it is the first one once more");

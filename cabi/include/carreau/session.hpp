@@ -126,8 +126,10 @@ class Session {
   }
   void add_point(int face, int ref, const Point2& uv) { done(carreau_model_add_point(get(), face, ref, uv[0], uv[1])); }
   void name_face(int face, const std::string& name) { done(carreau_model_name_face(get(), face, name.c_str())); }
-  /// Names points (dimension 0), curves (1), a face (2) or a solid (3): entities of one name form a group in files.
-  void name_entity(int dimension, int ref, const std::string& name) { done(carreau_model_name_entity(get(), dimension, ref, name.c_str())); }
+  /// Names points (dimension 0), curves (1), faces (2) or solids (3): entities of one name form a group in files.
+  void name_entities(int dimension, const std::vector<std::int32_t>& refs, const std::string& name) {
+    done(carreau_model_name_entities(get(), dimension, detail::count_of(refs.size()), detail::data_or_null(refs), name.c_str()));
+  }
   /// Solids on both sides of a face, from 1: the one that its triangles look out of, and the other one; 0: none.
   void set_face_sides(int face, int solid, int other_solid) { done(carreau_model_set_face_sides(get(), face, solid, other_solid)); }
   void color_face(int face, int rgb) { done(carreau_model_color_face(get(), face, rgb)); }

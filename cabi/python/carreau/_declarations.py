@@ -940,7 +940,7 @@ CARREAU = {
     "carreau_model_divide_curve_at": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles]),
     "carreau_model_add_point": (c_int32, [c_void_p, c_int32, c_int32, c_double, c_double]),
     "carreau_model_name_face": (c_int32, [c_void_p, c_int32, c_char_p]),
-    "carreau_model_name_entity": (c_int32, [c_void_p, c_int32, c_int32, c_char_p]),
+    "carreau_model_name_entities": (c_int32, [c_void_p, c_int32, c_int64, Int32s, c_char_p]),
     "carreau_model_set_face_sides": (c_int32, [c_void_p, c_int32, c_int32, c_int32]),
     "carreau_model_color_face": (c_int32, [c_void_p, c_int32, c_int32]),
     "carreau_model_part_of_face": (c_int32, [c_void_p, c_int32, c_int32]),

@@ -115,9 +115,10 @@ class SessionBase(Studies):
         self._call(lib().set_metric_callbacks, byref(sizes))
         self._sizes.append(sizes)
 
-    def name_entity(self, dimension: int, ref: int, name: str) -> None:
-        """Names points (dimension 0), curves (1), a face (2) or a solid (3). Entities of one name form a group in files."""
-        self._call(lib().model_name_entity, dimension, ref, name.encode())
+    def name_entities(self, dimension: int, refs: ArrayLike, name: str) -> None:
+        """Names points (dimension 0), curves (1), faces (2) or solids (3). Entities of one name form a group in files."""
+        numbers = np.atleast_1d(np.asarray(refs, np.int32))
+        self._call(lib().model_name_entities, dimension, len(numbers), numbers, name.encode())
 
     def set_face_sides(self, face: int, solid: int, other_solid: int = 0) -> None:
         """Sets the solids on both sides of a face, from 1: the one that its triangles look out of, and the other one; 0: none."""

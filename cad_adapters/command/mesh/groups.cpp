@@ -66,8 +66,10 @@ std::vector<std::string> set_groups(carreau_session* session, const CadInput& in
   }
   for (const Groups* more : {&around_solids, &by_rules})
     for (const auto& [entity, name] : *more) groups[entity] = name;
-  for (const auto& [entity, name] : groups)
-    require(session, carreau_model_name_entity(session, entity.first, entity.second, name.c_str()));
+  std::map<std::pair<int, std::string>, std::vector<std::int32_t>> members;
+  for (const auto& [entity, name] : groups) members[{entity.first, name}].push_back(entity.second);
+  for (const auto& [group, refs] : members)
+    require(session, carreau_model_name_entities(session, group.first, static_cast<std::int64_t>(refs.size()), refs.data(), group.second.c_str()));
   return sentences;
 }
 
