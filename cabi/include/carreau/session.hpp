@@ -128,7 +128,7 @@ class Session {
   void name_face(int face, const std::string& name) { done(carreau_model_name_face(get(), face, name.c_str())); }
   /// Names points (dimension 0), curves (1), faces (2) or solids (3): entities of one name form a group in files.
   void name_entities(int dimension, const std::vector<std::int32_t>& refs, const std::string& name) {
-    done(carreau_model_name_entities(get(), dimension, detail::count_of(refs.size()), detail::data_or_null(refs), name.c_str()));
+    done(carreau_model_name_entities(get(), dimension, detail::count_of(refs.size()), refs.data(), name.c_str()));
   }
   /// Solids on both sides of a face, from 1: the one that its triangles look out of, and the other one; 0: none.
   void set_face_sides(int face, int solid, int other_solid) { done(carreau_model_set_face_sides(get(), face, solid, other_solid)); }
