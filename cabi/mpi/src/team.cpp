@@ -13,7 +13,7 @@ using namespace carreau_mpi;
 
 namespace {
 
-/// What the callbacks of carreau_team reach. Lives until the session releases it.
+/// The data that the callbacks of carreau_team reach. Lives until the session releases it.
 class MpiTeam {
  public:
   explicit MpiTeam(std::int32_t handle) : comm_(handle) {
