@@ -391,7 +391,7 @@ class Mesh(unittest.TestCase):
         self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % of the run: meshing faces, face 1")
 
     def interrupt(self, *options, after="", delay=0.05, number=signal.SIGINT):
-        """Exit code, and what was told after the line with `after` ("": at once)."""
+        """Exit code, and the output after the line with `after` ("": at once)."""
         process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "-o", self.out("a.msh"), *options],
                                    stderr=subprocess.PIPE, text=True)
         for line in process.stderr if after else ():

@@ -39,7 +39,8 @@ struct MeasuredMesh {
   double seconds = 0;
   std::int64_t surface_calls = 0;
 
-  /// "" for a mesh of all faces without a defect; else what is wrong, short. `closed`: open edges are wrong.
+  /// "" for a mesh of all faces without a defect; else a short description of the fault. `closed`: open edges are
+  /// wrong.
   [[nodiscard]] std::string trouble(bool closed) const;
 };
 

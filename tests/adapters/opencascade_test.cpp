@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
+// CAD shapes through the adapter and the C interface, against OpenCASCADE's measures.
 #include <extent.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

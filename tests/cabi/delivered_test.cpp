@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was delivered, through the C interface.
+// Measures of the delivered mesh, through the C interface.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -127,7 +127,7 @@ TEST_F(FieldsTest, NeedAGeometryAndAModel) {
   EXPECT_EQ(error(), "the model has no face yet");
 }
 
-// What the owner of a patch that failed has: a host that goes wrong from some call on.
+// The case of the owner of a failed patch: a host that goes wrong from some call on.
 TEST_F(FieldsTest, OfAFailedRunShowWhatTheHostAnswers) {
   use_paraboloid(0.5);
   host.misbehaviour = HOST_NAN;
