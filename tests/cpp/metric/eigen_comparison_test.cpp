@@ -94,7 +94,7 @@ struct Graded {
       : m{4, s, s * s, 4 * s * s, s * s * s, 4 * s * s * s * s},
         determinant(54 * std::pow(s, 6)),
         trace_of_inverse(5 / 18. * (1 + 1 / (s * s) + 1 / (s * s * s * s))) {}
-  /// Of eigenvalues, whose product and sum of inverses are known.
+  /// The error of eigenvalues, whose product and sum of inverses are known.
   [[nodiscard]] double error_of(double p, double q, double r) const {
     return std::max(error(p * q * r, determinant), error(1 / p + 1 / q + 1 / r, trace_of_inverse));
   }
