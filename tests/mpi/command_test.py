@@ -39,7 +39,7 @@ def same_files(folder):
         done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, *options, "-o", many, "-o", f"{folder}/many{i}.pvtu")
         assert done.returncode == first.returncode == 0, done.stdout + done.stderr
         assert content(one) == content(many), options
-        # One rank speaks.
+        # One rank prints.
         assert (done.stdout + done.stderr).count("32 faces, 128 sides") == 1, done.stdout + done.stderr
     assert not glob.glob(f"{folder}/.carreau-*"), os.listdir(folder)
     if VTK != "NONE":
@@ -96,7 +96,7 @@ def same_triangles(folder):
     done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", torus, "--size", TRIANGLES_SIZE, "-o", many)
     assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
     assert content(one) == content(many)
-    # What takes no byte is told by one rank, and stays what it is. Full disks: full_disk of ranks_program.
+    # One rank reports a file that takes no byte, and the file does not change. Full disks: full_disk of ranks_program.
     full = f"{folder}/full.meshb"
     os.symlink("/dev/full", full)
     done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", torus, "--size", "0.3", "-o", full, "-q")
@@ -134,7 +134,7 @@ def same_adaptations(folder):
         done = mpirun.run(MPIRUN, RANKS, CARREAU, "adapt", square, *ADAPTATION, *options, "-o", many)
         assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
         assert content(one) == content(many), options
-    # By files: what is estimated, and the fields on the next mesh.
+    # Adaptation by files: the estimate, and the fields on the next mesh.
     alone("plane", square, "--size", "0.05", "-o", f"{folder}/last.mesh")
     write_fields(f"{folder}/last.mesh", f"{folder}/last.sol")
     by_files = ["adapt", square, "--mesh", f"{folder}/last.mesh", "--sol", f"{folder}/last.sol", "--min", "0.01"]

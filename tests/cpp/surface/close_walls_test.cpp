@@ -65,7 +65,7 @@ Intersections all_crossings(const SurfaceMesh& mesh) {
 }
 std::int64_t crossings(const SurfaceMesh& mesh) { return all_crossings(mesh).count; }
 
-// What meshing has found is what a search in its mesh finds.
+// The crossings that meshing has found equal the result of a search in its mesh.
 void expect_known(const Session& session) {
   const Intersections found = all_crossings(session.mesh());
   ASSERT_TRUE(session.knows_crossings(found.pairs.size()));
@@ -108,7 +108,7 @@ TEST(CloseWalls, ThatCrossOrCoincideThemselvesStayAsTheyAre) {
     const auto as_it_is = meshed(cad, 0, 1, monitor), tried = meshed(cad, 10, 1, monitor);
     EXPECT_GT(crossings(as_it_is->mesh()), 0);
     EXPECT_TRUE(equal(as_it_is->mesh(), tried->mesh()));
-    EXPECT_FALSE(as_it_is->knows_crossings(0));  // nobody has looked
+    EXPECT_FALSE(as_it_is->knows_crossings(0));  // no search yet
     expect_known(*tried);
   }
 }

@@ -53,7 +53,7 @@ struct Square {
   std::optional<MeshRounds> rounds;
 };
 
-/// Requests the same thing a number of times, and judges as it is told.
+/// Requests the same thing a number of times, and judges by a script.
 class Scripted final : public Inspector {
  public:
   int rounds = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large domains are meshed in pieces: no measure tells where these have met.
+// Large domains are meshed in pieces: no measure shows where these have met.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

@@ -65,7 +65,7 @@ struct Curved {
 };
 
 /// Largest difference between a function of space and its interpolation, over all elements; exact points of the surface
-/// are those of (u, v) interpolated in the same way.
+/// are at (u, v) interpolated in the same way.
 double interpolation_error(const Curved& run, const std::function<double(const Vec3&)>& field) {
   double worst = 0;
   for (const FaceMesh& face : run.mesh().faces)
