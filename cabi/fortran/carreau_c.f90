@@ -668,7 +668,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_run_env
 
-    !> Tells what that run did.
+    !> Gives the report of that run.
     function c_session_report(session, report) result(status) bind(c, name="carreau_session_report")
       import :: c_int32_t, c_ptr, c_report
       implicit none
@@ -1178,7 +1178,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_intersections
 
-    !> Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images.
+    !> Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
+    !! images.
     function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")
       import :: c_char, c_exr_options, c_int32_t, c_ptr
       implicit none

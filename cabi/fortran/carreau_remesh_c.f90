@@ -28,7 +28,7 @@ module carreau_remesh_c
     real(c_double) :: reach = 0
   end type c_remesh_input
 
-  !> What happened.
+  !> The events of a remeshing.
   type, bind(c) :: c_remesh_summary
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, boundary_edges = 0, bound_vertices = 0, free_vertices = 0, &

@@ -234,7 +234,7 @@ typedef struct carreau_cad {
 } carreau_cad;
 
 /* Registers the callbacks in place of earlier ones of this call or of carreau_set_cad_m; geometries that were added
- * (carreau_geometry.h) stay. Copies the struct, but not what `user` points to.
+ * (carreau_geometry.h) stay. Copies the struct, but not the target of `user`.
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
@@ -559,7 +559,7 @@ typedef struct carreau_report {
   double seconds_curves, seconds_sampling, seconds_plane, seconds_lift, seconds_total;
 } carreau_report;
 
-/* Tells what that run did. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Gives the report of that run. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report);
 
 /* ---- Interfaces: the curves of the last mesh in space ---- */
@@ -1051,12 +1051,12 @@ typedef struct carreau_exr_options {
   int32_t reserved;    /* 0 */
 } carreau_exr_options;
 
-/* Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images. From
- * "a/x.exr" it makes the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns go from the
- * smallest u to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low, uv.high),
- * the reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>), the first
- * triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the version of
- * the library. `options` may be NULL, which means all zero.
+/* Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
+ * images. From "a/x.exr" it makes the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns
+ * go from the smallest u to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low,
+ * uv.high), the reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>),
+ * the first triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the
+ * version of the library. `options` may be NULL, which means all zero.
  *
  * From "a/x.png" it makes pictures a/x.face.<ref>.png, or a/x.png with `face`: the preview over white, 8 bits of sRGB.
  * They need no OpenEXR; a library that was built without it rejects .exr files (FILE).

@@ -89,7 +89,7 @@ typedef struct carreau_remesh_input {
                                   tool by less in an increment never comes off */
 } carreau_remesh_input;
 
-/* What happened. */
+/* The events of a remeshing. */
 typedef struct carreau_remesh_summary {
   size_t struct_size;
   int64_t vertices, triangles, boundary_edges;

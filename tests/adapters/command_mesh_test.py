@@ -318,7 +318,7 @@ class Mesh(unittest.TestCase):
         self.assertAlmostEqual(fine / (24 / (math.sqrt(3) / 4 * 0.1**2)), 1, delta=0.05)
 
     def test_narrow_faces_that_are_asked_for_have_the_ratio_of_the_library(self):
-        # 9e-4 of the size: more than what vanishes unasked, less than a tenth.
+        # 9e-4 of the size: more than the width that always vanishes, less than a tenth.
         sliver = os.path.join(SHAPES, "sliver.step")
         env = self.out("narrow.env")
         with open(env, "w", encoding="utf-8") as file:

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! Module carreau: the same paraboloid as in C, bit for bit; base 1; texts; callbacks; errors.
+! Module carreau: a mesh of the paraboloid identical to the mesh in C; base 1; texts; callbacks; errors.
 module paraboloid_m
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
   use carreau

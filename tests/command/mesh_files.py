@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Independent readers of what `carreau mesh` writes: vertices, triangles with the name or reference of their face."""
+"""Independent readers of the files of `carreau mesh`: vertices, triangles with the name or reference of their face."""
 import base64
 import math
 import struct

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""`mpirun carreau mesh` and `adapt` write what one process writes, byte for byte; VTK reads every triangle of the .pvtu once; a rank
-that is killed leaves no file.
+"""`mpirun carreau mesh` and `adapt` write the files of one process, byte for byte; VTK reads every triangle of the .pvtu once; a
+rank that is killed leaves no file.
 
     command_test.py <mpirun> <ranks> <carreau> <teapot.bpt> <python with VTK, or NONE>
 """
@@ -47,7 +47,8 @@ def same_files(folder):
 
 
 def same_parts(folder):
-    """Each rank keeps its part. The teapot's spout crosses its body: what crosses is found, and meshed again in vain, in parts, too."""
+    """Each rank keeps its part. The teapot's spout crosses its body: crossing triangles are found, and meshed again in vain, in parts,
+    too."""
     for i, options in enumerate([["--size", "0.15"], ["--angle", "12", "--set", "crossing_rounds=3"]]):
         one, many = f"{folder}/one{i}.meshb", f"{folder}/many{i}.meshb"
         first = alone("mesh", TEAPOT, *options, "-o", one, "-o", f"{folder}/one{i}.vtu")

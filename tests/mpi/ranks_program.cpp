@@ -72,7 +72,7 @@ void same_meshes() {
   same({"failing_faces=leave_out"}, Fault::status_inside);
 }
 
-// One face of 285 000 triangles, whose pieces are dealt out.
+// One face of 285 000 triangles, whose pieces are distributed.
 std::vector<std::string> one_large_face{"hphydef=0.003"};
 // The same inside a boundary that promises a third of that.
 void bulge_inside() {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""readers.py READER CARREAU TEAPOT.BPT: other programs read what `carreau mesh` writes: the same vertices, triangles, references and names.
+"""readers.py READER CARREAU TEAPOT.BPT: other programs read the files of `carreau mesh`: the same vertices, triangles, references and
+names.
 
 READER is vtk (whose readers ParaView uses), gmsh or meshio. --has READER: exit status 0 when this Python has it."""
 import importlib

@@ -36,8 +36,9 @@ struct Interval {
 /// The callbacks of carreau_cad. `face` is the reference of a face, `ic` the rank of a curve in it, from 1. An exception ends the
 /// run; std::nullopt does not answer. Data that callbacks use must live as long as the session and its meshes.
 struct Geometry {
-  int surface_order = 0;  ///< what `surface` and `surface_batch` can give: 0, 1 or 2; the rest is found by finite differences
-  int curve_order = 0;    ///< what `curve` can give
+  int surface_order = 0;  ///< order that `surface` and `surface_batch` can give: 0, 1 or 2; the rest is found by finite
+                          ///< differences
+  int curve_order = 0;    ///< order that `curve` can give
   bool reentrant = false; ///< true: callbacks may come from several threads at a time
   std::function<SurfacePoint(int face, double u, double v, int order)> surface{}; ///< needed, unless surface_batch is given
   std::function<void(int face, std::span<const Point2> uv, int order, const SurfaceRows& out)> surface_batch{};

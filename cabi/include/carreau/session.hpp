@@ -56,7 +56,7 @@ struct SessionState {
   carreau_session* session = nullptr;
   std::shared_ptr<Faults> faults = std::make_shared<Faults>(); ///< of geometry, sizes, metrics and fields
   Faults talk;                                                 ///< of messages and progress
-  std::vector<std::unique_ptr<HeldMetrics>> metrics; ///< earlier ones, too: meshes are measured by what made them
+  std::vector<std::unique_ptr<HeldMetrics>> metrics; ///< earlier ones, too: the callbacks of a mesh measure it
   std::function<void(int level, std::string_view text)> message;
   std::function<bool(int phase, int entity, double fraction)> progress;
 

@@ -109,12 +109,12 @@ void write_pvtu(const Communicator& comm, const std::string& path, const std::fu
     throw;
   }
   together(comm, [&] { give_name(piece); });
-  together(comm, [&] {  // what names the pieces appears when they are all there
+  together(comm, [&] {  // the file that names the pieces appears when they are all there
     if (comm.rank() == 0) give_name(path);
   });
 }
 
-/// The bytes of a file that are one rank's: what all encode is the same.
+/// The bytes of a file that belong to one rank: all ranks encode equal bytes.
 struct Slice {
   std::int64_t begin = 0, end = 0;
   std::int64_t total = 0;

@@ -211,11 +211,11 @@ class Geometries:
         """Leaves a face out of the mesh, for a reason; "" takes it in again."""
         self._call(lib().model_leave_out_face, face, why.encode())
 
-    # ---- what there is ----
+    # ---- content ----
 
     @property
     def geometries(self) -> list[Geometry]:
-        """Those that were added, and which references of the session are theirs."""
+        """The added geometries, with their references of the session."""
         count = counted(lambda out: self._call(lib().geometry_count, out))
         return [asked(c.carreau_geometry, lambda out, k=k: self._call(lib().geometry_info, k, out))  # type: ignore[misc]
                 for k in range(count)]

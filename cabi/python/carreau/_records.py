@@ -286,7 +286,7 @@ class TrianglesReport(NamedTuple):
 
 
 class RemeshSummary(NamedTuple):
-    """What happened."""
+    """The events of a remeshing."""
 
     vertices: int
     triangles: int

@@ -101,7 +101,8 @@ class _Watcher:
 
 @contextmanager
 def _listening(host: Host) -> Iterator[Callable[[], None]]:
-    """Gives what raises KeyboardInterrupt, as the program's own handler would, when Ctrl-C was pressed meanwhile."""
+    """Gives a function that raises KeyboardInterrupt, as the program's own handler would, when Ctrl-C was pressed
+    meanwhile."""
     before = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(before):
         yield lambda: None

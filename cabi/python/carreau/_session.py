@@ -143,7 +143,7 @@ class SessionBase(Studies):
     # ---- runs ----
 
     def _long(self, function: Callable[..., int], *arguments: Any) -> None:
-        """As _call, for what may take long: Ctrl-C is heard."""
+        """As _call, for calls that may take long: Ctrl-C is heard."""
         if not self._close.alive:
             raise ValueError("the session is closed")
         status = run(self._host, lambda: function(self._handle, *arguments))
@@ -180,7 +180,7 @@ class SessionBase(Studies):
         if self._close.alive:
             lib().stop(self._handle)
 
-    # ---- what came of it ----
+    # ---- results ----
 
     @property
     def report(self) -> Report:

@@ -211,9 +211,9 @@ class Studies:
 
     def write_fields(self, path: Path, *, longest: int = 0, width: int = 0, height: int = 0, channels: Any = (), face: int = 0,
                      multi_part: bool = False, raw: bool = False, piz: bool = False, threads: int = 0) -> None:
-        """Writes what governed the mesh of each face as images .exr, or its preview as .png; docs/how-to/see_sizes.md has the
-        channels, whose groups are "size", "induced", "target", "curvature", "position", "normal", "deviation",
-        "triangle", "mask" and "preview" (none given: all)."""
+        """Writes the fields that governed the mesh of each face as images .exr, or its preview as .png;
+        docs/how-to/see_sizes.md has the channels, whose groups are "size", "induced", "target", "curvature", "position",
+        "normal", "deviation", "triangle", "mask" and "preview" (none given: all)."""
         chosen = sum(_one_of(CHANNELS, each, "a channel") for each in channels)
         self._run(lib().write_exr, file_name(path), byref(struct(
             c.carreau_exr_options, longest=longest, width=width, height=height, channels=chosen, face=face,

@@ -116,12 +116,12 @@ def _is_wrapped(given: Any, name: str) -> bool:
 
 
 def _is_assembly(given: Any) -> bool:
-    """Of CadQuery."""
+    """True for an assembly of CadQuery."""
     return callable(getattr(given, "toCompound", None)) and hasattr(given, "children")
 
 
 def _is_workplane(given: Any) -> bool:
-    """Of CadQuery."""
+    """True for a workplane of CadQuery."""
     return callable(getattr(given, "vals", None)) and callable(getattr(given, "val", None))
 
 

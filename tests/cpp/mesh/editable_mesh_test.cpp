@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edits keep the topology, the imposed edges and the adjacency, and can be undone bit for bit.
+// Edits keep the topology, the imposed edges and the adjacency, and can be undone exactly.
 #include "mesh/editable_mesh.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ std::vector<std::int32_t> all_vertices(const SurfaceMesh& mesh) {
   return all;
 }
 
-/// Vertices - edges + triangles of what collapses have left.
+/// Vertices - edges + triangles after collapses.
 int euler_number(const SurfaceMesh& mesh) {
   std::set<std::int32_t> vertices;
   std::set<Edge> edges;

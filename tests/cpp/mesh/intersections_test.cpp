@@ -78,7 +78,7 @@ std::vector<Exact> clipped(const std::vector<Exact>& polygon, const Plane& plane
 
 bool equal(const Exact& p, const Exact& q) { return p.n == q.n; }
 
-/// The definition: corners of the common part, of which one is no point of what corners that both have span.
+/// The definition: corners of the common part, of which one lies outside of the span of the common corners.
 bool cross_by_definition(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
   std::array<Exact, 3> corner;
   for (int i = 0; i < 3; ++i) corner[i] = exact(t[i]);

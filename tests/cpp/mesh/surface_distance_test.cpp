@@ -234,7 +234,7 @@ TEST(SurfaceDistance, OfMeshesThatHangTogetherIsThatOfTheirTriangles) {
   EXPECT_EQ(bounds(coarse, fine).upper, bounds(coarse, fine, 0.01, 3).upper);
 }
 
-// The same triangles with and without common vertices, at random: no bound is below what samples see.
+// The same triangles with and without common vertices, at random: no bound is below the distances of samples.
 TEST(SurfaceDistance, HeightsHoldOverRandomRelief) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> height(-0.1, 0.1), way(-0.03, 0.03);

@@ -160,7 +160,8 @@ TEST(Reduction3, BothTensorsComeBack) {
     const Metric3 p = random.metric(), q = random.metric();
     const Reduction3 r = reduce(p, q);
     EXPECT_LE(distance(compose({{1, 1, 1}, r.axis}), p), 1e-14);
-    EXPECT_LE(distance(compose({r.ratio, r.axis}), q), 1e-9) << k;  // p of condition 1e12 multiplies what rounding left
+    EXPECT_LE(distance(compose({r.ratio, r.axis}), q), 1e-9) << k;  // p of condition 1e12 multiplies the rounding
+                                                                    // errors
     EXPECT_GT(r.ratio[2], 0);
   }
 }

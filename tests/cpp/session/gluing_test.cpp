@@ -206,7 +206,8 @@ TEST(Gluing, FindsWhatTwoShiftedSidesShare) {
   EXPECT_NEAR(summarise_quality(run.session.exported()).area, 4, 1e-12);
 }
 
-// The smaller tolerance is below what circles bulge off their polylines: the end of one lies on the other all the same.
+// The smaller tolerance is below the bulge of circles off their polylines: the end of one lies on the other all the
+// same.
 TEST(Gluing, ClosesACylinderWhoseLidStartsElsewhere) {
   constexpr double two_pi = 2 * std::numbers::pi;
   for (const double eps : {1e-3, 1e-7}) {

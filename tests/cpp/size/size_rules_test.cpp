@@ -248,7 +248,8 @@ TEST(SizeRules, PolesTakeTheRadiusBesideThem) {
 }
 
 TEST(SizeRules, ASeamCountsOncePerUseAndItsEndOncePerCorner) {
-  // A cylinder whose lower circle touches a plane: at the seam's foot the cylinder has two corners, the plane one.
+  // A cylinder whose lower circle touches a plane: at the lower end of the seam the cylinder has two corners, the plane
+  // one.
   AnalyticCad cad;
   cad.surfaces[1] = cylinder(1);
   cad.surfaces[2] = flat();

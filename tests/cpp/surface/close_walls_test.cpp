@@ -93,8 +93,8 @@ TEST(CloseWalls, ThatCrossByTheirChordsAreParted) {
     const auto parted = meshed(cad, 10, 1, monitor);
     EXPECT_EQ(crossings(parted->mesh()), 0);
     EXPECT_TRUE(equal(parted->mesh(), meshed(cad, 10, 4, monitor)->mesh()));
-    // An edge of length h leaves the sphere by h^2 / 8, a triangle by h^2 / 6: no need of edges below half of what
-    // parts the walls.
+    // An edge of length h leaves the sphere by h^2 / 8, a triangle by h^2 / 6: edges need not be below half of the
+    // distance of the walls.
     const double h = std::sqrt(6 * gap) / 2, area = 4 * pi * (1 + (1 - gap) * (1 - gap));
     EXPECT_LT(static_cast<double>(parted->mesh().triangle_count()), area / (std::sqrt(3.) / 4 * h * h));
   }

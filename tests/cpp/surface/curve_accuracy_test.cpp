@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges of curves against their curves (HDR sec. 2.6): A0 and A1 in closed form, limits, and what geo_guarantee keeps.
+// Edges of curves against their curves (HDR sec. 2.6): A0 and A1 in closed form, limits, and the guarantee of
+// geo_guarantee.
 #include <gtest/gtest.h>
 
 #include <algorithm>

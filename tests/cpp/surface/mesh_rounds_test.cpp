@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop over whole meshes: what inspectors request is meshed, and the best mesh stays.
+// The loop over whole meshes: requests of inspectors are meshed, and the best mesh stays.
 #include "pipeline/mesh_rounds.h"
 
 #include <gtest/gtest.h>

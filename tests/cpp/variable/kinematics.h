@@ -13,7 +13,7 @@ namespace carreau::testing {
 class Kinematics {
  public:
   virtual ~Kinematics() = default;
-  /// The state with the next increment added: what remesh() gets.
+  /// The state with the next increment added: the input of remesh().
   virtual const variable::RemeshInput& advance() = 0;
   /// Takes the result of the remeshing.
   void accept(variable::RemeshResult result) {

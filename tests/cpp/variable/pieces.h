@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces to deform, and what every remeshed piece must be.
+// Pieces to deform, and checks of every remeshed piece.
 #pragma once
 
 #include <functional>

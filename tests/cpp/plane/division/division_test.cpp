@@ -64,7 +64,7 @@ PlaneCase two_squares(double h) {
 
 class Divided : public ::testing::TestWithParam<Large> {};
 
-// A fifth of a percent of degrees, a thousandth of mean shape and length: what another seed of the boundary does.
+// A fifth of a percent of degrees, a thousandth of mean shape and length: the effect of another seed of the boundary.
 TEST_P(Divided, IsAsGoodAsInOnePiece) {
   const PlaneCase c = GetParam().make(GetParam().size);
   const ControlSpace space = control_space(c);

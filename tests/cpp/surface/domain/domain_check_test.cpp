@@ -268,7 +268,7 @@ TEST(OrientLoops, RefusesWhatIsNoDomain) {
 }
 
 TEST(OrientLoops, FollowsTheLargerPartOfABoundaryThatCrossesItself) {
-  // A disc with a small reversed curl next to the seed: turned as the disc is, so that refinement can mend it.
+  // A disc with a small reversed curl next to the seed: turned as the disc is, so that refinement can repair it.
   std::vector<Vec2> loop = circle(40, {0, 0}, 10);
   std::swap(loop[0], loop[1]);
   PlaneDomain domain = polygon(loop);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements of all kinds on meshes that are independent of their patches: sound, closed, on the surface, valid, of the order
-// that they promise.
+// Elements of all kinds on cross-patch meshes: sound, closed, on the surface, valid, of the expected order.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -517,7 +517,7 @@ TEST(GradedModel, IsTheSameEachTime) {
   }
 }
 
-// The unit of length is the host's: multiples by a power of two have the same mesh, bit for bit.
+// The unit of length is the host's: multiples by a power of two have an identical mesh.
 TEST(GradedModel, IsTheSameInAnyUnitOfLength) {
   for (const int anisotropic : {0, 1}) {
     std::vector<Vec3> one;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes free of patches are within the tolerances of A0 and A1, by upper bounds: where sizes are as large as the surface bends, too.
+// Cross-patch meshes are within the tolerances of A0 and A1, by upper bounds, also if sizes are as large as the surface bends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -105,7 +105,7 @@ TEST(Certification, FacesTellWhatIsBeyond) {
   EXPECT_EQ(beyond.front().worst, shares(*before).spread.max);
 }
 
-// Whichever sides of the seam triangles at the apex are on: no normal of a cone is turned against theirs, and they are many enough.
+// On both sides of the seam, triangles at the apex agree with the normals of the cone, and they are many enough.
 TEST(Certification, ApexOfACone) {
   std::int64_t beyond = 0;
   for (const double radius : {1.2, 2.})

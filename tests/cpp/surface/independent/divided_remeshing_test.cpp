@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large meshes made anew in parts: identical whoever makes them, and no measure shows where parts have met.
+// Large meshes made anew in parts: they do not depend on the process that makes them, and no measure shows where parts
+// have met.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

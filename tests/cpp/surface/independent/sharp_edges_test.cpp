@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;
 
-/// A prism along y, 4 long, over the polyline of (x, z); its ends and its foot are open. Strips have references 1, 2...
+/// A prism along y, 4 long, over the polyline of (x, z); its ends and its base are open. Strips have references 1, 2...
 AnalyticCad folded_sheet(const std::vector<Vec2>& profile) {
   AnalyticCad cad;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {

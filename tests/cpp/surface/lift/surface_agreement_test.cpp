@@ -93,7 +93,7 @@ TEST(BoundOfLean, DoesNotDependOnALinearChangeOfParameters) {
 
 // ---- meshes ----
 
-/// z = f over a square of side 2, as a function of what f, its first and its second derivatives are.
+/// z = f over a square of side 2, as a function of f and its first and second derivatives.
 struct Graph {
   const char* name;
   std::array<double, 6> (*at)(double x, double y);  // f, fx, fy, fxx, fxy, fyy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundaries that no refinement can mend, or that need none: curves are not cut for ever, and not for nothing.
+// Boundaries that no refinement can repair, or that need none: curves are not cut for ever, and not for nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

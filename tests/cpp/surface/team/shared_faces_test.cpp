@@ -50,7 +50,7 @@ Made made(const Settings& settings, bool sizes, const std::function<void(Session
   return result;
 }
 
-/// The link of one of several threads, and what each of them makes.
+/// The link of one of several threads, and the result of each.
 std::vector<Made> made_together(int processes, const Settings& settings, bool sizes) {
   std::vector<Made> all(static_cast<std::size_t>(processes));
   testing::CommonOfThreads common(processes);
