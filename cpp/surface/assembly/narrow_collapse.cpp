@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int32_t unknown = -1;
 
-/// What changes when faces vanish.
+/// The parts of the result that change when faces vanish.
 struct Outcome {
   SurfaceMesh mesh;
   std::vector<double> vertex_size;
@@ -220,7 +220,7 @@ std::size_t count_defects(const SurfaceMesh& mesh) {
   return find_defects(mesh, {.closed = false, .limit = std::numeric_limits<std::size_t>::max()}).size();
 }
 
-/// Whether an edge away from curves has triangles of several faces: two patches that touch by it.
+/// Returns whether an edge away from curves has triangles of several faces, so that two patches touch by it.
 bool has_shared_chords(const SurfaceMesh& mesh) {
   std::set<Edge> on_curves;
   for (const CurveMesh& curve : mesh.curves)

@@ -20,8 +20,8 @@ struct FaceCollapse {
   std::vector<int> curves;                     ///< indices of curves all of whose vertices become one
 };
 
-/// Lets faces vanish from a mesh. A set of vertices becomes its first one, so that corners stay where they are; curves
-/// that coincide become one, of the reference of the first, with the uses of all. Statuses and sentences of faces are
+/// Lets faces vanish from a mesh. A set of vertices becomes its first one, so that corners stay in place. Curves that
+/// coincide become one curve, with the reference of the first and the uses of all. Statuses and sentences of faces are
 /// set.
 
 /// All faces, where neighbours were meshed without their end caps. False, and nothing done, when the mesh would have a

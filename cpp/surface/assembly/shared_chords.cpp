@@ -18,12 +18,12 @@ namespace {
 // Halvings of the interval that holds the middle of a chord in space: a 64th of it. [tests/cpp/surface:
 // Coarse.TwoSheetsOverOneSquareEncloseAVolume, as below]
 constexpr int middle_steps = 6;
-// Passes, each of which divides the chords that are left; a division may make another one.
+// Passes. Each one divides the remaining chords, and a division may create a new chord.
 constexpr int chord_passes = 10;
 
 using Key = std::array<std::int64_t, 2>;
 
-// Of vertices of space: those inside faces begin here.
+// Keys of vertices of space: vertices inside faces begin here.
 constexpr std::int64_t first_inside = std::int64_t{1} << 62;
 
 using Local = std::array<std::int32_t, 2>;  // vertices of a patch, ascending
@@ -66,7 +66,8 @@ void get(PacketReader& packet, Corners& corners) {
   corners.triangle = static_cast<std::size_t>(packet.integer());
 }
 
-/// Those of other processes behind one's own. `shown`: what others may have, too.
+/// Appends the items of other processes to the local items. `shown` selects the items that other processes may have,
+/// too.
 template <typename Item, typename Shown>
 void add_of_others(Team& team, std::string_view step, const Shown& shown, std::vector<Item>& items) {
   PacketWriter packet;
@@ -177,7 +178,7 @@ class Separator {
     return first_inside + (static_cast<std::int64_t>(f) << face_bit) + v;
   }
 
-  // Vertices of space, before they have numbers in the mesh: corners, then those of curves.
+  // Collects vertices of space before the mesh numbers them: corners first, then vertices of curves.
   void number_vertices() {
     identity_.resize(patches_.size());
     several_.resize(patches_.size());
@@ -224,8 +225,8 @@ class Separator {
     std::sort(curve_edges_.begin(), curve_edges_.end());
   }
 
-  // Edges that are no chords: imposed ones, and the two long sides of a triangle on a degenerate edge, which fall on
-  // each other when that triangle is flattened.
+  // Edges that are not chords: imposed edges, and the two long sides of a triangle on a degenerate edge. These two
+  // sides coincide when that triangle is flattened.
   [[nodiscard]] std::vector<Local> edges_to_keep(int f) const {
     std::vector<Local> imposed, flat;
     for (const PlaneEdge& edge : domains_.domain[f]->plane.edges) {

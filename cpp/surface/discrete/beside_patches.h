@@ -12,10 +12,10 @@
 
 namespace carreau {
 
-/// Of the progress of a run over patches and triangles.
+/// Share of the progress of a run over patches and triangles.
 inline constexpr double share_of_patches = 0.5;
 
-/// Of a mesh of patches and of triangles: what each part of it is by itself. Both have all faces, of which those of the other kind have no triangles.
+/// The two parts of a mesh of patches and triangles, each by itself. Both have all faces; faces of the other kind have no triangles.
 struct PartResults {
   CompositeResult patches, triangles;
   CompositeOptions triangle_options;
@@ -36,9 +36,8 @@ std::shared_ptr<const PartResults> mesh_beside(CompositeResult patches, const Mo
                                                const discrete::DiscreteCad& triangles, Cad& cad,
                                                CompositeOptions options, Monitor& monitor);
 
-/// One mesh of two that share nothing: that of `patches`, behind it that of `triangles`, whose curves and corners are
-/// numbered behind the references `largest`. Faces are in the order of `patches`. What only the parts have stays there:
-/// atlas, spaces, graded field.
+/// Joins two meshes that share nothing: first `patches`, then `triangles`, whose curves and corners are numbered behind
+/// the references `largest`. Faces are in the order of `patches`. Atlas, spaces and graded field stay in the parts.
 CompositeResult beside_each_other(const CompositeResult& patches, const CompositeResult& triangles,
                                   const LargestReferences& largest);
 

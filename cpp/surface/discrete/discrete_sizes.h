@@ -21,7 +21,7 @@ struct MeshSizes {
   std::vector<PlaneMetric> corner;  ///< by triangle and corner, 3 t + k; empty: of no direction
 
   [[nodiscard]] bool by_direction() const noexcept { return !metric.empty(); }
-  /// Of the straight edge between two vertices.
+  /// Length of the straight edge between two vertices.
   [[nodiscard]] double length(const discrete::RefinedMesh& mesh, std::int32_t v, std::int32_t w) const;
   /// sqrt(h1 h2) over a triangle, in the mean.
   [[nodiscard]] double over(const discrete::RefinedMesh& mesh, std::size_t triangle) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges that are long beside what is close to them (HDR sec. 3.3.2).
+// Edges that are long compared with the distance to other edges (HDR sec. 3.3.2).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -220,7 +220,7 @@ class ClosenessCheck {
 };
 
 /// Does the domain lie between the vertex and the point of the edge that is nearest to it (w: 0 the end a, 1 the end
-/// b)? What is close behind the boundary is not meshed.
+/// b)? Parts that are close behind the boundary are not meshed.
 bool ClosenessCheck::sees(const PlaneEdge& e, int vertex, double w) const {
   const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
   if (w > 0 && w < 1) return !bounds(e) || orientation(a, b, p) > 0;

@@ -23,7 +23,7 @@ bool within_span(const Vec2& a, const Vec2& b, const Vec2& p) noexcept {
          p.y() <= std::max(a.y(), b.y());
 }
 
-/// Where a - b and c - d cross properly, to rounding and without overflow.
+/// The point where a - b and c - d cross properly, to rounding and without overflow.
 Vec2 crossing_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const double scale = std::max({std::abs(a.x()), std::abs(a.y()), std::abs(b.x()), std::abs(b.y()), std::abs(c.x()),
                                  std::abs(c.y()), std::abs(d.x()), std::abs(d.y())});
@@ -86,9 +86,9 @@ void keep_one_of_each_pair(std::vector<EdgeConflict>& conflicts) {
   conflicts.erase(std::unique(conflicts.begin(), conflicts.end(), same), conflicts.end());
 }
 
-/// Sweep by M. Shamos and D. Hoey, "Geometric intersection problems" (1976): the order of the edges along a line that
-/// moves to the right (slightly inclined: vertices come in the order of x, then y) is right until the first conflict,
-/// and the two edges of that one are neighbours before. Needs no crossing point, so every step is exact.
+/// Sweep by M. Shamos and D. Hoey, "Geometric intersection problems" (1976). A slightly inclined line moves to the
+/// right, so that vertices come in the order of x, then y. The order of the edges along it is right until the first
+/// conflict, whose two edges are neighbours before. Needs no crossing point, so every step is exact.
 class Sweep {
  public:
   explicit Sweep(const PlaneDomain& domain)

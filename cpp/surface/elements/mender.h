@@ -64,7 +64,7 @@ class Mender {
     return invalid;
   }
 
-  /// What find_below(good_jacobian) has listed.
+  /// Improves the elements that find_below(good_jacobian) has listed.
   void mend() {
     using namespace thresholds::elements;
     if (bad_.empty()) return;
@@ -140,7 +140,7 @@ class Mender {
   }
 
   [[nodiscard]] double worst(std::int32_t node) {
-    double least = thresholds::elements::good_jacobian;  // more is not wanted
+    double least = thresholds::elements::good_jacobian;  // the aim of the search
     for (const std::int32_t c : around(node))
       if (hopeless_[c] == 0) least = std::min(least, self().score(cells_[c]));
     return least;

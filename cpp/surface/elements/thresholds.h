@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of elements: what they are, in which unit, why, and what supports them.
+// Thresholds of elements, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ namespace carreau::thresholds::elements {
 inline constexpr double good_jacobian = 0.2;
 /// Below this an element is not valid: rounding of coefficients is far smaller.
 inline constexpr double least_jacobian = 1e-6;
-/// Of that share, less than which a step of the search is none: an element that grows along one side raises it for ever
-/// by less and less. A step of .01 edges of a regular element changes it by
-/// some .04. [FreeElementsAtCurves.AreValidWhereEdgesTurn]
+/// Gain of that share. The search rejects a step that gains less: an element that grows along one side raises the share
+/// for ever by less and less. A step of .01 edges of a regular element changes it by some .04.
+/// [FreeElementsAtCurves.AreValidWhereEdgesTurn]
 inline constexpr double least_gain = 0.005;
 /// First and last step of the search for a node's place, shares of its edge. The first one reaches over the bulge of an
 /// edge that turns by 90 degrees (its sagitta is a fifth of it).
 inline constexpr double first_step = 0.2, last_step = 0.01;
-/// Rounds over the elements of a face that are not good: each moves what the one before has blocked.
+/// Rounds over the elements of a face that are not good: each round moves nodes that the round before has blocked.
 inline constexpr int most_rounds = 8;
-/// Places that the search of a face tries at most, and for each of its elements. A place costs about as much as a few evaluations of the
-/// surface, so that the search costs no multiple of the mesh. Of eleven CAD models at 4 %, meshes that become good try 11 places per
-/// element at most. [geometry_fuzz grid 164, 182, molecule 61]
+/// Largest number of places that the search of a face tests, and the share of each of its elements. A place costs about as much as a few
+/// evaluations of the surface, so that the search costs no multiple of the mesh. In eleven CAD models at 4 %, meshes that become good need
+/// at most 11 places per element. [geometry_fuzz grid 164, 182, molecule 61]
 inline constexpr std::int64_t most_trials = 3000, most_trials_of_element = 30;
 /// Times that the model is meshed again with half the size beside elements that stay invalid: an edge of a whole circle
 /// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
@@ -32,10 +32,9 @@ inline constexpr int most_divisions_of_quads = 6;
 /// Between the ways that two edges of curves take from a corner of an invalid element: that is a cusp. As parabolas
 /// they turn by their bends, a tenth and more of a radian.
 inline constexpr double sine_of_cusp = 0.1;
-/// Share of an edge that its node is drawn away from a cusp. Of circles that touch, parabolas through the middles of
-/// edges of length l leave the corner at no angle, those drawn by s at some
-/// 2 s l times the difference of their curvatures.
-/// [CurvedElements.AreValidAtACusp]
+/// Share of an edge that its node is drawn away from a cusp. If two circles touch, parabolas through the middles of
+/// edges of length l leave the corner at no angle. Parabolas drawn away by s leave it at some 2 s l times the
+/// difference of the curvatures. [CurvedElements.AreValidAtACusp]
 inline constexpr double shift_at_cusp = 0.08;
 /// Times that invalid curved quadrilaterals become two triangles, before which nodes move.
 inline constexpr int most_partings = 4;

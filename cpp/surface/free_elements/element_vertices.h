@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// The surface under a free mesh. Sizes are so many times those that the mesh was made with. Keeps references.
+/// The surface under a free mesh. A factor scales the sizes that the mesh was made with. Keeps references.
 class FreeSurface final : public SurfaceAround {
  public:
   FreeSurface(const Charts& charts, Cad& cad) : charts_(charts), cad_(cad) {}
@@ -58,7 +58,7 @@ class ElementVertices final : public PlacedVertices {
 
   std::int32_t add(const SurfacePlace& place, const WantedSize& wanted);
   std::int32_t add_kept(KeptPlaces places, const WantedSize& wanted);
-  /// Of a free vertex.
+  /// Sets the place of a free vertex.
   void put(std::int32_t v, const SurfacePlace& place, const WantedSize& wanted) { place_[v] = place, wanted_[v] = wanted; }
   void scale_sizes(double factor);
 

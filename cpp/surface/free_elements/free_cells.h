@@ -14,8 +14,8 @@
 
 namespace carreau {
 
-/// The cells on their way to elements. Vertices of `quads` are local: of a kept vertex of space there is one for each set of
-/// cells around it that hang together over edges which are not imposed.
+/// The cells on their way to elements. Vertices of `quads` are local. A kept vertex of space has one local vertex for each set of cells
+/// around it that are connected over edges which are not imposed.
 struct FreeCells {
   SpaceQuads quads;
   std::vector<std::int32_t> vertex;  ///< local -> ElementVertices; -1: new, and free
@@ -34,7 +34,7 @@ FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices
 std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQuads& quads,
                                        std::span<const std::int32_t> starts, const Vec3& target);
 
-/// Cuts edges in two, quadrilaterals in four, triangles in three, lines too; sizes are half of what they were.
+/// Cuts edges in two, quadrilaterals in four, triangles in three, lines too, and halves the sizes.
 void halve(FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor);
 
 /// Free vertices go where the cells have them, and new ones are added.

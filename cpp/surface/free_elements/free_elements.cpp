@@ -217,7 +217,7 @@ class FreeElements {
   FreeCells cells_;
   HeldPlaces held_;
   std::vector<std::size_t> stay_;   // of them
-  std::vector<char> of_triangles_;  // by local vertex that triangles had; empty: none of those that stay
+  std::vector<char> of_triangles_;  // by local vertex of the triangles; empty: no such vertex stays
   bool gently_ = false;
 };
 

@@ -14,8 +14,8 @@ namespace carreau::detail {
 using thresholds::grade::graph_share;
 
 // So many layers n between two boundaries, where sizes differ by direction across the gap only. Edges of a unit mesh
-// are up to sqrt(2) sizes long: a way of n - 1 of them does not cross the gap if (n - 1) sqrt(2) h is less than it. Up
-// to three layers a size of gap / n is enough.
+// are up to sqrt(2) sizes long: a way of n - 1 edges does not cross the gap if (n - 1) sqrt(2) h is less than the gap.
+// Up to three layers a size of gap / n is enough.
 void bound_narrow_zones(GradingWork& work) {
   const double layers = work.options.proximity, share = 1 / std::max(layers, (layers - 1) * std::numbers::sqrt2);
   std::vector<double> wanted = work.h;  // diag where nothing is known
@@ -34,7 +34,8 @@ double smallest_size(const GradingWork& work) {
 
 }  // namespace
 
-// As many layers between two faces that face each other: a size of the gap over their number in all directions of both.
+// Bounds sizes between two faces that face each other by the gap over the number of layers, in all directions of both
+// faces.
 void bound_facing_faces(GradingWork& work) {
   std::vector<std::vector<int>> points(work.model.model.faces.size());
   for (const Curve& c : work.model.topology.curves)

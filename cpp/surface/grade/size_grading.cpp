@@ -44,7 +44,7 @@ std::size_t count_long_edges(const GradationGraph& graph, const GraphSizes& size
   return count;
 }
 
-// Where the sizes of a curve are sampled inside an edge of the graph: at equal distances and where they are known.
+// Places where the sizes of a curve are sampled inside an edge of the graph: at equal distances and at known places.
 std::vector<double> between(double from, double to, const std::vector<double>& known) {
   std::vector<double> at;
   for (int i = 1; i < samples_per_edge; ++i)

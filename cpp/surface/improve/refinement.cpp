@@ -80,7 +80,7 @@ class Refinement {
     return is_flat(position(t[0]), position(t[1]), position(t[2]));
   }
 
-  // Those that look wrong from what is known at their corners, or against the mean of the triangles around.
+  // Finds triangles that look wrong from the data at their corners, or against the mean of the triangles around.
   std::vector<int> find_wrong() {
     const std::vector<Triangle>& triangles = mesh_.plane.triangles;
     with_normals_ = mesh_.normal.size() == mesh_.xyz.size();
@@ -157,7 +157,7 @@ class Refinement {
     return deviation(t, jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]])).s) <= kept_.deviation;
   }
 
-  // The largest of an edge's angle and deviation, in shares of what is allowed.
+  // The larger of an edge's angle and deviation, as shares of their limits.
   [[nodiscard]] double excess(int t, std::int32_t a, std::int32_t b) {
     const Vec3 e = position(b) - position(a);
     double share = 0;
@@ -233,8 +233,8 @@ class Refinement {
     return quad(t, static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin()));
   }
 
-  // Across a longest side there may be a longer one, and so on; the last one is divided, so that no thinner triangles
-  // come out than went in (Rivara's path of longest edges).
+  // Across a longest side there may be a longer one, and so on. The last one is divided, so that the new triangles are
+  // not thinner than the old ones (Rivara's path of longest edges).
   bool divide(int t) {
     // Medians of triangles that are narrow already may be much shorter than halves. Share of the shortest edge that is divided.
     constexpr double shortest_median = 0.3;
@@ -242,7 +242,7 @@ class Refinement {
     std::optional<Quad> side = longest_side(t);
     while (side) {
       const auto next = longest_side(side->u);
-      // Of equal lengths the first met counts, or there would be no end.
+      // If lengths are equal the first one counts; otherwise the path would not end.
       if (!next || next->u == side->t || !(length(*next) > length(*side))) break;
       side = next;
     }
@@ -284,7 +284,7 @@ class Refinement {
   GeometricLimits kept_;
   KeptAgreement agreement_;
   bool with_normals_ = false;  // the mesh has them at all vertices
-  bool known_ = false;         // they are compared with those of triangles
+  bool known_ = false;         // they are compared with the normals of triangles
   std::optional<EditableMesh> editable_;
   std::vector<std::uint8_t> depth_;  // by triangle
   Budget left_;                      // divisions

@@ -51,7 +51,7 @@ class Smoothing {
   using Place = EditableMesh::Place;
   struct Known {
     bool tried = false;               // in vain, and nothing around has moved since
-    std::optional<Vec3> normal = {};  // of unit length, or zero where the surface has none; once it was asked
+    std::optional<Vec3> normal = {};  // unit length, or zero where the surface has none; empty before its evaluation
   };
 
   /// The triangles around a vertex that may move.
@@ -77,7 +77,8 @@ class Smoothing {
     for (const Place p : star(v)) worst = std::min(worst, quality_of(p.triangle));
     return worst;
   }
-  // The same of the triangles of order_: the one that told last is asked first. Below `least`, it need not be known.
+  // The worst quality of the triangles of order_. The triangle that decided last comes first. Below `least` the exact
+  // value does not matter.
   [[nodiscard]] double worst_in_order(double least) {
     double worst = 1;
     for (Place& p : order_) {
@@ -122,7 +123,8 @@ class Smoothing {
   }
   [[nodiscard]] static Vec3 normal_of(const SurfaceJet& jet) { return unit_normal(jet).value_or(Vec3{0, 0, 0}); }
 
-  // The least cosine of a triangle's normal and those at its corners; that of a corner without a normal is zero.
+  // The least cosine between a triangle's normal and the normals at its corners; a corner without a normal counts as
+  // zero.
   [[nodiscard]] double agreement(Place p) {
     const Vec3 n = editable_.normal(p);
     const double size = norm(n);

@@ -8,8 +8,8 @@
 namespace carreau {
 
 /// Swaps edges of the region that are not imposed while that raises the worse shape quality of the two triangles, where
-/// one of them is poor. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Whether an
-/// edge was swapped.
+/// one of them is poor. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Returns
+/// whether an edge was swapped.
 bool swap_in_space(const BadRegion& region, const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
                    Monitor& monitor);
 

@@ -38,7 +38,7 @@ class SteepPlaces {
   SteepPlaces(const PatchInput& input, Cad& cad, const PatchMesh& mesh, Monitor& monitor)
       : input_(input), cad_(cad), mesh_(mesh), monitor_(monitor) {}
 
-  // Places whose nearest point of the mesh may be that of the surface.
+  // Finds places whose nearest point of the mesh may be the nearest point of the surface.
   std::vector<Foot> begin(const std::vector<SteepPlace>& places) {
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     double longest = 0;
