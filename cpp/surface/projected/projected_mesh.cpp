@@ -25,7 +25,7 @@ namespace {
 
 using namespace thresholds::projected;
 
-/// What is known of one chart.
+/// The data of one chart.
 struct ChartWork {
   std::vector<std::int32_t> triangles;  // of the atlas
   std::vector<const BorderChain*> chains;
@@ -35,11 +35,11 @@ struct ChartWork {
   bool kept = false;   // its triangles stay as they are
 };
 
-/// What comes of a chart.
+/// The result for a chart.
 struct MadeChart {
   std::string why;                   // there is no mesh
   std::vector<std::int32_t> border;  // vertices of the mesh to come
-  std::vector<SurfacePlace> inner;   // of those that follow
+  std::vector<SurfacePlace> inner;   // places of the vertices that follow
   TriangleList triangles;            // of the chart's own numbers
 };
 
@@ -72,7 +72,7 @@ std::vector<ChartWork> charts_of(const ProjectedCharts& found, const Borders& bo
   return charts;
 }
 
-// Of the vertices on borders; others stay where they were.
+// Places of the vertices on borders; others stay in place.
 std::vector<Vec3> places_of(const SurfaceMesh& before, const Borders& borders) {
   std::vector<Vec3> xyz = before.vertices;
   for (std::size_t line = 0; line < borders.lines.size(); ++line)
@@ -136,7 +136,7 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
       check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size,
                      static_cast<std::int32_t>(c), plan.xyz},
                     own);
-      // What was cut in two may have come to lie along its axis.
+      // A chart that was cut in two may now lie along its axis.
       if (exact[c] != 0 && chart.triangles.size() > 1 && chart.plane->least_cosine() < least_cosine) chart.leans = true;
     } catch (const DomainError& error) {
       chart.why = error.what();

@@ -130,7 +130,7 @@ class Halving {
     }
   }
 
-  // Rows of edges by their lower ends, each with those of its edges once.
+  // Makes rows of edges by their lower ends; each row has each of its edges once.
   void number_edges() {
     first_.assign(quads_.patch.uv.size() + 1, 0);
     const auto for_sides = [&](const auto& use) {

@@ -58,7 +58,7 @@ class Pairing {
     }
   }
 
-  // Whether u lies beyond side k of t.
+  // Adds the pair if it is good enough. Returns whether u lies beyond side k of t.
   bool add_if_good(std::int32_t t, int k, std::int32_t u) {
     const MixedCell &T = cells_[t], &U = cells_[u];
     const std::int32_t a = T[k], b = T[(k + 1) % 3], c = T[(k + 2) % 3];
@@ -80,7 +80,7 @@ class Pairing {
     quads_.push_back(quad);
   }
 
-  // By the angle between the normals of the triangles on both sides of the diagonal from p[0] to p[2].
+  // Measures the angle between the normals of the triangles on both sides of the diagonal from p[0] to p[2].
   [[nodiscard]] bool turns_too_much(const std::array<Vec3, 4>& p) const {
     const Vec3 diagonal = p[2] - p[0];
     const Vec3 right = cross(p[1] - p[0], diagonal), left = cross(diagonal, p[3] - p[0]);

@@ -16,13 +16,13 @@ namespace carreau {
 using MixedCell = std::array<std::int32_t, 4>;
 constexpr int corners_of(const MixedCell& cell) noexcept { return cell[3] < 0 ? 3 : 4; }
 
-/// What the passes of this room work on. Indices are those of the face's local vertices.
+/// The data of the passes of this room. Indices are local vertices of the face.
 struct QuadPatch {
   std::vector<Vec2> uv;
   std::vector<char> fixed;  ///< by vertex: it neither moves nor goes
   std::vector<MixedCell> cells;
   /// Vertices v, a, b where edges v - a and v - b of curves go on smoothly into each other, both ways, ascending. A cell
-  /// with that corner has an angle of 180 degrees there, whatever that of its chords.
+  /// with that corner has an angle of 180 degrees there, whatever the angle of its chords.
   std::vector<std::array<std::int32_t, 3>> flat = {};
 };
 

@@ -14,8 +14,8 @@
 namespace carreau {
 
 /// Cells whose vertices lie on a surface, whatever its faces; the other surface of the passes of this room is PlaneQuads.
-/// A vertex on a border or a sharp line is there once for each smooth side, so that each has one normal. Shapes are those of
-/// the cell in its tangent plane, in the metric wanted at its corners. Keeps a reference to the surface.
+/// A vertex on a border or a sharp line is there once for each smooth side, so that each has one normal. Shapes are measured in the tangent
+/// plane of the cell, in the prescribed metric at its corners. Keeps a reference to the surface.
 class SpaceQuads {
  public:
   using Place = SurfacePlace;
@@ -47,13 +47,13 @@ class SpaceQuads {
   /// As in QuadPatch.
   [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return flat_; }
 
-  /// About its own normal, which is on the side of those of the surface.
+  /// Convexity about the cell's own normal, which is on the side of the surface's normals.
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
   [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
   /// The same, and below 0 the least sine of an angle, for cells that are turned over somewhere.
   [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept;
-  /// In the metric wanted at its ends.
+  /// Length in the prescribed metric at the ends of the edge.
   [[nodiscard]] double length(std::int32_t a, std::int32_t b) const noexcept;
 
   [[nodiscard]] Frame about(const MixedCell& cell) const noexcept;

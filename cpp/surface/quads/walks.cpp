@@ -119,7 +119,8 @@ class Walks {
     return true;
   }
 
-  // The triangle passes through `quad` to the side that this has in common with `next`. What stays behind.
+  // The triangle passes through `quad` to the side that this has in common with `next`. Returns the quadrilateral that
+  // stays behind.
   [[nodiscard]] std::optional<MixedCell> pass(const MixedCell& quad, const MixedCell& next, MixedCell& triangle) const {
     const int in = common_side(quad, triangle), apex = common_side(triangle, quad);
     if (in < 0) return {};
