@@ -18,7 +18,7 @@ struct Foot {
   Vec2 uv;
 };
 
-/// The surface at a foot.
+/// The surface at a place of the atlas.
 struct SurfacePlace {
   Foot foot;
   Vec3 xyz, su, sv;
@@ -26,7 +26,7 @@ struct SurfacePlace {
   bool regular = false;  ///< there is a normal
 };
 
-/// What is wanted at a vertex.
+/// The prescribed size at a vertex.
 struct WantedSize {
   double h = 0;    ///< sqrt(h1 h2) where sizes differ by direction
   Metric3 metric;  ///< counts where they do; of a vertex that is not kept it knows nothing along the normal
@@ -42,7 +42,7 @@ inline WantedSize scaled(const WantedSize& wanted, double factor) noexcept {
   return result;
 }
 
-/// The surface for those who move vertices on it, whatever its faces.
+/// The surface around a place, whatever its faces, for algorithms that move vertices on it.
 class SurfaceAround {
  public:
   virtual ~SurfaceAround() = default;
@@ -52,7 +52,7 @@ class SurfaceAround {
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;
 };
 
-/// Vertices with their places, for those who deal cells out to faces.
+/// Vertices with their places, for algorithms that distribute cells among faces.
 class PlacedVertices {
  public:
   virtual ~PlacedVertices() = default;
@@ -65,7 +65,7 @@ class PlacedVertices {
   [[nodiscard]] virtual double size(std::int32_t v) const = 0;
   /// At v, along the way to w.
   [[nodiscard]] virtual double size_along(std::int32_t v, std::int32_t w) const = 0;
-  /// Whether sizes differ by direction.
+  /// Returns whether sizes differ by direction.
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;
 };
 

@@ -108,7 +108,7 @@ class Refiner {
   }
 
  private:
-  /// What a check says of one face.
+  /// The result of a check for one face.
   struct Found {
     std::vector<int> edges = {};  // to be split
     std::vector<Strip> strips = {};
@@ -125,7 +125,7 @@ class Refiner {
       result_.domain[f].reset();
       stale.push_back(f);
     }
-    std::vector<char> turned(stale.size(), 0);  // mended by refine(), or reported at the end
+    std::vector<char> turned(stale.size(), 0);  // repaired by refine(), or reported at the end
     std::vector<std::string> failure(stale.size());
     const auto build = [&](std::size_t i, Monitor&) {
       try {
@@ -160,8 +160,9 @@ class Refiner {
       if (!refine(std::exchange(changed_, std::vector<char>(changed_.size(), 0)), find, ask, alone)) return;
   }
 
-  // One round: splits what the faces in `look` want split, in every face that holds the curve. `find` asks no host and
-  // is called from several threads; so is `ask`, which may change what it has found, unless it is to be `alone`.
+  // One round: splits the segments that the faces in `look` request, in every face that holds the curve. `find` does
+  // not evaluate the host and runs on several threads. So does `ask`, which may change the result of `find`, unless it
+  // is to be `alone`.
   template <typename Find, typename Ask>
   bool refine(const std::vector<char>& look, Find&& find, Ask&& ask, bool alone) {
     rebuild_stale();
@@ -245,8 +246,8 @@ class Refiner {
     return largest;
   }
 
-  // Last, since halves of what was moved by half an edge would face each other again. Sides that were matched stay so,
-  // and metrics by direction know no width in space.
+  // Comes last, since halves of edges that were moved by half an edge would face each other again. Sides that were
+  // matched stay so, and metrics by direction know no width in space.
   void stagger_strips() {
     if (!options_.stagger_strips || !narrow_.empty() || !isotropic_) return;
     rebuild_stale();
@@ -267,7 +268,7 @@ class Refiner {
     for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
   }
 
-  // What was found free of crossings stays so until it changes.
+  // A face found free of crossings stays so until it changes.
   void uncross() {
     for (int i = 0; i < most_halvings; ++i)
       if (!refine(
@@ -296,8 +297,8 @@ class Refiner {
             .ask_metric = true};
   }
 
-  // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
-  // Costs no callback. Where metrics have directions, distances in space say nothing.
+  // Returns whether closeness needs a look: in space, a vertex is nearer to another edge than the check allows. Costs
+  // no callback. If metrics have directions, distances in space do not measure closeness.
   [[nodiscard]] bool may_be_narrow(int f) const {
     if (!isotropic_) return true;
     const FaceDomain& domain = *result_.domain[f];
@@ -312,8 +313,9 @@ class Refiner {
     return false;
   }
 
-  // Whether edges at a vertex differ so much that the balance needs a look. With one size everywhere lengths on curves
-  // say so, without a callback; with a gradation they do with the most that sizes change to the middles of edges.
+  // Returns whether edges at a vertex differ so much that the balance needs a look. With a uniform size lengths on
+  // curves decide, without a callback. With a gradation they decide together with the largest change of sizes up to the
+  // middles of edges.
   [[nodiscard]] bool may_be_unbalanced(int f) const {
     if (!rules_.constant() && (limits_.field == nullptr || !isotropic_)) return true;
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();

@@ -70,7 +70,7 @@ class Evener {
     return p;
   }
 
-  /// Where the lines are at one place along them; NaN outside of the domain.
+  /// The points of all lines at one place along them; NaN outside of the domain.
   struct Row {
     double at = 0;
     std::vector<Vec3> xyz;

@@ -170,13 +170,13 @@ void InterfaceSizes::look_through(const View& view, const Vec2& from) const {
   if (left_in_view) views_.push_back({t, left_side, right_in_view ? far : view.right, view.left});
 }
 
-/// Mean value weights tan(alpha / 2) / r of both ends of what is seen of an edge (Floater's formula for a polygon with
-/// these corners).
+/// Mean value weights tan(alpha / 2) / r of both ends of the visible part of an edge (Floater's formula for a polygon
+/// with these corners).
 void InterfaceSizes::add(const View& view, Vec2 from, Sums& sums) const {
   const Triangle& c = mesh_.triangles[view.triangle];
   const int a = c[(view.side + 1) % 3], b = c[(view.side + 2) % 3];
   const Vec2 p = mesh_.vertices[a] - from, d = mesh_.vertices[b] - mesh_.vertices[a];
-  // Where a direction meets the edge: cross(direction, p + s d) = 0.
+  // The place on the edge in a given direction: cross(direction, p + s d) = 0.
   const auto place = [&](Vec2 direction, double otherwise) {
     const double across = cross(direction, d);
     return across > 0 ? std::clamp(-cross(direction, p) / across, 0.0, 1.0) : otherwise;
