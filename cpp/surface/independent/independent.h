@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes whose sizes are what was asked for, whatever the patches (HDR sec. 4.5.5).
+// Meshes with the prescribed sizes, independent of the patches (HDR sec. 4.5.5).
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ struct FreedMesh;
 struct PlacedMesh;
 struct WorkedLine;
 
-/// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
+/// The input of remeshing in space: the atlas, the remaining lines, and other possible places of their vertices.
 struct RemeshingFrame {
   VertexJets jets;
   std::vector<MeshEdge> sharp;  ///< ascending
@@ -63,9 +63,10 @@ void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 /// RemeshingFrame::elements.
 using ElementMaker = std::function<void(const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made)>;
 
-/// `curves`: what it was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes, references, curves and (u, v) of its
-/// corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have them. `elements` may be empty. It stays as it is where the outcome would have a defect or triangles that cross and did not: false. Sentences
-/// about faces that have vanished go to `monitor`. Throws what the host throws, and Cancelled: then nothing is changed.
+/// `curves`: the curves that the mesh was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes,
+/// references, curves and (u, v) of its corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have
+/// them. `elements` may be empty. Returns false, with an unchanged mesh, if the outcome would have a defect or new triangles that cross.
+/// Sentences about faces that have vanished go to `monitor`. Throws the exceptions of the host, and Cancelled: then nothing is changed.
 bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                        bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 

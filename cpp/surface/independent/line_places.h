@@ -30,9 +30,9 @@ class LineGeometry {
   virtual ~LineGeometry() = default;
   /// The places of its vertices are known.
   [[nodiscard]] virtual bool is_known() const noexcept = 0;
-  /// Of the vertices of the line, from 0, ascending.
+  /// Arc lengths of the vertices of the line, from 0, ascending.
   [[nodiscard]] virtual const std::vector<double>& arcs() const noexcept = 0;
-  /// The line there, or no farther from it than what it is known by.
+  /// A point of the line there, or no farther from it than the accuracy of the line's data.
   [[nodiscard]] virtual Vec3 near(double arc) const = 0;
   /// On the surfaces beside.
   [[nodiscard]] virtual KeptPlaces at(double arc) = 0;

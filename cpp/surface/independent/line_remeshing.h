@@ -34,9 +34,9 @@ struct WorkedLine {
   WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geometry);
 };
 
-/// Collapses edges of lines until there are as many as their length in the prescribed metric wants (RR-2818 sec. 4.5),
-/// and moves their vertices until edges are of equal length in it, where triangles beside agree with the surface.
-/// Vertices changed. Throws what the host throws, and Cancelled.
+/// Collapses edges of lines until their number fits the length of the line in the prescribed metric (RR-2818 sec. 4.5).
+/// Moves their vertices until edges are of equal length in it, if triangles beside agree with the surface. Returns the
+/// vertices changed. Throws the exceptions of the host, and Cancelled.
 std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,
                                        Monitor& monitor);
 

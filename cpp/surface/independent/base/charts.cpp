@@ -85,7 +85,7 @@ void Charts::link(std::int32_t t, int i, std::int32_t u, int j) {
   p.same_chart[i] = q.same_chart[j] = static_cast<char>(same);
 }
 
-// Neighbours run along their edge in opposite ways, those of a face that is turned the other way round.
+// Neighbours run along their edge in opposite ways, or in one way if a face is turned the other way round.
 void Charts::turn() {
   std::vector<char> known(triangles_.size(), 0);
   std::vector<std::int32_t> todo;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh of before as an atlas of the surface: from a place of one face to a place of another.
+// The previous mesh as an atlas of the surface: from a place of one face to a place of a second.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace carreau {
 using MeshEdge = std::array<std::int32_t, 2>;
 inline MeshEdge mesh_edge(std::int32_t v, std::int32_t w) noexcept { return v < w ? MeshEdge{v, w} : MeshEdge{w, v}; }
 
-/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies what it needs; safe from
+/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies its input; safe from
 /// several threads.
 class Charts {
  public:
@@ -34,9 +34,8 @@ class Charts {
     bool turned = false;                              ///< runs against its face, so that neighbours agree
   };
 
-  /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too, and
-  /// those where no side is that of all neighbours (a Moebius strip), which become `twisted`. `size`: by vertex; `metrics`:
-  /// sizes by direction, or none.
+  /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too. So are edges that prevent a
+  /// consistent side of the surface (a Moebius strip); these become `twisted`. `size`: by vertex; `metrics`: sizes by direction, or none.
   Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
          PlaneMetrics metrics, Monitor& monitor);
 
@@ -59,16 +58,16 @@ class Charts {
   void guard(const Vec3& place, double distance);
   [[nodiscard]] bool is_guarded(const Foot& f) const { return guarded_[f.triangle] != 0; }
 
-  /// The size there, linear between those of the vertices.
+  /// The size at a place, linear between the sizes of the vertices.
   [[nodiscard]] double size(const Foot& f) const;
-  /// Makes sizes so many times as large, by vertex of the mesh of before: in all directions; empty: as they were wanted.
+  /// Multiplies sizes by factors, by vertex of the previous mesh, in all directions; empty: sizes as prescribed.
   void enlarge(std::vector<double> factor) { factor_ = std::move(factor); }
-  /// The largest factors of sizes, by vertex of the mesh of before, that are no larger than those given and grow over edges by
-  /// `growth` sizes a size.
+  /// Returns the largest factors of sizes, by vertex of the previous mesh, that are no larger than `factor` and grow over edges by `growth`
+  /// sizes a size.
   [[nodiscard]] std::vector<double> graded_factors(std::vector<double> factor, double growth) const;
-  /// Whether sizes differ by direction.
+  /// Returns whether sizes differ by direction.
   [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
-  /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero where there is none.
+  /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero if it has none.
   [[nodiscard]] PlaneMetric metric(const Foot& f, const Vec3& normal) const;
   /// At a vertex with several places: of one size the first one's, else what holds in all of their planes.
   [[nodiscard]] WantedSize wanted(std::span<const SurfacePlace> places) const;
@@ -76,14 +75,13 @@ class Charts {
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// Barycentric coordinates of a place of its chart, by corner.
   [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
-  /// The foot of a place on the triangles as they are in space, sought from one of them; none where a barrier is in the way.
+  /// The closest point of `target` on the flat triangles in space, sought from the triangle `from`; empty if a barrier is in the way.
   [[nodiscard]] std::optional<Foot> flat_foot(std::int32_t from, const Vec3& target) const;
-  /// What is known of it is enough: derivatives from elsewhere.
+  /// A place with derivatives that are known from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
-  /// A place of the surface near `target`: below its foot on the flat triangles, and by Gauss-Newton steps from there, or from
-  /// `from`, which is regular. Empty where a barrier
-  /// or a singular place is in the way; `slides`: on the barrier then, beside the target. `near`: share of the way that may be
-  /// left along the surface.
+  /// A place of the surface near `target`: below its closest point on the flat triangles, and by Gauss-Newton steps from there, or from
+  /// `from`, which is regular. Empty where a barrier or a singular place is in the way; `slides`: on the barrier then, beside the target.
+  /// `near`: share of the way that may be left along the surface.
   [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
                                                     bool slides = false, double near = thresholds::independent::near_enough) const;
 

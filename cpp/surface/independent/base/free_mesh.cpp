@@ -119,7 +119,7 @@ void FreeMesh::update_sizes() {
   }
 }
 
-// Where the surface bends more a coarse mesh is finer, so that no feature of the size wanted is passed over.
+// If the surface bends more a coarse mesh is finer, so that features of the prescribed size stay.
 void FreeMesh::tighten(double factor) {
   tolerances_.share_of_size = asked_.share_of_size / factor;
   tolerances_.angle_deg = asked_.angle_deg / std::sqrt(factor);
@@ -157,7 +157,7 @@ double FreeMesh::double_area(const EditableMesh::Triangle& t) const {
   return norm(mesh_->normal(0, t)) / (h * h);
 }
 
-// The nearest to that of a triangle.
+// Returns the normal nearest to the normal of a triangle.
 const Vec3& FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
   static const Vec3 none{0, 0, 0};
   if (several_[v] < 0) return place_[v].normal;

@@ -153,7 +153,7 @@ class Tangents {
   Tangents(const SurfaceMesh& mesh, const Topology* topology, const std::vector<std::vector<CurveSupport>>& supports)
       : mesh_(mesh), topology_(topology), supports_(supports) {}
 
-  /// Whether the two edges at a vertex are of one line that goes straight on.
+  /// Returns whether the two edges at a vertex belong to one line that goes straight on.
   [[nodiscard]] bool go_on(std::span<const LineEnd> two, double cosine) const {
     const std::int32_t v = two[0].vertex;
     if (two[0].curve == two[1].curve && is_inside(two[0].curve, v)) return true;
@@ -234,7 +234,7 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
     const auto here = at_vertex(edges, v);
     if (here.empty() ? around.discs(v) > 1 : here.size() != 2 || !tangents.go_on(here, cosine)) corner[v] = 1;
   }
-  for (const CurveMesh& curve : mesh.curves)  // wires stay on what they end at
+  for (const CurveMesh& curve : mesh.curves)  // the ends of free curves keep their places
     for (std::size_t k = 0; curve.loose && k < curve.vertices.size(); ++k)
       if (around.discs(curve.vertices[k]) > 0) corner[curve.vertices[k]] = 1;
   // Two lines may touch at a vertex of one of them.

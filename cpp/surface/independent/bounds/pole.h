@@ -15,9 +15,9 @@ struct Tangents {
   Vec3 su, sv;
 };
 
-/// Where the straight way from `a` arrives at a pole, of which one end `pole` is known: on the line of constant u or v through it that is degenerate, by the
-/// derivatives there; `box`: the least and the largest (u, v) that may be. `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of
-/// the side stands for the pole in (u, v).
+/// The place where the straight way from `a` arrives at a pole, of which one end `pole` is known. It lies on the line of constant u or v
+/// through `pole` that is degenerate, by the derivatives there; `box`: the least and the largest (u, v) that may be. `chord`: from a to the
+/// pole in space. An edge to a pole is a meridian, whichever end of the side stands for the pole in (u, v).
 inline Vec2 arrival_at_pole(const Vec2& pole, const Tangents& at_pole, const Vec2& a, const Tangents& at_a, const Vec3& chord,
                             const std::array<Vec2, 2>& box) {
   const Vec3 &su = at_a.su, &sv = at_a.sv;

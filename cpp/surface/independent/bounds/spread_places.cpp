@@ -60,7 +60,7 @@ void SpreadPlaces::lean_on_others(Look& look) const {
   if (!look.found) look.offset = offset;
 }
 
-// By how normals differ from place to place.
+// The curvature, by the differences of normals between places.
 double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_size>& looks) const {
   double most = 0;
   for (std::size_t i = 0; i < looks.size(); ++i)

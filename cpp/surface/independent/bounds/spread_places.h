@@ -16,7 +16,7 @@ class SpreadPlaces {
 
   [[nodiscard]] std::array<BoundPlace, TriangleBound::lattice_size> lattice() const;
   [[nodiscard]] BoundPlace at(const PlaceInTriangle& place) const { return over(look(place)); }
-  /// Whether a normal was found at each place.
+  /// Returns whether a normal was found at each place.
   [[nodiscard]] bool has_normals() const noexcept { return has_normals_; }
 
  private:

@@ -14,7 +14,7 @@ namespace carreau {
 /// One of them. Keeps references to the charts and `cad`.
 class SpreadTriangle {
  public:
-  /// `turned`: normals of its face are not those of the atlas.
+  /// `turned`: normals of its face have the other side than the atlas.
   SpreadTriangle(const Charts& charts, Cad& cad, const std::array<Vec3, 3>& corners, const std::array<SurfacePlace, 3>& places, bool turned)
       : charts_(charts), cad_(cad), corner_(corners), place_(places), turned_(turned) {}
 

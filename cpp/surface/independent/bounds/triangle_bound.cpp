@@ -21,8 +21,9 @@ constexpr int cells = 4;  // of a side
 constexpr std::size_t rank_of(int j, int k) noexcept { return static_cast<std::size_t>(k * (cells + 1) - k * (k - 1) / 2 + j); }
 
 /// How far a function is from the linear interpolation of its corners at most. Its second derivatives along the sides of a triangle, times their
-/// squared lengths, are constants of at most m, which make 1/2 sum x_i x_j m_ij at the place with weights x; and what varies, `variation` times m
-/// at most, which makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's formula there for each corner.
+/// squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at the place
+/// with weights x. The variable part is at most `variation` times m and makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's formula there
+/// for each corner.
 double most_off(double m0, double m1, double m2) noexcept {
   const double largest = std::max({m0, m1, m2}), sides = (m0 + m1 + m2) / 8;
   return std::min(largest / 6, sides) + variation * std::min(5. / 18 * largest, sides);
@@ -114,7 +115,7 @@ TriangleBound::Seen TriangleBound::see(const BoundPlace& place, const PlaceInTri
   return seen;
 }
 
-// Into four; sides of each are parallel to those of the whole.
+// Cuts the part into four; sides of each are parallel to the sides of the whole.
 void TriangleBound::cut(const std::array<Seen, 3>& corner, const std::array<Seen, 3>& middle, const Bends& bends, int cuts) {
   judge({{corner[0], middle[0], middle[2]}, bends, cuts});
   judge({{middle[0], corner[1], middle[1]}, bends, cuts});
@@ -141,10 +142,10 @@ void TriangleBound::judge(Part&& part) {
   const double deviation = deviation_of(part), angle = angle_of(part);
   const auto is_near = [&](double bound, double seen, double floor, double tolerance) {
     if (bound <= tolerance || (triangle_.decides && seen > tolerance)) return bound <= (1 + bound_gap) * seen + floor;
-    // Where what is seen is not beyond, that is to be decided.
+    // If the observed value is within the tolerance, the bound must decide.
     return seen > tolerance ? bound <= (1 + bound_gap_beyond) * seen + floor : bound <= (1 + bound_gap_undecided) * seen;
   };
-  // What is not known of a normal is no better known of parts.
+  // Parts of a triangle do not improve a normal that is unknown.
   const bool leans = std::ranges::any_of(part.corner, [](const Seen& c) { return c.place.lean > 0; });
   const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
                     (leans || is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance));
@@ -198,7 +199,7 @@ double TriangleBound::overshoot_of(const Part& part) const noexcept {
   return beside ? std::min(beyond[one], most + off) : most + off;
 }
 
-// Whether there are triangles of the mesh under what is so far beyond.
+// Returns whether the mesh has triangles under the places that are so far beyond.
 bool TriangleBound::goes_on_beside(const Part& part, double overshoot) const noexcept {
   double away = 1;  // from corners where the mesh ends
   for (std::size_t i = 0; i < 3; ++i) {
@@ -232,7 +233,7 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
   if (singular > 1) return turned;
   const auto off = [&](double Bend::*of) {
     const auto bend = [&](std::size_t side) { return part.bends[side % 3].*of; };
-    // At a pole normals are as long as the way to it: so is what they are off by.
+    // At a pole the lengths of normals, and their errors, are proportional to the distance from it.
     return singular == 0 ? most_off(bend(0), bend(1), bend(2))
                          : (1 + variation) * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
   };

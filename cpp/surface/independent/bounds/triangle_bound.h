@@ -18,7 +18,7 @@ struct BoundPlace {
   double lean = 0;  ///< radians that the normal may be off by
 };
 
-/// A triangle of a mesh, and what lies beyond its sides. Side i goes from corner i to the next one.
+/// A triangle of a mesh, and the surroundings of its sides. Side i goes from corner i to the next one.
 struct BoundedTriangle {
   BoundedTriangle() = default;
   explicit BoundedTriangle(const std::array<Vec3, 3>& corners) noexcept;
@@ -31,9 +31,9 @@ struct BoundedTriangle {
   std::array<bool, 3> open_side{true, true, true}, open_corner{true, true, true};  ///< the mesh ends there
   /// The triangles around: tangent of the largest angle with one of them, and their smallest height.
   double slope = infinity, reach = 0;
-  double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to what is seen; model length, radians
+  double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to the observed values; model length, radians
   double deviation_tolerance = infinity, angle_tolerance = infinity;  ///< bounds beyond are nearer to it
-  bool decides = false;  ///< whether bounds are beyond is all that is asked
+  bool decides = false;  ///< only whether bounds are beyond matters
   bool roughly = false;  ///< of what may come to be: bounds may be looser, for few places
 };
 
@@ -41,10 +41,10 @@ struct BoundedTriangle {
 using PlaceInTriangle = Vec2;
 
 /// Bounds of HDR eq. 4.1 and 4.3 for one triangle: A0, no point of the surface over it is farther from the mesh; and A1, no normal there makes a
-/// larger angle with its own. They hold if over each part of the triangle second derivatives of the surface, and of Su x Sv, along its sides differ from
-/// a constant by at most the largest second difference of the places seen (thresholds.h).
+/// larger angle with its own. They hold under a condition on second derivatives of the surface, and of Su x Sv, along the sides of each
+/// part of the triangle. These must differ from a constant by at most the largest observed second difference (thresholds.h).
 ///
-/// Over a part of the triangle the surface is no farther from the linear interpolation of its corners than those second derivatives let it be, and the
+/// Over a part of the triangle these second derivatives bound the distance of the surface from the linear interpolation of its corners. The
 /// distance of the interpolation from a convex set is largest at a corner. Parts for which that leaves too much open are cut into four.
 class TriangleBound {
  public:
@@ -62,8 +62,8 @@ class TriangleBound {
   [[nodiscard]] double angle() const noexcept { return angle_; }  ///< radians; pi where the surface is turned over, or no normal is known
 
  private:
-  /// Second differences along a side: of the height over the plane, of all, of the part of the normal along that of the triangle and of the rest,
-  /// and across the sides.
+  /// Second differences along a side: of the height over the plane, of the whole vector, and of the two parts of the normal, along the
+  /// triangle's normal and across it. The last ones are differences across the sides.
   struct Bend {
     double height = 0, whole = 0, upright = 0, leaning = 0;
     std::array<double, 3> across{};
@@ -74,7 +74,7 @@ class TriangleBound {
   struct Seen {
     BoundPlace place;
     PlaceInTriangle at;
-    double height = 0, angle = 0, upright = 0;  ///< over the plane; of the normal; its part along that of the triangle
+    double height = 0, angle = 0, upright = 0;  ///< over the plane; of the normal; its part along the triangle's normal
     std::array<double, 3> beyond{};             ///< sides
     bool singular = false;
   };

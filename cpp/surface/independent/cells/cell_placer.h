@@ -15,8 +15,8 @@ namespace carreau {
 /// Corners of a cell; the last one of a triangle is -1.
 using FreeCell = std::array<std::int32_t, 4>;
 
-/// A vertex of a cell, and which of its places. Cells of several sheets of a face that meet along an edge may have one place there: the
-/// sheet tells their corners apart.
+/// A vertex of a cell, and the number of its place. Cells of several sheets of a face that meet along an edge may have one place there; the
+/// sheet distinguishes their corners.
 struct PlacedCorner {
   std::int32_t vertex = -1, place = 0, sheet = 0;
   friend auto operator<=>(const PlacedCorner&, const PlacedCorner&) = default;
@@ -37,7 +37,7 @@ class CellPlacer {
       : vertices_(vertices), charts_(charts), cad_(cad) {}
 
   /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which all of its corners have
-  /// places that fit, else to that of the foot of its centroid.
+  /// places that fit, otherwise to the face of the closest point of its centroid.
   PlacedCell operator()(const FreeCell& cell, const FreeCell& nodes = {-1, -1, -1, -1});
 
  private:

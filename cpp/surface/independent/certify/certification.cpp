@@ -50,7 +50,7 @@ class Certifier::Work {
         for (const std::int32_t t : group) corners.push_back(mesh_.triangles()[t]);
         if (failed_.contains(corners)) continue;
         end_ = std::min(end, bounds_.evaluations() + most_evaluations_of_group * static_cast<std::int64_t>(group.size()));
-        // What is far beyond is not mended edit by edit.
+        // Groups far beyond the tolerances first allow splits that degrade triangles.
         const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > most_moved; });
         if (!work_at(group, boldly)) (void)work_at(group, !boldly);
         if (edits() == before_group) failed_.insert(std::move(corners));
@@ -86,7 +86,7 @@ class Certifier::Work {
     Corners corners;
     std::int32_t index;
   };
-  /// What an edit leaves.
+  /// The result of an edit.
   struct Outcome {
     double share = infinity;
     TriangleShapes shapes;
@@ -110,7 +110,7 @@ class Certifier::Work {
       for (const Place p : mesh_.mesh().fan(last.vertex)) forget(p);
       moved_.pop_back();
     }
-    // Of triangles that come back nothing is known.
+    // Shares of triangles that come back are unknown.
     for (const std::int32_t t : touched_) share_[t] = unknown;
     mesh_.undo(to.edits);
     share_.resize(mesh_.triangles().size(), unknown);
@@ -147,7 +147,7 @@ class Certifier::Work {
   struct Excess {
     double most = 0, sum = 0;
   };
-  // Of what the group has become.
+  // Returns the excess of the present triangles of the group.
   Excess excess() {
     std::ranges::sort(touched_);
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -156,7 +156,8 @@ class Certifier::Work {
     return all;
   }
 
-  // Whether none of it is beyond any more. `boldly`: splits may come before those that make them good. Of what the rounds leave the best counts.
+  // Returns whether the whole group is within tolerances. `boldly`: splits may degrade triangles if later splits repair them. The best
+  // state of all rounds counts.
   bool work_at(const std::vector<std::int32_t>& group, bool boldly) {
     touched_ = group, changed_.clear(), boldly_ = boldly;
     std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
@@ -166,7 +167,7 @@ class Certifier::Work {
     State best = start;
     const double first = excess().sum;
     double least = first;
-    // A round halves edges once. What splits help is nearer after two rounds.
+    // A round halves edges once. If splits help, two rounds show an improvement.
     constexpr int most_rounds = 6, rounds_without_success = 3;
     for (int round = 0; round < most_rounds && least > 0; ++round) {
       const std::int64_t before = edits();
@@ -213,7 +214,7 @@ class Certifier::Work {
 
   [[nodiscard]] double shapes_mean() const { return summarise_shapes(mesh_, workers_.threads, monitor_).mean; }
 
-  // Of all triangles that are suspect, whose shares are known then. A part is a fixed number of them.
+  // Bounds all suspect triangles, and keeps their shares. A part is a fixed number of them.
   std::vector<char> bound_suspects() {
     const auto& all = mesh_.triangles();
     share_.resize(all.size(), unknown);
@@ -309,7 +310,7 @@ class Certifier::Work {
     return false;
   }
 
-  /// Where no share around exceeds `most`, nor is a shape below `least`.
+  /// Moves the vertex if no share around exceeds `most`, and no shape is below `least`.
   bool put(std::int32_t v, const Vec3& target, double most, double least) {
     const SurfacePlace from = mesh_.place(v);
     const WantedSize size = mesh_.wanted(v);
@@ -320,7 +321,7 @@ class Certifier::Work {
     mesh_.put(v, *to, mesh_.wanted_at(*to));
     const TriangleShapes after = mesh_.judge_around(v);
     bool good = after.worst >= least && is_fair(before, after, 0) && out_of_range(mesh_, v) <= out;
-    // What was beyond is asked first: most moves fail there.
+    // Triangles that were beyond come first: most moves fail there.
     std::vector<Place> fan(mesh_.mesh().fan(v).begin(), mesh_.mesh().fan(v).end());
     share_.resize(mesh_.triangles().size(), unknown);
     std::ranges::stable_sort(fan, std::greater<>{}, [&](Place p) { return share_[p.triangle]; });
@@ -405,7 +406,7 @@ class Certifier::Work {
     }
   }
 
-  // What groups have left is nobody's any more: shapes there are made as good as they can be.
+  // Improves shapes around finished groups as far as possible.
   void tidy_all(std::vector<std::int32_t> worked) {
     std::erase_if(worked, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
     changed_ = std::move(worked);
@@ -447,7 +448,7 @@ class Certifier::Work {
   Monitor& monitor_;
   FreeBounds bounds_;
   const std::size_t edits_before_;  // the mesh was made by them
-  const double upright_;       // FreeMesh's share of what stands upright
+  const double upright_;       // FreeMesh's share for upright triangles
   std::vector<double> share_;  // by triangle
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
   std::vector<Moved> moved_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upper bounds of A0 and A1 of single triangles of a free mesh, and of those that edits would make.
+// Upper bounds of A0 and A1 of single triangles of a free mesh, and of triangles that edits would make.
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@ class FreeBounds {
   [[nodiscard]] double share(const EditableMesh::Triangle& t) { return share(t, false); }
   /// The same of a triangle that an edit would make, for fewer evaluations: it may be larger.
   [[nodiscard]] double share_roughly(const EditableMesh::Triangle& t) { return share(t, true); }
-  /// Places of the surface that were asked for.
+  /// Number of evaluated places of the surface.
   [[nodiscard]] std::int64_t evaluations() const noexcept { return evaluations_; }
-  /// Others asked for so many.
+  /// Adds evaluations of others.
   void count(std::int64_t evaluations) noexcept { evaluations_ += evaluations; }
 
  private:

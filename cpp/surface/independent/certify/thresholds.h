@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,10 @@
 
 namespace carreau::thresholds::certify {
 
-/// Share of a tolerance. Triangles whose normals at corners say less are not suspect: of a smooth surface they are off by a fifth or so.
+/// Share of a tolerance. Triangles whose normals at corners give a smaller share are not suspect: on a smooth surface the error is about a
+/// fifth.
 inline constexpr double suspect_share = 0.5;
-/// Share of a tolerance. What is below is within: measures see triangles from places that differ a little.
+/// Share of a tolerance. Smaller shares are within: measures see triangles from places that differ a little.
 inline constexpr double within = 0.98;
 /// Ratio. The largest share of a group may grow so much where others come to be within tolerances.
 inline constexpr double most_growth = 1.05;
@@ -29,7 +30,7 @@ inline constexpr double shortest_split = 0.3;
 inline constexpr double longest_swapped = 1.8;
 /// Mean shape. A mesh that is as good is not edited to less: of a coarse one a few edits are a large part.
 inline constexpr double least_mean = 0.95;
-/// The same of a mesh that is worse: what bends within a size everywhere is not mended by edits.
+/// The loss for a mesh that is worse: edits do not repair a surface that bends within a size everywhere.
 inline constexpr double most_mean_lost = 0.04;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
@@ -38,8 +39,8 @@ inline constexpr int directions = 6;
 inline constexpr double good_shape = 0.7, good_shape_at_last = 0.95, least_shape_gain = 0.01;
 inline constexpr int tidy_passes = 2, tidy_passes_at_last = 5;
 
-/// Evaluations of the surface, a triangle of the mesh and a triangle of a group that is beyond: what is not mended by them is told. The mesh took some twenty a
-/// vertex. So many are made in any case: a tenth of a second.
+/// Evaluations of the surface, for each triangle of the mesh and for each triangle of a group beyond tolerances. Triangles that stay beyond
+/// are reported. The mesh took some twenty a vertex. So many are made in any case: a tenth of a second.
 inline constexpr std::int64_t most_evaluations = 32, most_evaluations_of_group = 6000, always_evaluations = 200'000;
 
 }  // namespace carreau::thresholds::certify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a free mesh is cut into parts: by its triangles and their sizes, whoever works at them.
+// Cuts of a free mesh into parts, by its triangles and their sizes, for any number of executors.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ std::vector<std::vector<std::int32_t>> cut_across(const FreeMesh& mesh, std::vec
 /// Those that share vertices, directly or by others of them, in the order of their first triangles.
 std::vector<std::vector<std::int32_t>> connected(const FreeMesh& mesh, std::span<const std::int32_t> triangles);
 
-/// By vertex: whether it is no farther than so many edges from one of `vertices`.
+/// By vertex: whether it is within so many edges of one of `vertices`.
 std::vector<char> near_vertices(const FreeMesh& mesh, std::span<const std::int32_t> vertices, int edges);
 
 /// Triangles with a corner that is near, ascending.

@@ -26,7 +26,8 @@ struct Division {
   [[nodiscard]] std::vector<std::int32_t> meeting(const FreeMesh& mesh) const;
 };
 
-/// The triangles of a part, and those beyond that have a corner on its border: these stay, and so do all vertices that are not of the part alone.
+/// The triangles of a part, and triangles beyond with a corner on its border. The latter stay, and so do all vertices that do not belong to
+/// the part alone.
 struct MeshPart {
   std::vector<std::int32_t> vertex;  ///< numbers in the whole mesh, ascending
   std::vector<char> frozen;          ///< by vertex
@@ -35,16 +36,16 @@ struct MeshPart {
   MeshPart(const FreeMesh& whole, const Division& division, std::int32_t part);
   /// Those of the whole mesh, ascending, that are here.
   [[nodiscard]] std::vector<std::int32_t> local(std::span<const std::int32_t> vertices) const;
-  /// Of a vertex of the whole mesh; -1: it is not here.
+  /// Local number of a vertex of the whole mesh; -1: it is not here.
   [[nodiscard]] std::int32_t local(std::int32_t v) const;
 };
 
-/// What has become of a part.
+/// The result of a part.
 struct EditedPart {
-  /// Corners are vertices of the whole mesh; numbers from that of its vertices on are new ones.
+  /// Corners are vertices of the whole mesh; numbers from its number of vertices on are new vertices.
   std::vector<EditableMesh::Triangle> triangles;
   std::vector<std::int32_t> moved;   ///< vertices of the whole mesh that are elsewhere
-  std::vector<SurfacePlace> places;  ///< of these, and behind them those of the new ones
+  std::vector<SurfacePlace> places;  ///< of the moved vertices, and behind them of the new ones
   RemeshingReport report;
   double cost = 0;                   ///< to shapes (ShapeBudget), where that is limited
 

@@ -35,8 +35,8 @@ void VertexMover::look_around(std::int32_t v) {
   }
 }
 
-// The mean of the places where each triangle around would be equilateral, its sides the mean of the one that stays
-// and of the wanted one.
+// The mean of the places where each triangle around would be equilateral. The side of that triangle is the mean of its
+// fixed side and the prescribed side.
 Vec3 VertexMover::ideal_place(const Vec3& from) const {
   Vec3 sum{0, 0, 0};
   double count = 0;
@@ -142,7 +142,7 @@ bool VertexMover::move(std::int32_t v) {
   const int out = by_direction ? carreau::out_of_range(mesh_, v) : out_of_range(from, mesh_.size(v));
   for (const double share : {1.0, 0.4}) {
     const Vec3 target = lerp(from, ideal, share);
-    // What does not gain beside the surface is not worth an evaluation.
+    // A place without gain beside the surface is not worth an evaluation.
     if (!by_direction && !gains(before, shapes(target), mesh_.budget)) continue;
     const auto to = mesh_.near(v, normal, target);
     if (!to) continue;

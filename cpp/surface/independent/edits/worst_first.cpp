@@ -21,7 +21,7 @@ using namespace thresholds::independent;
 
 using Corners = EditableMesh::Triangle;
 
-// What has failed is tried again only where something around has changed; where there is little to spend, always.
+// Repeats failed edits only if their surroundings have changed; if the budget is limited, always.
 class WorstFirst {
  public:
   WorstFirst(FreeMesh& mesh, double floor, Monitor& monitor)
