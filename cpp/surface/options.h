@@ -35,8 +35,8 @@ struct CompositeOptions {
   double narrow_ratio = 0.1;
   /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
   double gradation = 0;
-  /// Largest ratio of sizes inside a face from one edge to the next, away from boundary edges that are shorter than
-  /// prescribed: > 1; 0: sizes do not depend on these edges. For isotropic sizes only.
+  /// Largest ratio of sizes inside a face from one edge to the next, > 1; 0: no limit. It acts away from boundary edges
+  /// that are shorter than prescribed. For isotropic sizes only.
   double edge_gradation = 0;
   /// Vertices of one side of a strip of one layer go where they face the middles of the other side's edges
   /// (staggering.h).
@@ -76,7 +76,7 @@ struct CompositeOptions {
   bool parts = false;
 };
 
-/// Returns whether several threads may call the host: it allows that, and there are no sources of prescriptions.
+/// Returns whether several threads may call the host: it allows that, and sources of prescriptions are absent.
 inline bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept {
   return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
 }

@@ -45,7 +45,7 @@ struct PatchInput {
   std::vector<Vec3> curve_xyz;
   /// Set when one size is prescribed everywhere (SizeRules::constant).
   std::optional<double> constant_size = {};
-  /// S(u, v) = (u, v, 0): lengths in the plane are those in space.
+  /// S(u, v) = (u, v, 0): lengths in the plane are lengths in space.
   bool is_plane = false;
   /// Sizes do not differ by direction: triangles may be judged by their shape in space.
   bool isotropic = true;

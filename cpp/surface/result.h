@@ -53,7 +53,7 @@ struct MeshShares {
   std::int64_t vertices = 0, triangles = 0;  ///< of the whole mesh
 };
 
-/// A mesh, and what goes by its vertices and curves.
+/// A mesh with the data of its vertices and curves.
 struct SizedMesh {
   SurfaceMesh mesh;
   std::vector<double> vertex_size;  ///< prescribed size at each vertex
@@ -62,7 +62,7 @@ struct SizedMesh {
   std::vector<CurveParameters> curve_parameters;  ///< by curve of mesh.curves
   /// For a mesh that is independent of its patches, else empty: [face][local vertex] a triangle of the previous mesh which has its (u, v).
   std::vector<std::vector<std::int32_t>> feet;
-  std::vector<std::vector<std::int32_t>> mid_feet;  ///< feet of nodes on edges, by index in FaceMesh::mid_uv
+  std::vector<std::vector<std::int32_t>> mid_feet;  ///< closest points of nodes on edges, by index in FaceMesh::mid_uv
 };
 
 struct CompositeResult : SizedMesh {

@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// Supports of every curve of every face, and the diagonal of their box (what RT-0232 calls diag).
+/// Supports of every curve of every face, and the diagonal of their box (`diag` of RT-0232).
 struct ModelSupports {
   std::vector<std::vector<CurveSupport>> of_face;  ///< [face][curve]
   double diag = 0;

@@ -29,10 +29,10 @@ struct SurfacePlace {
 /// The prescribed size at a vertex.
 struct WantedSize {
   double h = 0;    ///< sqrt(h1 h2) where sizes differ by direction
-  Metric3 metric;  ///< counts where they do; of a vertex that is not kept it knows nothing along the normal
+  Metric3 metric;  ///< used where they do; at a vertex that is not kept it has no entry along the normal
 };
 
-/// So many times as large.
+/// Returns the size times the factor.
 inline WantedSize scaled(const WantedSize& wanted, double factor) noexcept {
   WantedSize result = wanted;
   result.h *= factor;
@@ -57,7 +57,7 @@ class PlacedVertices {
  public:
   virtual ~PlacedVertices() = default;
   [[nodiscard]] virtual std::size_t vertices() const = 0;
-  /// Neither on a sharp edge nor a corner.
+  /// Returns whether the vertex is neither on a sharp edge nor a corner.
   [[nodiscard]] virtual bool is_free(std::int32_t v) const = 0;
   /// Several where it is kept, one for each vertex of a face that it was.
   [[nodiscard]] virtual std::span<const SurfacePlace> places(std::int32_t v) const = 0;

@@ -65,7 +65,7 @@ class CrackOpener {
     return face.vertex[face.triangles[c.triangle][(c.rank + turn) % 3]];
   }
 
-  // Corners of one part are linked over edges that are no cracks.
+  // Corners of one part are linked over edges that are not cracks.
   void part(std::int32_t vertex, const std::vector<Corner>& corners) {
     UnionFind parts(corners.size());
     std::map<std::int32_t, std::size_t> first;  // by the other end of an edge
@@ -107,7 +107,7 @@ class CrackOpener {
     }
   }
 
-  // A curve that ends where a crack does, on one side of it.
+  // Follows a curve that ends at the end of a crack, on one side of the crack.
   void follow(CurveMesh& curve) {
     std::vector<std::int32_t>& chain = curve.vertices;
     if (chain.size() < 2) return;

@@ -75,7 +75,8 @@ class Collapser {
  private:
   std::int32_t merged(std::int32_t v) { return static_cast<std::int32_t>(sets_.find(v)); }
 
-  // Triangles of a face whose vertices have moved; those with two vertices that are one are flattened.
+  // Renumbers the triangles of a face whose vertices have moved. Triangles with two vertices that become one are
+  // flattened.
   bool shrink(std::size_t f) {
     FaceMesh& face = new_.mesh.faces[f];
     if (vanishing_[f] != 0) {

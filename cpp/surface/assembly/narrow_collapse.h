@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// A face that is to vanish: what becomes one vertex each.
+/// A face that is to vanish, with the sets of vertices that become one each.
 struct FaceCollapse {
   int face = 0;                                ///< index in SurfaceMesh::faces
   double width = 0;                            ///< model length
@@ -28,8 +28,8 @@ struct FaceCollapse {
 /// defect, or a triangle would be turned over.
 bool collapse_together(std::span<const FaceCollapse> faces, CompositeResult& result);
 
-/// Each face, the narrowest first, whose collapse leaves the mesh as sound as it was, of the same Euler characteristic,
-/// and no triangle of other faces turned over. The others keep their triangles.
+/// Collapses the faces, the narrowest first, if the mesh stays as sound as it was. It must keep its Euler
+/// characteristic, and no triangle of other faces may be turned over. The others keep their triangles.
 void collapse_one_by_one(std::span<const FaceCollapse> faces, CompositeResult& result, Monitor& monitor);
 
 }  // namespace carreau

@@ -15,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-// Halvings of the interval that holds the middle of a chord in space: a 64th of it. [tests/cpp/surface:
+// Halvings of the interval that holds the middle of a chord in space: down to a 64th. [tests/cpp/surface:
 // Coarse.TwoSheetsOverOneSquareEncloseAVolume, as below]
 constexpr int middle_steps = 6;
 // Passes. Each one divides the remaining chords, and a division may create a new chord.
@@ -171,7 +171,7 @@ class Separator {
     run_each(patches_.size(), false, threads_, look, monitor_);
   }
 
-  // Those inside faces have numbers beyond all others.
+  // Vertices inside faces have numbers beyond all others.
   [[nodiscard]] std::int64_t identity(int f, std::int32_t v) const {
     constexpr int face_bit = 31;
     if (v < on_curves_[f]) return identity_[f][v];

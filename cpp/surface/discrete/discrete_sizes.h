@@ -30,7 +30,7 @@ struct MeshSizes {
 /// Computes sizes at the vertices of a mesh of the surface from size rules and curvature.
 class DiscreteSizes {
  public:
-  /// Keeps references. `cad`: the surface itself, or a wrapper of it.
+  /// Keeps references. `cad`: the surface itself, or its wrapper.
   DiscreteSizes(const Model& model, Cad& cad, const discrete::DiscreteCad& surface, const CompositeOptions& options);
 
   /// With the gradation of the options over the mesh.

@@ -11,8 +11,8 @@ namespace {
 
 using discrete::RefinedMesh;
 
-/// Factor for the angle of the geometric rule: A1 of an equilateral triangle whose edges have that angle with the
-/// surface, on a cylinder, is up to 2 / sqrt(3) of it, and lengths vary.
+/// Factor for the angle of the geometric rule. On a cylinder A1 of an equilateral triangle whose edges have that angle
+/// with the surface is up to 2 / sqrt(3) times the angle, and lengths vary.
 constexpr double angle_slack = 1.6;
 
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
@@ -168,7 +168,7 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
     made.status = face.discrete ? FaceStatus::meshed : FaceStatus::not_meshed;
   }
   const std::vector<std::int32_t> refs = discrete::face_refs(surface.discrete());
-  // By vertex: the patch that met it last, and its local number there.
+  // Index: vertex; the patch that met it last, and its local number there.
   std::vector<std::pair<std::int32_t, std::int32_t>> known(mesh.vertices.size(), {-1, -1});
   for (std::size_t t = 0; t < refined.triangles.size(); ++t) {
     const std::int32_t parent = refined.parent[t];

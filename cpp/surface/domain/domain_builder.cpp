@@ -86,8 +86,8 @@ class Builder {
 
   [[nodiscard]] const std::vector<Vec2>& uv_of(int c) const { return curves_[curve_of_[c]].uv_of_use[use_of(c)]; }
 
-  // Scales of u and v, since an angle may stand beside a length in millionths of a model's unit: both are measured
-  // relative to the domain.
+  // Scales of u and v: both are measured relative to the domain. An angle may stand beside a length in millionths of a
+  // model's unit.
   void measure_box() {
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)

@@ -219,13 +219,13 @@ class ClosenessCheck {
   EdgeGrid grid_;
 };
 
-/// Does the domain lie between the vertex and the point of the edge that is nearest to it (w: 0 the end a, 1 the end
-/// b)? Parts that are close behind the boundary are not meshed.
+/// Returns whether the domain lies between the vertex and the nearest point of the edge (w: 0 the end a, 1 the end b).
+/// Parts that are close behind the boundary are not meshed.
 bool ClosenessCheck::sees(const PlaneEdge& e, int vertex, double w) const {
   const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
   if (w > 0 && w < 1) return !bounds(e) || orientation(a, b, p) > 0;
   const int end = w > 0 ? e.b : e.a;
-  // On a straight side the next vertex is neither on the left nor on the right, or either by rounding.
+  // On a straight side the next vertex is exactly on the side; rounding may put it on the left or on the right.
   return sides_.joined(end, vertex) || inside_.inside_along(domain_.vertices[end], p);
 }
 

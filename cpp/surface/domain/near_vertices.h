@@ -22,9 +22,9 @@ class NearVertices {
     part(0, std::ssize(points), 0);
   }
 
-  /// Visits vertices within `reach` of the segment (a, b) that are at neither end of it, until `visit` returns false.
-  /// If a boundary has hundreds of vertices beside each edge, for example .2 sin(1 / x), looking at all of them does
-  /// not help. All calls together therefore visit a limited number of vertices.
+  /// Visits vertices within `reach` of the segment (a, b), except at its ends, until `visit` returns false. If a
+  /// boundary has hundreds of vertices beside each edge, for example .2 sin(1 / x), looking at all of them does not
+  /// help. All calls together therefore visit a limited number of vertices.
   template <typename Visit>
   void each_beside(const Vec3& a, const Vec3& b, double reach, Visit&& visit) {
     const Vec3 margin{reach, reach, reach}, low = a.cwiseMin(b) - margin, high = a.cwiseMax(b) + margin;

@@ -42,7 +42,7 @@ std::vector<Segment> segments_of(const ElementWork& work, std::size_t face) {
   return all;
 }
 
-// By local vertex: whether a segment ends there.
+// Marks, for each local vertex, whether a segment ends there.
 std::vector<char> on_segments(const std::vector<Segment>& segments, const std::vector<std::int32_t>& vertices) {
   std::vector<std::int32_t> ends;
   for (const Segment& s : segments) ends.insert(ends.end(), s.key.begin(), s.key.end());
@@ -79,7 +79,7 @@ std::int32_t nearest_use(const ElementWork& work, std::size_t face, const Segmen
 
 }  // namespace
 
-// Half the integral of the line f + g s over [-1, 1] is reached where k s^2 + s = k, k = g / (2 f).
+// The integral of the line f + g s over [-1, 1] reaches its half where k s^2 + s = k, k = g / (2 f).
 double metric_middle(double left, double middle, double right) noexcept {
   const double f = (left + 4 * middle + right) / 6, g = (right - left) / 2;
   if (!(f > 0) || !std::isfinite(f)) return 0.5;

@@ -122,7 +122,7 @@ class FaceNodes {
     join_at_poles();
     place_inside();
   }
-  /// Whether a node is fixed, by index in mid_uv.
+  /// Whether a node is fixed; index as in mid_uv.
   [[nodiscard]] std::vector<char> fixed_mids() const { return fixed_; }
   /// `uses`: of each vertex in space, how often faces have it.
   [[nodiscard]] std::vector<char> fixed_vertices(const std::vector<std::int32_t>& uses) const {
@@ -261,7 +261,7 @@ class FaceNodes {
   };
   std::map<std::int32_t, Box> poles_;  // by vertex in space
   std::vector<Key> edges_;             // by index in mid_uv
-  std::vector<Metric2> metrics_;       // by local vertex; empty: there is no control space
+  std::vector<Metric2> metrics_;       // by local vertex; empty: without a control space
   std::vector<char> fixed_;
   std::vector<CurveSide> sides_;
   std::vector<std::pair<std::size_t, std::size_t>> joined_;

@@ -31,34 +31,34 @@ struct InvalidElements {
 
 struct QuadraticReport {
   std::size_t crossed = 0;      ///< elements that were invalid with nodes in the middles of straight edges of (u, v)
-  std::size_t moved_nodes = 0;  ///< nodes inside faces that mending has moved, of edges and of corners
+  std::size_t moved_nodes = 0;  ///< nodes inside faces that repairs have moved, of edges and of corners
   std::vector<InvalidElements> invalid;
   std::vector<std::vector<std::int32_t>> quads;  ///< by face: quadrilaterals among them, ascending
   std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
   std::vector<CuspEnd> cusps;     ///< of elements that stay invalid with a corner there, ascending, each once
-  /// By face: sides of elements that stay invalid, with a size for each. The size is half of the longest side or of the
+  /// Sides of elements that stay invalid, by face, with a size for each. The size is half of the longest side or of the
   /// prescribed size, whichever is smaller (without halving if all elements are cut).
   std::vector<std::vector<EdgeSizes::Source>> finer;
 };
 
 /// Gives each edge of result.mesh a node. An edge of a curve gets the point at half its metric length, once for all
 /// faces. An edge inside a face gets S at the metric middle of the segment of (u, v). Then repairs elements whose
-/// Jacobian is not positive in (u, v) and in space (Bernstein coefficients of degree 2, or (3, 3)): nodes inside the
-/// face move first, then vertices. Meshes that have nodes on edges get new ones. Nodes of edges that end at `cusps`,
-/// ascending, are drawn away from the cusps: parabolas through middles meet there at no angle, or at one that rounding
-/// gives them.
+/// Jacobian is not positive in (u, v) and in space: nodes inside the face move first, then vertices. The Jacobian has
+/// Bernstein coefficients of degree 2, or (3, 3). Meshes that have nodes on edges get new ones. Nodes of edges that end
+/// at `cusps`, ascending, are drawn away from the cusps. Parabolas through middles meet there at no angle, or at one
+/// that rounding gives them.
 QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEnd>& cusps = {});
 
 /// Makes two triangles of each of these quadrilaterals of a face again, without nodes on edges.
 void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads);
 
-/// The second half of it, for one face: `fixed_mid` and `fixed_vertex` mark by local index the nodes and vertices that
-/// keep their places. Returns true if all elements were valid and repairs of other faces do not move nodes of this
-/// face.
+/// The repairs of make_quadratic(), for one face. `fixed_mid` and `fixed_vertex` mark by local index the nodes and
+/// vertices that keep their places. Returns true if all elements were valid and repairs of other faces do not move
+/// nodes of this face.
 bool mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
                const std::vector<char>& fixed_vertex, QuadraticReport& report);
 
-/// Tells of the elements of a face that are invalid when all faces are made.
+/// Reports the elements of a face that are invalid when all faces are made.
 void find_invalid(const ElementWork& work, std::size_t face, QuadraticReport& report);
 
 }  // namespace carreau

@@ -6,7 +6,7 @@
 
 namespace carreau::thresholds::elements {
 
-/// Least Jacobian over its mean (Jacobian::least) that mending stops at: solvers' condition numbers grow with its
+/// Least Jacobian over its mean (Jacobian::least) at which repairs stop. Condition numbers of solvers grow with its
 /// inverse, and 0 is the limit of validity. [Quadratic.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr double good_jacobian = 0.2;
 /// Below this an element is not valid: rounding of coefficients is far smaller.
@@ -16,7 +16,7 @@ inline constexpr double least_jacobian = 1e-6;
 /// [FreeElementsAtCurves.AreValidWhereEdgesTurn]
 inline constexpr double least_gain = 0.005;
 /// First and last step of the search for a node's place, shares of its edge. The first one reaches over the bulge of an
-/// edge that turns by 90 degrees (its sagitta is a fifth of it).
+/// edge that turns by 90 degrees (its sagitta is a fifth of the edge).
 inline constexpr double first_step = 0.2, last_step = 0.01;
 /// Rounds over the elements of a face that are not good: each round moves nodes that the round before has blocked.
 inline constexpr int most_rounds = 8;
@@ -24,8 +24,8 @@ inline constexpr int most_rounds = 8;
 /// evaluations of the surface, so that the search costs no multiple of the mesh. In eleven CAD models at 4 %, meshes that become good need
 /// at most 11 places per element. [geometry_fuzz grid 164, 182, molecule 61]
 inline constexpr std::int64_t most_trials = 3000, most_trials_of_element = 30;
-/// Times that the model is meshed again with half the size beside elements that stay invalid: an edge of a whole circle
-/// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
+/// Times that the model is meshed again with half the size beside elements that stay invalid. An edge of a whole circle
+/// then has 6 degrees. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int most_divisions = 6;
 /// The same with quadrilaterals.
 inline constexpr int most_divisions_of_quads = 6;
@@ -41,7 +41,7 @@ inline constexpr int most_partings = 4;
 /// Ratio of the triangles of all finer meshes together to the first mesh's. Screws and frames of coarse quadrilaterals of second
 /// order become valid in the sixth mesh, with twice as many each. [Quadratic.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr double most_growth = 12;
-/// Triangles. First meshes with fewer count as so many.
+/// Triangles. First meshes with fewer triangles count as having this number.
 inline constexpr double few_triangles = 1000;
 
 }  // namespace carreau::thresholds::elements

@@ -20,7 +20,7 @@ namespace carreau {
 /// divide edges of curves change result.curve_size and `curves` too.
 struct ElementWork {
   const CurveModel& model;  ///< model, topology, supports and evaluators of curves and faces
-  /// By curve of the topology: vertex k is result.mesh.curves[c].vertices[k], unless a narrow face has vanished there.
+  /// Vertex k of a curve of the topology is result.mesh.curves[c].vertices[k], unless a narrow face has vanished there.
   std::vector<DiscreteCurve>& curves;
   const SizeRules& rules;
   const CompositeOptions& options;

@@ -40,7 +40,7 @@ class FreeSurface final : public SurfaceAround {
   double factor_ = 1;
 };
 
-/// Those of a free mesh, under the same numbers; new ones follow.
+/// The vertices of a free mesh, under the same numbers; new ones follow.
 class ElementVertices final : public PlacedVertices {
  public:
   explicit ElementVertices(const FreeMesh& mesh);

@@ -21,8 +21,8 @@ struct FreeCells {
   std::vector<std::int32_t> vertex;  ///< local -> ElementVertices; -1: new, and free
 };
 
-/// `triangles`: by vertices of space, as the atlas is turned. Edges of lines are imposed, and so are those without exactly
-/// two triangles that run along them in opposite ways.
+/// `triangles`: by vertices of space, as the atlas is turned. Imposed edges are edges of lines, and edges without exactly two triangles
+/// that run along them in opposite ways.
 FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
                      const std::vector<FreeCell>& triangles, Monitor& monitor);
 

@@ -12,7 +12,7 @@ namespace carreau {
 /// Nodes by cell of FreeCells::quads.
 struct FreeNodes {
   std::vector<FreeCell> of_cell;  ///< nodes of its sides, from corner k to the next one: vertices of space
-  std::size_t moved = 0;          ///< nodes and vertices that mending has moved
+  std::size_t moved = 0;          ///< nodes and vertices that repairs have moved
   std::vector<std::int32_t> invalid;  ///< cells whose Jacobian is not positive everywhere, ascending
 };
 

@@ -8,13 +8,13 @@ namespace carreau::thresholds::free_elements {
 /// is below the third power of common elements' sizes over radii. [FreeElements.AreaConvergesAsThePolynomialsPromise]
 inline constexpr double near_foot = 1e-2;
 
-/// Sizes. If halves of quadrilaterals cross that did not cross before, vertices up to this distance stay when all is made again, twice as
-/// far the next time.
+/// Sizes. If halves of quadrilaterals cross that did not cross before, vertices up to this distance stay when all is made again. The next
+/// time the distance doubles.
 inline constexpr double held_sizes = 2;
 /// Times that it is, before triangles are joined and nothing else is done.
 inline constexpr int most_holds = 3;
-/// Sizes. If elements join in a way that their triangles do not, triangles up to this distance stay when all is made again, twice as far
-/// the next time. An element reaches over two sizes. [geometry_fuzz triangles 139, 1000019]
+/// Sizes. If elements join in a way that their triangles do not, triangles up to this distance stay when all is made again. The next time
+/// the distance doubles. An element reaches over two sizes. [geometry_fuzz triangles 139, 1000019]
 inline constexpr double kept_sizes = 1;
 /// Times that they are kept around; the last time all triangles stay.
 inline constexpr int most_keeps = 3;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One graph of the gradation of a model: a separate mesh whose vertices know the prescribed sizes. Private to this
-// room.
+// One graph of the gradation of a model: a separate mesh with prescribed sizes at its vertices. Private to this room.
 #pragma once
 
 #include <array>
@@ -51,7 +50,7 @@ struct GradingWork {
   std::vector<DiscreteCurve> curves;
   RefinedDomains domains;
   GradationGraph graph;
-  std::vector<std::uint8_t> sides;        // of the graph's triangles: those on curves
+  std::vector<std::uint8_t> sides;        // sides on curves of the graph's triangles
   std::vector<std::vector<int>> node_of;  // [curve][node]: vertex of the graph
   std::vector<GradedFace> faces;
   std::vector<std::size_t> place_of;  // first place of a face
@@ -82,7 +81,7 @@ void make_graph(GradingWork& work, const std::vector<SizeSamples>& raw, const Gr
 /// vertices. Several threads may make faces at a time.
 FaceInGraph face_in_graph(const GradingWork& work, const PatchInput& input, Monitor& monitor);
 
-/// So many layers as options.proximity between two boundaries of a face, and between faces that face each other.
+/// Bounds sizes to options.proximity layers between two boundaries of a face, and between faces that face each other.
 void bound_narrow_zones(GradingWork& work);
 void bound_facing_faces(GradingWork& work);
 

@@ -33,7 +33,7 @@ SizeSamples coarsened(const GradingWork& work, SizeSamples samples) {
   return samples;
 }
 
-// Sizes known between the vertices of a curve bound those at its vertices.
+// Lowers the sizes at the vertices of a curve by the known sizes between them.
 void lower_by_samples(GradingWork& work, std::size_t c, const SizeSamples& raw, const std::vector<int>& nodes) {
   const DiscreteCurve& d = work.curves[c];
   const double length = work.model.length(static_cast<int>(c)), slope = slope_of_gradation(work.options.gradation);

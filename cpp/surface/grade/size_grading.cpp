@@ -125,7 +125,7 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
     graded = std::move(now);
     graded.rounds = number;
     if (long_edges == 0) break;
-    // Those of a pole stay, and a few others change nothing.
+    // Long edges of a pole stay, and a few others change nothing.
     const double change = static_cast<double>(graded.triangles) / std::max(triangles_before, 1.) - 1;
     const bool few = static_cast<double>(long_edges) < few_edges * static_cast<double>(graded.triangles);
     if ((number > 1 && few) || (std::abs(change) < same_graph && 2 * long_edges > long_before)) break;

@@ -6,12 +6,12 @@
 
 namespace carreau::thresholds::grade {
 
-// In brackets: how many of 15 meshes (STEP files, teapot, formulas, size maps; graded, by direction, with proximity) change
-// if the value is doubled and halved. tests/cpp/surface/grade/gradation_test rests on all of them.
+// Brackets give the number of 15 meshes that change if the value is doubled and halved. The meshes are STEP files, the teapot, formulas and
+// size maps; graded, by direction, with proximity. tests/cpp/surface/grade/gradation_test rests on all of them.
 
 // The graph
-/// Prescribed sizes. Sizes of the graph: distances on it are exact on coarse triangles, and a mesh of so many vertices
-/// costs a quarter of the evaluations. [10, 10]
+/// Prescribed sizes. Sizes of the graph: distances on it are exact on coarse triangles, and its mesh costs a quarter of
+/// the evaluations. [10, 10]
 inline constexpr double graph_factor = 2;
 /// Of diag. Longest edges of the graph. [11, 11]
 inline constexpr double graph_share = 1. / 20;

@@ -34,7 +34,7 @@ class AssembledSearch {
   /// Returns whether no triangle is turned much from `mean`, the mean normal of the replaced triangles.
   [[nodiscard]] bool agree(std::span<const Place> places, const Vec3& mean) const;
 
-  /// The vertex and its neighbours, where something may be left to do after a change; without those beyond the edits.
+  /// Returns the vertex and its neighbours, where work may be left after a change, without vertices beyond the edits.
   [[nodiscard]] std::vector<std::int32_t> left_around(std::int32_t v) const;
   /// Swaps the diagonal of a quadrilateral if the swap improves on `before` and turns no triangle much; else nothing
   /// changes. `after`: the judgement by judge() of the swapped quadrilateral.
@@ -52,7 +52,7 @@ class AssembledSearch {
 
   /// Notes a vertex whose size must be evaluated again.
   void note_changed(Vertex v) { changed_.push_back(v); }
-  /// Asks for them: by `size_of` a metric at a point.
+  /// Evaluates the sizes of the noted vertices: by `size_of` a metric at a point.
   void update_sizes(double (*size_of)(const SurfaceJet&, Metric2), Monitor& monitor);
 
   /// A possible place of a vertex, and the criterion's data there.

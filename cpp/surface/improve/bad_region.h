@@ -27,7 +27,7 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std
 
 /// Returns whether the triangle's shape in space is below the bound.
 bool is_below(double bound, const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz);
-/// Those of a patch, increasing.
+/// Returns the triangles of a patch below the bound, increasing.
 std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
                                           const Crew& crew, Monitor& monitor);
 
@@ -41,7 +41,7 @@ class BadRegion {
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }
-  /// Those below `bound` now, increasing.
+  /// Returns the triangles below `bound` now, increasing.
   [[nodiscard]] std::vector<std::int32_t> below(double bound) const;
   /// Not imposed, and all triangles around are in the region.
   [[nodiscard]] bool may_move(std::int32_t vertex) const { return movable_[vertex] != 0; }

@@ -13,9 +13,9 @@ namespace carreau {
 /// at 0.21 and 0.79.
 inline constexpr std::array<double, 3> along_edge{0.21, 0.5, 0.79};
 
-/// Offset, at the share s of an edge, of the cubic that leaves both ends in the tangent planes of the surface (cubic
-/// patches of Vlachos et al.: "Curved PN triangles", 2001). `p`: height of the last end over the tangent plane of the
-/// first; `q`: height of the first end over the tangent plane of the last.
+/// Offset, at the share s of an edge, of the cubic that leaves both ends in the tangent planes of the surface. Source:
+/// cubic patches of Vlachos et al., "Curved PN triangles", 2001. `p`: height of the last end over the tangent plane of
+/// the first; `q`: height of the first end over the tangent plane of the last.
 constexpr double cubic_offset(double s, double p, double q) noexcept { return s * (1 - s) * ((1 - s) * p + s * q); }
 
 /// The limits of angles and distances between a mesh and its surface.

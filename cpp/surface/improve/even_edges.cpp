@@ -65,7 +65,7 @@ class Evening {
     criterion_.set_known(mesh_, v, to.known);
   }
 
-  // Moves one vertex, v or a vertex that the criterion adds: the one that gains most.
+  // Moves v or a vertex that the criterion adds, the vertex with the largest gain.
   bool move_one(std::int32_t v) {
     double most = 0;
     Vertex which{};

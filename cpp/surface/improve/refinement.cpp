@@ -171,7 +171,8 @@ class Refinement {
     return share;
   }
 
-  // From a triangle or those around it: the image of a triangle of (u, v) may reach beyond it.
+  // Measures the distance from the triangle and its neighbours, since the image of a triangle of (u, v) may reach
+  // beyond it.
   [[nodiscard]] double deviation(int t, const Vec3& s) {
     const auto from = [&](int k) {
       const Triangle& c = triangle(k);
@@ -183,7 +184,8 @@ class Refinement {
     return d;
   }
 
-  // The least cosine of the normals of a triangle and of the surface; without those at the corners in its centre alone.
+  // The least cosine of the normals of a triangle and of the surface; if normals at the corners are unknown, at its
+  // centre alone.
   [[nodiscard]] double agreement(const Triangle& c) {
     const Vec3 n = normal_of(c);
     const double size = norm(n);

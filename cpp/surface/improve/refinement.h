@@ -16,7 +16,7 @@ namespace carreau {
 /// belong to the curves. Most meshes stay as they are, without a call if sizes are equal in all directions. Meshes that
 /// no division improves stay too: cusps, creases, surfaces that jump. Keeps mesh.size and mesh.normal up to date.
 ///
-/// Bends within one edge make such triangles. Where a principal curvature vanishes, the size along it jumps from one
+/// Bends within one edge make such triangles. If a principal curvature vanishes, the size along it jumps from one
 /// vertex to the next, and a long edge leaves the surface between them. Returns the triangles that are still wrong,
 /// ascending.
 std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,

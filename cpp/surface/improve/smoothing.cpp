@@ -57,7 +57,7 @@ class Smoothing {
   /// The triangles around a vertex that may move.
   [[nodiscard]] const std::vector<Place>& star(std::int32_t v) const { return editable_.fan(v); }
 
-  // Those that may move, of the worst triangles first.
+  // Returns the vertices that may move, of the worst triangles first.
   [[nodiscard]] std::vector<std::int32_t> corners_of_bad() {
     std::vector<std::pair<double, std::int32_t>> bad;
     for (const std::int32_t t : region_.below(good)) bad.emplace_back(quality_of(t), t);

@@ -43,16 +43,18 @@ struct RemeshingFrame {
   RemeshingWorkers workers = {};
 };
 
-/// How far triangles of meshes that are made so may leave the surface: by the geometric rule, else by the size. `by_direction`: sizes differ by
+/// Tolerances on the distance of triangles from the surface: by the geometric rule, otherwise by the size. `by_direction`: sizes differ by
 /// direction; `angle_slack`: see RemeshingFrame.
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack);
 
-/// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns why it
-/// stays as it is, which has then been done several times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.
+/// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns
+/// the reason if the mesh stays as it is after several rounds: the outcome would have a defect, or new triangles that cross. Empty: the
+/// mesh is made.
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 
-/// The same of a mesh that frame.made makes: around its seams only. `least_mean`: of shapes. Returns why nothing has come of it and nothing is changed.
+/// Repairs a mesh from frame.made, around its seams only. `least_mean`: least mean shape. Returns the reason if the mesh is not made, with
+/// nothing changed.
 std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
                           CompositeResult& result, Monitor& monitor);
 
@@ -66,7 +68,7 @@ using ElementMaker = std::function<void(const SurfaceMesh& before, const Remeshi
 /// `curves`: the curves that the mesh was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes,
 /// references, curves and (u, v) of its corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have
 /// them. `elements` may be empty. Returns false, with an unchanged mesh, if the outcome would have a defect or new triangles that cross.
-/// Sentences about faces that have vanished go to `monitor`. Throws the exceptions of the host, and Cancelled: then nothing is changed.
+/// Sentences about faces that have vanished go to `monitor`. Throws the exceptions of the host, and Cancelled, with nothing changed.
 bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                        bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 

@@ -57,7 +57,7 @@ class LinePlaces final : public LineGeometry {
   [[nodiscard]] KeptPlaces at(double arc) override;
 
  private:
-  /// A part of the line: a whole curve, or some edges of it.
+  /// A part of the line: a whole curve, or some edges.
   struct Part {
     std::int32_t curve = 0;
     double from = 0, to = 0;            ///< of the line

@@ -73,7 +73,7 @@ class LineRemesher {
     return sum;
   }
 
-  // The edge of a line leaves its curve no farther than is tolerated, or than one of those before.
+  // The edge of a line leaves its curve no farther than the tolerance, or than one of the old edges.
   [[nodiscard]] double distance(const Node& p, const Node& q) const {
     double most = 0;
     for (const double s : {0.25, 0.5, 0.75})

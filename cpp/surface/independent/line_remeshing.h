@@ -25,7 +25,7 @@ struct LineNode {
   double arc;
 };
 
-/// A line that is worked at.
+/// A line during remeshing.
 struct WorkedLine {
   std::unique_ptr<LineGeometry> places;
   std::vector<LineNode> left;

@@ -16,10 +16,10 @@ namespace carreau {
 
 namespace {
 
-/// Cells that one thread places, and such parts between two times that cells are dealt out to faces [time and memory only].
+/// Cells that one thread places, and parts of cells between two distributions of cells to faces [time and memory only].
 constexpr std::size_t cells_of_part = 4096, parts_placed_at_once = 64;
 
-/// Deals cells out to faces, and edges of lines to curves.
+/// Distributes cells to faces, and edges of lines to curves.
 class Reassembler {
  public:
   Reassembler(const SurfaceMesh& before, const CellsInSpace& cells, const RemeshingWorkers& workers, Monitor& monitor)

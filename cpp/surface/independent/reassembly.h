@@ -18,7 +18,7 @@ namespace carreau {
 
 /// The changed data of a mesh that was made free of its patches.
 struct FreedMesh : SizedMesh {
-  // The sources of the mesh, for steps that make other elements of it.
+  // The sources of the mesh, for steps that make other elements.
   std::unique_ptr<FreeMesh> free = {};
   std::vector<WorkedLine> worked = {};  ///< by line
 };

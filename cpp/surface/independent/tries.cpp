@@ -183,7 +183,7 @@ bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, b
     const std::vector<std::int32_t> changed = remesh_lines(free, start.worked, of_lines, monitor_);
     if (round > 0 && changed.empty() && weighing.kept != keep_all) break;
     if (round == 0 && coarsely && frame_.everywhere) report += remesh_coarsely(free, before_.mesh, frame_, monitor_);
-    // Elsewhere nothing is left to do after the first round.
+    // Elsewhere the work is done after the first round.
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
     report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, frame_.everywhere && coarsely, around);
     if (weighing.kept == keep_all) free.budget.price *= price_growth;
@@ -256,7 +256,7 @@ Tries::Outcome Tries::certified(StartedMesh& mesh) {
 Tries::Outcome Tries::run() {
   // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
   bool coarsely = !geometric_limits(options_.size).any();
-  KeptShapes least = keep_none;   // what has to be kept
+  KeptShapes least = keep_none;   // the shapes that must be kept
   std::optional<Try> spare;  // the first mesh whose shapes are worse than the previous shapes
   Outcome outcome;
   for (const Weighing& weighing : weighings(frame_.everywhere || frame_.elements, options_.sharp_angle)) {

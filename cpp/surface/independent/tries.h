@@ -24,7 +24,7 @@ namespace carreau {
 enum class KeptShapes : char {
   none,
   worst,           ///< no triangle becomes worse than the worst one was
-  worst_and_mean,  ///< and what shapes lose by any edit has been gained before
+  worst_and_mean,  ///< and gains of earlier edits pay each loss of shapes
 };
 
 /// Weights of lengths and shapes if they conflict (ShapeBudget).
@@ -83,7 +83,7 @@ class Tries {
     const Weighing* ended = nullptr;            ///< after the first round, since shapes had become worse; null: it is done
   };
   Try make(const Weighing& weighing, bool coarsely);
-  Outcome put_together(StartedMesh& mesh);  // it stays where no elements are made of it
+  Outcome put_together(StartedMesh& mesh);  // the mesh stays unless it becomes other elements
   Outcome certified(StartedMesh& mesh);
   bool remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least);
   [[nodiscard]] std::int64_t crossings_before();

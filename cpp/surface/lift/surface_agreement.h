@@ -15,14 +15,14 @@ struct SurfaceAgreement {
   /// Triangles that turn their backs on the surface they stand for, or stand upright on it.
   std::int64_t turned = 0;
   /// Area of the mesh over the area of the surface, less 1. Chords make a mesh smaller. It is larger where long edges
-  /// leave the surface by as much as their neighbours are away, so that triangles stand on it like scales (Schwarz's
+  /// leave the surface by as much as their neighbours are away. Triangles then stand on it like scales (Schwarz's
   /// lantern). 0 if it is small, or normals are not known.
   double excess = 0;
 
   [[nodiscard]] bool leans() const noexcept;
   [[nodiscard]] bool wrong() const noexcept { return turned > 0 || leans(); }
   [[nodiscard]] bool better_than(const SurfaceAgreement& other) const noexcept;
-  /// For a person, after the face; empty where nothing is wrong.
+  /// A text for a person, after the face; empty if all is well.
   [[nodiscard]] std::string text() const;
 };
 

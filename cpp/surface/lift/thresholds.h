@@ -14,8 +14,8 @@ namespace carreau::thresholds::lift {
 inline constexpr double too_long = 1.3;
 /// The same. Limit for a mesh that is much too fine. [Verification.WhatTheSamplesKnowCostsNothing]
 inline constexpr double too_short = 0.65;
-/// True length over promised length. Such edges are looked at for jumps: where the surface is continuous between their
-/// ends, nothing becomes of it. [surface: BadModels.SurfaceThatJumpsByAFewEdges]
+/// True length over promised length. Such edges are examined for jumps; a surface that is continuous between their ends
+/// has none. [surface: BadModels.SurfaceThatJumpsByAFewEdges]
 inline constexpr double excess = 8;
 /// Relative length. A change of the control space that is worth another mesh. [Verification.WhatTheSamplesKnow...]
 inline constexpr double notable_change = 0.1;
@@ -37,7 +37,7 @@ inline constexpr std::size_t least_shared_parts = 8;
 inline constexpr int most_steps = 8;
 /// Share of a place's reach. Shorter steps are the last. [as above]
 inline constexpr double last_step = 1e-3;
-/// sin^2 of the angle between the derivatives, below which there is no step. [rounding]
+/// sin^2 of the angle between the derivatives, below which the search takes no step. [rounding]
 inline constexpr double no_step = 1e-12;
 
 // Agreement (surface_agreement)

@@ -200,7 +200,7 @@ class LiftCheck {
     constexpr double too_long2 = too_long * too_long, too_short2 = too_short * too_short, excess2 = excess * excess;
     mesh_.excesses.clear();
     const PlaneDomain& domain = input_.domain->plane;
-    std::vector<char> at_apex;  // by imposed vertex; empty: there is no apex
+    std::vector<char> at_apex;  // by imposed vertex; empty: without an apex
     for (const PlaneEdge& e : domain.edges) {
       if (e.kind != PlaneEdgeKind::degenerate) continue;
       at_apex.resize(domain.vertices.size(), 0);

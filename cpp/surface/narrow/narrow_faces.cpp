@@ -107,7 +107,7 @@ class Finder {
     return narrow.width <= reach_;
   }
 
-  // Whether the middle of the longest curve is near a second curve; cheap, and enough to pass over most faces.
+  // Returns whether the middle of the longest curve is near a second curve; cheap, and enough to pass over most faces.
   [[nodiscard]] bool may_be_narrow() const {
     const auto& supports = model_.supports[face_];
     std::size_t longest = 0;
@@ -242,7 +242,7 @@ bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int fa
   return true;
 }
 
-/// Returns whether the face is one point of space: each side is, and its middle is no farther from them than they
+/// Returns whether the face is one point of space: each side is, and its middle is at most as far from them as they
 /// extend. A closed surface whose whole border is one point does not count.
 bool is_point_of_space(const CurveModel& model, int face) {
   Vec2 middle{0, 0};

@@ -27,16 +27,16 @@ struct NarrowFace {
   double width = 0;               ///< two-sided Hausdorff distance of the sides (HDR sec. 4.5.1), model length
   double size = 0;                ///< smallest size prescribed on its curves
   bool ring = false;              ///< both sides are closed
-  bool point = false;             ///< no longer than wide: all of it is near a point; it has no sides
+  bool point = false;             ///< no longer than wide: the whole face is near a point; it has no sides
   std::array<Side, 2> side = {};  ///< both run the same way
   /// The curves that join the starts and the ends of the sides, from side[0] to side[1]; empty where the sides meet.
   std::array<Side, 2> end_cap = {};
 };
 
 /// Faces narrower than `ratio` times the smallest size on their curves. Such a face has one loop that two of its
-/// corners or short curves cut into two near sides, or two near loops, or a loop that is all near a point. Faces with
-/// internal curves or imposed points, and faces whose sides are one curve, do not count as narrow. In the order of the
-/// model.
+/// corners or short curves cut into two near sides, or two near loops. Its loop may also be all near a point. Faces
+/// with internal curves or imposed points, and faces whose sides are one curve, do not count as narrow. In the order of
+/// the model.
 std::vector<NarrowFace> find_narrow_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
                                           double ratio);
 
@@ -51,13 +51,13 @@ struct NarrowModel {
   [[nodiscard]] bool empty() const noexcept { return strips.empty() && points.empty(); }
 };
 
-/// Faces whose whole boundary runs there and back along the same curves, with no more between them than the gap of
-/// these curves: slivers below the tolerance of their file. A closed surface along its seam does not count. Faces all
-/// of whose sides are degenerate, and that lie where their sides do, are included. Indices in Model::faces, ascending.
+/// Slivers below the tolerance of their file: their whole boundary runs there and back along the same curves, with no
+/// more between them than the gap of these curves. A closed surface along its seam does not count. Faces all of whose
+/// sides are degenerate, and that lie where their sides do, are included. Indices in Model::faces, ascending.
 std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
 
-/// Fills `vanishing`. If the curves of a face are a whole loop of a second face, a small hole, the face is left out of
-/// the lists: the hole would vanish with it.
+/// Fills `vanishing`. A face whose curves are a whole loop of a second face, a small hole, is left out of the lists.
+/// The hole would vanish with it.
 void let_end_caps_vanish(const CurveModel& model, NarrowModel& narrow);
 
 /// How the sides of narrow faces were matched.
@@ -72,8 +72,8 @@ struct SidesMatched {
 /// of curves to both.
 SidesMatched match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves);
 
-/// Completes that after segments were split: what one side has and the other has not is inserted. Spends a callback only
-/// where something is missing.
+/// Completes the match after splits of segments: inserts the vertices that only one side has. Calls the host only if
+/// vertices are missing.
 SidesMatched complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
                             std::vector<DiscreteCurve>& curves);
 

@@ -18,8 +18,8 @@ inline constexpr std::size_t most_curves = 60;
 inline constexpr double same_width = 1e-3;
 /// Places on a loop that decide the sense in which the other loop runs. [Narrow.RingBetweenCylindersCollapses]
 inline constexpr int probes = 12;
-/// Gaps. A face is without width where its surface, halfway between two uses of a curve, is no farther from them,
-/// [Folded.FaceWithoutWidthIsNoFailure]
+/// Gaps. A face is without width if its surface, halfway between two uses of a curve, is within this distance from
+/// them, [Folded.FaceWithoutWidthIsNoFailure]
 inline constexpr double folded_gap = 4;
 /// Share of their length. or than this. Beside a point of space: share of its coordinates, for rounding.
 /// [Folded.SeamsAreNot]

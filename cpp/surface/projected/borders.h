@@ -43,7 +43,7 @@ struct BorderInput {
 /// Returns nothing if edges have more than two triangles, or lines too few vertices for the sizes.
 std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor);
 
-// The two steps of it.
+// The two steps of cut_borders().
 /// One sharp line: edges of equal length in sizes, none farther from it than is tolerated. `at_least`: edges.
 struct DividedLine {
   std::vector<LineNode> nodes;

@@ -71,7 +71,7 @@ void ChartPlane::enclose(std::span<const std::int32_t> triangles) {
   raster_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
 }
 
-// Enters the triangle in the cells whose centre it contains, and in the cell of its own centre.
+// Enters the triangle in the cells whose centre it contains, and in the cell of the triangle's centre.
 void ChartPlane::fill(std::int32_t t) {
   const std::array<Vec2, 3> c = corners(t);
   if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) return;

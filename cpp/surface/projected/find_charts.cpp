@@ -113,7 +113,7 @@ class ChartFinder {
     for (int again = 0; again < regrowths; ++again) regrow(region, first);
   }
 
-  // Seeds where all that there is is farthest, until nothing is left.
+  // Places seeds in the middles of the remaining pieces, until no triangle remains.
   void fill(const Triangles& region, std::int32_t first) {
     for (;;) {
       const std::vector<Triangles> pieces = pieces_left(region);

@@ -30,14 +30,14 @@ struct ChartWork {
   std::vector<std::int32_t> triangles;  // of the atlas
   std::vector<const BorderChain*> chains;
   std::unique_ptr<ChartPlane> plane;
-  std::string why;     // its borders are none
+  std::string why;     // reason why its borders are invalid
   bool leans = false;  // it would be seen better in two
   bool kept = false;   // its triangles stay as they are
 };
 
 /// The result for a chart.
 struct MadeChart {
-  std::string why;                   // there is no mesh
+  std::string why;                   // reason why the mesh is missing
   std::vector<std::int32_t> border;  // vertices of the mesh to come
   std::vector<SurfacePlace> inner;   // places of the vertices that follow
   TriangleList triangles;            // of the chart's own numbers
@@ -100,7 +100,7 @@ struct BorderSource {
   Cad& cad;
 };
 
-/// Charts with their borders in their planes; those whose borders are no borders are wrong.
+/// Charts with their borders in their planes; charts with invalid borders are wrong.
 struct Plan {
   Borders borders;
   std::vector<Vec3> xyz;
@@ -155,9 +155,8 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   return plan;
 }
 
-// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and
-// keeps the triangles of small ones.
-// False where nothing is left to do.
+// Joins wrong charts to others. Charts that cannot be joined get exact borders. Charts that stay wrong are cut in two,
+// and the triangles of small ones are kept. Returns false if no change is left.
 bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
   std::vector<char> is_wrong(found.axis.size(), 0);
   for (const std::int32_t c : wrong) is_wrong[c] = 1;

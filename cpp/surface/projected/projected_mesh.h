@@ -12,7 +12,7 @@
 namespace carreau {
 
 struct ProjectedOptions {
-  Crew crew = {};  ///< deals out charts; the mesh does not depend on it
+  Crew crew = {};  ///< distributes charts; the mesh does not depend on it
   std::int64_t max_triangles = 0;
 };
 

@@ -22,7 +22,7 @@ inline constexpr int most_mendings = 16;
 inline constexpr double most_kept = 0.25;
 /// Triangles left between charts may lean so far: a ratio of 3.
 inline constexpr double loose_cosine = 0.3;
-/// Nothing is found in triangles that lean more: there the projection turns over soon.
+/// The search ignores triangles that lean more: there the projection turns over soon.
 inline constexpr double least_cosine = 0.15;
 /// Triangles: smaller pieces that are left between charts join one of them.
 inline constexpr int small_piece = 16;
@@ -32,27 +32,27 @@ inline constexpr int regrowths = 2;
 inline constexpr double price_of_leaning = 3;
 
 // Cuts between charts
-/// Sweeps that straighten a cut, and those after its vertices have been dealt out anew.
+/// Sweeps that straighten a cut, and sweeps after the redistribution of its vertices.
 inline constexpr int sweeps = 12, last_sweeps = 3;
 
 // Meshes of charts
-/// Cosine: if all normals of a chart are as near, its metric is the metric of the plane; lengths are off by 1 % at
-/// most.
+/// Cosine: if all normals of a chart are as near, the metric of the plane serves for the chart. Lengths are off by 1 %
+/// at most.
 inline constexpr double flat_cosine = 0.99;
 /// Sizes that differ by so much, relatively, are one.
 inline constexpr double same_size = 1e-6;
-/// Control space of a chart with one size: error of lengths, samples a vertex, least number of samples. The normals of
-/// the chart's triangles are no more accurate.
+/// Control space of a chart with one size: error of lengths, samples a vertex, least number of samples. More accuracy
+/// is useless, since the normals of the chart's triangles are as inaccurate.
 inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
 inline constexpr std::size_t least_samples = 40;
 /// Share of the size. A vertex is lifted again if its lifted place is farther from its place in the plane.
 inline constexpr double most_miss = 0.05;
 /// Largest number of cells of the raster of a chart, of triangles on the quickest way to a place, and of triangles on a
-/// straight way behind these. One cell may contain many needles. [ProjectedMeshes.FansOfNeedlesAreNotFolded]
+/// straight way behind. One cell may contain many needles. [ProjectedMeshes.FansOfNeedlesAreNotFolded]
 inline constexpr int most_cells = 1 << 20, most_steps = 64, most_straight_steps = 1 << 16;
 /// Triangles around that are looked at where a barrier is in the way.
 inline constexpr std::size_t most_around = 64;
-/// Rings of triangles beyond the border of a chart that its raster knows: cuts are straightened.
+/// Rings of triangles beyond the border of a chart in its raster: cuts are straightened.
 inline constexpr int rings_beyond = 2;
 
 /// Length. A mean of unit normals that is shorter has no direction: the normals cancel out. [rounding]

@@ -52,7 +52,7 @@ class Pass {
     return changes;
   }
 
-  /// By vertex: whether a cell around it has changed.
+  /// Marks the vertices of changed cells.
   [[nodiscard]] std::vector<char> take_touched() { return std::move(touched_); }
 
  private:

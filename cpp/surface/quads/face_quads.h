@@ -34,8 +34,8 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
 /// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each. How many.
 std::size_t split_poor(FaceQuads& quads, double least);
 
-/// Puts the cells of faces into the mesh, all at once: vertices that no cell has any more are removed, new ones are
-/// appended face by face. Order stays.
+/// Puts the cells of faces into the mesh, all at once. Vertices without a cell are removed, new vertices are appended
+/// face by face. Order stays.
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);
 
 }  // namespace carreau

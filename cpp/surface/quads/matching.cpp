@@ -42,7 +42,7 @@ class Matching {
   }
 
  private:
-  /// A pair as seen from one of its triangles; `pair` is -1 if there is no pair. The pairs of a triangle come first.
+  /// A pair as seen from one of its triangles; `pair` is -1 without a pair. The pairs of a triangle come first.
   struct Link {
     std::int32_t pair = -1, other = -1;
     double weight = 0;
@@ -60,7 +60,7 @@ class Matching {
     return both[0] == t ? both[1] : both[0];
   }
 
-  // Nearly all that a pair can weigh: what gains starts elsewhere.
+  // Returns whether the pair has nearly the largest weight: paths that gain start elsewhere.
   [[nodiscard]] bool is_content(std::int32_t t) const {
     constexpr double content = 0.92;
     return chosen_[t] >= 0 && pairs_[chosen_[t]].weight > content * heaviest_;

@@ -101,7 +101,7 @@ class Pairing {
 // The corner whose sides go on smoothly into each other; -1: none.
 template <typename Quads>
 int flat_corner(const Quads& quads, const MixedCell& t) {
-  if (!quads.is_fixed(t[0]) || !quads.is_fixed(t[1]) || !quads.is_fixed(t[2])) return -1;  // those on curves are
+  if (!quads.is_fixed(t[0]) || !quads.is_fixed(t[1]) || !quads.is_fixed(t[2])) return -1;  // corners on curves are
   for (int k = 0; k < 3; ++k)
     if (std::ranges::binary_search(quads.flat(), std::array{t[k], t[(k + 1) % 3], t[(k + 2) % 3]})) return k;
   return -1;

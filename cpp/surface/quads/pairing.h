@@ -21,7 +21,7 @@ struct PairRules {
   /// The place in space of a corner of a triangle.
   std::function<Vec3(std::int32_t)> position;
   double most_turn = 0.3;  ///< radians: largest angle between the normals of the two, in space
-  double least_jacobian = 0;  ///< of the quadrilateral in space: only what exceeds it comes into question
+  double least_jacobian = 0;  ///< of the quadrilateral in space: a candidate must exceed it
 };
 
 /// Joins triangles of the patch, which has no other cells, by a matching of large weight. Quality is that in the metric

@@ -19,7 +19,7 @@ constexpr int corners_of(const MixedCell& cell) noexcept { return cell[3] < 0 ? 
 /// The data of the passes of this room. Indices are local vertices of the face.
 struct QuadPatch {
   std::vector<Vec2> uv;
-  std::vector<char> fixed;  ///< by vertex: it neither moves nor goes
+  std::vector<char> fixed;  ///< by vertex: it stays, and stays in place
   std::vector<MixedCell> cells;
   /// Vertices v, a, b where edges v - a and v - b of curves go on smoothly into each other, both ways, ascending. A cell
   /// with that corner has an angle of 180 degrees there, whatever the angle of its chords.

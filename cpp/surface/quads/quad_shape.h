@@ -85,7 +85,7 @@ class PlaneQuads {
   static Way no_way() noexcept { return {0, 0}; }
   static Way way(const Frame& frame, const Vec2& y) noexcept { return frame.offset(y); }
 
-  /// Frames of some cells that stay while vertices move. Those of a metric that does not bend are linear.
+  /// Frames of some cells that stay while vertices move. Frames of a metric that does not bend are linear.
   class KeptFrames {
    public:
     explicit KeptFrames(const PlaneQuads& quads) : quads_(quads) {}
@@ -98,7 +98,7 @@ class PlaneQuads {
       linear_.emplace_back(chart);
       if (quads_.charts_.bends()) charts_.push_back(chart);
     }
-    /// Corner k of cell number c of those added.
+    /// Corner k of added cell number c.
     [[nodiscard]] Vec2 at(std::size_t c, const MixedCell& cell, int k) const noexcept {
       const std::vector<Vec2>& uv = quads_.patch_.uv;
       return charts_.empty() ? linear_[c].at(uv[cell[k]] - uv[cell[0]]) : charts_[c].at(uv[cell[k]]);

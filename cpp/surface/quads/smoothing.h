@@ -18,7 +18,7 @@ struct QuadSmoothing {
   double pull = 0.1;  ///< 0: cells keep their size; 1: they propose the size of unit edges
   /// Length of unit edges, in the metric.
   double unit = 1;
-  /// By vertex: whether it may move; empty: all that are not fixed.
+  /// Marks the vertices that may move; empty: all that are not fixed.
   std::span<const char> moving = {};
 };
 

@@ -30,12 +30,12 @@ class SpaceQuads {
 
   explicit SpaceQuads(const SurfaceAround& surface) : surface_(surface) {}
 
-  /// Its number. A vertex that is fixed neither moves nor goes.
+  /// Returns its number. A fixed vertex stays, and stays in place.
   std::int32_t add_vertex(const SurfacePlace& place, const WantedSize& wanted, bool fixed);
   std::int32_t add_vertex(const SurfacePlace& place, bool fixed) { return add_vertex(place, surface_.wanted(place), fixed); }
   void fix(std::size_t v, bool fixed) { fixed_[v] = static_cast<char>(fixed); }
   void set_flat(std::vector<std::array<std::int32_t, 3>> flat) { flat_ = std::move(flat); }
-  /// All sizes become so many times as large.
+  /// Multiplies all sizes by a factor.
   void scale_sizes(double factor);
   [[nodiscard]] const WantedSize& wanted(std::int32_t v) const { return wanted_[v]; }
   [[nodiscard]] const SurfaceAround& surface() const noexcept { return surface_; }
@@ -93,9 +93,9 @@ class SpaceQuads {
   void put(std::size_t v, const Place& place);
   /// Beside the surface, for a trial: no evaluation.
   void try_at(std::size_t v, const Place& from, const Way& way) noexcept { place_[v].xyz = from.xyz + way; }
-  /// On the surface, from where it was before the trial; false: there is no way.
+  /// Puts the vertex on the surface, from its place before the trial; false: no way leads there.
   bool settle(std::size_t v, const Place& from);
-  /// It stays where there is no way.
+  /// The vertex stays if no way leads there.
   void move(std::size_t v, const Way& way);
   void approach(std::size_t v, std::size_t other) { move(v, 0.5 * (place_[other].xyz - place_[v].xyz)); }
 

@@ -11,7 +11,7 @@ namespace carreau::thresholds::quads {
 inline constexpr double least_bend = 0.05;
 
 // Pairs (pairing)
-/// Quality. Worse quadrilaterals are no candidates.
+/// Quality. Worse quadrilaterals are rejected.
 inline constexpr double least_pair = 0.08;
 /// Edges of sizes by angle_mesh turn by twice that angle from end to end, and so may two triangles.
 inline constexpr double turns_per_edge = 2;

@@ -161,8 +161,8 @@ class Refiner {
   }
 
   // One round: splits the segments that the faces in `look` request, in every face that holds the curve. `find` does
-  // not evaluate the host and runs on several threads. So does `ask`, which may change the result of `find`, unless it
-  // is to be `alone`.
+  // not evaluate the host and runs on several threads. The function `ask` also runs on several threads, and may change
+  // the result of `find`, unless it is to be `alone`.
   template <typename Find, typename Ask>
   bool refine(const std::vector<char>& look, Find&& find, Ask&& ask, bool alone) {
     rebuild_stale();
@@ -247,7 +247,7 @@ class Refiner {
   }
 
   // Comes last, since halves of edges that were moved by half an edge would face each other again. Sides that were
-  // matched stay so, and metrics by direction know no width in space.
+  // matched stay so, and metrics by direction have no width in space.
   void stagger_strips() {
     if (!options_.stagger_strips || !narrow_.empty() || !isotropic_) return;
     rebuild_stale();
@@ -387,14 +387,14 @@ class Refiner {
   std::vector<NarrowFace> strips_;  // whose sides have vertices at the same places
   std::vector<char> left_out_;  // by face
   std::vector<DiscreteCurve>& curves_;
-  std::set<int>& given_up_;  // faces for which nothing is cut any more
+  std::set<int>& given_up_;  // faces whose edges are no longer cut
   Monitor& monitor_;
   RefinedDomains result_;
   std::vector<char> stale_;
   std::vector<char> changed_;    // since the last round of a check
   std::vector<char> crossable_;  // since no crossing was found
   std::map<int, std::string> unbuilt_;
-  std::set<int> turned_;  // of those
+  std::set<int> turned_;  // among these faces
   std::map<int, int> turned_rounds_;
   struct Crossing {
     double length = infinity;  // of the edges that cross others, in (u, v)

@@ -26,10 +26,10 @@ struct RefinedDomains {
 };
 
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself. Then
-/// splits them where boundaries come close or lengths of neighbours differ, in as many rounds as the options prescribe
-/// (CheckCloseEdges, CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in. Strips
-/// in `narrow`, and points whose curves vanish, are passed over and get no domain; the two sides of strips keep
-/// vertices at the same places.
+/// splits them where boundaries come close or lengths of neighbours differ (CheckCloseEdges, CheckAdjacentEdges,
+/// CheckWellDefined). The options prescribe the number of rounds. `limits`: limits of the sizes in which lengths are
+/// compared. Strips in `narrow`, and points whose curves vanish, are passed over and get no domain. The two sides of
+/// strips keep vertices at the same places.
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
                               Monitor& monitor);

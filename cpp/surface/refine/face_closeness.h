@@ -18,8 +18,8 @@ namespace carreau {
 /// most twice the triangles of a square of its length, and may be cut up to its tips.
 class FaceCloseness {
  public:
-  /// Asks the host for derivatives at some places of faces without neighbours. `domains`: of faces that may be looked
-  /// at, empty ones not.
+  /// Evaluates derivatives at some places of faces without neighbours. `domains`: the faces to consider; empty domains
+  /// are passed over.
   FaceCloseness(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
                 std::span<const std::optional<FaceDomain>> domains, const CompositeOptions& options);
 

@@ -12,8 +12,8 @@ namespace carreau {
 /// Edges of the seams of a face that are long compared with the thickness of the face. The circumference of a tube of
 /// that thickness would be less than coef (CoefRectangle) times their length. Thickness is the distance in space from
 /// the seam to the surface halfway between its two sides. No other check measures it: in space the two sides are one.
-/// Long triangles fill thinner parts (less than narrowest_share of the size and of the seam around); these and parts
-/// that taper to a pole are passed over. Indices of domain.edges; costs four positions an edge of a seam.
+/// Thinner parts are passed over, since long triangles fill them (less than narrowest_share of the size and of the seam
+/// around). So are parts that taper to a pole. Indices of domain.edges; costs four positions an edge of a seam.
 std::vector<int> edges_to_split_for_waists(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
                                            const PlaneDomain& domain, double coef);
 

@@ -13,8 +13,8 @@ namespace carreau::thresholds::refine {
 /// AreMendedByRefinement]
 inline constexpr int most_halvings = 16;
 /// Rounds. Around a true crossing the edges that cross become shorter with every halving, and curves that only come
-/// near each other stop crossing. After so many halvings without change the curves lie on each other, and would be cut
-/// for ever. [Refinement.CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour]
+/// near each other stop crossing. If this number of halvings changes nothing, the curves lie on each other, and would
+/// be cut for ever. [Refinement.CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour]
 inline constexpr int most_fruitless_halvings = 6;
 /// Share of the length that crossed before. A halving without effect leaves more. [as above]
 inline constexpr double fruitless_share = 0.75;
@@ -58,8 +58,8 @@ inline constexpr double largest_fall = 0.5;
 inline constexpr double ruin = -1e9;
 /// Passes over all strips; each pass may change the gains of the next. [Staggering.StripsAre...]
 inline constexpr int staggering_passes = 8;
-/// Cosine of the angle from which on a half edge at a corner, beside a whole edge, leaves a triangle worse than 0.75
-/// (Q2; 0.95 between two whole edges). [Staggering.WideFacesAndSharpCornersStayAsTheyAre]
+/// Cosine of an angle. At a sharper corner a half edge beside a whole edge leaves a triangle worse than 0.75 (Q2; 0.95
+/// between two whole edges). [Staggering.WideFacesAndSharpCornersStayAsTheyAre]
 inline constexpr double sharp_cosine = 0.6;
 
 }  // namespace carreau::thresholds::refine

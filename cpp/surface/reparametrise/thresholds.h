@@ -19,8 +19,8 @@ inline constexpr double finest = 1.0 / 128;
 inline constexpr double narrowest = 1e-13;
 /// Places. On a parameter, at most. [time only]
 inline constexpr std::size_t most_places = 3000;
-/// Ratio. If all lines of a family together are so many times as long as the longest one, fast places differ from line
-/// to line. [UnevenParameters.FastAlongASlantedLine]
+/// Ratio. If all lines of a family together are longer than this factor times the longest one, fast places differ from
+/// line to line. [UnevenParameters.FastAlongASlantedLine]
 inline constexpr double most_detours = 8;
 
 // New parameters

@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// `space` belongs to `input`, whose sizes grow from input.limits.edges. A parametrisation may leave a tiny edge so
-/// little room in (u, v), for example beside the pole of a cone, that samples miss most of the growth. The space then
+/// `space` belongs to `input`, whose sizes grow from input.limits.edges. A parametrisation may leave a tiny edge very
+/// little room in (u, v), for example beside the pole of a cone. Samples then miss most of the growth. The space
 /// promises a hundred times as many triangles as growth ever makes. Such sizes are raised, by eight as often as
 /// necessary, until the number of triangles is acceptable. The limit is twice the number for the sizes without growth
 /// and for growth in a plane. Returns the new bounds of sizes and replaces `space`, which obeys them; empty if all was

@@ -37,12 +37,12 @@ class FaceMetric {
 
   /// Computes J^T J / h^2 (RR-2928 eq. 27) at each point, or the metrics that prescribed metrics induce (HDR eq. 4.64,
   /// 4.66), within the limits. Evaluates the host. If the parametrisation is degenerate, metrics that depend on the
-  /// geometry are limits from inside the domain: around a pole they differ from one meridian to the next. The metric of
+  /// geometry are limits from inside the domain. Around a pole they differ from one meridian to the next. The metric of
   /// a point does not depend on the other points.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
 
-  /// Samples the metric at points of the face of reference `ref`, whose jets hold `want` besides. Calls use(rank, jet,
-  /// metric) for each point, in order, and evaluates a batch at a time.
+  /// Samples the metric at points of the face of reference `ref`. The jets hold the derivatives `want`, too. Calls
+  /// use(rank, jet, metric) for each point, in order, and evaluates a batch at a time.
   template <typename Use>
   void sample(Cad& cad, int ref, unsigned want, std::span<const Vec2> uv, const Use& use) {
     std::vector<Metric2> metric(std::min(points_at_once, uv.size()));

@@ -24,7 +24,7 @@ bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
          std::abs(m.b - f) <= same_size * std::sqrt(e * g);
 }
 
-// The median; where most do not move nothing is usual.
+// The median; infinity if most derivatives vanish.
 double usual_square(std::vector<double>& squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());

@@ -14,7 +14,7 @@ namespace carreau {
 
 /// Properties of a face that samples show beside its metric.
 struct SampledFacts {
-  SampledNormals* normals = nullptr;  ///< gets those at the samples, where given
+  SampledNormals* normals = nullptr;  ///< gets the normals at the samples, if given
   bool isotropic = true;              ///< sizes do not differ by direction at any of them
   /// Stops with UnevenSpeed if a derivative is `most_uneven` times as long as usual. `usual_speed`: the usual length;
   /// 0: the length along that parameter at the first samples.

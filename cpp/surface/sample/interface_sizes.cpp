@@ -126,7 +126,7 @@ double InterfaceSizes::operator()(const Vec2& uv) const {
   const Triangle& home = mesh_.triangles[last_];
   const auto size_of = [&](double mean) { return law_ == SizeLaw::geometric ? std::exp(mean) : mean; };
   const auto at = weights(last_, from);
-  // At a vertex there are no directions to its edges.
+  // A vertex has no directions to its edges.
   for (int i = 0; i < 3; ++i)
     if (at[i] >= 1 - 1e-12) return size_of(value_[home[i]]);
   Sums sums;
@@ -170,8 +170,8 @@ void InterfaceSizes::look_through(const View& view, const Vec2& from) const {
   if (left_in_view) views_.push_back({t, left_side, right_in_view ? far : view.right, view.left});
 }
 
-/// Mean value weights tan(alpha / 2) / r of both ends of the visible part of an edge (Floater's formula for a polygon
-/// with these corners).
+/// Mean value weights tan(alpha / 2) / r of both ends of the visible part of an edge. Source: Floater's formula for a
+/// polygon with these corners.
 void InterfaceSizes::add(const View& view, Vec2 from, Sums& sums) const {
   const Triangle& c = mesh_.triangles[view.triangle];
   const int a = c[(view.side + 1) % 3], b = c[(view.side + 2) % 3];

@@ -14,7 +14,7 @@
 
 namespace carreau {
 
-/// Asked at places of a patch; what one place gets does not depend on the others.
+/// A question at places of a patch; the answer at one place does not depend on the others.
 struct HostQuestion {
   std::string_view step;  ///< of Team::exchange
   std::size_t width = 1;  ///< numbers a place
@@ -27,8 +27,8 @@ struct HostQuestion {
 [[nodiscard]] bool is_shared(const Team* team, std::size_t n) noexcept;
 
 /// Answers at all places of the face of reference `ref`, in their order; all processes call it and get the same. Each process first
-/// evaluates its host at one of 64 places. Throws InvalidModel, which names face and process, if those answers differ, and the error of a
-/// process whose host alone fails there. If all fail, the error comes from one process.
+/// evaluates its host at one of 64 places. Throws InvalidModel, which names face and process, if those answers differ. Throws the error of
+/// a process whose host alone fails there. If all fail, the error comes from one process.
 std::vector<double> shared_answers(Team& team, int ref, const HostQuestion& question, std::span<const Vec2> uv,
                                    Monitor& monitor);
 

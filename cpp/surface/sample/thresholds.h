@@ -22,7 +22,7 @@ inline constexpr double same_size = 1e-6;
 /// Ratio of speeds. How many times faster than usual a parametrisation may be somewhere: else other parameters are
 /// looked for; [UnevenParameters]
 inline constexpr double uneven_speed = 1000;
-/// Ratio of speeds. and where there are none. [UnevenParameters.ExtremeWeights]
+/// Ratio of speeds. Limit if no other parameters exist. [UnevenParameters.ExtremeWeights]
 inline constexpr double hopeless_speed = 30'000;
 
 // Growth from the edges of a boundary (edge_growth)
@@ -38,8 +38,7 @@ inline constexpr double growth_raise = 8;
 /// Places. Below, each process evaluates all places: to wait for the others twice takes longer than a thousand answers that take half a
 /// microsecond each.
 inline constexpr std::size_t least_shared = 1024;
-/// Pieces of a question, and places of a piece: so many that a process that is late takes fewer, and so large that hosts get
-/// batches.
+/// Pieces of a question, and places of a piece. Many pieces let a late process take fewer of them, and large pieces give hosts batches.
 inline constexpr std::size_t pieces_of_a_question = 32, least_at_once = 128, most_at_once = 8192;
 /// Places of which every process evaluates one, so that different hosts are found: 1.6 % more calls.
 inline constexpr std::size_t places_of_one_compared = 64;

@@ -62,14 +62,14 @@ class Charts {
   [[nodiscard]] double size(const Foot& f) const;
   /// Multiplies sizes by factors, by vertex of the previous mesh, in all directions; empty: sizes as prescribed.
   void enlarge(std::vector<double> factor) { factor_ = std::move(factor); }
-  /// Returns the largest factors of sizes, by vertex of the previous mesh, that are no larger than `factor` and grow over edges by `growth`
+  /// Returns the largest factors of sizes, by vertex of the previous mesh, that do not exceed `factor` and grow over edges by `growth`
   /// sizes a size.
   [[nodiscard]] std::vector<double> graded_factors(std::vector<double> factor, double growth) const;
   /// Returns whether sizes differ by direction.
   [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
   /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero if it has none.
   [[nodiscard]] PlaneMetric metric(const Foot& f, const Vec3& normal) const;
-  /// At a vertex with several places: of one size the first one's, else what holds in all of their planes.
+  /// The size at a vertex with several places: the first one's, or by direction the combination of all their planes.
   [[nodiscard]] WantedSize wanted(std::span<const SurfacePlace> places) const;
   /// One evaluation.
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
@@ -79,9 +79,9 @@ class Charts {
   [[nodiscard]] std::optional<Foot> flat_foot(std::int32_t from, const Vec3& target) const;
   /// A place with derivatives that are known from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
-  /// A place of the surface near `target`: below its closest point on the flat triangles, and by Gauss-Newton steps from there, or from
-  /// `from`, which is regular. Empty where a barrier or a singular place is in the way; `slides`: on the barrier then, beside the target.
-  /// `near`: share of the way that may be left along the surface.
+  /// Returns a place of the surface near `target`. It starts below the closest point on the flat triangles, or from `from`, which is
+  /// regular, and takes Gauss-Newton steps. Empty where a barrier or a singular place is in the way; `slides`: on the barrier then, beside
+  /// the target. `near`: share of the way that may be left along the surface.
   [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
                                                     bool slides = false, double near = thresholds::independent::near_enough) const;
 

@@ -202,7 +202,7 @@ void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, T
     share = std::max(share, offset * offset / (most * most));
   }
   const bool guarded = guards_ && std::ranges::any_of(v, [&](std::int32_t w) { return charts_.is_guarded(place_[w].foot); });
-  if (guarded) share = budget.is_limited() ? infinity : guarded_factor * share;  // infinity: nothing is edited there
+  if (guarded) share = budget.is_limited() ? infinity : guarded_factor * share;  // infinity: no edits there
   shapes.share = std::max(shapes.share, share);
 }
 

@@ -147,7 +147,7 @@ class FreeMesh final : public PlacedVertices {
   /// The same of a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
 
-  /// Edits so far, but for put(); and back to so many: the vertices that they made are gone.
+  /// Number of edits so far, without put(). undo() goes back to a number; the vertices that later edits made are gone.
   [[nodiscard]] std::size_t edits() const noexcept { return mesh_->edits(); }
   void undo(std::size_t edits);
 

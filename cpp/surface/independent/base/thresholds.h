@@ -33,14 +33,14 @@ inline constexpr double least_line_shape = 0.15;
 
 /// Edges out of this range are collapsed and split (HDR sec. 4.5.5, and the range of RR-2818 sec. 4.5).
 inline constexpr double shortest = 0.70710678118654752, longest = 1.41421356237309505;
-/// Shorter edges are collapsed where triangles are small, too: an edge of a fine mesh would become too long, but the
-/// moves that follow share its length out.
+/// Shorter edges are collapsed where triangles are small, too. An edge of a fine mesh would become too long, but the
+/// following moves distribute its length.
 inline constexpr double short_when_dense = 0.95;
 /// Area of unit equilateral triangles. The mean area that triangles around such an edge may have afterwards.
 inline constexpr double most_mean_area = 1.02;
 /// Shape that such a collapse may leave.
 inline constexpr double least_shape_when_dense = 0.35;
-/// Times that edges of a coarse mesh are halved where all is made anew.
+/// Times that edges of a coarse mesh are halved when the whole mesh is made again.
 inline constexpr int halvings = 2;
 /// Growth of the size of a coarse mesh from sharp lines, in sizes for each prescribed size.
 inline constexpr double growth_of_coarse = 1;
@@ -56,7 +56,7 @@ inline constexpr int most_last_passes = 8, most_last_passes_thorough = 20;
 inline constexpr double least_shape = 0.15;
 /// Shape that the halving of an edge may leave that untangles triangles: swaps and moves follow.
 inline constexpr double flat_shape = 0.02;
-/// Shape. Triangles below are worked at, with two rings around.
+/// Shape. Remeshing works at triangles below, with two rings around.
 inline constexpr double good_enough = 0.7;
 /// Shape of the triangles of a square, whose diagonals are alike. If both triangles of an edge are better, the triangles of the other
 /// diagonal are worse.
@@ -72,7 +72,7 @@ inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
 inline constexpr double least_gain = 1e-4;
 
 // Parts (division)
-/// Triangles, of those to be worked at.
+/// Triangles, among the triangles to remesh.
 inline constexpr double least_divided = 65536, triangles_of_part = 16384;
 /// Edges: how far from where parts have met their neighbourhood is remeshed, and how far from a bad triangle work starts.
 inline constexpr int rings_of_zone = 8, rings_at_work = 2;
@@ -84,27 +84,27 @@ inline constexpr int most_worst_passes = 6;
 inline constexpr double first_worst_step = 0.2, last_worst_step = 0.02;
 /// Directions of each step.
 inline constexpr int worst_directions = 8;
-/// Shape. In meshes made elsewhere worse triangles are worked at.
+/// Shape. In meshes from parametric remeshing worse triangles are improved.
 inline constexpr double good_worst = 0.6;
 /// Shape. Triangles so little above the worst triangle of the previous mesh are improved, too.
 inline constexpr double above_worst = 0.03;
 
 // Loss of shapes by collapses (collapse_price)
-/// Shape of a triangle that is no loss when it goes: about the mean of a mesh.
+/// Shape of a triangle whose removal is not a loss: about the mean of a mesh.
 inline constexpr double good_shape = 0.95;
 /// Sum of differences of shapes that one more edge in range is worth, of meshes made of no mesher's triangles.
 inline constexpr double high_price = 1;
-/// The sum for meshes made patch by patch, and its growth each time that lines were remeshed while the mean is kept: the cheapest edits
+/// The sum for meshes made patch by patch, and its growth each time that lines were remeshed while the mean is kept. The cheapest edits
 /// come first.
 inline constexpr double low_price = 0.2, price_growth = 3;
 /// Shape. Means differ by less in rounding.
 inline constexpr double rounding_of_mean = 1e-9;
 /// Shape. If the mean has fallen by less, smoothing recovers it (regained_below).
 inline constexpr double most_regained = 0.004;
-/// Shape. If the mean has fallen by more after the first round, a strategy is given up: it falls by .019 to .084 on frame.step at 5 and 2 %
-/// and the M6 screw at 5 %. Later rounds change it by less than .001.
+/// Shape. A strategy is given up if the mean has fallen by more after the first round. On frame.step at 5 and 2 % and the M6 screw at 5 %
+/// it falls by .019 to .084. Later rounds change it by less than .001.
 inline constexpr double most_lost_at_first = 2 * most_regained;
-/// Shapes. Triangles below are worked at for it, those below the first one at first.
+/// Shapes. Recovery of the mean works at triangles below, at first below the first value.
 inline constexpr std::array<double, 2> regained_below{0.9, 0.98};
 /// Share of the sides of triangles. If more sides would come into range without kept shapes, shapes are not kept: patches that are small
 /// and well shaped would stay. On the M6 screw and frame.step at a size of 5 % it is .21 and .20.

@@ -73,7 +73,8 @@ double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_
   return (1 + variation) * most;
 }
 
-// The distance of the tangent plane, and by how much the surface bends away from it beside the place that was found; or the distance of a corner.
+// The distance of the tangent plane, and the bend of the surface away from it beside the place that was found. Otherwise the distance of a
+// corner.
 BoundPlace SpreadPlaces::over(const Look& look) const {
   double nearest = norm(look.offset);
   for (const Vec3& p : flat_.p) nearest = std::min(nearest, norm(p - look.flat));

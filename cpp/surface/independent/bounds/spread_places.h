@@ -9,7 +9,8 @@
 
 namespace carreau {
 
-/// Such a triangle. Each place has the point that lies over it along its normal, as far as the surface is from it at most. Keeps references.
+/// The places of a triangle with corners in several charts. Each place has the point that lies over it along its normal, at most as far as
+/// the surface is from it. Keeps references.
 class SpreadPlaces {
  public:
   SpreadPlaces(const SpreadTriangle& triangle, const BoundedTriangle& flat);

@@ -24,8 +24,8 @@ class SpreadTriangle {
 
   /// The place itself, with these weights of the corners.
   [[nodiscard]] Vec3 flat(const std::array<double, 3>& weight) const;
-  /// The surface near that place: from the corner of the largest weight that leads there, or to a barrier beside. Below a pole: on the way to it from the
-  /// place over the side across, as ways run in (u, v).
+  /// The surface near that place. The search starts at the corner of the largest weight that leads there, and ends at the place or at a
+  /// barrier beside. Below a pole it follows the way to the pole from the place over the side across, as ways run in (u, v).
   [[nodiscard]] std::optional<SurfacePlace> over(const std::array<double, 3>& weight) const;
   /// At a corner.
   [[nodiscard]] const SurfacePlace& corner(std::size_t i) const { return place_[i]; }

@@ -8,18 +8,19 @@ namespace carreau::thresholds::bounds {
 
 // In brackets: the tests that rest on it, all of tests/cpp/measure.
 
-/// Share of the way from a corner to the place. Closest points are so near to the exact ones along the surface: a distance that is a
+/// Share of the way from a corner to the place. Closest points are so near to the exact ones along the surface. A distance that is a
 /// hundredth of the way is right to a part in 20 000. [FreeElements.WhatIsDeliveredIsOfTheElements]
 inline constexpr double near_foot = 1e-4;
 
 // Bounds of A0 and A1 (triangle_bound, deviation_bounds)
-/// Assumption of bounds: over a part of a triangle, second derivatives along its sides differ from a constant by at most so many times the
+/// Bounds assume that second derivatives along the sides differ from a constant over a part of a triangle by at most this factor times the
 /// largest observed second difference. Heights of parts count a sixteenth of the height of the triangle, so once costs a tenth.
 /// [TriangleBound.SphereInClosedForm]
 inline constexpr double variation = 1;
 /// Least share of a triangle's bend that its quarters have: a difference of zero does not bound derivatives.
 inline constexpr double least_of_parent = 0.5;
-/// Share of the largest deviation seen by which a bound may exceed it before the triangle is cut: one of a sphere exceeds it by less.
+/// Share of the largest observed deviation by which a bound may exceed it before the triangle is cut. The bound of a sphere exceeds it by
+/// less.
 inline constexpr double bound_gap = 0.2;
 /// The same where the bound is beyond the tolerance: whether that is so is to be seen.
 inline constexpr double bound_gap_beyond = 0.05;

@@ -20,10 +20,10 @@ constexpr int cells = 4;  // of a side
 /// Rank in the lattice of j cells towards the second corner and k towards the third one.
 constexpr std::size_t rank_of(int j, int k) noexcept { return static_cast<std::size_t>(k * (cells + 1) - k * (k - 1) / 2 + j); }
 
-/// How far a function is from the linear interpolation of its corners at most. Its second derivatives along the sides of a triangle, times their
-/// squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at the place
-/// with weights x. The variable part is at most `variation` times m and makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's formula there
-/// for each corner.
+/// The largest distance of a function from the linear interpolation of its corners. Its second derivatives along the sides of a triangle,
+/// times their squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at
+/// the place with weights x. The variable part is at most `variation` times m. By Taylor's formula at the place it makes 1/2 sum x_i x_j (1
+/// + 2 x_k) m_ij for each corner.
 double most_off(double m0, double m1, double m2) noexcept {
   const double largest = std::max({m0, m1, m2}), sides = (m0 + m1 + m2) / 8;
   return std::min(largest / 6, sides) + variation * std::min(5. / 18 * largest, sides);
@@ -238,7 +238,7 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
                          : (1 + variation) * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
   };
   if (largest >= right) return turned;
-  // The interpolated normal is in the cone of those at the corners.
+  // The interpolated normal is in the cone of the normals at the corners.
   const double least = upright - off(&Bend::upright);
   return least > 0 ? std::atan((std::tan(largest) * upright + off(&Bend::leaning)) / least) : turned;
 }

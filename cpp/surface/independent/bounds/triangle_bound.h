@@ -34,15 +34,15 @@ struct BoundedTriangle {
   double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to the observed values; model length, radians
   double deviation_tolerance = infinity, angle_tolerance = infinity;  ///< bounds beyond are nearer to it
   bool decides = false;  ///< only whether bounds are beyond matters
-  bool roughly = false;  ///< of what may come to be: bounds may be looser, for few places
+  bool roughly = false;  ///< for triangles of edits to test: bounds may be looser, for few places
 };
 
 /// Weights of the second and the third corner.
 using PlaceInTriangle = Vec2;
 
-/// Bounds of HDR eq. 4.1 and 4.3 for one triangle: A0, no point of the surface over it is farther from the mesh; and A1, no normal there makes a
-/// larger angle with its own. They hold under a condition on second derivatives of the surface, and of Su x Sv, along the sides of each
-/// part of the triangle. These must differ from a constant by at most the largest observed second difference (thresholds.h).
+/// Bounds of HDR eq. 4.1 and 4.3 for one triangle: A0, no point of the surface over it is farther from the mesh; and A1, no normal there
+/// makes a larger angle with its own. They hold under a condition on second derivatives of the surface, and of Su x Sv, along the sides of
+/// each part of the triangle. These must differ from a constant by at most the largest observed second difference (thresholds.h).
 ///
 /// Over a part of the triangle these second derivatives bound the distance of the surface from the linear interpolation of its corners. The
 /// distance of the interpolation from a convex set is largest at a corner. Parts for which that leaves too much open are cut into four.
@@ -62,8 +62,8 @@ class TriangleBound {
   [[nodiscard]] double angle() const noexcept { return angle_; }  ///< radians; pi where the surface is turned over, or no normal is known
 
  private:
-  /// Second differences along a side: of the height over the plane, of the whole vector, and of the two parts of the normal, along the
-  /// triangle's normal and across it. The last ones are differences across the sides.
+  /// Second differences along a side: of the height over the plane, of the whole vector, and of the two parts of the normal. One part is
+  /// along the triangle's normal, the other across it. The last ones are differences across the sides.
   struct Bend {
     double height = 0, whole = 0, upright = 0, leaning = 0;
     std::array<double, 3> across{};
@@ -96,7 +96,7 @@ class TriangleBound {
   void want_middles();
 
   BoundedTriangle triangle_;
-  double singular_ = 0;  // shorter normals are none
+  double singular_ = 0;  // shorter normals do not count
   double seen_deviation_ = 0, seen_angle_ = 0;
   double deviation_ = 0, angle_ = 0;
   int parts_ = 0;

@@ -36,8 +36,7 @@ PlacedCell CellPlacer::operator()(const FreeCell& cell, const FreeCell& nodes) {
   return result;
 }
 
-// If corners have one place each, as inside, returns the face that common_faces() finds, or -1 if there is no common
-// face.
+// Returns the face that common_faces() finds if corners have one place each, as inside, or -1 if no face is common.
 std::optional<std::int32_t> CellPlacer::only_one_each() const {
   std::int32_t face = -1;
   bool common = true;
@@ -51,7 +50,7 @@ std::optional<std::int32_t> CellPlacer::only_one_each() const {
   return common ? face : -1;
 }
 
-// Those in which each corner has a place, on the side of the cell; ascending.
+// Returns the faces in which each corner has a place, on the side of the cell; ascending.
 std::vector<std::int32_t> CellPlacer::common_faces() const {
   std::vector<std::int32_t> common;
   for (int i = 0; i < n_; ++i) {

@@ -27,7 +27,7 @@ struct PlacedCell {
   int count = 3;  ///< of corners
   std::array<PlacedCorner, 4> corners{};  ///< as the face turns
   std::array<PlacedCorner, 4> nodes{};    ///< on the sides from each corner to the next one, of cells of second order
-  bool spread = false;  ///< it is no element of (u, v)
+  bool spread = false;  ///< it is not an element of (u, v)
 };
 
 /// Keeps references.
@@ -36,8 +36,8 @@ class CellPlacer {
   CellPlacer(const PlacedVertices& vertices, const Charts& charts, Cad& cad)
       : vertices_(vertices), charts_(charts), cad_(cad) {}
 
-  /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which all of its corners have
-  /// places that fit, otherwise to the face of the closest point of its centroid.
+  /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which
+  /// all of its corners have places that fit. Otherwise it belongs to the face of the closest point of its centroid.
   PlacedCell operator()(const FreeCell& cell, const FreeCell& nodes = {-1, -1, -1, -1});
 
  private:

@@ -143,7 +143,7 @@ class Certifier::Work {
     return found;
   }
 
-  /// How far some triangles are beyond: the largest share, and the sum of what exceeds 1.
+  /// The excess of some triangles: the largest share, and the sum of the excesses over 1.
   struct Excess {
     double most = 0, sum = 0;
   };
@@ -364,7 +364,8 @@ class Certifier::Work {
     return outcome;
   }
 
-  // The edge whose parts come nearest; where none does the longest one, as long as nothing is worse.
+  // Splits the edge whose parts come nearest. If no split helps it takes the longest edge, unless something becomes
+  // worse.
   bool split(const std::array<std::optional<Quad>, 3>& quads) {
     int best = -1;
     std::pair<double, double> least{infinity, 0};

@@ -18,7 +18,8 @@ struct Certification {
   [[nodiscard]] bool has_edits() const noexcept { return swaps + moves + splits > 0; }
 };
 
-/// Bounds A0 and A1 of triangles, and works where some are beyond their tolerances. Keeps a reference to `mesh`. Threads bound triangles, one edits.
+/// Bounds A0 and A1 of triangles, and edits the mesh where triangles are beyond their tolerances. Keeps a reference to `mesh`. Threads
+/// bound triangles, one edits.
 class Certifier {
  public:
   /// `all`: bounds also triangles that the normals at their corners do not make suspect.
@@ -27,11 +28,11 @@ class Certifier {
   Certifier(const Certifier&) = delete;
   Certifier& operator=(const Certifier&) = delete;
 
-  /// Swaps edges, moves vertices and splits edges around each group of such triangles, and undoes edits that have not brought the group
-  /// nearer to its tolerances. Shapes stay fair, no triangle turns over, edges become no shorter than a share of the size, and nothing is
-  /// done where the atlas is guarded. Deterministic. Throws the exceptions of the host, and Cancelled.
+  /// Swaps edges, moves vertices and splits edges around each group of such triangles. Undoes edits that have not brought the group nearer
+  /// to its tolerances. Shapes stay fair, no triangle turns over, and edges become no shorter than a share of the size. Guarded places of
+  /// the atlas stay. Deterministic. Throws the exceptions of the host, and Cancelled.
   Certification run();
-  /// Undoes all of it: run() may follow, where other places are guarded.
+  /// Undoes all edits. run() may follow after other places are guarded.
   void undo();
 
  private:

@@ -88,7 +88,7 @@ double FreeBounds::deviation_tolerance(const Corners& corners) const {
   return within * asked.share_of_size * sum / 3;
 }
 
-// Around it the mesh is no steeper than twice as its own corners see it.
+// The slope of the mesh around it is at most twice the slope at its own corners.
 BoundedTriangle FreeBounds::flat(const Corners& corners) const {
   BoundedTriangle made({corners.place[0].xyz, corners.place[1].xyz, corners.place[2].xyz});
   if (made.is_flat()) return made;

@@ -11,14 +11,14 @@
 
 namespace carreau {
 
-/// As measures bound them (measure/bounds): of a triangle of (u, v) over its image, of one whose corners are of several charts over itself. Keeps a
-/// reference to `mesh`.
+/// Bounds as measures compute them (measure/bounds): for a triangle of (u, v) over its image, for a triangle with corners in several charts
+/// over itself. Keeps a reference to `mesh`.
 class FreeBounds {
  public:
   explicit FreeBounds(const FreeMesh& mesh, Cad& cad) : mesh_(mesh), cad_(cad), placer_(mesh, mesh.charts(), cad) {}
 
-  /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`); a triangle without area, or turned over, has the share of half a turn. About twelve evaluations, and more where
-  /// it is near 1.
+  /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`). A triangle without area, or turned over, has
+  /// the share of half a turn. About twelve evaluations, and more where it is near 1.
   [[nodiscard]] double share(const EditableMesh::Triangle& t) { return share(t, false); }
   /// The same of a triangle that an edit would make, for fewer evaluations: it may be larger.
   [[nodiscard]] double share_roughly(const EditableMesh::Triangle& t) { return share(t, true); }

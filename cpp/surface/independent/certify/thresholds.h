@@ -24,7 +24,7 @@ inline constexpr double least_gain = 1e-3;
 inline constexpr double least_shape = 0.3;
 /// Shape that a move may leave.
 inline constexpr double least_shape_of_move = 0.5;
-/// Lengths. Shorter edges are not split: what bends by more than is tolerated over half of that is a feature of another size.
+/// Lengths. Shorter edges are not split. A bend beyond the tolerance over half of that length is a feature of another size.
 inline constexpr double shortest_split = 0.3;
 /// Lengths. A swap makes no longer edge where none was.
 inline constexpr double longest_swapped = 1.8;
@@ -35,12 +35,13 @@ inline constexpr double most_mean_lost = 0.04;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
 inline constexpr int directions = 6;
-/// Shape. Triangles below that were made are swapped and moved, at last those below the second one; gains below `least_shape_gain` do not count; passes.
+/// Shape. New triangles below are swapped and moved, at last triangles below the second value. Gains below `least_shape_gain` do not count;
+/// passes.
 inline constexpr double good_shape = 0.7, good_shape_at_last = 0.95, least_shape_gain = 0.01;
 inline constexpr int tidy_passes = 2, tidy_passes_at_last = 5;
 
 /// Evaluations of the surface, for each triangle of the mesh and for each triangle of a group beyond tolerances. Triangles that stay beyond
-/// are reported. The mesh took some twenty a vertex. So many are made in any case: a tenth of a second.
+/// are reported. The mesh took some twenty a vertex. The last number is allowed in any case: a tenth of a second.
 inline constexpr std::int64_t most_evaluations = 32, most_evaluations_of_group = 6000, always_evaluations = 200'000;
 
 }  // namespace carreau::thresholds::certify

@@ -105,7 +105,7 @@ class DividedRemeshing {
   Vertices zone(const Vertices& cuts) const { return triangles_at(mesh_, near_vertices(mesh_, cuts, rings_of_zone)); }
 
   /// Remeshes all parts and returns the vertices where parts have met. `around`: vertices that work starts from; empty: the start of
-  /// remesh(). Returns nothing if there are no parts.
+  /// remesh(). Returns nothing without parts.
   Vertices remesh_parts(std::vector<Vertices> parts, const Vertices& around) {
     if (parts.empty()) return {};
     const Division division(std::move(parts), mesh_.triangles().size());

@@ -34,7 +34,7 @@ struct MeshPart {
   std::vector<EditableMesh::Triangle> triangles, beyond;
 
   MeshPart(const FreeMesh& whole, const Division& division, std::int32_t part);
-  /// Those of the whole mesh, ascending, that are here.
+  /// Returns the local numbers of the vertices that are here, ascending.
   [[nodiscard]] std::vector<std::int32_t> local(std::span<const std::int32_t> vertices) const;
   /// Local number of a vertex of the whole mesh; -1: it is not here.
   [[nodiscard]] std::int32_t local(std::int32_t v) const;
@@ -53,7 +53,7 @@ struct EditedPart {
   /// `edited`: made of `part`.
   EditedPart(const FreeMesh& whole, const MeshPart& part, const FreeMesh& edited, const RemeshingReport& report);
 
-  /// As bytes for another process, and back. The second throws Error for bytes that are no part.
+  /// As bytes for another process, and back. The second function throws Error for bytes that do not hold a part.
   void put(PacketWriter& packet) const;
   static EditedPart from(PacketReader& packet);
 };

@@ -16,8 +16,8 @@ namespace carreau {
 [[nodiscard]] bool evens_degrees(const FreeMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d);
 /// Returns whether a swap would make a diagonal that is too long.
 [[nodiscard]] bool is_too_long(const FreeMesh& mesh, std::int32_t v, std::int32_t w, std::int32_t c, std::int32_t d);
-/// Swaps where the worst shape gains, or, where degrees do, shapes stay good enough, and the surface agrees; else false, and
-/// nothing is changed.
+/// Swaps if the surface agrees and the worst shape gains, or, for degrees, shapes stay good enough; otherwise returns false and changes
+/// nothing.
 bool swap_edge(FreeMesh& mesh, const FreeMesh::Quad& q, bool for_degrees = false);
 
 /// Puts a vertex on the surface over the middle of an edge, where lengths gain, shapes stay fair and the surface agrees.
@@ -36,7 +36,7 @@ struct CollapseShapes {
 [[nodiscard]] CollapseShapes shapes_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
 /// Returns whether triangles around an edge stay, in the mean, no larger than prescribed without two of them.
 [[nodiscard]] bool is_dense(const FreeMesh& mesh, std::int32_t v, std::int32_t w);
-/// Collapses where the surface agrees; else false, and nothing is changed.
+/// Collapses the edge if the surface agrees; otherwise returns false and changes nothing.
 bool collapse_edge(FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
 
 }  // namespace carreau

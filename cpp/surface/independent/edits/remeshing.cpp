@@ -96,8 +96,8 @@ class Remesher {
   using Place = FreeMesh::Place;
   using Quad = FreeMesh::Quad;
 
-  // State of a vertex: it is at work; a swap of its edges, or its move, is due because its surroundings have changed
-  // since the last test.
+  // State of a vertex: it is at work; a swap of its edges, or its move, is due. An edit is due if its surroundings have
+  // changed since the last test.
   enum State : unsigned char { active = 1, swap_due = 2, move_due = 4, all_due = 7 };
   [[nodiscard]] bool is(std::int32_t v, State s) const { return (state_[v] & s) != 0; }
   void mark(std::int32_t v, unsigned s) { state_[v] = static_cast<unsigned char>(state_[v] | s); }
@@ -291,7 +291,7 @@ class Remesher {
     spokes_.clear();
     look_at_spokes(v);
   }
-  // After swaps, too; edges that are no more have no corners.
+  // Updates the spokes after swaps, too; edges that have gone have no corners.
   void look_at_spokes(std::int32_t v) {
     for (Spoke& e : spokes_) e = Spoke{e.w};
     for (const Place p : mesh_.mesh().fan(v)) {
@@ -358,7 +358,7 @@ RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, 
 
 RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor) {
   const ShapeBudget budget = mesh.budget;
-  mesh.budget.left = 0;  // what is gained may be spent again
+  mesh.budget.left = 0;  // gains may be spent again
   const RemeshingReport report = Remesher(mesh, monitor, false, false).polish(below);
   mesh.budget = budget;
   return report;

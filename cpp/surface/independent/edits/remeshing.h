@@ -33,8 +33,8 @@ RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor);
 
 /// Collapses short edges inside, splits long ones, swaps and moves, around triangles that violate the prescription, until little changes.
 /// `everywhere`: for meshes that no mesher made: works at all triangles, not only at triangles below `good_enough` and their surroundings.
-/// `thorough`: shapes are worked at longer. `around`: work starts around these vertices only; empty: around bad triangles. Deterministic.
-/// Throws the exceptions of the host, and Cancelled.
+/// `thorough`: more passes for shapes. `around`: work starts around these vertices only; empty: around bad triangles. Deterministic. Throws
+/// the exceptions of the host, and Cancelled.
 RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false, bool thorough = false,
                        std::span<const std::int32_t> around = {});
 

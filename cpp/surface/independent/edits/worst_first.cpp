@@ -50,7 +50,7 @@ class WorstFirst {
     return shapes.worst;
   }
 
-  // Those where something has changed since the last pass began.
+  // Returns the triangles where something has changed since the last pass began.
   [[nodiscard]] std::vector<std::pair<double, Corners>> below_floor() const {
     std::vector<std::pair<double, Corners>> found;
     for (const Corners& t : mesh_.triangles()) {
@@ -129,7 +129,7 @@ class WorstFirst {
   bool forgets_;
   std::int64_t edits_ = 0;
   std::int64_t now_ = 1, last_began_ = 0;
-  std::vector<std::int64_t> changed_, tried_;  // by vertex: when something around it has, and when no move of it was any good
+  std::vector<std::int64_t> changed_, tried_;  // by vertex: number of the last change around it, and of the last search without a good move
 };
 
 }  // namespace
