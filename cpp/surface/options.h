@@ -33,7 +33,7 @@ struct CompositeOptions {
   /// The treatment of faces narrower than narrow_ratio times the size prescribed on their curves.
   NarrowFaces narrow_faces = NarrowFaces::keep;
   double narrow_ratio = 0.1;
-  /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
+  /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: no limit.
   double gradation = 0;
   /// Largest ratio of sizes inside a face from one edge to the next, > 1; 0: no limit. It acts away from boundary edges
   /// that are shorter than prescribed. For isotropic sizes only.
@@ -42,23 +42,23 @@ struct CompositeOptions {
   /// (staggering.h).
   bool stagger_strips = false;
   bool cracks = false;  ///< vertices of internal curves are doubled
-  /// At the worst triangles of each patch changes of the mesh are tried, and the best is kept.
+  /// Tests changes of the mesh at the worst triangles of each patch and keeps the best.
   bool shape_trials = false;
   /// Least number of layers of triangles between boundaries of a face that are near each other; 0: they are not looked
   /// for. A value > 0 needs a gradation. Faces that face each other and share no corner get sizes of the gap over this
   /// number.
   int proximity = 0;
-  /// A face that the host fails on while its patch is meshed fails alone; false: its CallbackError comes out.
+  /// If the host fails on a face while its patch is meshed, only this face fails; false: the CallbackError is thrown.
   bool failing_faces_alone = false;
   /// Measures bound A0 and A1 from above.
   bool measure_bounds = true;
   /// Triangles of meshes free of patches whose bounds are beyond the tolerances are edited (surface/independent/certify).
   Certified certified = Certified::suspects;
-  /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
+  /// Times that a mesh is made again with smaller triangles at avoidable crossings; 0: crossings are not looked for.
   int crossing_rounds = 0;
   /// Work of all these rounds together, at most, over the work of the first mesh.
   double rounds_over_first_mesh = 1;
-  /// Meshes are made again, finer, where elements are invalid.
+  /// Meshes are made again, with smaller sizes at invalid elements.
   bool refines_invalid_elements = true;
   bool frontal = true;
   /// Borders between patches whose normals differ by no more than sharp_angle (degrees) mean nothing: the mesh is made

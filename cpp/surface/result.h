@@ -60,7 +60,8 @@ struct SizedMesh {
   /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
   std::vector<std::vector<double>> curve_size;
   std::vector<CurveParameters> curve_parameters;  ///< by curve of mesh.curves
-  /// For a mesh that is independent of its patches, else empty: [face][local vertex] a triangle of the previous mesh which has its (u, v).
+  /// Closest points on the previous mesh, if the mesh is independent of its patches: [face][local vertex] a triangle which has its (u, v);
+  /// else empty.
   std::vector<std::vector<std::int32_t>> feet;
   std::vector<std::vector<std::int32_t>> mid_feet;  ///< closest points of nodes on edges, by index in FaceMesh::mid_uv
 };

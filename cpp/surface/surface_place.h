@@ -46,7 +46,7 @@ inline WantedSize scaled(const WantedSize& wanted, double factor) noexcept {
 class SurfaceAround {
  public:
   virtual ~SurfaceAround() = default;
-  /// Near `target`, sought from a regular place; empty where a barrier or a singular place is in the way.
+  /// Returns a place near `target`, sought from a regular place; empty if a barrier or a singular place is in the way.
   [[nodiscard]] virtual std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target) const = 0;
   [[nodiscard]] virtual WantedSize wanted(const SurfacePlace& place) const = 0;
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;
@@ -59,11 +59,11 @@ class PlacedVertices {
   [[nodiscard]] virtual std::size_t vertices() const = 0;
   /// Returns whether the vertex is neither on a sharp edge nor a corner.
   [[nodiscard]] virtual bool is_free(std::int32_t v) const = 0;
-  /// Several where it is kept, one for each vertex of a face that it was.
+  /// The places of a vertex: several if it is kept, one for each vertex of a face that it was.
   [[nodiscard]] virtual std::span<const SurfacePlace> places(std::int32_t v) const = 0;
   [[nodiscard]] virtual Vec3 position(std::int32_t v) const = 0;
   [[nodiscard]] virtual double size(std::int32_t v) const = 0;
-  /// At v, along the way to w.
+  /// The size at v along the way to w.
   [[nodiscard]] virtual double size_along(std::int32_t v, std::int32_t w) const = 0;
   /// Returns whether sizes differ by direction.
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;

@@ -10,7 +10,8 @@
 
 namespace carreau {
 
-/// In an orthonormal basis of a tangent plane: signed, one sign on the side of the normal. Values are 1 / model length.
+/// Curvature tensor in an orthonormal basis of a tangent plane: signed, one sign on the side of the normal. Values are
+/// 1 / model length.
 using PlaneCurvature = Metric2;
 
 /// The derivative of the normals of regions. A triangle has the tensor that fits the normals at its corners best. A corner has the mean of
@@ -20,7 +21,7 @@ class CurvatureTensors {
  public:
   explicit CurvatureTensors(const discrete::DiscreteSurface& surface);
 
-  /// On the patch of a triangle at (u, v), in the plane of the orthonormal vectors p and q.
+  /// The tensor on the patch of a triangle at (u, v), in the plane of the orthonormal vectors p and q.
   [[nodiscard]] PlaneCurvature at(std::int32_t triangle, const Vec2& uv, const Vec3& p, const Vec3& q) const;
 
  private:

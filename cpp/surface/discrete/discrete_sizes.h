@@ -33,7 +33,7 @@ class DiscreteSizes {
   /// Keeps references. `cad`: the surface itself, or its wrapper.
   DiscreteSizes(const Model& model, Cad& cad, const discrete::DiscreteCad& surface, const CompositeOptions& options);
 
-  /// With the gradation of the options over the mesh.
+  /// Sizes at the vertices, with the gradation of the options over the mesh.
   [[nodiscard]] MeshSizes at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const;
 
  private:

@@ -48,7 +48,7 @@ struct VanishingCurves {
 FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
                              int face, const VanishingCurves& vanishing = {});
 
-/// The same, with every edge as its curve runs, whether its loops close and are turned or not.
+/// Collects the domain with every edge in the direction of its curve, without a check of its loops.
 FaceDomain collect_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
                                int face);
 

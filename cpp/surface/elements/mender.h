@@ -24,19 +24,18 @@ inline std::size_t coefficient_at(CellKind kind, int corner) {
   return kind == CellKind::quad8 ? of_quad8[static_cast<std::size_t>(corner)] : static_cast<std::size_t>(corner);
 }
 
-/// A pattern search over the nodes of elements below thresholds::elements::good_jacobian: nodes of edges first, then
-/// corners, with half their way for the nodes beside. Elements that are invalid at a corner whatever free nodes do are left as
-/// they are, and nothing moves for them. The search ends when it has tried as many places as thresholds::elements allow.
-/// Nodes are those of `cells`, corners before the nodes of edges. What a place is, and
-/// where nodes may go, Derived says:
+/// Improves elements below thresholds::elements::good_jacobian by a pattern search over their nodes: nodes of edges first, then corners.
+/// Nodes beside a corner move by half its way. Elements that are invalid at a corner wherever free nodes are stay as they are, and nodes
+/// do not move for them. The search ends after the number of places that thresholds::elements allow. Nodes have the numbers of `cells`,
+/// corners before the nodes of edges. Derived defines the places, and the ways of nodes:
 ///   Way, Trial (with a member `node`);
 ///   double score(const Cell&)                          least Jacobian over its mean
-///   double score_at(const Cell&, int corner)           the same at a corner
+///   double score_at(const Cell&, int corner)           its value at a corner
 ///   std::array<double, 2> orientations(const Cell&)    of its straight triangles; their signs are kept
 ///   std::array<Way, 8> ways(std::int32_t node, double step)      around it, `step` its longest edge long
-///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; none: they cannot
+///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; empty: they cannot
 ///   Trial trial_of(std::int32_t node), void put(const Trial&)
-/// It may say what score() is not below, where that is cheaper: double bound(const Cell&).
+/// Derived may define a lower bound of score() that is cheaper: double bound(const Cell&).
 template <typename Derived, typename Way>
 class Mender {
  public:
@@ -226,7 +225,7 @@ class Mender {
     }
   }
 
-  // A good element may be bad now, as long as an element beside was worse. Nodes beside are worth a search again.
+  // A good element may now be bad, if an element beside was worse. The search therefore repeats nodes beside.
   void note_move(std::int32_t node) {
     for (const std::int32_t c : around(node)) {
       for (const std::int32_t beside : cells_[c].nodes)

@@ -27,10 +27,10 @@ inline constexpr std::int64_t most_trials = 3000, most_trials_of_element = 30;
 /// Times that the model is meshed again with half the size beside elements that stay invalid. An edge of a whole circle
 /// then has 6 degrees. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int most_divisions = 6;
-/// The same with quadrilaterals.
+/// Times that the model is meshed again if elements are quadrilaterals.
 inline constexpr int most_divisions_of_quads = 6;
-/// Between the ways that two edges of curves take from a corner of an invalid element: that is a cusp. As parabolas
-/// they turn by their bends, a tenth and more of a radian.
+/// Sine of the angle between the ways of two edges of curves from a corner of an invalid element. A smaller angle is a
+/// cusp. As parabolas they turn by their bends, a tenth and more of a radian.
 inline constexpr double sine_of_cusp = 0.1;
 /// Share of an edge that its node is drawn away from a cusp. If two circles touch, parabolas through the middles of
 /// edges of length l leave the corner at no angle. Parabolas drawn away by s leave it at some 2 s l times the

@@ -22,11 +22,11 @@ class FreeSurface final : public SurfaceAround {
     return charts_.towards(cad_, from, target, false, thresholds::free_elements::near_foot);
   }
   [[nodiscard]] WantedSize wanted(const SurfacePlace& place) const override { return wanted_at({&place, 1}); }
-  /// At a vertex with several places.
+  /// The size at a vertex with several places.
   [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const;
   [[nodiscard]] bool by_direction() const noexcept override { return charts_.by_direction(); }
 
-  /// The same as towards(), and on a barrier that is in the way beside the target.
+  /// Returns the result of towards(), or the place beside the target on a barrier that is in the way.
   [[nodiscard]] std::optional<SurfacePlace> beside(const SurfacePlace& from, const Vec3& target) const {
     return from.regular ? charts_.towards(cad_, from, target, true, thresholds::free_elements::near_foot) : std::nullopt;
   }
@@ -53,7 +53,7 @@ class ElementVertices final : public PlacedVertices {
   [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
   [[nodiscard]] bool by_direction() const noexcept override { return by_direction_; }
   [[nodiscard]] const WantedSize& wanted(std::int32_t v) const { return wanted_[v]; }
-  /// That on the side of a normal.
+  /// The place of a vertex on the side of a normal.
   [[nodiscard]] const SurfacePlace& place_towards(std::int32_t v, const Vec3& normal) const;
 
   std::int32_t add(const SurfacePlace& place, const WantedSize& wanted);

@@ -70,7 +70,7 @@ struct FaceInGraph {
   std::vector<double> h;
   std::vector<TangentMetric> metric;
 
-  /// As bytes for another process, and back.
+  /// Converts to bytes for another process, and back.
   void put(PacketWriter& packet) const;
   static FaceInGraph from(PacketReader& packet);
 };

@@ -23,8 +23,8 @@ inline constexpr double parallel = 1 - 1e-9;
 // Sizes that obey
 /// Share of a size. Largest difference between smooth prescribed sizes and linear interpolation in the graph. [1, 1]
 inline constexpr double roughness = 0.01;
-/// Share of a size by direction. The same for samples, which lie below the means of three metrics where directions
-/// turn. [0, 1]
+/// Share of a size by direction. Largest difference for samples, which lie below the means of three metrics where
+/// directions turn. [0, 1]
 inline constexpr double rough_metric = 0.1;
 /// Share of a size along a curve. Error of the interpolation between its samples. [2, 0]
 inline constexpr double interpolation_error = 0.02;

@@ -43,7 +43,7 @@ class BadRegion {
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }
   /// Returns the triangles below `bound` now, increasing.
   [[nodiscard]] std::vector<std::int32_t> below(double bound) const;
-  /// Not imposed, and all triangles around are in the region.
+  /// Returns whether the vertex is not imposed and all triangles around are in the region.
   [[nodiscard]] bool may_move(std::int32_t vertex) const { return movable_[vertex] != 0; }
 
  private:

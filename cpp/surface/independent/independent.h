@@ -34,9 +34,9 @@ struct RemeshingFrame {
   std::vector<SharpLine> lines;
   std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
   bool everywhere = false;  ///< see remesh()
-  /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
+  /// Makes other elements of the triangles that replace the mesh `before`; empty: the triangles stay.
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
-  /// Makes the mesh at once, for mend_in_frame(); none: it does not.
+  /// Makes the whole mesh, for mend_in_frame(); returns nothing if it cannot.
   std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
@@ -58,7 +58,7 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
                           CompositeResult& result, Monitor& monitor);
 
-/// As it is: only frame.elements makes something of its triangles.
+/// Keeps the triangles: only frame.elements makes other elements of them.
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 
@@ -72,7 +72,7 @@ using ElementMaker = std::function<void(const SurfaceMesh& before, const Remeshi
 bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                        bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 
-/// The same of the triangles as they are: only `elements`, which is not empty, frees them.
+/// Keeps the triangles: only `elements`, which is not empty, makes a mesh that is free of patches.
 void free_elements_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                                 bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 

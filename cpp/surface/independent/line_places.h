@@ -24,7 +24,7 @@ struct OnCurve {
   double t = 0;
 };
 
-/// One line by its length in space.
+/// A line, parametrised by its length in space.
 class LineGeometry {
  public:
   virtual ~LineGeometry() = default;
@@ -34,9 +34,9 @@ class LineGeometry {
   [[nodiscard]] virtual const std::vector<double>& arcs() const noexcept = 0;
   /// A point of the line there, or no farther from it than the accuracy of the line's data.
   [[nodiscard]] virtual Vec3 near(double arc) const = 0;
-  /// On the surfaces beside.
+  /// Places on the surfaces beside.
   [[nodiscard]] virtual KeptPlaces at(double arc) = 0;
-  /// On curves of the host: two where one ends and the next one begins; none where the line is of no curves.
+  /// Places on curves of the host: two places where one curve ends and the next begins; empty without curves.
   [[nodiscard]] virtual std::vector<OnCurve> on_curves(double /*arc*/) const { return {}; }
 };
 
@@ -51,9 +51,9 @@ class LinePlaces final : public LineGeometry {
   [[nodiscard]] bool is_known() const noexcept override { return arc_.size() == line_.vertices.size(); }
   [[nodiscard]] const std::vector<double>& arcs() const noexcept override { return arc_; }
   [[nodiscard]] std::vector<OnCurve> on_curves(double arc) const override;
-  /// Off the curve by no more than its support; no evaluation.
+  /// A point as near to the curve as its support; no evaluation.
   [[nodiscard]] Vec3 near(double arc) const override;
-  /// On the curves, evaluated: about four times a use.
+  /// Places on the curves: about four evaluations for each use.
   [[nodiscard]] KeptPlaces at(double arc) override;
 
  private:

@@ -254,7 +254,7 @@ Tries::Outcome Tries::certified(StartedMesh& mesh) {
 }
 
 Tries::Outcome Tries::run() {
-  // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
+  // Coarse triangles cannot keep a geometric rule; after crossings the strategy starts without them.
   bool coarsely = !geometric_limits(options_.size).any();
   KeptShapes least = keep_none;   // the shapes that must be kept
   std::optional<Try> spare;  // the first mesh whose shapes are worse than the previous shapes

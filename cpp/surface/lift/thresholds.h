@@ -12,7 +12,8 @@ namespace carreau::thresholds::lift {
 /// True length over promised length. An arc of 150 degrees is 1.36 times its chord.
 /// [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
 inline constexpr double too_long = 1.3;
-/// The same. Limit for a mesh that is much too fine. [Verification.WhatTheSamplesKnowCostsNothing]
+/// True length over promised length. Limit for a mesh that is much too fine.
+/// [Verification.WhatTheSamplesKnowCostsNothing]
 inline constexpr double too_short = 0.65;
 /// True length over promised length. Such edges are examined for jumps; a surface that is continuous between their ends
 /// has none. [surface: BadModels.SurfaceThatJumpsByAFewEdges]

@@ -44,7 +44,7 @@ struct BorderInput {
 std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor);
 
 // The two steps of cut_borders().
-/// One sharp line: edges of equal length in sizes, none farther from it than is tolerated. `at_least`: edges.
+/// One sharp line: edges of equal length in sizes, all within tolerance of the line. `at_least`: edges.
 struct DividedLine {
   std::vector<LineNode> nodes;
   std::vector<KeptPlaces> places;

@@ -9,9 +9,9 @@ namespace carreau::thresholds::projected {
 // Charts (find_charts). Cosines of the angle between normals and the axis of projection.
 /// Charts grow as far: the metric of the plane has a ratio of 1.6 there, and half a dozen charts are a sphere.
 inline constexpr double usual_cosine = 0.55;
-/// Neighbours become one chart where no normal leans more.
+/// Neighbours become one chart if all normals lean less.
 inline constexpr double merge_cosine = 0.42;
-/// The same where borders would cross otherwise.
+/// Neighbours become one chart up to this lean if borders would cross otherwise.
 inline constexpr double most_merge_cosine = 0.2;
 /// Largest value of ProjectedCharts::exact: 1 divides borders of edges of the atlas, 2 leaves them if their parts would cross, too.
 inline constexpr char most_exact = 2;

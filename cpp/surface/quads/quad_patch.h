@@ -31,14 +31,14 @@ class FaceCharts {
  public:
   /// Keeps a reference to the space.
   explicit FaceCharts(const ControlSpace& space);
-  /// Else charts are tensors.
+  /// Returns whether charts bend; otherwise they are tensors.
   [[nodiscard]] bool bends() const noexcept { return bends_; }
   [[nodiscard]] Chart about(const Vec2& uv) const noexcept {
     if (bends_) return {uv, space_->slopes_at(uv)};
     constexpr Metric2 none{0, 0, 0};
     return {uv, {space_->at(uv), none, none}};
   }
-  /// About the mean of the corners of a cell.
+  /// The chart about the mean of the corners of a cell.
   [[nodiscard]] Chart about(const QuadPatch& patch, const MixedCell& cell) const noexcept;
 
  private:

@@ -37,7 +37,7 @@ inline bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexc
 }
 /// Quality in the metric: of a triangle Q2 (HDR eq. 1.6).
 double cell_quality(const QuadPatch& patch, const FaceCharts& charts, const MixedCell& cell) noexcept;
-/// The same in a given chart.
+/// Quality in a given chart.
 double cell_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
 
 /// The quality, or the scaled Jacobian below 0 for cells that are turned over somewhere, so that a search can follow
@@ -136,12 +136,12 @@ class PlaneQuads {
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return patch_.uv; }
   [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return patch_.uv[v] == place; }
   void put(std::size_t v, const Place& place) noexcept { patch_.uv[v] = place; }
-  /// Beside a place, for a trial.
+  /// Puts the vertex beside a place, for a trial.
   void try_at(std::size_t v, const Place& from, const Way& way) noexcept { patch_.uv[v] = from + way; }
   /// Keeps the place of a trial; false: the place is not possible.
   static bool settle(std::size_t /*v*/, const Place& /*from*/) noexcept { return true; }
   void move(std::size_t v, const Way& way) noexcept { patch_.uv[v] += way; }
-  /// Halfway to another vertex.
+  /// Moves halfway to another vertex.
   void approach(std::size_t v, std::size_t other) noexcept { patch_.uv[v] = 0.5 * (patch_.uv[v] + patch_.uv[other]); }
 
  private:

@@ -44,14 +44,14 @@ class SpaceQuads {
   [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return cells_; }
   [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return cells_; }
   [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return fixed_[v] != 0; }
-  /// As in QuadPatch.
+  /// Flat corners as in QuadPatch.
   [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return flat_; }
 
   /// Convexity about the cell's own normal, which is on the side of the surface's normals.
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
   [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
-  /// The same, and below 0 the least sine of an angle, for cells that are turned over somewhere.
+  /// The quality, or the least sine of an angle below 0 for cells that are turned over somewhere.
   [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept;
   /// Length in the prescribed metric at the ends of the edge.
   [[nodiscard]] double length(std::int32_t a, std::int32_t b) const noexcept;
@@ -67,7 +67,7 @@ class SpaceQuads {
     return offset.x() * frame.e1 + offset.y() * frame.e2;
   }
 
-  /// As in PlaneQuads.
+  /// Frames as in PlaneQuads.
   class KeptFrames {
    public:
     explicit KeptFrames(const SpaceQuads& quads) : quads_(quads) {}
@@ -91,7 +91,7 @@ class SpaceQuads {
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return place_; }
   [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return place_[v].xyz == place.xyz; }
   void put(std::size_t v, const Place& place);
-  /// Beside the surface, for a trial: no evaluation.
+  /// Puts the vertex beside the surface, for a trial: no evaluation.
   void try_at(std::size_t v, const Place& from, const Way& way) noexcept { place_[v].xyz = from.xyz + way; }
   /// Puts the vertex on the surface, from its place before the trial; false: no way leads there.
   bool settle(std::size_t v, const Place& from);

@@ -47,9 +47,9 @@ inline constexpr int worst_passes = 5;
 /// Scaled Jacobian, the sine of the worst angle, and quality. Worse quadrilaterals are moved in space: angles of 37 and 143
 /// degrees.
 inline constexpr double poor_in_space = 0.6;
-/// The same where sizes differ by direction, and right angles of the metric need not be right in space.
+/// Scaled Jacobian, if sizes differ by direction: right angles of the metric need not be right in space.
 inline constexpr double poor_jacobian_in_metric = 0.01;
-/// The same below which two triangles are better: angles of 12 and 168 degrees.
+/// Scaled Jacobian below which two triangles are better: angles of 12 and 168 degrees.
 inline constexpr double least_jacobian = 0.2;
 
 // Walks of triangles

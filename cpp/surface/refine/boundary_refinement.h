@@ -34,8 +34,8 @@ RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, c
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
                               Monitor& monitor);
 
-/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel where
-/// more than one of them is prescribed to have one edge.
+/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel if two
+/// such curves are prescribed to have one edge.
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);
 
 }  // namespace carreau

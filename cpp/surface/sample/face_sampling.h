@@ -31,7 +31,7 @@ struct UnevenSpeed {
 /// Compares lengths of derivatives at the first samples, all over the domain, with lengths at later samples.
 class SpeedWatch {
  public:
-  /// As SampledFacts::most_uneven and usual_speed.
+  /// Takes SampledFacts::most_uneven and usual_speed.
   SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
   /// Throws UnevenSpeed.
   void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets);

@@ -212,7 +212,7 @@ SurfacePlace Charts::evaluate(Cad& cad, const Foot& f) const {
   return place(f, surface_at(cad, ref_[triangles_[f.triangle].face], want_position | want_first, f.uv));
 }
 
-// The same point of the edge in the chart on its other side.
+// Returns the point of the edge in the chart on its other side.
 Foot Charts::over(std::int32_t t, int side, const Vec2& at) const {
   const Triangle& here = triangles_[t];
   const std::int32_t next = here.beyond[side];

@@ -71,7 +71,7 @@ class Charts {
   [[nodiscard]] PlaneMetric metric(const Foot& f, const Vec3& normal) const;
   /// The size at a vertex with several places: the first one's, or by direction the combination of all their planes.
   [[nodiscard]] WantedSize wanted(std::span<const SurfacePlace> places) const;
-  /// One evaluation.
+  /// The surface at a place, by one evaluation.
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// Barycentric coordinates of a place of its chart, by corner.
   [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
@@ -105,7 +105,7 @@ class Charts {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<Vec2>> uv_;  // by face and local vertex
   std::vector<Vec3> xyz_;              // by vertex of the mesh
-  std::vector<double> size_;           // the same
+  std::vector<double> size_;           // by vertex of the mesh
   PlaneMetrics metric_;                // by face and local vertex; may be empty
   std::vector<double> factor_;         // of sizes, by vertex; may be empty
   std::vector<int> ref_;               // by face

@@ -93,18 +93,18 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
   [[nodiscard]] Vec3 position(std::int32_t v) const override { return place_[v].xyz; }
 
-  /// In the prescribed metric (HDR eq. 4.83).
+  /// Length in the prescribed metric (HDR eq. 4.83).
   [[nodiscard]] double length(std::int32_t v, std::int32_t w) const;
-  /// The same of a triangle: twice the area, by its mean metric.
+  /// Twice the area of a triangle in its mean metric.
   [[nodiscard]] double double_area(const EditableMesh::Triangle& t) const;
-  /// Adds the triangle with these corners.
+  /// Adds the triangle with these corners to `shapes`.
   void judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
     judge_shape(a, b, c, shapes);
     judge_agreement(a, b, c, shapes);
   }
-  /// The same of its shape alone: much less work, and most edits fail by it.
+  /// Adds its shape alone: much less work, and most edits fail by it.
   void judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
-  /// Judges the share of the triangle alone.
+  /// Adds its share alone.
   void judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
   [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const { return judge_fan(v, &FreeMesh::judge); }
   [[nodiscard]] TriangleShapes judge_shapes_around(std::int32_t v) const { return judge_fan(v, &FreeMesh::judge_shape); }
@@ -119,12 +119,12 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] WantedSize wanted_at(const SurfacePlace& place) const {
     return wanted_at(std::span<const SurfacePlace>(&place, 1));
   }
-  /// At a vertex with several places.
+  /// The size at a vertex with several places.
   [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const { return charts_.wanted(places); }
 
-  /// After the sizes of the charts have changed.
+  /// Updates sizes after the sizes of the charts have changed.
   void update_sizes();
-  /// After triangles of the charts have been guarded.
+  /// Updates guarded vertices after triangles of the charts have been guarded.
   void update_guards();
   /// Tightens the tolerances of a mesh that is `factor` times as coarse as prescribed. Its triangles leave the surface no farther than
   /// triangles of the prescribed sizes may, and lean less; 1: the given tolerances.
@@ -144,7 +144,7 @@ class FreeMesh final : public PlacedVertices {
   std::int32_t split(const Quad& q, const SurfacePlace& at);
   /// Moves a free vertex and sets its size, without tests.
   void put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
-  /// The same of a vertex on a line; the first place has the position.
+  /// Moves a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
 
   /// Number of edits so far, without put(). undo() goes back to a number; the vertices that later edits made are gone.

@@ -22,7 +22,7 @@ struct SharpLine {
 
 /// First derivatives at each local vertex: [face][local].
 using VertexJets = std::vector<std::vector<SurfaceJet>>;
-/// One evaluation each.
+/// Evaluates the surface once at each vertex.
 VertexJets evaluate_vertices(const SurfaceMesh& mesh, Cad& cad, Monitor& monitor);
 
 /// Edges of internal curves, and edges of curves with one triangle, three or more, or with normals that differ by more

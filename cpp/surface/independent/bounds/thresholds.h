@@ -22,7 +22,7 @@ inline constexpr double least_of_parent = 0.5;
 /// Share of the largest observed deviation by which a bound may exceed it before the triangle is cut. The bound of a sphere exceeds it by
 /// less.
 inline constexpr double bound_gap = 0.2;
-/// The same where the bound is beyond the tolerance: whether that is so is to be seen.
+/// The share if the bound is beyond the tolerance: finer bounds must decide.
 inline constexpr double bound_gap_beyond = 0.05;
 /// The share if only the bound is beyond the tolerance, and the observed deviation is within.
 inline constexpr double bound_gap_undecided = 0.005;

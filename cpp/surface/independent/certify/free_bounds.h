@@ -20,7 +20,7 @@ class FreeBounds {
   /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`). A triangle without area, or turned over, has
   /// the share of half a turn. About twelve evaluations, and more where it is near 1.
   [[nodiscard]] double share(const EditableMesh::Triangle& t) { return share(t, false); }
-  /// The same of a triangle that an edit would make, for fewer evaluations: it may be larger.
+  /// The share of a triangle that an edit would make, with fewer evaluations: it may be larger.
   [[nodiscard]] double share_roughly(const EditableMesh::Triangle& t) { return share(t, true); }
   /// Number of evaluated places of the surface.
   [[nodiscard]] std::int64_t evaluations() const noexcept { return evaluations_; }

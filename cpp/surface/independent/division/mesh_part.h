@@ -15,7 +15,7 @@ namespace carreau {
 
 class FreeMesh;
 
-/// To which part each triangle of a mesh belongs.
+/// The part of each triangle of a mesh.
 struct Division {
   static constexpr std::int32_t none = -1;
   std::vector<std::vector<std::int32_t>> parts;  ///< triangles, ascending
@@ -53,7 +53,8 @@ struct EditedPart {
   /// `edited`: made of `part`.
   EditedPart(const FreeMesh& whole, const MeshPart& part, const FreeMesh& edited, const RemeshingReport& report);
 
-  /// As bytes for another process, and back. The second function throws Error for bytes that do not hold a part.
+  /// Converts to bytes for another process, and back. The second function throws Error for bytes that do not hold a
+  /// part.
   void put(PacketWriter& packet) const;
   static EditedPart from(PacketReader& packet);
 };

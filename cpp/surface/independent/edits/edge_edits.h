@@ -22,7 +22,7 @@ bool swap_edge(FreeMesh& mesh, const FreeMesh::Quad& q, bool for_degrees = false
 
 /// Puts a vertex on the surface over the middle of an edge, where lengths gain, shapes stay fair and the surface agrees.
 std::optional<std::int32_t> split_edge(FreeMesh& mesh, const FreeMesh::Quad& q);
-/// The same whatever the length of the edge.
+/// Splits an edge of any length.
 std::optional<std::int32_t> halve_edge(FreeMesh& mesh, const FreeMesh::Quad& q);
 
 /// The shapes after a collapse.
@@ -32,7 +32,7 @@ struct CollapseShapes {
 };
 /// Shapes after the collapse of a short edge.
 [[nodiscard]] CollapseShapes shapes_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
-/// The same where triangles are small, though the edge is not short.
+/// Shapes after the collapse of an edge that is not short, among small triangles.
 [[nodiscard]] CollapseShapes shapes_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
 /// Returns whether triangles around an edge stay, in the mean, no larger than prescribed without two of them.
 [[nodiscard]] bool is_dense(const FreeMesh& mesh, std::int32_t v, std::int32_t w);

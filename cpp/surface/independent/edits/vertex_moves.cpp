@@ -53,7 +53,7 @@ Vec3 VertexMover::ideal_place(const Vec3& from) const {
   return count > 0 ? Vec3(sum / count) : from;
 }
 
-// The same in the mean metric of each triangle.
+// The mean place, measured in the mean metric of each triangle.
 Vec3 VertexMover::ideal_place_by_direction(std::int32_t v) const {
   Vec3 sum{0, 0, 0};
   double count = 0;
