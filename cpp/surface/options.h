@@ -50,26 +50,27 @@ struct CompositeOptions {
   int proximity = 0;
   /// If the host fails on a face while its patch is meshed, only this face fails; false: the CallbackError is thrown.
   bool failing_faces_alone = false;
-  /// Measures bound A0 and A1 from above.
+  /// Measures give upper bounds of A0 and A1.
   bool measure_bounds = true;
-  /// Triangles of meshes free of patches whose bounds are beyond the tolerances are edited (surface/independent/certify).
+  /// Triangles of cross-patch meshes are edited if their bounds are beyond the tolerances
+  /// (surface/independent/certify).
   Certified certified = Certified::suspects;
   /// Times that a mesh is made again with smaller triangles at avoidable crossings; 0: crossings are not looked for.
   int crossing_rounds = 0;
-  /// Work of all these rounds together, at most, over the work of the first mesh.
+  /// Largest work of all these rounds together over the work of the first mesh.
   double rounds_over_first_mesh = 1;
   /// Meshes are made again, with smaller sizes at invalid elements.
   bool refines_invalid_elements = true;
   bool frontal = true;
-  /// Borders between patches whose normals differ by no more than sharp_angle (degrees) mean nothing: the mesh is made
-  /// free of them (surface/independent).
+  /// Borders between patches whose normals differ by no more than sharp_angle (degrees) have no meaning: triangles
+  /// cross them (surface/independent).
   bool independent = false;
   double sharp_angle = 1;
   std::int64_t max_triangles = 0;  ///< 0: by memory
-  /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
+  /// Number of threads, including the caller's. The mesh does not depend on it. A host that is not re-entrant is called
   /// from the caller's thread only.
   int threads = 1;
-  /// Processes that make the mesh together, null: this one alone. The mesh does not depend on it.
+  /// Processes that make the mesh together; null: only this process. The mesh does not depend on it.
   Team* team = nullptr;
   /// Patches stay with the process that has meshed them: no process has the whole mesh (pipeline/parts). Steps that need the whole mesh are
   /// rejected.
@@ -81,7 +82,7 @@ inline bool asks_from_threads(const CompositeOptions& options, const Cad& cad) n
   return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
 }
 
-/// The sentence of a mesh beyond CompositeOptions::max_triangles.
+/// Throws LimitError for a mesh beyond CompositeOptions::max_triangles.
 [[noreturn]] void refuse_triangles(const Where& where, double expected, std::int64_t most);
 
 }  // namespace carreau

@@ -30,7 +30,7 @@ struct PatchMesh {
   PlaneMesh plane;
   std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
   std::vector<double> size;  ///< prescribed size at every vertex
-  /// Edges that exceed their promise a thousand times: where derivatives vanish, or the surface jumps.
+  /// Edges a thousand times as long as in the control space: derivatives vanish there, or the surface jumps.
   std::vector<EdgeExcess> excesses;
   /// If metrics govern: unit normal of the surface at every vertex that is not imposed, zero at singular ones.
   std::vector<Vec3> normal;
@@ -49,7 +49,7 @@ struct PatchInput {
   bool is_plane = false;
   /// Sizes do not differ by direction: triangles may be judged by their shape in space.
   bool isotropic = true;
-  /// Metrics that govern may turn out to be sizes: as far as samples have shown (SampledFacts).
+  /// No sample has shown a metric with directions (SampledFacts).
   bool one_size = true;
   /// Limits of the prescribed sizes.
   SizeLimits limits = {};

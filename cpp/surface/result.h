@@ -32,7 +32,7 @@ struct CompositeReport {
   double seconds_total = 0;
 };
 
-/// How far the faces of a curve leave its vertices (DiscreteCurve::gap), and which use is farthest.
+/// The distance between a curve's vertices and its faces (DiscreteCurve::gap), and the farthest use.
 struct CurveGap {
   double gap = 0;
   int use = 0;
@@ -74,7 +74,7 @@ struct CompositeResult : SizedMesh {
   std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
   std::vector<TriangleIntersection> crossings;  ///< the first of the report's, by triangles face after face; empty for a mesh in parts
-  /// Set: the mesh has the vertices of all curves, and of the faces that this process keeps the triangles.
+  /// If set, the mesh has the vertices of all curves, and the triangles of the faces that this process keeps.
   std::optional<MeshShares> shares = {};
 };
 

@@ -32,7 +32,7 @@ class Assembler {
   }
 
  private:
-  // For the vertices within faces: arrays that grow by doubling would be the largest of the whole run.
+  // Reserves room for the vertices within faces: arrays that grow by doubling would be the largest of the whole run.
   void reserve(const std::vector<std::optional<PatchMesh>>& patches) {
     std::size_t n = mesh_.vertices.size();
     for (std::size_t f = 0; f < patches.size(); ++f)

@@ -144,7 +144,7 @@ class CrackOpener {
     }
   }
 
-  // The first one in the place of the curve.
+  // Puts the first part in the place of the curve.
   void give(std::size_t c, std::vector<std::int32_t> vertices, CurveMesh side, const std::vector<std::size_t>& ranks) {
     side.vertices = std::move(vertices);
     const auto pick = [&ranks](const std::vector<double>& all) {

@@ -53,7 +53,7 @@ class Collapser {
             const std::vector<std::vector<double>>& curve_size)
       : old_(mesh), old_size_(vertex_size), old_curve_size_(curve_size), sets_(mesh.vertices.size()) {}
 
-  /// Empty when a triangle would be turned over or lose its area.
+  /// Returns nothing if a triangle would be turned over or lose its area.
   std::optional<Outcome> run(std::span<const FaceCollapse* const> faces) {
     vanishing_.assign(old_.faces.size(), 0);
     for (const FaceCollapse* face : faces) {
@@ -175,7 +175,7 @@ class Collapser {
     return uses;
   }
 
-  // Vertices that nothing holds any more are gone.
+  // Removes vertices without a face or a curve.
   void renumber() {
     std::vector<std::int32_t> number(old_.vertices.size(), unknown);
     const auto use = [&](std::int32_t v) { number[v] = 0; };

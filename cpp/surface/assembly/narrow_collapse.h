@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// A face that is to vanish, with the sets of vertices that become one each.
+/// A face that is to vanish, with the sets of vertices that are merged.
 struct FaceCollapse {
   int face = 0;                                ///< index in SurfaceMesh::faces
   double width = 0;                            ///< model length
@@ -24,8 +24,8 @@ struct FaceCollapse {
 /// coincide become one curve, with the reference of the first and the uses of all. Statuses and sentences of faces are
 /// set.
 
-/// All faces, where neighbours were meshed without their end caps. False, and nothing done, when the mesh would have a
-/// defect, or a triangle would be turned over.
+/// Collapses all faces whose neighbours were meshed without their end caps. Returns false and does nothing if the mesh
+/// would have a defect, or a triangle would be turned over.
 bool collapse_together(std::span<const FaceCollapse> faces, CompositeResult& result);
 
 /// Collapses the faces, the narrowest first, if the mesh stays as sound as it was. It must keep its Euler

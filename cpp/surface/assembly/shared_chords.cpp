@@ -114,7 +114,7 @@ class Separator {
         if (pass == 0 || changed_[f]) of_face[f] = chords_of(f);
       });
       for (const std::vector<Chord>& some : of_face) chords_.insert(chords_.end(), some.begin(), some.end());
-      // One with an end inside a face has no other face.
+      // A chord with an end inside a face has no other face.
       const auto on_curves = [this](const Chord& chord) { return chord.local[1] < on_curves_[chord.face]; };
       if (team_ != nullptr) add_of_others(*team_, "chords", on_curves, chords_);
       std::sort(chords_.begin(), chords_.end());
@@ -311,7 +311,7 @@ class Separator {
       const auto& triangles = patches_[f]->plane.triangles;
       for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto [a, b, c] = triangles[t];
-        // Two vertices on curves may be a seam's, the third is then alone.
+        // Two vertices on curves may belong to a seam; the third is then alone.
         if ((a >= count) + (b >= count) + (c >= count) > 1) continue;
         std::array<std::int64_t, 3> key{identity(f, a), identity(f, b), identity(f, c)};
         std::sort(key.begin(), key.end());

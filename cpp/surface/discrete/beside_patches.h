@@ -25,13 +25,13 @@ struct PartResults {
   [[nodiscard]] const CompositeResult& of(std::size_t face) const { return is_of_triangles(face) ? triangles : patches; }
 };
 
-/// Faces that are given by triangles are left out: patches are meshed first.
+/// Leaves out faces that are given by triangles: patches are meshed first.
 void leave_out_triangles(Model& model);
 
 /// Diagonal of the box of both.
 double diagonal_with(const ModelSupports& supports, const discrete::DiscreteCad& triangles);
 
-/// The faces of the model that are given by triangles are meshed: see mesh_discrete().
+/// Meshes the faces of the model that are given by triangles: see mesh_discrete().
 std::shared_ptr<const PartResults> mesh_beside(CompositeResult patches, const Model& model,
                                                const discrete::DiscreteCad& triangles, Cad& cad,
                                                CompositeOptions options, Monitor& monitor);

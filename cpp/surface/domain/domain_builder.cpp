@@ -152,7 +152,7 @@ class Builder {
     }
   }
 
-  // How far ends at a corner may be apart in (u, v) to be one vertex.
+  // Largest distance in (u, v) of ends at a corner that are one vertex.
   [[nodiscard]] double joining_distance(int corner, double reach) const {
     const auto side = side_at_.find(corner);
     if (side != side_at_.end()) reach = std::min(reach, side->second);

@@ -35,7 +35,7 @@ struct TurnedDomain : DomainError {
   using DomainError::DomainError;
 };
 
-/// Curves that vanish between faces which do, and corners that become one with them. Empty lists: none.
+/// Curves that vanish between faces which do, and corners that become one with them. Empty lists: no curve vanishes.
 struct VanishingCurves {
   std::vector<char> curve;  ///< by index in Topology::curves
   std::vector<int> corner;  ///< by index in Topology::points: the corner that stands for it
@@ -52,7 +52,7 @@ FaceDomain build_face_domain(const Model& model, const Topology& topology, std::
 FaceDomain collect_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
                                int face);
 
-/// How messages call a curve of a face: "curve 2 (reference 17)", its rank from 1 and its reference.
+/// Names a curve of a face in messages: "curve 2 (reference 17)", its rank from 1 and its reference.
 std::string curve_name(const Topology& topology, int curve, int face);
 
 /// Positions in space of the domain's vertices that lie on curves (imposed points come last and are left out).

@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// The points in the order of a k-d tree: of each range the middle one parts the others, along x, y and z in turn.
+/// The points in the order of a k-d tree: the middle point of each range divides the others, along x, y and z in turn.
 class NearVertices {
  public:
   explicit NearVertices(const std::vector<Vec3>& points)

@@ -23,7 +23,7 @@ double metric_middle(double left, double middle, double right) noexcept;
 /// Share of the length of segment k at which half of its metric length lies, by the sizes along the curve.
 double middle_share(const DiscreteCurve& curve, std::size_t k);
 
-/// Points between the vertices of curves; one object makes many, and takes memory once.
+/// Computes points between the vertices of curves, with one allocation of memory.
 class EdgeMiddles {
  public:
   explicit EdgeMiddles(const ElementWork& work) : work_(work) { piece_.sizes = {{0, 1}, {1, 1}, {1, 1}}; }

@@ -49,7 +49,7 @@ class Mender {
 
   [[nodiscard]] double bound(const Cell&) const noexcept { return -infinity; }
 
-  /// Lists elements below `least`. How many are not valid.
+  /// Lists elements below `least`, and returns the number of invalid ones.
   std::size_t find_below(double least) {
     std::size_t invalid = 0;
     bad_.clear();
@@ -164,7 +164,7 @@ class Mender {
     for (int i = 0; i < corners && is_bad(); ++i) search(cell.nodes[i]);
   }
 
-  /// The node, and, of a corner, the nodes on its sides, by half its way.
+  /// Moves the node, and beside a corner the nodes on its sides by half its way.
   [[nodiscard]] Trials moves_with(std::int32_t node, const Way& by) const {
     Trials moves{{node, by}};
     if (node < corners_)
@@ -175,7 +175,7 @@ class Mender {
     return moves;
   }
 
-  // The straight triangles stay as they are turned.
+  // Returns whether the straight triangles keep their orientation.
   [[nodiscard]] bool keeps_triangles(std::int32_t node, const std::vector<double>& before) {
     std::size_t i = 0;
     for (const std::int32_t c : around(node))

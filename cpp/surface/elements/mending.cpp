@@ -21,7 +21,7 @@ namespace {
 
 using namespace thresholds::elements;
 
-/// A node with a place that is tried.
+/// A node with a place to test.
 struct Trial {
   std::int32_t node;
   Vec2 uv;

@@ -124,7 +124,7 @@ class FaceNodes {
   }
   /// Whether a node is fixed; index as in mid_uv.
   [[nodiscard]] std::vector<char> fixed_mids() const { return fixed_; }
-  /// `uses`: of each vertex in space, how often faces have it.
+  /// `uses`: the number of faces of each vertex in space.
   [[nodiscard]] std::vector<char> fixed_vertices(const std::vector<std::int32_t>& uses) const {
     std::vector<char> fixed(face_.uv.size(), 0);
     for (const CurveSide& side : sides_) fixed[side.a] = fixed[side.b] = 1;

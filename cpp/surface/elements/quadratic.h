@@ -49,7 +49,7 @@ struct QuadraticReport {
 /// that rounding gives them.
 QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEnd>& cusps = {});
 
-/// Makes two triangles of each of these quadrilaterals of a face again, without nodes on edges.
+/// Turns each of these quadrilaterals of a face into two triangles again, without nodes on edges.
 void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads);
 
 /// The repairs of make_quadratic(), for one face. `fixed_mid` and `fixed_vertex` mark by local index the nodes and

@@ -29,8 +29,8 @@ FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices
 /// An edge that is imposed, between local vertices.
 [[nodiscard]] bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b);
 
-/// The surface between local vertices, near a place of space; where barriers are in the way of all of them, on the
-/// nearest one.
+/// The surface between local vertices, near a place of space. If barriers are in the way of all vertices, the result
+/// lies on the nearest barrier.
 std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQuads& quads,
                                        std::span<const std::int32_t> starts, const Vec3& target);
 

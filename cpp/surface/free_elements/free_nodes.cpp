@@ -80,7 +80,7 @@ class NodeMaker {
   std::map<MeshEdge, std::int32_t> of_edge_;
 };
 
-/// A node of an element with a place that is tried.
+/// A node of an element with a place to test.
 struct Trial {
   std::int32_t node;
   SurfacePlace place;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds by how far boundaries and faces are from each other.
+// Bounds by the distance of boundaries and faces from each other.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// Edits around some vertices of an assembled mesh. Keeps references to all that it is given.
+/// Edits around some vertices of an assembled mesh. Keeps references to its arguments.
 class AssembledSearch {
  public:
   using Vertex = EditableMesh::Vertex;
@@ -29,7 +29,7 @@ class AssembledSearch {
   [[nodiscard]] bool is_sampled(std::int32_t face) const { return result_.spaces[face].has_value(); }
   /// The metric of the face's control space.
   [[nodiscard]] Metric2 metric(std::int32_t face, const Vec2& uv) const { return result_.spaces[face]->at(uv); }
-  /// Position and derivatives; one of the budget.
+  /// Evaluates position and derivatives, as one evaluation of the budget.
   SurfaceJet ask(std::int32_t face, const Vec2& uv);
   /// Returns whether no triangle is turned much from `mean`, the mean normal of the replaced triangles.
   [[nodiscard]] bool agree(std::span<const Place> places, const Vec3& mean) const;

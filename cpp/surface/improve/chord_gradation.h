@@ -140,7 +140,7 @@ class ChordGradation {
     const Vec3 chord = position(face, b) - position(face, a);
     const double p = corners_[face][a].size_along(chord), q = corners_[face][b].size_along(chord);
     const double change = std::abs(std::log(p / q));
-    // Lengths are seldom needed: nearly all edges have far less than this.
+    // Factor that avoids lengths: nearly all edges are far below.
     const double roughly = norm(chord) / std::max(p, q);
     if (!std::isfinite(change) || change <= 0.5 * log_limit_ * roughly) return 0;
     const double l = field_length([&](const Vec2& at) { return metric(face, at); }, uv(face, a), uv(face, b),

@@ -37,7 +37,7 @@ class Refinement {
     if (wrong.empty()) return {};
     const std::size_t vertices = mesh_.xyz.size();
     depth_.assign(mesh_.plane.triangles.size(), 0);
-    // A bend needs two or three halvings. More divisions are a host whose surface is rough at every scale.
+    // A bend needs two or three halvings. More divisions show a surface that is rough at every scale.
     constexpr std::size_t most_divisions = 32;
     left_ = Budget(static_cast<std::int64_t>(most_divisions * wrong.size()));
     std::vector<int> still = improve_ring_by_ring(
@@ -203,7 +203,7 @@ class Refinement {
   }
   [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? least_agreement : 0); }
 
-  // A division, or a swap, after which nothing else is to be looked at.
+  // A division, or a swap, that completes the work on the triangle.
   bool mend(int t) {
     if (swap_one(t) || depth_[t] >= deepest || !divide(t)) return false;
     left_.spend();
@@ -227,7 +227,7 @@ class Refinement {
   }
 
   [[nodiscard]] double length(const Quad& q) const { return norm(position(q.b) - position(q.a)); }
-  // None: it is imposed. Other sides of such a triangle are of no use: it would become narrower beside the bend.
+  // None: it is imposed. Dividing other sides would make the triangle narrower beside the bend.
   [[nodiscard]] std::optional<Quad> longest_side(int t) const {
     const Triangle& c = mesh_.plane.triangles[t];
     std::array<double, 3> lengths{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After the lift: triangles that turn their backs on the surface, or leave it by more than was promised.
+// After the lift: triangles that turn their backs on the surface, or exceed the guaranteed distance.
 #pragma once
 
 #include <vector>

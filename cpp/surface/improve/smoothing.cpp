@@ -20,7 +20,7 @@ using namespace thresholds::smoothing;
 using thresholds::shape::good;
 using thresholds::shape::poor;
 
-// Shares of a step that are tried on the surface itself: it bends away from the tangent plane.
+// Shares of a step that are tested on the surface itself: it bends away from the tangent plane.
 constexpr std::array<double, 3> shares{1, 0.5, 0.25};
 
 class Smoothing {

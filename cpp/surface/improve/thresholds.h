@@ -14,7 +14,7 @@ namespace carreau::thresholds {
 namespace shape {
 /// Shape. Better triangles are left as the metric made them.
 inline constexpr double good = 0.8;
-/// Shape. Below, the worst one counts whatever it costs the others.
+/// Shape. Below, only the worst triangle counts.
 inline constexpr double poor = 0.6;
 }  // namespace shape
 
@@ -73,7 +73,7 @@ inline constexpr double least_gain = 1e-4;
 namespace length_ratio {
 /// Shape. Such triangles are good whatever they were before.
 inline constexpr double good = 0.7;
-/// Length in the metric. A vertex put where nothing else helps, between imposed ones, may make edges as short as this.
+/// Length in the metric. A vertex put between imposed ones, as the last resort, may make edges as short as this.
 inline constexpr double shortest_divided = 0.5;
 /// Times that a new vertex is moved.
 inline constexpr int placements = 4;
@@ -85,7 +85,7 @@ namespace chord_gradation {
 inline constexpr double aim = 0.999;
 /// Shape in the metric. Such triangles are good whatever they were before.
 inline constexpr double good = 0.5;
-/// Lengths in the metric of single edges where nothing else helps.
+/// Lengths in the metric of single edges, as the last resort.
 inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
 /// Rings of changes that follow each other.
 inline constexpr int most_rings = 10;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of sharp lines: where they are on the curves of the host, and where else they may be.
+// Vertices of sharp lines: their places on the curves of the host, and other possible places.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct OnCurve {
 class LineGeometry {
  public:
   virtual ~LineGeometry() = default;
-  /// The places of its vertices are known.
+  /// A line with known places of its vertices.
   [[nodiscard]] virtual bool is_known() const noexcept = 0;
   /// Arc lengths of the vertices of the line, from 0, ascending.
   [[nodiscard]] virtual const std::vector<double>& arcs() const noexcept = 0;
@@ -40,14 +40,14 @@ class LineGeometry {
   [[nodiscard]] virtual std::vector<OnCurve> on_curves(double /*arc*/) const { return {}; }
 };
 
-/// A line of curves by its length in space, as the supports of its curves measure it. Keeps references to all that it is given.
+/// A line of curves by its length in space, as the supports of its curves measure it. Keeps references to its arguments.
 class LinePlaces final : public LineGeometry {
  public:
   /// `known`: the discrete curves by index in SurfaceMesh::curves.
   LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
              std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad);
 
-  /// The line has curves whose vertices are where the discrete ones have them.
+  /// Returns whether the vertices of the line's curves have the places of the discrete curves.
   [[nodiscard]] bool is_known() const noexcept override { return arc_.size() == line_.vertices.size(); }
   [[nodiscard]] const std::vector<double>& arcs() const noexcept override { return arc_; }
   [[nodiscard]] std::vector<OnCurve> on_curves(double arc) const override;

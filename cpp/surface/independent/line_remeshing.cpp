@@ -146,7 +146,7 @@ class LineRemesher {
   // Returns whether the previous shapes are kept.
   [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }
 
-  // To where both edges have one length in the metric.
+  // Moves the vertex to the place where both edges have one length in the metric.
   bool move(std::size_t k) {
     const Node &previous = left_[k - 1], &next = left_[k + 1];
     Node& here = left_[k];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sharp lines are cut anew, whatever curves they are of.
+// Remeshing of sharp lines, across the ends of their curves.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace carreau {
 
-/// How far edges may be from the line that they stand for.
+/// Largest distance of edges from their line.
 struct LineTolerance {
   double deviation = 0;      ///< model length; 0: `share_of_size` counts
   double share_of_size = 0;  ///< of the size
 };
 
-/// A vertex that is left of a line, and where it is on it.
+/// A remaining vertex of a line, with its place on the line.
 struct LineNode {
   std::int32_t vertex;
   double arc;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh over an atlas that was made elsewhere.
+// A mesh over an atlas, from parametric remeshing.
 #pragma once
 
 #include <cstdint>

@@ -193,7 +193,7 @@ class Reassembler {
     }
   }
 
-  /// Edges of a line that are left, with their curve and the faces beside.
+  /// Remaining edges of a line, with their curve and the faces beside.
   struct Run {
     std::int32_t curve = -1;
     std::vector<std::int32_t> faces;
@@ -284,7 +284,7 @@ class Reassembler {
     }
   }
 
-  // A curve inside one face is so still.
+  // A curve inside one face stays inside.
   [[nodiscard]] std::vector<CurveMeshUse> uses_of(const Run& run) const {
     const auto& old = before_.curves[run.curve].uses;
     const bool internal = std::ranges::any_of(old, [](const CurveMeshUse& u) { return u.internal; });

@@ -173,7 +173,8 @@ std::int64_t Tries::crossings_before() {
   return crossings_before_;
 }
 
-// From a round on. False: it has ended after the first one, since the mean has fallen below `least`.
+// Remeshes lines and the mesh between them, from round `first` on. False: it ended after the first round, since the
+// mean fell below `least`.
 bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least) {
   FreeMesh& free = *start.free;
   const LineTolerance of_lines{tolerances_.deviation, tolerances_.share_of_size};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh is made in a frame more than once where triangles cross or shapes suffer, and the best one counts.
+// Strategies of remeshing in a frame: if triangles cross or shapes become worse, the mesh is made again, and the best
+// one counts.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,7 @@ struct Weighing {
 /// made of.
 std::span<const Weighing> weighings(bool triangles_pass, double sharp_angle) noexcept;
 
-/// All triangles of `mesh` as a free one, and the lines of the frame.
+/// A free mesh of all triangles, and the lines of the frame.
 struct StartedMesh {
   std::unique_ptr<FreeMesh> free;
   std::vector<WorkedLine> worked;
@@ -48,7 +49,7 @@ StartedMesh start_free_mesh(Cad& cad, const SurfaceTolerances& tolerances, const
 /// Reassembles the remaining triangles.
 FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const RemeshingFrame& frame, Monitor& monitor);
 
-/// Triangles of a mesh that cross.
+/// Finds triangles of a mesh that cross.
 Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& options, Monitor& monitor);
 
 /// Finds triangles that cross in a mesh made of `before`, whose crossings may be known: unchanged triangles are not tested again.
@@ -62,7 +63,7 @@ void guard_around(const Intersections& found, const FreedMesh& made, Charts& cha
 /// that cross from others.
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor);
 
-/// Keeps references to all that it is given.
+/// Keeps references to its arguments.
 class Tries {
  public:
   Tries(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, const CompositeResult& result, Monitor& monitor);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::lift;
 
-/// A place on its way to the surface.
+/// A place during its search on the surface.
 struct Foot {
   Vec3 at;
   double reach;
@@ -24,7 +24,7 @@ struct Foot {
   bool moving = true;
 };
 
-/// Gauss and Newton's step towards the nearest point of the tangent plane; none where that is degenerate.
+/// Gauss-Newton step towards the nearest point of the tangent plane; empty if the plane is degenerate.
 Vec2 step_towards(const SurfaceJet& jet, const Vec3& at) noexcept {
   const Vec3 away = at - jet.s;
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After the lift: how far triangles lean against the surface.
+// After the lift: angles between triangles and the surface.
 #pragma once
 
 #include <cstdint>

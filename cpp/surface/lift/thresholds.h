@@ -18,7 +18,7 @@ inline constexpr double too_short = 0.65;
 /// True length over promised length. Such edges are examined for jumps; a surface that is continuous between their ends
 /// has none. [surface: BadModels.SurfaceThatJumpsByAFewEdges]
 inline constexpr double excess = 8;
-/// Relative length. A change of the control space that is worth another mesh. [Verification.WhatTheSamplesKnow...]
+/// Relative length. A larger change of the control space requires a new mesh. [Verification.WhatTheSamplesKnow...]
 inline constexpr double notable_change = 0.1;
 /// Ratio of lengths. An edge that is so much shorter than the longest edge of its triangle is a point of space.
 /// Triangles of prescribed metrics are at most some ten thousand times longer than wide. [surface: Poles]
@@ -29,7 +29,7 @@ inline constexpr std::size_t most_places = 500;
 /// Triangles. Size of a part that one thread examines between two checks of the monitor. [tests/cpp/measure: stops;
 /// time only]
 inline constexpr std::size_t triangles_a_part = 1 << 14;
-/// Parts. Below, each process that makes the patch looks at all of them: it would wait longer for the others. [time only]
+/// Parts. Below, each process examines all parts: it would wait longer for the others. [time only]
 inline constexpr std::size_t least_shared_parts = 8;
 
 // Steep places of space (steep_places)
@@ -48,7 +48,7 @@ inline constexpr double notable_area = 0.05;
 /// Cosine of the normals of a triangle and of its part of the surface: 85 degrees, as for triangles that are divided
 /// (surface/improve). [surface: AgreementBesideChords.AreNotDividedForEver]
 inline constexpr double least_agreement = 0.08;
-/// Parts along each side in which a triangle of (u, v) is looked at. [surface: SurfaceAgreement]
+/// Parts along each side into which a triangle of (u, v) is divided for the test. [surface: SurfaceAgreement]
 inline constexpr int parts = 4;
 
 }  // namespace carreau::thresholds::lift

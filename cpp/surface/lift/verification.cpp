@@ -195,7 +195,7 @@ class LiftCheck {
     return answered ? h : no_size;
   }
 
-  // All is compared by squares: an edge has three square roots else.
+  // Squares are compared, which saves three square roots an edge.
   void find_places(bool report) {
     constexpr double too_long2 = too_long * too_long, too_short2 = too_short * too_short, excess2 = excess * excess;
     mesh_.excesses.clear();

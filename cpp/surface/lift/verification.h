@@ -33,7 +33,7 @@ bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, cons
 struct UndersampledRegions {
   /// Regions where the control space is right: the plane mesher gets them.
   std::vector<std::vector<Vec2>> confirmed;
-  /// The places of others, where it is not: to be sampled again.
+  /// Places of the other regions, where it is wrong: the sampling repeats them.
   std::vector<Vec2> mistaken;
 };
 /// Evaluates the prescribed metric at one place of each region; at most 500.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of both sides of a narrow face at the same places.
+// Matches the vertices of both sides of a narrow face.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -148,7 +148,7 @@ class Finder {
         narrow.side = {one, other};
         narrow.end_cap = {reversed(part_of(loop, p.from, p.count)), part_of(loop, q.from, q.count)};
       }
-    // Sides that are one curve already (a seam) have nothing between them that could be matched.
+    // Sides that are one curve already (a seam) need no matching.
     return best <= reach_ && !share_a_curve(narrow);
   }
 

@@ -64,7 +64,7 @@ void let_end_caps_vanish(const CurveModel& model, NarrowModel& narrow);
 struct SidesMatched {
   std::vector<int> changed;  ///< curves that have other vertices than before, ascending
   /// Faces whose sides exchange vertices without end, since places along them disagree: indices in Model::faces,
-  /// ascending. The curves are as without these faces, which are meshed as other faces are.
+  /// ascending. The curves ignore these faces, which are meshed like other faces.
   std::vector<int> unmatched;
 };
 
@@ -77,7 +77,7 @@ SidesMatched match_sides(const CurveModel& model, std::span<const NarrowFace> fa
 SidesMatched complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
                             std::vector<DiscreteCurve>& curves);
 
-/// Takes faces (indices in Model::faces, ascending) from the list of strips: they are meshed as other faces are.
+/// Removes faces (indices in Model::faces, ascending) from the list of strips: they are meshed like other faces.
 void leave_to_mesher(std::span<const int> faces, std::vector<NarrowFace>& strips);
 
 /// A narrow face meshed between its sides.

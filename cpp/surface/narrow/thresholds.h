@@ -11,7 +11,7 @@ namespace carreau::thresholds::narrow {
 /// Widths. A round or bent end of a strip is longer than the strip is wide: half a circle has 1.57 times its diameter.
 /// [Narrow.WedgeCollapses]
 inline constexpr double longest_end_cap = 2;
-/// Curves. Sides are found by trying all pairs of ends: a face with more is not tried. [time only]
+/// Curves. The search for sides tests all pairs of ends: a face with more curves is skipped. [time only]
 inline constexpr std::size_t most_curves = 60;
 /// Share of a width. Choices whose widths differ by less are equally near: the choice with more curves in its end caps
 /// is taken. [Narrow.ChamferOfABoxCollapses]

@@ -14,7 +14,7 @@
 
 namespace carreau {
 
-/// Edges of the mesh to come, in a row, with the chart on each side; -1: none.
+/// Edges of the new mesh, in a row, with the chart on each side; -1: no chart.
 struct BorderChain {
   std::vector<std::int32_t> vertices;
   std::int32_t left = -1, right = -1;

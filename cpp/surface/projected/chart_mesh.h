@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of one chart, made in its plane.
+// Parametric remeshing of one chart in its plane.
 #pragma once
 
 #include <array>

@@ -152,7 +152,7 @@ std::optional<Foot> ChartPlane::foot_in(std::int32_t t, std::array<double, 3> w)
   return Foot{t, (w[0] / sum) * charts.uv(t, 0) + (w[1] / sum) * charts.uv(t, 1) + (w[2] / sum) * charts.uv(t, 2)};
 }
 
-// How far a place is outside of a triangle, at least.
+// Lower bound of the distance of a place outside of a triangle.
 double ChartPlane::outside(std::int32_t t, const Vec2& p) const {
   const std::array<Vec2, 3> c = corners(t);
   const std::array<double, 3> w = weights_in(c, p);

@@ -7,7 +7,8 @@
 namespace carreau::thresholds::projected {
 
 // Charts (find_charts). Cosines of the angle between normals and the axis of projection.
-/// Charts grow as far: the metric of the plane has a ratio of 1.6 there, and half a dozen charts are a sphere.
+/// Charts grow up to this lean: the metric of the plane has a ratio of 1.6 there, and half a dozen charts cover a
+/// sphere.
 inline constexpr double usual_cosine = 0.55;
 /// Neighbours become one chart if all normals lean less.
 inline constexpr double merge_cosine = 0.42;
@@ -17,8 +18,8 @@ inline constexpr double most_merge_cosine = 0.2;
 inline constexpr char most_exact = 2;
 /// Times that charts whose borders cross are repaired.
 inline constexpr int most_mendings = 16;
-/// Share of the triangles of the atlas that may be kept. Beyond, edits of the whole mesh cost no more. For scans it is
-/// below .15.
+/// Share of the triangles of the atlas that may be kept. Beyond, local remeshing of the whole mesh is as cheap. For
+/// scans it is below .15.
 inline constexpr double most_kept = 0.25;
 /// Triangles left between charts may lean so far: a ratio of 3.
 inline constexpr double loose_cosine = 0.3;
@@ -39,7 +40,7 @@ inline constexpr int sweeps = 12, last_sweeps = 3;
 /// Cosine: if all normals of a chart are as near, the metric of the plane serves for the chart. Lengths are off by 1 %
 /// at most.
 inline constexpr double flat_cosine = 0.99;
-/// Sizes that differ by so much, relatively, are one.
+/// Relative difference below which sizes are equal.
 inline constexpr double same_size = 1e-6;
 /// Control space of a chart with one size: error of lengths, samples a vertex, least number of samples. More accuracy
 /// is useless, since the normals of the chart's triangles are as inaccurate.
@@ -50,7 +51,7 @@ inline constexpr double most_miss = 0.05;
 /// Largest number of cells of the raster of a chart, of triangles on the quickest way to a place, and of triangles on a
 /// straight way behind. One cell may contain many needles. [ProjectedMeshes.FansOfNeedlesAreNotFolded]
 inline constexpr int most_cells = 1 << 20, most_steps = 64, most_straight_steps = 1 << 16;
-/// Triangles around that are looked at where a barrier is in the way.
+/// Triangles around that are searched if a barrier is in the way.
 inline constexpr std::size_t most_around = 64;
 /// Rings of triangles beyond the border of a chart in its raster: cuts are straightened.
 inline constexpr int rings_beyond = 2;

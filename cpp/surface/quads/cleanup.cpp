@@ -25,7 +25,7 @@ constexpr MixedCell none{-1, -1, -1, -1};
 template <typename Quads>
 class Pass {
  public:
-  /// `active`: by vertex: only cells with such a one are looked at; empty: all.
+  /// `active`: by vertex: only cells with an active vertex are considered; empty: all.
   Pass(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
        const std::vector<std::int8_t>& ideal, const std::vector<char>& active, Monitor& monitor)
       : quads_(quads),
@@ -41,7 +41,7 @@ class Pass {
       for (int k = 0; k < corners_of(cell); ++k) ++degree_[cell[k]];
   }
 
-  /// How many changes were made.
+  /// Returns the number of changes.
   int run() {
     int changes = 0;
     for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {

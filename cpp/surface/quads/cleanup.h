@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fewer vertices that have more or fewer than four quadrilaterals around.
+// Reduces the number of vertices with more or fewer than four quadrilaterals around.
 #pragma once
 
 #include <functional>

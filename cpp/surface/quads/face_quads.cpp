@@ -133,7 +133,7 @@ std::size_t split_poor(FaceQuads& quads, double least) {
 
 namespace {
 
-/// Drops local vertices that nothing needs; marks theirs of the mesh.
+/// Drops unused local vertices, and marks their vertices of the mesh.
 void compact(FaceQuads& quads, std::vector<char>& gone) {
   const std::size_t n = quads.patch.uv.size();
   std::vector<std::int32_t> now(n, -1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A face on its way to quadrilaterals.
+// The state of a face that becomes quadrilaterals.
 #pragma once
 
 #include <vector>
@@ -31,7 +31,8 @@ FaceQuads face_quads(const ElementWork& work, std::size_t face);
 /// if it is null). One evaluation a vertex.
 void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor);
 
-/// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each. How many.
+/// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each, and returns their
+/// number.
 std::size_t split_poor(FaceQuads& quads, double least);
 
 /// Puts the cells of faces into the mesh, all at once. Vertices without a cell are removed, new vertices are appended

@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::quads;
 
-/// Quality: of a quadrilateral, 0 where it may not be.
+/// Quality of a quadrilateral; 0 if it is not allowed.
 template <typename Quality>
 class Pairing {
  public:
@@ -138,7 +138,7 @@ std::size_t turn_all_ears(Quads& quads, const ImposedEdges& is_imposed) {
   return count;
 }
 
-/// Cells, as far as ears need them: no metric.
+/// Cells with the data for ears, without a metric.
 class FlatCells {
  public:
   explicit FlatCells(QuadPatch& patch) : patch_(patch) {}

@@ -24,8 +24,8 @@ struct PairRules {
   double least_jacobian = 0;  ///< of the quadrilateral in space: a candidate must exceed it
 };
 
-/// Joins triangles of the patch, which has no other cells, by a matching of large weight. Quality is that in the metric
-/// of `charts`; without charts, that in space.
+/// Joins triangles of the patch, which has no other cells, by a matching of large weight. Quality is measured in the
+/// metric of `charts`; without charts, in space.
 void pair_triangles(QuadPatch& patch, const FaceCharts* charts, const PairRules& rules, Monitor& monitor);
 void pair_triangles(SpaceQuads& quads, const PairRules& rules, Monitor& monitor);
 

@@ -15,7 +15,7 @@ namespace carreau {
 double quad_quality(const std::array<Vec2, 4>& p) noexcept;
 /// The quality in space, if the quadrilateral is counterclockwise about the normal of its diagonals.
 double quad_quality(const std::array<Vec3, 4>& p) noexcept;
-/// Least sine of the angles at the corners; below 0 where one is turned over.
+/// Least sine of the angles at the corners; below 0 if a corner is turned over.
 double scaled_jacobian(const std::array<Vec2, 4>& p) noexcept;
 double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept;
 /// Returns whether the scaled Jacobian is not above 0.

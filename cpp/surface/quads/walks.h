@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that are left walk through quadrilaterals until two meet.
+// Moves remaining triangles through quadrilaterals until two meet.
 #pragma once
 
 #include <functional>

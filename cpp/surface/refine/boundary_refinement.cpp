@@ -150,7 +150,7 @@ class Refiner {
     }
   }
 
-  // Rounds of one check, until nothing more is split; only faces that have changed are looked at again.
+  // Rounds of one check, until no segment is split; later rounds check changed faces only.
   template <typename Find, typename Ask>
   void repeat(int rounds, Find&& find, Ask&& ask) {
     const bool alone = !asks_from_threads(options_, curve_model_.cad);
@@ -206,8 +206,8 @@ class Refiner {
     std::sort(result_.unmatched.begin(), result_.unmatched.end());
   }
 
-  // A boundary whose polygon is inside out follows its curves too loosely: there the edges that leave them most are
-  // split.
+  // If the polygon of a boundary is inside out it approximates its curves too loosely: the edges with the largest
+  // distance are split.
   void add_loose_edges(Splits& splits) {
     for (const int face : turned_) {
       if (given_up_.contains(face) || turned_rounds_[face]++ >= most_turned_rounds) continue;
@@ -360,7 +360,7 @@ class Refiner {
     for (const auto& [f, why] : unbuilt_) result_.failure[f] = why;
   }
 
-  // Why a domain cannot be meshed; empty when it can.
+  // Returns the reason why a domain cannot be meshed; empty if it can.
   [[nodiscard]] std::string why_not(int f) const {
     const PlaneDomain& plane = result_.domain[f]->plane;
     if (const std::optional<EdgeConflict> conflict = find_a_crossing(plane))

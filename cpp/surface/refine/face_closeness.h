@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How wide narrow zones of each face must be beside their edges. Private to surface/.
+// Least width of narrow zones of each face, relative to their edges. Private to surface/.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How short the edges at each vertex of the curves were. Private to surface/.
+// Original lengths of the shortest edges at the vertices of curves. Private to surface/.
 #pragma once
 
 #include <algorithm>

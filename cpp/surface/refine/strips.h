@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strips of a face that are narrow in space beside their edges, however far their sides are on the surface.
+// Strips of a face that are narrow in space compared with their edges, whatever the distance of their sides on the
+// surface.
 #pragma once
 
 #include <vector>

@@ -21,10 +21,10 @@ inline constexpr double fruitless_share = 0.75;
 /// Rounds. Halvings of a boundary that is inside out: a model that is wrong stays so. [domain:
 /// OrientLoops.RefusesWhatIsNoDomain]
 inline constexpr int most_turned_rounds = 6;
-/// Ratio. Straight distances in space are taken so much shorter than lengths in the metric of a curved surface.
+/// Ratio. Assumed ratio of lengths in the metric of a curved surface to straight distances in space.
 /// [Refinement.BordersWithTheOutsideBetweenThemAreNoNarrowZone]
 inline constexpr double straight_reserve = 2;
-/// Ratio of lengths. From here on the balance of edges is looked at in the metric, whose chords are not the curves'
+/// Ratio of lengths. From here on the balance of edges is checked in the metric, whose chords differ from the curves'
 /// lengths; there it may be 2. [Refinement.BalanceOfEdgesAtACornerEndsWhereverMetricsTurn]
 inline constexpr double balance_to_look_at = 1.6;
 
@@ -33,7 +33,7 @@ inline constexpr double balance_to_look_at = 1.6;
 /// width, in sizes: wider faces are narrow in places alone, where short edges leave bad triangles beside them.
 /// [Refinement.StripsWithoutNeighboursAreCutToTheirWidth]
 inline constexpr double coefficient_alone = 0.35;
-/// Places of the boundary where the stretch of the surface is looked at. [time only]
+/// Places of the boundary where the stretch of the surface is sampled. [time only]
 inline constexpr std::size_t stretch_samples = 16;
 
 // Tips and seams (strips, seam_loops)

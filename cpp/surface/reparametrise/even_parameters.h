@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters in which an extreme parametrisation is an ordinary one.
+// New parameters that turn an extreme parametrisation into an ordinary one.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace carreau {
 /// has there, so that derivatives along it are about 1 or shorter. Squares of a control space, and straight edges,
 /// cannot follow speeds that change a thousand times within a tiny interval (knots 1e-6 apart, weights of 1e4). Between
 /// such places x and y are proportional to u and v. Evaluates positions only, some thousand, in the domain. `at`: a
-/// place where the speed is extreme. Empty where speeds do not differ by parameter lines, so that no x and y help.
-/// Throws DomainError with the place where the surface jumps.
+/// place where the speed is extreme. Empty if speeds do not differ by parameter lines, so that no x and y help. Throws
+/// DomainError with the place where the surface jumps.
 std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, const Vec2& at,
                                                  Monitor& monitor);
 

@@ -17,7 +17,7 @@ inline constexpr std::size_t first_places = 16;
 inline constexpr double finest = 1.0 / 128;
 /// Share of the domain. unless it is as narrow as this; a chord of the share above is a jump then. [rounding]
 inline constexpr double narrowest = 1e-13;
-/// Places. On a parameter, at most. [time only]
+/// Largest number of places on a parameter. [time only]
 inline constexpr std::size_t most_places = 3000;
 /// Ratio. If all lines of a family together are longer than this factor times the longest one, fast places differ from
 /// line to line. [UnevenParameters.FastAlongASlantedLine]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growth from short edges of a boundary, as far as a control space can follow it.
+// Limits growth from short edges of a boundary to the resolution of a control space.
 #pragma once
 
 #include <optional>

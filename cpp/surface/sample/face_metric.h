@@ -53,8 +53,8 @@ class FaceMetric {
     for_batches(cad, ref, want | wants(), uv, monitor_, prescribe);
   }
 
-  /// The limit at a point where the parametrisation is degenerate. Empty where it is also degenerate beside, or no
-  /// place beside is inside the domain.
+  /// The limit at a point where the parametrisation is degenerate. Empty if it is also degenerate beside, or no place
+  /// beside is inside the domain.
   [[nodiscard]] std::optional<TangentMetric> limit(Vec2 uv, const SurfaceJet& jet);
 
  private:

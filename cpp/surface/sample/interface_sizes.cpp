@@ -82,7 +82,7 @@ InterfaceSizes::InterfaceSizes(const PlaneDomain& domain, const std::vector<doub
     }
   if (law_ == SizeLaw::geometric)
     for (double& h : value_) h = std::log(h);
-  // Units of u and of v may have nothing in common.
+  // The units of u and v may differ.
   Vec2 high = low_ = mesh_.vertices.front();
   for (const Vec2& p : mesh_.vertices) {
     low_ = low_.cwiseMin(p);
@@ -102,8 +102,8 @@ std::array<double, 3> InterfaceSizes::weights(int triangle, const Vec2& uv) cons
 
 int InterfaceSizes::triangle_at(const Vec2& p) const {
   int t = last_;
-  // A walk in a constrained triangulation may meet the border first, or turn in circles: then every triangle is looked
-  // at.
+  // A walk in a constrained triangulation may meet the border first, or turn in circles: then all triangles are
+  // searched.
   for (std::size_t step = 0; step < 64 + 2 * mesh_.triangles.size(); ++step) {
     const auto w = weights(t, p);
     const int worst = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());

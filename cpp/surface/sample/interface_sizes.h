@@ -23,8 +23,8 @@ class InterfaceSizes {
   /// sizes: one a vertex of the domain; vertices whose size is not positive (imposed points) are left out.
   InterfaceSizes(const PlaneDomain& domain, const std::vector<double>& sizes, SizeLaw law, Monitor& monitor);
 
-  /// Size at a point of the domain; a point outside is taken to be in the nearest triangle met. Remembers where it was
-  /// last and keeps its memory: not for several threads at once.
+  /// Size at a point of the domain; a point outside is taken to be in the nearest triangle met. Remembers its last
+  /// triangle and keeps its memory: not for several threads at once.
   double operator()(const Vec2& uv) const;
 
  private:

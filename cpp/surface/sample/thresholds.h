@@ -8,8 +8,8 @@ namespace carreau::thresholds::sample {
 
 // In brackets: the tests that rest on it, of tests/cpp/surface.
 
-/// Shares of the domain's box. How far from a degenerate point limits are taken; the second where the first is outside.
-/// [FaceMetric.OfAPoleIsTheLimitAlongItsMeridian]
+/// Shares of the domain's box. Distances from a degenerate point at which limits are taken; the second if the first is
+/// outside. [FaceMetric.OfAPoleIsTheLimitAlongItsMeridian]
 inline constexpr double ways_inside[] = {1e-4, 1e-6};
 /// Share of that way. The part aside, towards the middle of the box: meridians may run along sides of the domain, which
 /// are straight but for rounding. [as above]
@@ -19,14 +19,14 @@ inline constexpr double still = 1e-12;
 /// Relative difference between a metric and the metric of one size that rounding leaves.
 /// [VertexSizes.AreThePrescribedOneWhenItIsConstant]
 inline constexpr double same_size = 1e-6;
-/// Ratio of speeds. How many times faster than usual a parametrisation may be somewhere: else other parameters are
-/// looked for; [UnevenParameters]
+/// Ratio of speeds. Largest speed of a parametrisation over its usual speed; above it other parameters are searched;
+/// [UnevenParameters]
 inline constexpr double uneven_speed = 1000;
 /// Ratio of speeds. Limit if no other parameters exist. [UnevenParameters.ExtremeWeights]
 inline constexpr double hopeless_speed = 30'000;
 
 // Growth from the edges of a boundary (edge_growth)
-/// Triangles. Smaller meshes are made as they are: whether they are right is not worth sampling again. [limits_test]
+/// Triangles. Smaller meshes are not checked, since sampling again would cost more. [limits_test]
 inline constexpr double few_triangles = 10'000;
 /// Times the number of triangles by sizes and growth. Straight distances and rounding of a sound control space leave
 /// 1.3 at most. [limits_test]

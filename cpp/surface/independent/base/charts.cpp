@@ -226,7 +226,7 @@ Foot Charts::over(std::int32_t t, int side, const Vec2& at) const {
   return {next, lerp(from, to, s)};
 }
 
-// Along the straight line, out of each triangle by the side that it meets first.
+// Walks along the straight line, out of each triangle by the first side that it meets.
 Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   std::int32_t t = from.triangle;
   for (int step = 0; step < most_steps; ++step) {
@@ -251,7 +251,7 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   return {};
 }
 
-// Through the triangles as they are in space, without an evaluation; none where a barrier is in the way.
+// Walks through the flat triangles in space, without an evaluation; empty if a barrier is in the way.
 std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) const {
   std::int32_t t = from, before = -1;
   for (int step = 0; step < most_steps; ++step) {

@@ -54,7 +54,7 @@ class Charts {
     return uv_[t.face][t.local[corner]];
   }
 
-  /// Triangles with a vertex no farther from a place: edits there must leave nothing farther from the surface than before.
+  /// Guards triangles with a vertex near a place: edits there must not increase distances from the surface.
   void guard(const Vec3& place, double distance);
   [[nodiscard]] bool is_guarded(const Foot& f) const { return guarded_[f.triangle] != 0; }
 

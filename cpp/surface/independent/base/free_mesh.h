@@ -53,7 +53,7 @@ struct ShapeBudget {
   void pay(double cost) noexcept { left -= cost; }
 };
 
-/// HDR eq. 4.83: of a distance between two places with these sizes.
+/// Metric length of a distance between two places with these sizes (HDR eq. 4.83).
 inline double length_between_sizes(double distance, double p, double q) noexcept {
   return std::abs(q - p) > 1e-6 * p ? distance * std::log(q / p) / (q - p) : distance / p;
 }
@@ -68,7 +68,7 @@ class FreeMesh final : public PlacedVertices {
   FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
            std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
            const Charts& charts, Cad& cad);
-  /// Some triangles of `whole` by themselves: edits join no two of the frozen vertices, since others may do so beyond.
+  /// Starts with some triangles of `whole`. Edits do not join two frozen vertices, since other parts may join them.
   FreeMesh(const FreeMesh& whole, const MeshPart& part);
   /// Starts with other triangles than the triangles of `mesh`. `added`: vertices that follow the vertices of `mesh`;
   /// `sharp`: edges of `triangles`.
@@ -87,7 +87,7 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const override;
   [[nodiscard]] double size(std::int32_t v) const override { return size_[v]; }
   [[nodiscard]] bool by_direction() const noexcept override { return charts_.by_direction(); }
-  /// If they do.
+  /// The metric at a vertex, if sizes differ by direction.
   [[nodiscard]] const Metric3& metric(std::int32_t v) const { return metric_[v]; }
   [[nodiscard]] WantedSize wanted(std::int32_t v) const { return {size_[v], by_direction() ? metric_[v] : Metric3{}}; }
   [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
@@ -132,7 +132,7 @@ class FreeMesh final : public PlacedVertices {
 
   [[nodiscard]] const SurfaceTolerances& tolerances() const noexcept { return asked_; }
 
-  /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
+  /// Adds a vertex beside the mesh, to judge edits with it, until forget_vertex().
   std::int32_t try_vertex(const SurfacePlace& at);
   void forget_vertex();
 

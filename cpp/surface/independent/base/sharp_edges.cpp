@@ -19,7 +19,7 @@ namespace {
 
 using namespace thresholds::independent;
 
-/// A side of a triangle: where it starts.
+/// A side of a triangle, by its start.
 struct TriangleSide {
   MeshEdge edge;
   std::int32_t face, triangle;
@@ -147,7 +147,7 @@ std::span<const LineEnd> at_vertex(const std::vector<LineEnd>& all, std::int32_t
   return {std::ranges::lower_bound(all, v, {}, &LineEnd::vertex), std::ranges::upper_bound(all, v, {}, &LineEnd::vertex)};
 }
 
-/// Directions in which curves leave their ends, as their supports have them.
+/// Directions in which curves leave their ends, by their supports.
 class Tangents {
  public:
   Tangents(const SurfaceMesh& mesh, const Topology* topology, const std::vector<std::vector<CurveSupport>>& supports)
@@ -237,7 +237,7 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
   for (const CurveMesh& curve : mesh.curves)  // the ends of free curves keep their places
     for (std::size_t k = 0; curve.loose && k < curve.vertices.size(); ++k)
       if (around.discs(curve.vertices[k]) > 0) corner[curve.vertices[k]] = 1;
-  // Two lines may touch at a vertex of one of them.
+  // A line may touch a second line at one of its vertices.
   std::map<MeshEdge, int> count;
   for (const MeshEdge& e : sharp) count[e] = 0;
   for (const auto& t : charts.triangles())

@@ -18,12 +18,12 @@ inline constexpr int most_newton_steps = 6;
 inline constexpr double near_enough = 0.3;
 
 // Sharp edges (sharp_edges)
-/// Degrees, added to the angle between tangents of curves that meet: supports are known as well as that.
+/// Degrees, added to the angle between tangents of curves that meet: supports have this accuracy.
 inline constexpr double support_angle = 2;
 
 // Edits (remeshing). Lengths are in the prescribed metric, shapes are Q2.
 // Lines (line_remeshing)
-/// Times that lines are cut anew and the mesh between them follows.
+/// Rounds of remeshing lines and then the mesh between them.
 inline constexpr int most_line_rounds = 3;
 /// Sweeps that even out the lengths of a line.
 inline constexpr int line_sweeps = 6;
@@ -40,7 +40,7 @@ inline constexpr double short_when_dense = 0.95;
 inline constexpr double most_mean_area = 1.02;
 /// Shape that such a collapse may leave.
 inline constexpr double least_shape_when_dense = 0.35;
-/// Times that edges of a coarse mesh are halved when the whole mesh is made again.
+/// Times that edges of a coarse mesh are halved in everywhere-remeshing.
 inline constexpr int halvings = 2;
 /// Growth of the size of a coarse mesh from sharp lines, in sizes for each prescribed size.
 inline constexpr double growth_of_coarse = 1;
@@ -74,7 +74,7 @@ inline constexpr double least_gain = 1e-4;
 // Parts (division)
 /// Triangles, among the triangles to remesh.
 inline constexpr double least_divided = 65536, triangles_of_part = 16384;
-/// Edges: how far from where parts have met their neighbourhood is remeshed, and how far from a bad triangle work starts.
+/// Edges. Distance around cuts that is remeshed, and distance around a bad triangle at which work starts.
 inline constexpr int rings_of_zone = 8, rings_at_work = 2;
 
 // The worst triangles at the end (worst_first)
@@ -92,7 +92,7 @@ inline constexpr double above_worst = 0.03;
 // Loss of shapes by collapses (collapse_price)
 /// Shape of a triangle whose removal is not a loss: about the mean of a mesh.
 inline constexpr double good_shape = 0.95;
-/// Sum of differences of shapes that one more edge in range is worth, of meshes made of no mesher's triangles.
+/// Sum of differences of shapes that one more edge in range may cost, if no mesher made the input.
 inline constexpr double high_price = 1;
 /// The sum for meshes made patch by patch, and its growth each time that lines were remeshed while the mean is kept. The cheapest edits
 /// come first.
@@ -118,20 +118,19 @@ inline constexpr double most_angle_of_price = 5;
 inline constexpr double most_distortion = 0.7;
 
 // Agreement with the surface
-/// Degrees: A1 where no geometric rule governs. That of a triangle of unit length on a sphere of this radius.
+/// Degrees: A1 where no geometric rule governs. A triangle of unit length on a sphere of this radius has this angle.
 inline constexpr double usual_angle = 52;
 /// Factor on squares of angles and distances beside triangles that crossed others in a previous strategy: as if
 /// tolerances were a hundred times smaller.
 inline constexpr double guarded_factor = 1e4;
-/// Ratio of sizes in two directions. Below it all over a model sizes count as if they were of no direction: control spaces are
-/// known as well as that.
+/// Ratio of sizes in two directions. If all ratios of a model are below, sizes count as isotropic: control spaces have this accuracy.
 inline constexpr double least_anisotropy = 1.05;
 /// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
 /// against the surface; patches bound it, too (pipeline/base/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
 inline constexpr double leaning_angle = 35;
 /// Times that triangles beyond tolerances are edited, each time with the places of crossings guarded.
 inline constexpr int most_certifications = 3;
-/// Times that edges of triangles that cross are halved in a mesh made elsewhere.
+/// Times that edges of triangles that cross are halved in a mesh from parametric remeshing.
 inline constexpr int most_untanglings = 8;
 /// Sizes around such a place that are guarded.
 inline constexpr double guarded_sizes = 2;

@@ -23,7 +23,7 @@ inline Vec2 arrival_at_pole(const Vec2& pole, const Tangents& at_pole, const Vec
   const Vec3 &su = at_a.su, &sv = at_a.sv;
   const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), x = dot(su, chord), y = dot(sv, chord);
   const Vec2 way{g * x - f * y, e * y - f * x};  // times the determinant
-  // Along u where that derivative has gone.
+  // The way runs along u if that derivative has vanished.
   const bool along_u = norm(at_pole.su) * norm(sv) < norm(at_pole.sv) * norm(su);
   const int i = along_u ? 0 : 1, j = 1 - i;
   const double step = way[j] != 0 ? way[i] * (pole[j] - a[j]) / way[j] : 0;

@@ -37,7 +37,7 @@ SpreadPlaces::Look SpreadPlaces::look(const PlaceInTriangle& place) const {
   const auto nearest = std::ranges::min_element(flat_.p, {}, [&](const Vec3& p) { return norm(p - look.flat); });
   look.offset = *nearest - look.flat;
   const auto found = triangle_.over(weight);
-  // Farther than a corner is another part of the surface.
+  // A place farther than a corner belongs to another part of the surface.
   look.found = found && norm(found->xyz - look.flat) < norm(look.offset);
   if (look.found)
     look.offset = found->xyz - look.flat, look.normal = triangle_.normal(*found);

@@ -33,7 +33,7 @@ inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
 inline constexpr int most_cuts = 10, most_parts = 150;
 /// Number of parts of a triangle that is known to be beyond a tolerance, if the caller needs no more than that.
 inline constexpr int most_parts_beyond = 16;
-/// Ratio of these to the parts that are cut where an edit is only tried. [time only]
+/// Ratio of these to the parts that are cut when an edit is only tested. [time only]
 inline constexpr int roughly_parts = 4;
 /// Share of the largest |Su x Sv| of a triangle: where it is less the surface is singular.
 inline constexpr double singular_normal = 1e-9;

@@ -123,7 +123,7 @@ void TriangleBound::cut(const std::array<Seen, 3>& corner, const std::array<Seen
   judge({{middle[1], middle[2], middle[0]}, bends, cuts});
 }
 
-// Into two, from the pole on: ways to it are many, however near to it.
+// Cuts the part into two, from the pole on: there are many ways to the pole, however near.
 void TriangleBound::cut_at_pole(const Part& part, const std::array<Seen, 3>& middle, Bends bends) {
   const std::size_t pole = part.corner[0].singular ? 0 : part.corner[1].singular ? 1 : 2, next = (pole + 1) % 3, last = (pole + 2) % 3;
   for (const std::size_t side : {pole, last}) {  // to the pole: as long as before
@@ -171,7 +171,7 @@ double TriangleBound::deviation_of(const Part& part) const noexcept {
   return goes_on_beside(part, beyond) ? std::min(distance, height + beyond * triangle_.slope) : distance;
 }
 
-// How far beyond the triangle the surface is at most, seen along its normal.
+// Largest distance of the surface beyond the triangle, seen along its normal.
 double TriangleBound::overshoot_of(const Part& part) const noexcept {
   const double rounding = beyond_side * triangle_.longest;
   const Bends& b = part.bends;

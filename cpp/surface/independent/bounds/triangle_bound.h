@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a triangle and the surface over it are apart at most.
+// Bounds of the distance between a triangle and the surface over it.
 #pragma once
 
 #include <array>
@@ -49,12 +49,12 @@ using PlaceInTriangle = Vec2;
 class TriangleBound {
  public:
   static constexpr std::size_t lattice_size = 15;
-  /// The places at which the surface is seen first: quarters of the sides and three inside.
+  /// The places of the first evaluations: quarters of the sides and three inside.
   static const std::array<PlaceInTriangle, lattice_size>& lattice() noexcept;
 
   TriangleBound(const BoundedTriangle& triangle, std::span<const BoundPlace, lattice_size> places);
 
-  /// Places to be seen next; none: done.
+  /// Places to evaluate next; empty: done.
   [[nodiscard]] const std::vector<PlaceInTriangle>& wanted() const noexcept { return wanted_; }
   void take(std::span<const BoundPlace> places);
 

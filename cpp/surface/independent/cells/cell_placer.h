@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// To which face a cell of a free mesh belongs, and where in (u, v) its corners and nodes are.
+// The face of a cell of a free mesh, and the places of its corners and nodes in (u, v).
 #pragma once
 
 #include <array>

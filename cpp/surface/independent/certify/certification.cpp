@@ -91,7 +91,7 @@ class Certifier::Work {
     double share = infinity;
     TriangleShapes shapes;
   };
-  /// A vertex where it was.
+  /// A moved vertex with its old place.
   struct Moved {
     std::int32_t vertex;
     SurfacePlace from;
@@ -124,7 +124,7 @@ class Certifier::Work {
     return mean < std::min(least_mean, mean_before) && (mean_before >= least_mean || mean < mean_before - most_mean_lost);
   }
 
-  // Triangles that share a vertex. The worst group is last: it may be one that nothing helps.
+  // Triangles that share a vertex. The worst group is last: no edit may help it.
   [[nodiscard]] std::vector<std::vector<std::int32_t>> groups(const std::vector<Beyond>& beyond) const {
     std::map<std::int32_t, std::vector<std::int32_t>> at;  // by vertex: triangles
     for (const Beyond& b : beyond)
@@ -181,7 +181,7 @@ class Certifier::Work {
       if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best = state();
       if (round + 1 >= rounds_without_success && least == first) break;
     }
-    // Edges out of range for little are not worth it.
+    // Rejects edits that bring edges out of range for a small gain.
     if (least > least_success * first) best = start, least = first;
     if (mesh_.edits() > best.edits || moved_.size() > best.moves) undo(best);
     return least == 0;
@@ -204,7 +204,7 @@ class Certifier::Work {
     return std::ranges::any_of(vertices, [&](std::int32_t v) { return mesh_.charts().is_guarded(mesh_.place(v).foot); });
   }
 
-  // The surface is not known to be within tolerances by far.
+  // The bounds are not far within the tolerances.
   [[nodiscard]] bool is_suspect(const Corners& t) const {
     if (all_) return true;
     TriangleShapes shapes;
@@ -247,7 +247,7 @@ class Certifier::Work {
     return found;
   }
 
-  // Shapes and the agreement of corners cost nothing: most edits fail by them.
+  // Tests of shapes and of agreement at corners are cheap, and reject most edits.
   [[nodiscard]] bool is_fair(const TriangleShapes& before, const TriangleShapes& after, double least) const {
     return after.worst >= std::min(before.worst, least) && after.share < infinity && after.share <= std::max(before.share, upright_);
   }
@@ -294,7 +294,7 @@ class Certifier::Work {
     return true;
   }
 
-  // To where nothing around is beyond.
+  // Moves a vertex to a place where all triangles around are within tolerances.
   bool move(std::int32_t v) {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
@@ -391,7 +391,7 @@ class Certifier::Work {
     return true;
   }
 
-  // Shapes around edits, where nothing comes to be beyond.
+  // Improves shapes around edits, if all triangles stay within tolerances.
   void tidy() {
     std::ranges::sort(changed_);
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// At last: no triangle of a free mesh is farther from the surface than is tolerated, by upper bounds.
+// The last step: edits until upper bounds of all triangles of a free mesh are within tolerances.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace carreau::thresholds::certify {
 inline constexpr double suspect_share = 0.5;
 /// Share of a tolerance. Smaller shares are within: measures see triangles from places that differ a little.
 inline constexpr double within = 0.98;
-/// Ratio. The largest share of a group may grow so much where others come to be within tolerances.
+/// Ratio. Allowed growth of the largest share of a group if other triangles come within tolerances.
 inline constexpr double most_growth = 1.05;
 /// Share of the excess over tolerances of a group that may be left.
 inline constexpr double least_success = 0.5;
@@ -20,15 +20,15 @@ inline constexpr double least_success = 0.5;
 inline constexpr double most_moved = 1.3;
 /// Share of a tolerance. Gains below do not count.
 inline constexpr double least_gain = 1e-3;
-/// Shape (Q2) that an edit may leave where shapes were better, splits that others are to follow, too.
+/// Shape (Q2) that an edit may leave after better shapes, also a split before further splits.
 inline constexpr double least_shape = 0.3;
 /// Shape that a move may leave.
 inline constexpr double least_shape_of_move = 0.5;
 /// Lengths. Shorter edges are not split. A bend beyond the tolerance over half of that length is a feature of another size.
 inline constexpr double shortest_split = 0.3;
-/// Lengths. A swap makes no longer edge where none was.
+/// Lengths. A swap does not make a longer edge from shorter ones.
 inline constexpr double longest_swapped = 1.8;
-/// Mean shape. A mesh that is as good is not edited to less: of a coarse one a few edits are a large part.
+/// Mean shape. Edits do not lower a better mesh below this: in a coarse mesh a few edits are a large part.
 inline constexpr double least_mean = 0.95;
 /// The loss for a mesh that is worse: edits do not repair a surface that bends within a size everywhere.
 inline constexpr double most_mean_lost = 0.04;

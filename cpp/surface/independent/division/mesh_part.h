@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Some triangles of a free mesh, to be edited by themselves while others edit others.
+// Some triangles of a free mesh that one executor edits by itself.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace carreau {
 /// Edges at v whose lengths are out of range.
 [[nodiscard]] int out_of_range(const FreeMesh& mesh, std::int32_t v);
 
-/// Towards six edges at each vertex: whether the edge from a to b had better lead from c to d.
+/// Returns whether a swap of the edge from a to b to c and d brings the vertices nearer to six edges.
 [[nodiscard]] bool evens_degrees(const FreeMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d);
 /// Returns whether a swap would make a diagonal that is too long.
 [[nodiscard]] bool is_too_long(const FreeMesh& mesh, std::int32_t v, std::int32_t w, std::int32_t c, std::int32_t d);

@@ -107,7 +107,7 @@ class Remesher {
     shape_.resize(mesh_.triangles().size(), unknown);
   }
 
-  // Shapes of triangles are known until a corner moves or changes.
+  // Shapes of triangles stay valid until a corner moves or changes.
   static constexpr double unknown = -1;
   [[nodiscard]] double shape_of(Place p) {
     double& known = shape_[p.triangle];

@@ -74,7 +74,7 @@ Vec3 VertexMover::ideal_place_by_direction(std::int32_t v) const {
   return count > 0 ? Vec3(sum / count) : mesh_.position(v);
 }
 
-// As FreeMesh::judge_shape has them, with v there; HDR eq. 1.6.
+// Shapes as in FreeMesh::judge_shape, with v there; HDR eq. 1.6.
 TriangleShapes VertexMover::shapes(const Vec3& at) const {
   TriangleShapes shapes;
   for (const Side& s : sides_) {

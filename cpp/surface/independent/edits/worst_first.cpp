@@ -78,7 +78,7 @@ class WorstFirst {
     for (const std::int32_t k : {q->a, q->b, q->c, q->d}) has_changed(k);
   }
 
-  // Uphill in the tangent plane, by steps that become shorter.
+  // Searches uphill in the tangent plane, by steps that become shorter.
   void move(std::int32_t v) {
     if (!forgets_ && tried_[v] >= changed_[v]) return;
     bool moved = false;

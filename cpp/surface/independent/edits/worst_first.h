@@ -14,7 +14,7 @@ struct ShapeSummary {
   double mean = 1, worst = 1;  ///< Q2
   int count = 0;
 };
-/// The same for any number of threads.
+/// The result is identical for any number of threads.
 ShapeSummary summarise_shapes(const FreeMesh& mesh, int threads, Monitor& monitor);
 
 /// Swaps edges of triangles below `floor` and moves their corners, worst first. An edit must improve the worst triangle
