@@ -122,7 +122,7 @@ class FaceNodes {
     join_at_poles();
     place_inside();
   }
-  /// Whether a node is fixed; index as in mid_uv.
+  /// Returns whether a node is fixed; index as in mid_uv.
   [[nodiscard]] std::vector<char> fixed_mids() const { return fixed_; }
   /// `uses`: the number of faces of each vertex in space.
   [[nodiscard]] std::vector<char> fixed_vertices(const std::vector<std::int32_t>& uses) const {

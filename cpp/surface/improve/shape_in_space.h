@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After the lift: shapes of triangles in space, by swaps and moves in turn. `team`: processes that make the patch
-// together, and share the search for such triangles; null: only this process.
+// After the lift: shapes of triangles in space, by swaps and moves in turn. `team`: communicator of the processes that
+// make the patch and share the search for such triangles; null: only this process.
 #pragma once
 
 #include <cstdint>

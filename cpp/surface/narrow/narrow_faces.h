@@ -51,9 +51,9 @@ struct NarrowModel {
   [[nodiscard]] bool empty() const noexcept { return strips.empty() && points.empty(); }
 };
 
-/// Slivers below the tolerance of their file: their whole boundary runs there and back along the same curves, with no
-/// more between them than the gap of these curves. A closed surface along its seam does not count. Faces all of whose
-/// sides are degenerate, and that lie where their sides do, are included. Indices in Model::faces, ascending.
+/// Slivers below the tolerance of their file. Their whole boundary runs there and back along the same curves, and their
+/// width is within the gap of these curves. A closed surface along its seam does not count. Faces all of whose sides
+/// are degenerate, and that lie where their sides do, are included. Indices in Model::faces, ascending.
 std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
 
 /// Fills `vanishing`. A face whose curves are a whole loop of a second face, a small hole, is left out of the lists.

@@ -13,8 +13,8 @@ namespace carreau::thresholds::bounds {
 inline constexpr double near_foot = 1e-4;
 
 // Bounds of A0 and A1 (triangle_bound, deviation_bounds)
-/// Bounds assume that second derivatives along the sides differ from a constant over a part of a triangle by at most this factor times the
-/// largest observed second difference. Heights of parts count a sixteenth of the height of the triangle, so once costs a tenth.
+/// Factor on the largest observed second difference. Bounds assume that second derivatives along the sides differ from a constant by no
+/// more over a part of a triangle. Heights of parts count a sixteenth of the height of the triangle, so once costs a tenth.
 /// [TriangleBound.SphereInClosedForm]
 inline constexpr double variation = 1;
 /// Least share of a triangle's bend that its quarters have: a difference of zero does not bound derivatives.

@@ -22,8 +22,8 @@ constexpr std::size_t rank_of(int j, int k) noexcept { return static_cast<std::s
 
 /// The largest distance of a function from the linear interpolation of its corners. Its second derivatives along the sides of a triangle,
 /// times their squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at
-/// the place with weights x. The variable part is at most `variation` times m. By Taylor's formula at the place it makes 1/2 sum x_i x_j (1
-/// + 2 x_k) m_ij for each corner.
+/// the place with weights x. The variable part is at most `variation` times m. It makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's
+/// formula at the place for each corner.
 double most_off(double m0, double m1, double m2) noexcept {
   const double largest = std::max({m0, m1, m2}), sides = (m0 + m1 + m2) / 8;
   return std::min(largest / 6, sides) + variation * std::min(5. / 18 * largest, sides);

@@ -156,8 +156,8 @@ class Certifier::Work {
     return all;
   }
 
-  // Returns whether the whole group is within tolerances. `boldly`: splits may degrade triangles if later splits repair them. The best
-  // state of all rounds counts.
+  // Returns whether the whole group is within tolerances. `boldly` allows degradation by splits that later splits repair. The best state of
+  // all rounds counts.
   bool work_at(const std::vector<std::int32_t>& group, bool boldly) {
     touched_ = group, changed_.clear(), boldly_ = boldly;
     std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
