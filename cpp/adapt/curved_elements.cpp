@@ -73,9 +73,9 @@ void CurvedElements::number_corners() {
   for_corners([&](std::size_t c, std::int32_t row) { at_corner_[next[row]++] = static_cast<std::int32_t>(c); });
 }
 
-// Gauss and Newton's method for the point of the element nearest to p: in the plane the residual is 0 and the end
-// quadratic; on a surface it is as long as p is away. Coordinates are of degree 2 each, so that central differences are
-// exact.
+// Gauss and Newton's method for the point of the element nearest to p. In the plane the residual is 0 and convergence
+// is quadratic; on a surface the residual is the distance of p. Coordinates are of degree 2 each, so that central
+// differences are exact.
 CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bool in_space) const {
   const Cell& cell = cells_[c];
   const std::span<const Vec3> x = nodes_of(cell, in_space || uv_.empty() ? xyz_[c] : uv_[c]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields on elements of second order: where a point lies in an element, and what the field is there.
+// Fields on elements of second order: location of points in an element, and interpolation there.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ class CurvedElements {
     return static_cast<std::size_t>(triangle) < of_triangle_.size();
   }
   /// The field at p by the shape functions of the element of `triangle`, or of one that shares a corner with it where p
-  /// lies in that one. `values`: of vertices, then of mid_vertices, `components` together; so `out`. Of elements in the
-  /// parameter plane p is (u, v, 0), or, `in_space`, a point of space.
+  /// lies in that one. `values`: of vertices, then of mid_vertices, `components` together; so `out`. For elements in
+  /// the parameter plane, p is (u, v, 0); if `in_space`, p is a point of space.
   void interpolate(std::int32_t triangle, const Vec3& p, bool in_space, std::span<const double> values,
                    std::size_t components, double* out) const;
 

@@ -92,8 +92,8 @@ class Fitter {
   }
 
  private:
-  /// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes: stretched meshes are
-  /// fitted as well as others, and the fit turns with the mesh.
+  /// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes. So stretched meshes
+  /// are fitted as well as others, and the fit turns with the mesh.
   struct Whitening {
     Vec2 first, second;  // coordinates are the products with these
     [[nodiscard]] Vec2 of(const Vec2& d) const noexcept { return {dot(first, d), dot(second, d)}; }

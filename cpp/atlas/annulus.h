@@ -41,7 +41,7 @@ class Annulus {
   /// The point at (tau, phi), tau from 0 to 1, any phi.
   template <typename Number>
   [[nodiscard]] Pair<Number> at(const Number& tau, const Number& phi) const;
-  /// The parameters of a point, phi from that of the first pivot's joint on, over one period. Empty outside of the
+  /// The parameters of a point; phi starts at the joint of the first pivot and covers one period. Empty outside of the
   /// annulus.
   template <typename Number>
   [[nodiscard]] std::optional<Strata<Number>> find(const Pair<Number>& p) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pivots: one, those of the pseudo-skeleton with mends, or those beside each vertex.
+// Choice of pivots: one, the repaired pivots of the pseudo-skeleton, or pivots beside each vertex.
 #include <algorithm>
 
 #include "atlas/pivots.h"

@@ -13,7 +13,7 @@ struct HermiteData {
   Number slope1, slope2;
 
   [[nodiscard]] double middle() const { return (x1 + x2) / 2; }
-  /// Where both parabolas meet (Atlas, app. C.2).
+  /// Value where both parabolas meet (Atlas, app. C.2).
   [[nodiscard]] Number middle_value() const { return (y1 + y2) / 2 + (slope1 - slope2) * ((x2 - x1) / 8); }
   [[nodiscard]] Number first_coefficient() const {
     const double d = x2 - x1;

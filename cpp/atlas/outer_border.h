@@ -8,7 +8,7 @@
 
 namespace carreau::atlas {
 
-/// Of one part: an outer border of straight pieces between ascending angles. The border lies inside the given annulus.
+/// An outer border of one part: straight pieces between ascending angles. The border lies inside the given annulus.
 struct OuterPieces {
   std::vector<double> angle;   ///< with all knots of the part
   std::vector<double> radius;  ///< of the outer border there

@@ -20,9 +20,9 @@ struct Rounding {
   double radius = 0;
 };
 
-/// What one pivot describes. Angles are 0 at the first joint and increase along the loop, whatever the side of the
-/// pivot: this is the vartheta of Atlas sec. 5.2.3.2 but for a constant. Straight lines are g with 1 / rho = g . (cos,
-/// sin): d and o of Atlas eq. 5.8 without their singularities.
+/// The part of a loop that one pivot describes. Angles are 0 at the first joint and increase along the loop, whatever
+/// the side of the pivot: the vartheta of Atlas sec. 5.2.3.2 up to a constant. Straight lines are g with 1 / rho = g .
+/// (cos, sin): d and o of Atlas eq. 5.8 without their singularities.
 struct Part {
   Vec2 pivot{0, 0};
   double side = 1;  ///< +1: inside, -1: outside
@@ -85,7 +85,7 @@ Pair<Number> Part::polar(const Pair<Number>& p) const {
   using std::atan2, std::sqrt;
   const Number dx = p[0] - pivot.x(), dy = p[1] - pivot.y();
   Number at = atan2(side * (start.x() * dy - start.y() * dx), start.x() * dx + start.y() * dy);
-  // Half of what the part leaves of the circle belongs to each of its ends.
+  // The part leaves a remainder of the circle: half of it belongs to each end.
   if (value_of(at) < total() / 2 - std::numbers::pi) at = at + 2 * std::numbers::pi;
   return {at, sqrt(dx * dx + dy * dy)};
 }

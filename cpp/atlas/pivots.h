@@ -12,7 +12,7 @@ namespace carreau::atlas {
 /// inside.
 struct Pivots {
   std::vector<Vec2> place;
-  /// Of each pivot outside, the point of the loop it may slide to; of others, without meaning.
+  /// For each pivot outside, the point of the loop to which it may slide; meaningless for other pivots.
   std::vector<Vec2> anchor = {};
   /// Edge of the loop, by its first vertex, that the segment from pivot k to pivot k + 1 crosses; set by wrong_pivots.
   std::vector<std::size_t> crossed = {};
@@ -28,9 +28,9 @@ enum class PivotChoice {
   near       ///< beside each vertex: what serves every loop, with many of them
 };
 
-/// Marks the pivots that break a condition, exactly: the segment between two pivots crosses the loop once, at no
-/// vertex; the part of the loop between two crossings is star-shaped about its pivot; the chain does not meet itself
-/// (Atlas sec. 5.2.2.1).
+/// Marks the pivots that break a condition of Atlas sec. 5.2.2.1, exactly. The segment between two pivots crosses the
+/// loop once, at no vertex. The part of the loop between two crossings is star-shaped about its pivot. The chain does
+/// not meet itself.
 std::vector<char> wrong_pivots(const Polygon& loop, Pivots& pivots);
 
 /// A point from which the whole loop is seen, about as far from the lines of its edges as can be; `room` is the least
@@ -50,7 +50,7 @@ double room_around(const Polygon& loop, const Vec2& place);
 Pivots skeleton_pivots(const Polygon& loop, const Polygon* outer);
 
 /// Pivots at `height[v]` beside each vertex v, and beyond the middles of edges between two that turn the same way.
-/// Small heights make them right for every simple polygon. `owner` tells the vertices whose heights made each pivot.
+/// Small heights make them right for every simple polygon. `owner` receives the vertices whose heights made each pivot.
 Pivots near_pivots(const Polygon& loop, const std::vector<double>& height, std::vector<std::size_t>& owner);
 
 struct ChosenPivots {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simple polygons: what a loop of the plane is given as. All decisions are exact.
+// Simple polygons: the representation of a loop of the plane. All decisions are exact.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
 /// Is p strictly inside?
 bool is_inside(const Polygon& polygon, const Vec2& p) noexcept;
 
-/// Where two segments that cross do so, as a share of ab.
+/// The crossing of two segments that cross, as a share of ab.
 double crossing_share(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
 
 /// Index after i, and before it, in a cycle of n.

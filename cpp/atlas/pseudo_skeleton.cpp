@@ -56,7 +56,7 @@ std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
     score.erase(score.begin() + static_cast<std::ptrdiff_t>(best));
     if (left.size() < 3) break;
-    // What was no ear may have become one: a vertex less may lie in it.
+    // A vertex that was no ear may have become one: its triangle may contain one vertex less.
     for (double& s : score)
       if (s == no_ear) s = unknown;
     score[best % score.size()] = score[previous_of(best % score.size(), score.size())] = unknown;

@@ -116,7 +116,7 @@ class PartBorders {
     return r;
   }
 
-  /// Of the width that the polygons have around a vertex, half must be left.
+  /// Half of the width between the polygons must remain around a vertex.
   [[nodiscard]] bool leaves_room(const Rounding& r) const {
     double polygonal = part_.side > 0 ? std::numeric_limits<double>::infinity() : 0, rounded = polygonal;
     for (std::size_t k = 0; k + 1 < pieces_.angle.size(); ++k) {

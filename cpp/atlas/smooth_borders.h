@@ -9,7 +9,7 @@
 
 namespace carreau::atlas {
 
-/// What is laid over the outer border, as a multiple of the inner one.
+/// Function over the outer border, as a multiple of the inner one.
 enum class OuterBorder {
   polygon,  ///< the straight pieces themselves; the annulus is C0 only
   spline,   ///< a cubic between two knots

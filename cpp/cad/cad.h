@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host's geometry looks like to the engine.
+// The host's geometry as an interface for the engine.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace carreau {
 
-/// Which derivatives are wanted; a set of bits.
+/// Requested derivatives; a set of bits.
 enum Want : unsigned { want_position = 1, want_first = 2, want_second = 4 };
 
-/// Position and derivatives of S(u, v); only the members asked for are meaningful.
+/// Position and derivatives of S(u, v); only the requested members are meaningful.
 struct SurfaceJet {
   Vec3 s, su, sv, suu, suv, svv;
 };
 
-/// Position and derivatives of C(t) in the parameter plane; only the members asked for are meaningful.
+/// Position and derivatives of C(t) in the parameter plane; only the requested members are meaningful.
 struct CurveJet {
   Vec2 c, ct, ctt;
 };
@@ -42,7 +42,7 @@ class Cad {
  public:
   virtual ~Cad() = default;
 
-  /// Evaluates S and its derivatives at each point. uv.size() == out.size(). `want` is a set of Want bits.
+  /// Evaluates S and its derivatives at each point. uv.size() == out.size(). `want` combines bits of Want.
   virtual void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) = 0;
   /// Interval of definition [a, b] of a curve, a < b.
   virtual Interval curve_interval(int face, int ic) = 0;
@@ -63,8 +63,8 @@ class Cad {
   /// The Want bits that come from the host itself; the others are found by finite differences.
   [[nodiscard]] virtual unsigned surface_gives() const noexcept { return want_position | want_first | want_second; }
   [[nodiscard]] virtual unsigned curve_gives() const noexcept { return want_position | want_first | want_second; }
-  /// Tells the box of a face's parameter domain, so that finite differences have the right steps and stay inside.
-  /// Not while other threads evaluate.
+  /// Passes the box of a face's parameter domain, so that finite differences have the right steps and stay inside. Not
+  /// while other threads evaluate.
   virtual void set_parameter_box(int /*face*/, Vec2 /*low*/, Vec2 /*high*/) {}
 };
 

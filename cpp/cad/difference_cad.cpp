@@ -144,7 +144,7 @@ bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, Diff
   return is_finite(out, task.missing);
 }
 
-// The host's domain ends near the point in a way that its box does not tell: every pair of sides that the box allows.
+// The host's domain ends near the point, inside of its box: every pair of sides that the box allows is evaluated.
 void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out) {
   const Box box = box_at(face, uv);
   DifferenceStep u = difference_step(uv.x(), box.low.x(), box.high.x(), task.relative),

@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// What a callback of HostMetricTable answers: the meaning of `value`.
+/// Kind of answer of a callback of HostMetricTable: the meaning of `value`.
 enum class HostMetricKind : std::int32_t {
   none = 0,     ///< no answer
   size = 1,     ///< value[0] = h

@@ -44,8 +44,8 @@ struct Reparametrisation {
   [[nodiscard]] Vec2 from_host(const Vec2& p) const noexcept { return {u.inverse(p.x()), v.inverse(p.y())}; }
 };
 
-/// The surface of one face as a function of (x, y), by the chain rule; what the host does not differentiate itself is
-/// differenced in (x, y). Sizes and radii are the host's. Curves, which nobody asks it for, stay in (u, v).
+/// The surface of one face as a function of (x, y), by the chain rule; derivatives that the host does not give are
+/// differenced in (x, y). Sizes and radii are the host's. Curves stay in (u, v), because no caller evaluates them here.
 /// Keeps references to both arguments. The parameters of CallbackErrors are the host's.
 std::unique_ptr<Cad> reparametrised(Cad& host, int face, const Reparametrisation& map);
 

@@ -4,7 +4,7 @@
 
 namespace carreau {
 
-/// Where the points of a formula lie with regard to the point of interest.
+/// Side of the formula's points with regard to the point of interest.
 enum class Side { central, forward, backward };
 
 /// f^(order)(x) = sum of weight[i] f(x + offset[i] step) / step^order + O(step^2).
@@ -22,7 +22,7 @@ struct DifferenceStep {
   Side side = Side::central;
 };
 
-/// The step `relative` * (high - low), rounded to a power of two so that x + step - x is the step, and the side that
+/// The step `relative` * (high - low), rounded to a power of two so that x + step - x is the step. Also the side that
 /// keeps every stencil inside [low, high]. Never below what rounding of x allows. Any x; low < high, both finite.
 DifferenceStep difference_step(double x, double low, double high, double relative) noexcept;
 

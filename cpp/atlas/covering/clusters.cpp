@@ -107,7 +107,7 @@ class Growth {
     return any;
   }
 
-  /// What no cluster takes as a disc joins a neighbour, and defects() tells.
+  /// Vertices that no cluster takes as a disc join a neighbour, and defects() reports them.
   void join_rest() {
     for (bool any = true; any;) {
       any = false;

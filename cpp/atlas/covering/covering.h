@@ -43,13 +43,13 @@ struct CoveringOptions {
 
 class Covering {
  public:
-  /// With clusters of its own, and triangles divided in four as long as they find none. Throws InvalidArgument (see
+  /// Makes the clusters itself, and divides triangles in four until clusters are found. Throws InvalidArgument (see
   /// Fans), DomainError with a vertex.
   explicit Covering(const Triangulation& surface, const CoveringOptions& options = {});
   /// With given clusters. Throws DomainError with the vertex where they do not make a well-formed covering.
   Covering(const Triangulation& surface, const Partition& partition, const CoveringOptions& options);
 
-  /// What is covered: the triangulation given, or its division.
+  /// The covered surface: the triangulation given, or its division.
   [[nodiscard]] const Triangulation& surface() const { return surface_; }
   [[nodiscard]] const Fans& fans() const { return fans_; }
   [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }

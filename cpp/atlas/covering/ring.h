@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a cluster of vertices shares with others: the ring of triangles around its pure zone (Atlas sec. 5.5).
+// The ring of triangles around the pure zone of a cluster of vertices, which it shares with other clusters (Atlas sec.
+// 5.5).
 #pragma once
 
 #include <optional>
@@ -25,8 +26,8 @@ struct Ring {
   std::vector<std::int32_t> outer_border;  ///< of the region
 };
 
-/// The ring of a cluster. When the cluster is no disc, its region none, or no three clusters meet beside it, `defect`
-/// tells it with a vertex.
+/// The ring of a cluster. If the cluster or its region is not a disc, or no three clusters meet beside it, `defect`
+/// describes this with a vertex.
 Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members,
              std::string& defect);
 
