@@ -20,8 +20,8 @@ using namespace thresholds::control_space;
 // be.
 template <class Samples>
 Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
-  // Of each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant over
-  // trace.
+  // Bounds for each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant
+  // over trace.
   double above = 0, below = infinity;
   for (const auto& s : near) {
     const double trace = s.root.a + s.root.c;
@@ -132,7 +132,7 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
     if (spacing < lattice_.step()) spacing *= 2;
     std::vector<Sample> more;
     collect(position, reach_in_sizes * scale, spacing, more);
-    // A wider but sparser look may miss what is near.
+    // A wider but sparser neighbourhood may miss near samples.
     if (more.size() > near.size()) near.swap(more);
   }
   QuadraticFit equations;

@@ -22,7 +22,7 @@ namespace carreau {
 /// Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
-/// The same with the first derivatives of the surface, which tell lengths and directions in space.
+/// Sampler of metrics and first derivatives of the surface, for lengths and directions in space.
 using SurfaceSampler =
     std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric, std::span<SurfaceTangents> tangents)>;
 
@@ -38,8 +38,8 @@ struct ControlSpaceOptions {
   bool thorough = false;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
-  /// Points of the domain where the field is known to hide something: around them cells are split down to half an edge
-  /// of the mesh, whatever prediction says.
+  /// Points of the domain where the field has hidden details: around them cells are split down to half an edge of the
+  /// mesh, whatever prediction gives.
   std::span<const Vec2> probe_points = {};
 };
 
@@ -54,11 +54,11 @@ struct SampledDomain {
 class ControlSpace {
  public:
   /// Samples `sampler` inside `domain` and refines where prediction and sample disagree. Deterministic. Throws
-  /// DomainError when the domain has no area, what the sampler throws, and Cancelled.
+  /// DomainError when the domain has no area, the exceptions of the sampler, and Cancelled.
   static ControlSpace build(const SampledDomain& domain, const MetricSampler& sampler,
                             const ControlSpaceOptions& options, Monitor& monitor);
-  /// The same for sizes that are shrunk until none grows by more than `slope` times the distance in space from one
-  /// sample to the next ones: isotropic ones, or, `directed`, each along the line that joins the samples.
+  /// Shrinks sizes until none grows by more than `slope` times the distance in space from one sample to the next ones.
+  /// The sizes are isotropic, or, `directed`, each is taken along the line that joins the samples.
   static ControlSpace build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
                                    bool directed, const ControlSpaceOptions& options, Monitor& monitor);
   /// The same metric everywhere.
@@ -87,9 +87,9 @@ class ControlSpace {
 
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
-  /// What a mesh, of which `vertex` gives `count` vertices, has missed: the squares of leaves that hold some vertices
-  /// of a unit mesh but less than a quarter of them; of nested squares the smallest. Each as the centres of its leaves,
-  /// where sizes are smallest first; some may lie outside of the domain.
+  /// Regions where a mesh, whose `count` vertices are given by `vertex`, has too few vertices. They are squares of
+  /// leaves that hold some vertices of a unit mesh but less than a quarter of them in this mesh; of nested squares the
+  /// smallest. Each as the centres of its leaves, where sizes are smallest first; some may lie outside of the domain.
   [[nodiscard]] std::vector<std::vector<Vec2>> undersampled_regions(
       std::size_t count, const std::function<Vec2(std::size_t)>& vertex) const;
 
@@ -141,7 +141,7 @@ class ControlSpace {
 
   Vec2 low_{}, scale_{0, 0}, last_{0, 0};
   std::size_t columns_ = 1;
-  Metric2 unit_{1, 1, 1};                  ///< from the units of the roots to those of the parameters
+  Metric2 unit_{1, 1, 1};                  ///< from units of the roots to units of the parameters
   std::vector<std::int32_t> table_ = {0};  ///< a leaf, or ~index of children_
   std::vector<std::array<std::int32_t, 4>> children_;
   std::vector<Leaf> leaves_ = {Leaf{}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What samples say about the nodes of a cell. Private to the builder of control spaces.
+// Prediction of the nodes of a cell from samples. Private to the builder of control spaces.
 #pragma once
 
 #include "control_space/tree.h"

@@ -11,7 +11,7 @@
 namespace carreau::detail {
 
 /// Normal equations of a weighted fit by 1, x, y, x^2, x y, y^2, three right-hand sides. Only the constant term is
-/// wanted: an elimination that ends there is faster than Eigen's factors and solutions (`bench_algebra`).
+/// needed: an elimination that ends there is faster than Eigen's factors and solutions (`bench_algebra`).
 class QuadraticFit {
  public:
   void add(double x, double y, double weight, Metric2 value) noexcept {

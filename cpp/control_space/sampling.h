@@ -18,12 +18,12 @@
 
 namespace carreau::detail {
 
-/// Samples the field: coarse cells everywhere, finer ones where a cell holds many vertices of the mesh to come, and
-/// where prediction from coarser grids disagrees with a sample.
+/// Samples the field: coarse cells everywhere. Cells are finer if they hold many vertices of the mesh to come, or if
+/// prediction from coarser grids disagrees with a sample.
 class ControlSpaceSampling {
  public:
   /// The arguments must outlive the object.
-  /// `on_surface`: the sampler tells J^T J.
+  /// `on_surface`: the sampler returns J^T J.
   ControlSpaceSampling(const SampledDomain& domain, const SurfaceSampler& sampler, bool on_surface,
                        const ControlSpaceOptions& options, Monitor& monitor);
   /// Call once, before all others.
@@ -118,7 +118,7 @@ class ControlSpaceSampling {
   std::optional<NodePredictor> predictor_;
   std::vector<char> vertex_sampled_;
   std::size_t samples_ = 0;
-  // What a surface told: at the last points that it was asked at, at nodes and at samples of the border.
+  // Answers of a surface: at the points of its last call, at nodes and at samples of the border.
   struct OnSurface {
     Metric2 metric, form;
     SurfaceTangents tangents;

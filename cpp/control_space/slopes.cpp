@@ -19,7 +19,7 @@ double ControlSpaceSampling::size_of(const OnSurface& s) noexcept {
   return std::sqrt((s.form.a + s.form.c) / (s.metric.a + s.metric.c));
 }
 
-// `rank`: of the point among those last asked.
+// `rank`: index of the point in the last call.
 ControlSpaceSampling::OnSurface ControlSpaceSampling::told(Metric2 metric, std::size_t rank) const noexcept {
   const SurfaceTangents& t = last_tangents_[rank];
   return {metric, induced_metric(t.su, t.sv, 1), t};
@@ -87,8 +87,8 @@ void ControlSpaceSampling::bound_slopes(double slope, bool directed) {
   lattice_->forget();
 }
 
-// Sizes may have kinks, which polynomials overshoot; the root of J^T J has none. Where both are wanted on a side of a
-// leaf that is no longer than an edge of the mesh, the latter is the mean of both ends.
+// Sizes may have kinks, which polynomials overshoot; the root of J^T J has none. If both are needed on a side of a leaf
+// that is no longer than an edge of the mesh, the root of J^T J is the mean of both ends.
 Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const {
   if (slope_ == 0 || directed_ || leaf.vertices * area_per_vertex > 1) return root;
   const auto side = std::find_if(std::begin(middles_of_sides), std::end(middles_of_sides),
@@ -113,7 +113,7 @@ Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& l
   return h > 0 ? (h / std::clamp(h, low, high)) * root : root;
 }
 
-// Triangles around the centre where that is known. Where too few nodes are, links.
+// Triangles around the centre if it is known. Links if too few nodes are known.
 void ControlSpaceSampling::join_leaf(const TreeCell& cell, std::span<const std::int32_t> rank,
                                      SampledField& field) const {
   int known[8], count = 0;

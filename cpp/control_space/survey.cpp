@@ -146,7 +146,7 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
   s.vertices_in_box = density / static_cast<double>(uv.size()) / area_per_vertex;
   if (along_u > 0 && along_v > 0) s.aspect = along_u / along_v;
   if (!square && inner.size() == inner_points * inner_points) {
-    // Cells as long as the field allows, but not too far from what exploration wants.
+    // Cells as long as the field allows, but not too far from the shape that exploration needs.
     const double ratio = ratio_of_changes(std::span(s.metrics).subspan(s.vertices.size()), s.floor);
     s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);
   }

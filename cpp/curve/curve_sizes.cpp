@@ -26,9 +26,9 @@ constexpr double narrowest = 1e-7;  ///< of the curve's length
 /// Steep places of a source this near to a curve, over its extent, are looked at on the curve; and how far apart.
 constexpr double beside_curve = 0.01, steep_spacing = 0.002;
 
-/// Two samples of sizes from curvature may lie on two inflections. An interval is halved where the curve turns by more
-/// than this between them, or where its mean radius asks for so many times the edges that the samples do; down to a
-/// share of the curve at kinks.
+/// Two samples of sizes from curvature may lie on two inflections. An interval is halved if the curve turns by more
+/// than this between them, down to a share of the curve at kinks. It is also halved if its mean radius requires so many
+/// times the edges of the samples.
 constexpr double most_turning = 90 * std::numbers::pi / 180;
 constexpr double most_missed = 2;
 constexpr double least_bent = 1. / 256;
@@ -66,8 +66,8 @@ bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double len
   return edges > shortest * lss && std::max(left.h, right.h) > steepest * std::min(left.h, right.h);
 }
 
-/// Fraction of the curve's length at the point of a use's support, given in the parameter plane or in space, that is
-/// nearest to a place there, or -1 when that is farther away than `reach`.
+/// Fraction of the curve's length at the nearest point of a use's support to a place. The support is given in the
+/// parameter plane or in space. Returns -1 when the point is farther away than `reach`.
 template <typename V>
 double fraction_near(const CurveSupport& support, const std::vector<V>& points, V place, double reach) noexcept {
   double best = reach * reach, fraction = -1;
@@ -113,7 +113,7 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
   return apart;
 }
 
-/// Fractions at which sources tell kinks of their fields along the curve.
+/// Fractions at which sources report kinks of their fields along the curve.
 std::vector<double> kink_fractions(const CurveModel& model, int curve, const SizeRules& rules) {
   std::vector<double> fractions;
   for (const CurveUse& use : model.curve(curve).uses) {
@@ -133,7 +133,7 @@ std::vector<double> kink_fractions(const CurveModel& model, int curve, const Siz
 /// How much a curve turns, by the support of its first use.
 class Turning {
  public:
-  /// `known` false: nothing is asked of it.
+  /// If `known` is false, the curve is not evaluated.
   Turning(const CurveModel& model, int curve, bool known) : known_(known) {
     if (!known) return;
     const CurveUse& use = model.curve(curve).uses.front();
@@ -170,7 +170,8 @@ class Turning {
   }
 
  private:
-  /// Of the tangent, in terms of the first one: that of each segment in its middle, and linear between.
+  /// Angle of the tangent to the first tangent: each segment's direction holds in its middle, and the angle is linear
+  /// between.
   [[nodiscard]] double direction_at(double r) const {
     const auto after = std::upper_bound(r_.begin() + 1, r_.end() - 1, r);
     const auto i = static_cast<std::size_t>(after - r_.begin());  // r_[i - 1] <= r < r_[i]

@@ -162,7 +162,7 @@ std::vector<double> fractions(const CurveModel& model, const CurvePrescription& 
   return r;
 }
 
-/// Images of all vertices in all uses, and those inside in space. `told`: the owner's parameters, where they are known.
+/// Images of all vertices in all uses, and those inside in space. `told`: the owner's parameters if they are known.
 void carry(DiscreteCurve& d, const CurveModel& model, double tolerance, const std::vector<double>& told = {}) {
   const std::vector<CurveUse>& uses = model.curve(d.curve).uses;
   carry_ends(d, model);
@@ -230,7 +230,7 @@ bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model, doubl
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const double left = d.t_of_use[u][k];
     const double right = d.t_of_use[u][k + 1];
-    // What refine_t changed at the neighbours holds between them too.
+    // The shift that refine_t made at the neighbours also holds between them.
     const double shift =
         (left - parameter_at(model, uses[u], d.r[k]) + right - parameter_at(model, uses[u], d.r[k + 1])) / 2;
     double middle = parameter_at(model, uses[u], r) + shift;

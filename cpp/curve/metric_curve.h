@@ -18,9 +18,9 @@ namespace carreau {
 template <typename V, typename M>
 class MetricCurve {
  public:
-  /// `abscissae` ascend strictly from 0 to the length of the polyline (the last one within one part in a million of
-  /// it, and then moved there); metrics[i] holds at abscissae[i]. Throws InvalidArgument when the arrays do not fit, a
-  /// number is not finite, or a metric is not positive definite.
+  /// `abscissae` ascend strictly from 0 to the length of the polyline; the last one is within one part in a million of
+  /// the length, and moved there. metrics[i] holds at abscissae[i]. Throws InvalidArgument when the arrays do not fit,
+  /// a number is not finite, or a metric is not positive definite.
   MetricCurve(std::vector<V> points, std::vector<double> abscissae, std::vector<M> metrics, MetricLaw law);
 
   [[nodiscard]] V point_at(double s) const noexcept;

@@ -101,7 +101,7 @@ std::vector<double> progression_shares(const PrescribedEdges& told) {
   const double l = std::log(q);
   const auto share = [&](double k) {
     if (told.progression == Progression::equal || q == 1 || told.edges == 1) return k / n;
-    // Lengths 1 + (q - 1) i / (n - 1), i < n: the sum of k of them over that of all.
+    // Lengths 1 + (q - 1) i / (n - 1), i < n: the sum of k of them over the sum of all.
     if (told.progression == Progression::arithmetic) return (2 * k + (q - 1) * k * (k - 1) / (n - 1)) / (n * (1 + q));
     // (q^k - 1) / (q^n - 1), without overflow.
     if (q > 1) return std::exp((k - n) * l) * (std::expm1(-k * l) / std::expm1(-n * l));
