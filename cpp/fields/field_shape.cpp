@@ -11,7 +11,7 @@ namespace carreau {
 
 namespace {
 
-// Of a curve without support.
+// Samples of a curve without support.
 constexpr int samples_of_curve = 257;
 
 void set_box(FieldShape& shape) {

@@ -27,7 +27,7 @@ struct PixelGrid {
   [[nodiscard]] Vec2 in_pixels(const Vec2& uv) const noexcept {
     return {(uv.x() - low.x()) / pixel().x() - 0.5, (high.y() - uv.y()) / pixel().y() - 0.5};
   }
-  /// First column whose centre is at or right of u, `width` when there is none.
+  /// First column whose centre is at or right of u, `width` if no column is.
   [[nodiscard]] int first_column(double u) const noexcept;
 };
 
@@ -69,7 +69,7 @@ class DomainRaster {
   RowBands bands_;
 };
 
-/// The triangles of a plane mesh. Where they tile a domain without overlap, each pixel of the domain belongs to exactly
+/// The triangles of a plane mesh. If they tile a domain without overlap, each pixel of the domain belongs to exactly
 /// one. Keeps references to its arguments; calls are safe from several threads.
 class TriangleRaster {
  public:

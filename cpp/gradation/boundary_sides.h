@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// Numbers the boundaries of all faces by sides: edges that follow one another in a face and turn by less than 45
+/// Numbers the boundaries of all faces by sides. Edges that follow one another in a face and turn by less than 45
 /// degrees, in space, are of one side, whatever curves they belong to. `on_boundary[t]` has bit i set when the side of
 /// triangle t from corner i to the next one lies on a boundary.
 class BoundarySides {

@@ -79,7 +79,7 @@ class Grading {
   }
 
  private:
-  /// What is known at a vertex: h = source_h + slope |line|.
+  /// Front at a vertex: h = source_h + slope |line|.
   struct Front {
     double h = infinity, source_h = infinity;
     Vec3 line;      // from the source, in the tangent plane of `place`
@@ -235,7 +235,7 @@ GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<doub
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (sources[i].place < 0 || static_cast<std::size_t>(sources[i].place) >= graph.places.size())
       throw InvalidArgument("an index of a gradation's source is out of range");
-    // Numbers beyond those of vertices.
+    // Numbers after the numbers of vertices.
     grading.add(sources[i], static_cast<int>(graph.xyz.size() + i));
   }
   grading.run();

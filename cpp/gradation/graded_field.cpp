@@ -77,7 +77,7 @@ double GradedField::size(int face, const Vec2& uv, const Vec3& xyz, double presc
   const auto& t = f.triangles[place.triangle];
   const bool smooth = f.smooth[place.triangle] != 0;
   std::array<Vec3, 3> way;
-  // Where prescribed sizes do not count here, they count at the corners.
+  // If prescribed sizes do not count here, they count at the corners.
   double h = smooth ? prescribed : std::max({f.h[t[0]], f.h[t[1]], f.h[t[2]]}), linear = 0;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t v = t[i];

@@ -114,7 +114,7 @@ class MetricGrading {
 
 }  // namespace
 
-// The least change of the logarithms of both, to first order; then both by what is left.
+// Makes the least change of the logarithms of both, to first order; then scales both by the remainder.
 void TangentMetric::bound_along(Vec3 w, double h) noexcept {
   const double size = along(w);
   if (!(size > h) || !(dot(w, w) > 0)) return;

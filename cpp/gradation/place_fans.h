@@ -23,8 +23,8 @@ class PlaceFans {
 
   [[nodiscard]] int first(int vertex) const noexcept { return first_[vertex]; }  ///< -1: none
   [[nodiscard]] int next(int place) const noexcept { return next_[place]; }      ///< -1: none
-  /// Carries a tangent vector from one place of a vertex to another; false when the surface cannot be unfolded there:
-  /// three places or more that are not one smooth surface.
+  /// Carries a tangent vector from one place of a vertex to another. Returns false when the surface cannot be unfolded
+  /// there: three places or more that are not one smooth surface.
   bool carry(int from, int to, Vec3& v) const noexcept;
   /// The other two places of each triangle at a place, in the triangle's order.
   [[nodiscard]] std::span<const std::pair<int, int>> triangles(int place) const noexcept {
