@@ -13,7 +13,7 @@ struct Primitive {
   template <typename Number>
   using BasisOf = std::array<Number, terms>;
   using Basis = BasisOf<double>;
-  /// Of 1, x, y, x^2, x y, y^2, x^3, x^2 y, x y^2, y^3, with x and y in units of `unit`.
+  /// Coefficients of 1, x, y, x^2, x y, y^2, x^3, x^2 y, x y^2, y^3, with x and y in units of `unit`.
   std::array<Vec3, terms> coefficient = zeros();
   double unit = 1;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The angle from which on edges of triangles are features, where nobody gives it.
+// The angle from which on edges of triangles are features, if the caller gives none.
 #pragma once
 
 #include <vector>

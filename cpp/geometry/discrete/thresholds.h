@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their meaning, unit, reason and support.
 #pragma once
 
 namespace carreau::discrete::thresholds {
@@ -42,18 +42,18 @@ inline constexpr double least_angle = 5;
 inline constexpr double share_of_largest = 0.5;
 /// Cosine of the turn of a line that goes on: it does not turn back.
 inline constexpr double least_straightness = 0.5;
-/// Edges by which a line is prolonged at most, as a multiple of those that it has: what needs more is not that line.
+/// Edges by which a line is prolonged at most, as a multiple of its own edges: a longer gap separates two lines.
 inline constexpr int most_prolongation = 2;
 /// Edges of lines that hang together and have a free end, and of a line that fades out after all: fewer are noise. The
 /// paper's one edge lets bunny.off have lines; a crease of a part that no other one meets is longer.
 inline constexpr int least_edges = 8, least_faded = 8;
 
 // Normals and tangents
-/// Sine of the angle between the normal of a triangle and that of its vertex: a triangle that leans
-/// less (5 degrees) does not turn the normal.
+/// Sine of the angle between the normals of a triangle and of its vertex: a triangle that leans less (5 degrees) does
+/// not turn the normal.
 inline constexpr double clear_turn = 0.087;
-/// Share. A mean of normals by areas replaces one by angles if it lifts edges by less than this share: at plane faces
-/// beside roundings it does, in noise it does not.
+/// Share. A mean of normals by areas replaces a mean by angles if it lifts edges by less than this share. It does at
+/// plane faces beside roundings, and not in noise.
 inline constexpr double lower_lift = 0.5;
 /// Times the largest bulge of the borders of a patch: no inner point is farther from its place in the flat triangle. On
 /// bunny.off it is 2.2 at the 99th percentile, on spot.obj 2 at most; on needles it is up to the ratio of sides.
@@ -65,8 +65,7 @@ inline constexpr double max_inner_shift = 0.25;
 inline constexpr double clear_crease = 0.3;
 /// Sine of the angle between the two lines that bound a region at a corner: below, they span no plane.
 inline constexpr double clear_corner = 0.17;
-/// Cosine: the plane that two lines span at a corner is that of the region when its normal is no farther from the mean
-/// one.
+/// Cosine: the region's plane at a corner is the plane of two lines if its normal is no farther from the mean normal.
 inline constexpr double same_side = 0.7;
 /// Denominators of the normals' product in eq. 4.98 and normals of no length.
 inline constexpr double tiny = 1e-12;

@@ -98,7 +98,7 @@ class Interpolator {
     surfaces_.push_back(std::move(surface));
   }
 
-  /// Whether a node has neighbours on both sides.
+  /// Returns whether a node has neighbours on both sides.
   [[nodiscard]] bool is_inner(const Place& at, bool along_u) const {
     const Block& block = blocks_[at.block];
     const int i = static_cast<int>(at.node) % block.columns, j = static_cast<int>(at.node) / block.columns;
@@ -189,8 +189,8 @@ class Interpolator {
     return place(use, start ? use.edge.inner_start() : use.edge.inner_end());
   }
 
-  /// Whether a line of block b is the continuation of one of block a at an end of their edge: not where five blocks
-  /// meet, nor where the lines turn.
+  /// Returns whether a line of block b is the continuation of a line of block a at an end of their edge. It is not
+  /// where five blocks meet, nor where the lines turn.
   [[nodiscard]] bool goes_on(const EdgeUse& a, const EdgeUse& b, const Place& at) const {
     constexpr int regular = 4;
     if (const auto found = edges_at_.find(point(at)); found != edges_at_.end() && found->second > regular) return false;
@@ -234,8 +234,8 @@ class Interpolator {
     share_twists(twists);
   }
 
-  /// What crosses a joined edge is differenced along it, once for both blocks: then their derivatives across it agree at
-  /// every point.
+  /// Derivatives that cross a joined edge are differenced along it, once for both blocks: then their derivatives across
+  /// it agree at every point.
   void share_twists(const std::vector<Twists>& twists) {
     SharedDerivatives shared;
     const auto slot = [&](const Place& at) { return shared.number({static_cast<int>(at.block), at.node, false}); };

@@ -109,7 +109,7 @@ void smooth_runs(std::vector<Value>& values, const std::vector<Run>& runs, const
 
 double radius_of(const Vec3& p) { return std::hypot(p.x(), p.y()); }
 
-/// What smoothing moves of a node, of heights and radii.
+/// Sets the coordinate of a node that smoothing moves, for heights and radii.
 void set_moved(const Block& block, double value, Vec3& p) {
   if (block.measured == Measured::heights)
     p.z() = value;

@@ -66,7 +66,7 @@ class Cells {
   std::vector<std::pair<std::uint64_t, int>> order_;
 };
 
-/// Of balls with one centre the largest, the first of equal ones; tells the others.
+/// Keeps the largest of balls with one centre, the first of equal ones; `held_by` receives it for the others.
 std::vector<int> without_concentric(std::span<const Ball> balls, std::vector<int>& held_by) {
   std::vector<int> order(balls.size()), kept;
   std::iota(order.begin(), order.end(), 0);

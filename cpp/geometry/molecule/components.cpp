@@ -80,7 +80,7 @@ void add_components(const Neighbours& neighbours, int ball, std::vector<Loop>& l
   }
 }
 
-/// A point of the sphere that no ball covers, when no circle bounds what is not covered.
+/// Returns whether the whole sphere is uncovered, when no circle bounds an uncovered part.
 bool is_bare(const Neighbours& neighbours, const Arrangement& a, int ball) {
   if (a.held_by[ball] >= 0) return false;
   return neighbours.of(ball).empty();

@@ -15,7 +15,7 @@ class FaceBuilder {
 
   /// A part of a ball, with the number of its atom, or as a part of the face that has. By ball.
   void add_part_of_ball(int ball, Face face, std::unique_ptr<const Patch> patch);
-  /// A face of its own; `ball` gives the name.
+  /// Adds a face that no part shares; `ball` gives the name.
   void add_own(int ball, Face face, std::unique_ptr<const Patch> patch);
 
   /// Two hemispheres of a sphere about a ball's centre. They have curves `curve` and the next one, points `point` and
@@ -34,7 +34,7 @@ class FaceBuilder {
   int next_ref_ = 1, last_ball_ = -1;
 };
 
-/// Of a closed surface, from the points, curves and loops of its model.
+/// Euler number of a closed surface, from the points, curves and loops of its model.
 int euler_number_of(const Model& model);
 
 }  // namespace carreau::molecule

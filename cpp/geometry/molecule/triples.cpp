@@ -11,7 +11,7 @@ namespace {
 
 constexpr double rounding = 1e-13;  // of products of three or four lengths of one size
 
-/// Of the circle's plane from the centre of p: HDR sec. 4.6.2, step 1.
+/// Offset of the circle's plane from the centre of p: HDR sec. 4.6.2, step 1.
 double plane_offset(const Ball& p, const Ball& q, double distance) {
   return (distance + (p.radius - q.radius) * ((p.radius + q.radius) / distance)) / 2;
 }

@@ -10,7 +10,7 @@ namespace carreau::molecule {
 
 Circle circle_of_pair(std::span<const Ball> balls, int i, int j);
 
-/// What cannot be told from rounding: the balls that such decisions were about.
+/// Decisions that rounding leaves open: the balls of these decisions.
 class Doubts {
  public:
   void add(std::initializer_list<int> balls) { balls_.insert(balls_.end(), balls); }
@@ -23,7 +23,7 @@ class Doubts {
   std::vector<int> balls_;
 };
 
-/// Whether some ball covers a point, in the order of `others`; those of `but` are not asked.
+/// Whether some ball covers a point, in the order of `others`; balls of `but` are skipped.
 enum class Cover { no, yes, doubtful };
 struct CoverTest {
   std::span<const Ball> balls;

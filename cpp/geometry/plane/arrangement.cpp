@@ -146,7 +146,7 @@ class Arranger {
     return {std::floor(x.x() / tolerance_), std::floor(x.y() / tolerance_)};
   }
 
-  /// -1: there is none within the tolerance.
+  /// -1: no point within the tolerance.
   [[nodiscard]] int point_near(const Vec2& x) const {
     const auto [column, row] = cell_of(x);
     for (const double i : {-1.0, 0.0, 1.0})
@@ -197,7 +197,7 @@ class Arranger {
   double tolerance_ = 0;
   std::vector<std::set<int>> on_;                     // by segment: points that divide it
   std::multimap<std::pair<double, double>, int> cells_;  // points by cells of a grid
-  int last_ = 0;                                      // a segment that crossed another one
+  int last_ = 0;                                      // a segment that crossed another
 };
 
 }  // namespace

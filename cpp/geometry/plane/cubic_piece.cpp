@@ -10,7 +10,8 @@ namespace carreau {
 
 namespace {
 
-/// Real roots of p + q t + r t^2 strictly inside (a, b), ascending; none of a constant, and a double root once.
+/// Real roots of p + q t + r t^2 strictly inside (a, b), ascending. A constant has no root, and a double root counts
+/// once.
 struct Roots {
   int n = 0;
   std::array<double, 2> t{};
@@ -110,7 +111,7 @@ std::optional<PieceLoop> loop_of(const CubicPiece& piece) noexcept {
 
 std::optional<double> cusp_of(const CubicPiece& piece) noexcept {
   const Vec2 &a1 = piece.a[1], &a2 = piece.a[2], &a3 = piece.a[3];
-  // f' vanishes where both of its coordinates do: the extrema of the one that bends more.
+  // f' vanishes where both of its coordinates do: candidates are the extrema of the coordinate that bends more.
   const int k = std::abs(a2.x()) + std::abs(a3.x()) >= std::abs(a2.y()) + std::abs(a3.y()) ? 0 : 1;
   const Roots stops = roots_inside(a1[k], 2 * a2[k], 3 * a3[k], 0, 1);
   const double scale = norm(a1) + 2 * norm(a2) + 3 * norm(a3);

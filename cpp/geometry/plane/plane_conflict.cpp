@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where polylines meet that should not.
+// Conflicts of polylines that should not meet.
 #include <algorithm>
 
 #include "geometry/plane/plane_graph.h"

@@ -66,7 +66,7 @@ Vec2 PlaneGraph::direction(int half_edge) const noexcept {
   return (half_edge & 1) == 0 ? Vec2(line[1] - line[0]) : Vec2(line[line.size() - 2] - line.back());
 }
 
-// The half-edge that follows another one around the face on its left is the next one clockwise at its end.
+// The next half-edge around the face on the left of a half-edge is the next one clockwise at its end.
 void PlaneGraph::trace_loops() {
   const int n = 2 * static_cast<int>(arcs_.size());
   std::map<int, std::vector<int>> leaving;
@@ -91,7 +91,7 @@ void PlaneGraph::trace_loops() {
   }
 }
 
-// What is west of the leftmost vertex of a component is outside of it.
+// The region west of the leftmost vertex of a component is outside of it.
 void PlaneGraph::find_outsides(const std::map<int, std::vector<int>>& leaving) {
   for (const Leftmost& left : leftmost_) {
     const std::vector<Vec2>& line = arcs_[left.arc].polyline;

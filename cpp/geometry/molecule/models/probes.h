@@ -22,7 +22,7 @@ struct ProbePart {
   std::vector<ProbeLoop> loops;
 };
 
-/// A probe at a vertex of the arrangement of grown balls: what of its sphere is within the directions of its balls.
+/// A probe at a vertex of the arrangement of grown balls: the part of its sphere within the directions of its balls.
 class ProbeTriangle {
  public:
   ProbeTriangle(const Arrangement& arrangement, int vertex, double probe);
@@ -34,7 +34,7 @@ class ProbeTriangle {
   std::array<Vec3, 3> inward_;  // normals of the planes through the centre
 };
 
-/// What counts references of points and curves.
+/// Counters for references of points and curves.
 struct NextReferences {
   int point = 1, curve = 1;
 };
