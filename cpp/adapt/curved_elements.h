@@ -25,9 +25,9 @@ class CurvedElements {
   [[nodiscard]] bool has(std::int32_t triangle) const noexcept {
     return static_cast<std::size_t>(triangle) < of_triangle_.size();
   }
-  /// The field at p by the shape functions of the element of `triangle`, or of one that shares a corner with it where p
-  /// lies in that one. `values`: of vertices, then of mid_vertices, `components` together; so `out`. For elements in
-  /// the parameter plane, p is (u, v, 0); if `in_space`, p is a point of space.
+  /// The field at p by the shape functions of the element of `triangle`. If p lies in an element that shares a corner
+  /// with it, that element's shape functions are used. `values`: of vertices, then of mid_vertices, `components`
+  /// together; so `out`. For elements in the parameter plane, p is (u, v, 0); if `in_space`, p is a point of space.
   void interpolate(std::int32_t triangle, const Vec3& p, bool in_space, std::span<const double> values,
                    std::size_t components, double* out) const;
 

@@ -47,7 +47,7 @@ class Samples {
   std::vector<Place> places_;
 };
 
-/// An element with what its nodes carry.
+/// An element with the values at its nodes.
 struct Loaded {
   Cell cell;
   std::array<Vec3, 8> x, value;

@@ -21,9 +21,9 @@ std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> point
                                                      const FieldFunction& exact);
 
 /// Prescribes at each vertex of a mesh of the plane z = 0 by derivatives of the field itself. Steps are 1e-4 of the mesh's diagonal, or a
-/// quarter of the shortest edge at the vertex if this is shorter. If the metric at the middle of an edge makes the edge more than twice as
-/// long as the metrics at its ends do, the ends are intersected with the metric of the middle: they miss a front between them. Threads and
-/// processes share the estimate; the calling thread evaluates `exact` at all points. Throws what estimate() throws.
+/// quarter of the shortest edge at the vertex if this is shorter. Each edge is measured in the metrics at its middle and at its ends. If
+/// the middle's length is more than twice the ends' length, the ends missed a front, and are intersected with the metric of the middle.
+/// Threads and processes share the estimate; the calling thread evaluates `exact` at all points. Throws the exceptions of estimate().
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
                                       const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew = {},

@@ -60,7 +60,7 @@ VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& o
 
 /// For several fields on one mesh at once: the smallest of the sizes, or the intersection of the metrics in the mesh's
 /// plane (RR-2818 sec. 4.3.4). `values` holds vertex by vertex one value of each field. Tolerance and floor apply to
-/// each field by itself. Throws InvalidArgument when values are no multiple of `fields`, and as above.
+/// each field separately. Throws InvalidArgument when values are no multiple of `fields`, and as above.
 VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const std::array<std::int32_t, 3>> triangles,
                                  std::span<const double> values, std::size_t fields, const EstimatorOptions& options,

@@ -19,7 +19,7 @@ inline constexpr int most_rings = 3;
 // Functions of the host (differences)
 /// Share of the diagonal. Largest step of differences. [EstimateFunction.IsExactForQuadratics]
 inline constexpr double largest_step = 1e-4;
-/// Ratio. An edge so many times longer than what its ends see of the function is blind.
+/// Ratio. An edge is blind if the function makes it so many times longer at its middle than at its ends.
 /// [EstimateFunction.SeesBetweenVertices]
 inline constexpr double blind = 2;
 
@@ -46,8 +46,8 @@ inline constexpr double newton_rounding = 1e-14;
 /// The same: a last step of more has not arrived. On surfaces steps shrink by a factor each, not quadratically.
 /// [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
 inline constexpr double newton_arrived = 1e-3;
-/// Coordinates of the reference. So far beside its element the polynomial of a field is taken: the sagitta of a curved
-/// border, of which an edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
+/// Coordinates of the reference. Distance beside its element up to which a field's polynomial is taken: the sagitta of
+/// a curved border. An edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
 inline constexpr double most_beside = 0.2;
 
 }  // namespace carreau::thresholds::adapt

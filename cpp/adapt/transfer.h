@@ -28,7 +28,7 @@ std::size_t node_count(const SurfaceMesh& mesh) noexcept;
 /// a pole. In space alone when there is no such face. Exact for fields that are linear in a plane, of second order in
 /// the length of edges on surfaces. Values at all nodes of `from` (node_count) give values at all nodes of `to`. On
 /// elements of second order their shape functions interpolate: exact for quadratic fields on plane elements with
-/// straight sides, and of third order on surfaces. Values at vertices alone give those at vertices alone, whatever the
+/// straight sides, and of third order on surfaces. Values at vertices alone give values at vertices alone, for all
 /// elements.
 /// The result does not depend on the crew; `monitor` may be null.
 /// Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`, or for each node,
@@ -41,10 +41,10 @@ struct InterpolationError {
   double largest = 0;  ///< at the centres of triangles and the middles of edges
   double rms = 0;      ///< root of the mean square over the area, by the middles of edges (exact to degree 2)
 };
-/// Throws what check_field throws; InvalidArgument when the function returns a number that is not finite.
+/// Throws the exceptions of check_field; InvalidArgument when the function returns a number that is not finite.
 InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact);
 /// Error of a field on all nodes (node_count) of elements of second order, interpolated by their shape functions. It is evaluated at the
-/// centres and at the middles of edges of a quarter of each; the root mean square is taken of the middles, over the straight triangles.
+/// centres and at the middles of edges of a quarter of each. The root mean square is taken of the middles, over the straight triangles.
 /// Throws InvalidArgument unless the mesh has elements, all of second order, and values fit, are finite and not too large.
 InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const double> values, const FieldFunction& exact);
 

@@ -49,7 +49,7 @@ class Annulus {
   [[nodiscard]] bool encloses(const Vec2& p) const;
 
  private:
-  /// The part that holds p, or none: parts.size().
+  /// The part that holds p; parts.size() if no part does.
   [[nodiscard]] std::size_t part_around(const Vec2& p) const;
 
   Polygon inner_, outer_, described_;

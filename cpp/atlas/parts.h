@@ -20,9 +20,9 @@ struct Rounding {
   double radius = 0;
 };
 
-/// The part of a loop that one pivot describes. Angles are 0 at the first joint and increase along the loop, whatever
-/// the side of the pivot: the vartheta of Atlas sec. 5.2.3.2 up to a constant. Straight lines are g with 1 / rho = g .
-/// (cos, sin): d and o of Atlas eq. 5.8 without their singularities.
+/// The part of a loop that one pivot describes. Angles are 0 at the first joint and increase along the loop, for pivots
+/// on both sides: the vartheta of Atlas sec. 5.2.3.2 up to a constant. Straight lines are g with 1 / rho = g . (cos,
+/// sin): d and o of Atlas eq. 5.8 without their singularities.
 struct Part {
   Vec2 pivot{0, 0};
   double side = 1;  ///< +1: inside, -1: outside

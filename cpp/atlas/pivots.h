@@ -25,7 +25,7 @@ struct Pivots {
 enum class PivotChoice {
   star,      ///< one: the loop is star-shaped about it
   skeleton,  ///< by the pseudo-skeleton
-  near       ///< beside each vertex: what serves every loop, with many of them
+  near       ///< beside each vertex: serves every loop, with many pivots
 };
 
 /// Marks the pivots that break a condition of Atlas sec. 5.2.2.1, exactly. The segment between two pivots crosses the
@@ -34,7 +34,7 @@ enum class PivotChoice {
 std::vector<char> wrong_pivots(const Polygon& loop, Pivots& pivots);
 
 /// A point from which the whole loop is seen, about as far from the lines of its edges as can be; `room` is the least
-/// of those distances by the extent of the loop. Not found: the loop is not star-shaped, or hardly.
+/// of these distances over the extent of the loop. Not found: the loop is not star-shaped, or hardly.
 struct StarCentre {
   bool found = false;
   Vec2 place{0, 0};
@@ -58,8 +58,8 @@ struct ChosenPivots {
   PivotChoice how = PivotChoice::skeleton;
 };
 
-/// Pivots that meet all conditions. `star`: a single one is allowed. Throws DomainError with the vertex where none are
-/// found.
+/// Pivots that meet all conditions. `star`: a single one is allowed. Throws DomainError with the vertex where no pivots
+/// are found.
 ChosenPivots choose_pivots(const Polygon& loop, const Polygon* outer, bool star);
 
 }  // namespace carreau::atlas

@@ -17,8 +17,8 @@ std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon);
 struct PseudoSkeleton {
   std::vector<std::array<std::size_t, 3>> triangles;
   std::vector<std::pair<Vec2, Vec2>> edges;
-  /// For each edge of the polygon, the place that faces it: the barycentre of its ear, else the middle of the
-  /// skeleton's edge that is parallel to it.
+  /// For each edge of the polygon, the place that faces it: the barycentre of its ear. Without an ear, the middle of
+  /// the skeleton's edge that is parallel to it.
   std::vector<Vec2> facing;
   std::vector<std::size_t> ears;  ///< their tips, ascending
 };

@@ -106,7 +106,8 @@ class SkeletonPivots {
     return w;
   }
 
-  /// The nearest crossing of a ray with a border, as a multiple of the direction, beyond `least`; infinity: none.
+  /// The nearest crossing of a ray with a border, as a multiple of the direction, beyond `least`; infinity without
+  /// crossing.
   [[nodiscard]] static double nearest(const Polygon& border, const Vec2& from, const Vec2& direction, double least) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < border.size(); ++i) {

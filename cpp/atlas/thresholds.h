@@ -16,8 +16,8 @@ inline constexpr double used_room = 0.999;
 /// lose their meaning there, and derivatives grow as the inverse of the distance.
 inline constexpr double nearest_to_pivot = 0.15;
 
-/// If a ray meets the inner border again, or the polyline of pivots, the annulus keeps this share of the way: the other
-/// side has as much.
+/// If a ray meets the inner border again, or the polyline of pivots, the annulus keeps this share of the way. The other
+/// side keeps an equal share.
 inline constexpr double shared_gap = 0.45;
 
 /// Pivots outside slide this share of the way towards the loop where a condition fails, so many times; then other

@@ -9,9 +9,9 @@
 
 namespace carreau {
 
-/// Forwards calls about faces and points of part k to it, by its own references: the references of the assembly less
-/// first_face - 1 and first_point - 1. All others are the host's. Errors of a part name references of the assembly.
-/// Re-entrant when all parts are; gives what all parts give.
+/// Forwards calls about faces and points of part k to it, by its own references. They are the references of the
+/// assembly less first_face - 1 and first_point - 1. All others are the host's. Errors of a part name references of the
+/// assembly. Re-entrant when all parts are; gives the orders that all parts give.
 class CadAssembly final : public Cad {
  public:
   struct Part {

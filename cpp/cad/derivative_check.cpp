@@ -42,7 +42,7 @@ class Line {
 struct Claim {
   const char* name;
   Vec3 given;
-  std::size_t slot;  // of Line::Values: what `given` is the derivative of
+  std::size_t slot;  // of Line::Values: the function whose derivative is `given`
 };
 
 /// Returns the finite difference if it contradicts the claim; empty if the claim is right or cannot be decided.

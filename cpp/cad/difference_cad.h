@@ -17,7 +17,7 @@ namespace carreau {
 /// when they are given (1e-10), else from positions (1e-7). On curves the points stay in [a, b]. On surfaces they stay
 /// in the face's box when it is known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
 /// If a point beside (u, v) is outside the host's domain (NaN, infinity or a failure there), one-sided formulas are
-/// used. When none works the error is a CallbackError at (u, v).
+/// used. If all fail the error is a CallbackError at (u, v).
 class DifferenceCad : public Cad {
  public:
   /// *_gives: the Want bits that `source` answers itself; want_position must be among them.

@@ -30,7 +30,7 @@ std::optional<double> answer_of(double value) {
   return value == no_answer ? std::nullopt : std::optional<double>(value);
 }
 
-// Other members of `out` may hold what differences found.
+// Other members of `out` may hold results of differences.
 void merge(const SurfaceJet& jet, unsigned want, SurfaceJet& out) {
   if ((want & want_position) != 0) out.s = jet.s;
   if ((want & want_first) != 0) out.su = jet.su, out.sv = jet.sv;

@@ -30,13 +30,13 @@ struct CadMTable {
 /// above the table's own; entries above it may be left untouched. The same layout as carreau_cad in carreau.h.
 struct HostTable {
   void* user = nullptr;
-  std::int32_t surface_order = 2;  ///< what `surface` can give: 0, 1 or 2
-  std::int32_t curve_order = 2;    ///< what `curve` can give
+  std::int32_t surface_order = 2;  ///< highest order of `surface`: 0, 1 or 2
+  std::int32_t curve_order = 2;    ///< highest order of `curve`
   std::int32_t reentrant = 0;
   /// S and its derivatives, [3] each. Must be given unless surface_batch is.
   std::int32_t (*surface)(std::int32_t face, double u, double v, std::int32_t order, double* s, double* su, double* sv,
                           double* suu, double* suv, double* svv, void* user) = nullptr;
-  /// The same at n points: uv is n x 2, results n x 3, row by row; those above `order` are null.
+  /// Evaluates at n points: uv is n x 2, results n x 3, row by row; results above `order` are null.
   /// Used in place of `surface` when given.
   std::int32_t (*surface_batch)(std::int32_t face, std::int64_t n, const double* uv, std::int32_t order, double* s,
                                 double* su, double* sv, double* suu, double* suv, double* svv, void* user) = nullptr;
@@ -49,7 +49,7 @@ struct HostTable {
   std::int32_t (*point_size)(std::int32_t point, double* value, void* user) = nullptr;
   std::int32_t (*surface_radius)(std::int32_t face, double u, double v, double* value, void* user) = nullptr;
   std::int32_t (*curve_radius)(std::int32_t face, std::int32_t ic, double t, double* value, void* user) = nullptr;
-  /// Reason, for people, why a callback has just failed on the face; nullptr or "" if there is none.
+  /// Readable reason why a callback has just failed on the face; nullptr or "" without a reason.
   const char* (*failure)(std::int32_t face, void* user) = nullptr;
 };
 

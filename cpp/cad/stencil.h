@@ -23,7 +23,7 @@ struct DifferenceStep {
 };
 
 /// The step `relative` * (high - low), rounded to a power of two so that x + step - x is the step. Also the side that
-/// keeps every stencil inside [low, high]. Never below what rounding of x allows. Any x; low < high, both finite.
+/// keeps every stencil inside [low, high]. Never below the limit from rounding of x. Any x; low < high, both finite.
 DifferenceStep difference_step(double x, double low, double high, double relative) noexcept;
 
 }  // namespace carreau

@@ -88,8 +88,9 @@ class ControlSpace {
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
   /// Regions where a mesh, whose `count` vertices are given by `vertex`, has too few vertices. They are squares of
-  /// leaves that hold some vertices of a unit mesh but less than a quarter of them in this mesh; of nested squares the
-  /// smallest. Each as the centres of its leaves, where sizes are smallest first; some may lie outside of the domain.
+  /// leaves that hold some vertices of a unit mesh but less than a quarter of them in this mesh. The smallest of nested
+  /// squares is returned. Each as the centres of its leaves, where sizes are smallest first; some may lie outside of
+  /// the domain.
   [[nodiscard]] std::vector<std::vector<Vec2>> undersampled_regions(
       std::size_t count, const std::function<Vec2(std::size_t)>& vertex) const;
 

@@ -116,7 +116,7 @@ class Lattice {
   std::int32_t node(GridPoint p, Place place = Place::unknown);
   /// The block of the nodes corner + {0, 1, 2, 3} x `spacing` in both directions, row by row. Nodes that belong to no
   /// coarser grid have consecutive numbers; the result is the first node's number, as if it were one of them. `corner`:
-  /// of a cell of four times the spacing. They have yet to be created.
+  /// of a cell of four times the spacing. The nodes must be created later.
   std::int32_t block(GridPoint corner, std::int32_t spacing);
   /// Creates a node of a block when it is new.
   void create(std::int32_t node, Place place) {
@@ -155,9 +155,9 @@ class Lattice {
   /// Prediction of a node inside the domain from all present samples: predictions are remembered until forget().
   Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
-  /// Prediction if the caller knows the neighbours: `row(k)` and `column(k)` are the numbers of the nodes at k = -3,
-  /// -1, 1, 3 times the spacing on the horizontal and the vertical line through this one. They are -1 if the nodes have
-  /// no value(). `odd_i`, `odd_j`: whether those on the horizontal, on the vertical line belong to a coarser grid.
+  /// Prediction if the caller knows the neighbours: `row(k)` and `column(k)` are numbers of nodes on the horizontal and
+  /// the vertical line through this node, at k = -3, -1, 1, 3 times the spacing. They are -1 if the nodes have no
+  /// value(). `odd_i`, `odd_j`: whether the nodes on the horizontal, on the vertical line belong to a coarser grid.
   template <class Row, class Column>
   Prediction predict_from(std::int32_t node, bool odd_i, bool odd_j, const Row& row, const Column& column) {
     if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};

@@ -23,7 +23,7 @@ struct SampledField {
     Vec2 uv;
     Metric2 metric;
     Metric2 form;                ///< J^T J: lengths in space
-    SurfaceTangents tangents{};  ///< what form is made of; not needed by bound_slopes()
+    SurfaceTangents tangents{};  ///< source of `form`; not needed by bound_slopes()
   };
   std::vector<Sample> samples;
   std::vector<std::array<std::int32_t, 3>> triangles;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace thresholds::control_space;
 
-// Numbers of cells are made of metrics: one that is not finite would make none.
+// Numbers of cells are computed from metrics, which must be finite.
 void require_finite(Metric2 m, const Vec2& uv) {
   if (!std::isfinite(m.a) || !std::isfinite(m.b) || !std::isfinite(m.c))
     throw DomainError({.uv = uv}, "the metric of the parameter domain is not finite");
@@ -56,7 +56,7 @@ void ControlSpaceSampling::run() {
   look_at_probe_points();
 }
 
-// Tests leaves and splits what must be split, until nothing must.
+// Tests leaves and splits them until all pass.
 void ControlSpaceSampling::balance_cells(std::vector<std::int32_t> active) {
   while (!active.empty()) {
     test(active);
@@ -266,7 +266,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
 
 // Returns whether samples on its sides suffice for a cell to be split. Errors fall from a cell to its parts by a
 // factor: sixteen if the field is smooth, two at a kink. The factor comes from the errors of the cell and of its
-// parent. Cells split for their crowd are explored, those at the border extrapolated.
+// parent. Cells split for their number of vertices are explored, cells at the border extrapolated.
 bool ControlSpaceSampling::can_be_filled(const TreeCell& cell) const noexcept {
   if (cell.filled || cell.edges_begin != cell.edges_end || cell.vertices > crowded * vertices_per_cell_) return false;
   const double expected = cell.decay * cell.error, parts = 0.25 * cell.vertices;
@@ -282,7 +282,7 @@ void ControlSpaceSampling::estimate_vertices() {
     if (cell.child >= 0 || !cell.relevant) continue;
     sum += cell.vertices * nodes_inside(cell) / 5;
   }
-  // Exploration is planned for the first estimate; it grows as much as that was too low.
+  // Exploration is planned for the first estimate; it grows if that was too low.
   if (sum > vertices_) vertices_per_cell_ *= std::sqrt(sum / vertices_);
   vertices_ = std::max(sum, 1.0);
 }
@@ -405,7 +405,7 @@ std::vector<ControlSpaceSampling::SideProbe> ControlSpaceSampling::middles_of(st
   return probes;
 }
 
-// The tested leaves on both sides of a side, or -1: those just made will be tested by their own centres.
+// The tested leaves on both sides of a side, or -1: new leaves will be tested by their own centres.
 std::array<std::int32_t, 2> ControlSpaceSampling::tested_beside(const SideProbe& probe) const noexcept {
   const TreeCell& own = (*tree_)[probe.cell];
   std::array<std::int32_t, 2> leaves{probe.cell, own.beside[probe.side]};
@@ -418,14 +418,14 @@ std::array<std::int32_t, 2> ControlSpaceSampling::tested_beside(const SideProbe&
   return leaves;
 }
 
-// Samples the middles of the sides of cells; returns the leaves beside those where prediction was wrong.
+// Samples the middles of the sides of cells; returns the leaves beside wrong predictions.
 std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const std::int32_t> cells) {
   lattice_->forget();
   std::vector<SideProbe> probes = middles_of(cells);
   std::vector<Vec2> uv;
   for (SideProbe& p : probes) {
     p.beside = tested_beside(p);
-    // If the prediction is not to be verified, the node has none.
+    // A node whose prediction is not verified has no expected value.
     if (p.beside[0] >= 0 || p.beside[1] >= 0) p.expected = expected_at((*tree_)[p.cell], middles_of_sides[p.side]);
     uv.push_back(lattice_->sampling_point(p.node));
   }

@@ -87,8 +87,8 @@ void ControlSpaceSampling::bound_slopes(double slope, bool directed) {
   lattice_->forget();
 }
 
-// Sizes may have kinks, which polynomials overshoot; the root of J^T J has none. If both are needed on a side of a leaf
-// that is no longer than an edge of the mesh, the root of J^T J is the mean of both ends.
+// Sizes may have kinks, which polynomials overshoot; the root of J^T J is smooth. If both are needed on a side of a
+// leaf no longer than an edge of the mesh, the root of J^T J is the mean of both ends.
 Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const {
   if (slope_ == 0 || directed_ || leaf.vertices * area_per_vertex > 1) return root;
   const auto side = std::find_if(std::begin(middles_of_sides), std::end(middles_of_sides),

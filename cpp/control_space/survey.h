@@ -25,7 +25,7 @@ struct Survey {
 /// Area of the part of a unit mesh that belongs to a vertex, two equilateral triangles: sqrt(3) / 2.
 extern const double area_per_vertex;
 
-/// `ask` evaluates the sampler. `square`: cells are to be as square in the metric as they can. Throws DomainError when
+/// `ask` evaluates the sampler. `square`: cells should be as square in the metric as possible. Throws DomainError when
 /// the domain has no boundary or its box has no area.
 Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
               const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask, bool square);

@@ -85,7 +85,7 @@ inline constexpr double trusted = 0.25;
 /// Samples. Cost of splitting a cell: usually, and at most (4 middles, 4 centres, 8 boundary vertices); cost of testing
 /// it. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed, as all below]
 inline constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
-/// Samples. May be used beyond those for each vertex where errors are no larger than edges can show;
+/// Samples. Allowance beyond the samples for each vertex where errors are no larger than edges can show;
 inline constexpr double spare_samples = 100;
 /// Vertices. in a large mesh only so many count,
 inline constexpr double vertices_that_count = 1500;
@@ -120,7 +120,8 @@ inline constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 // Gradation of samples (sample_gradation)
 /// Share of a size. Smaller changes are rounding. [BoundSlopes.WhatObeysIsLeftAsItIs]
 inline constexpr double size_rounding = 1e-6;
-/// The same by direction, far below what polynomials between the samples do. [BoundSlopesByDirection.WhatObeys...]
+/// Smaller changes by direction are rounding: far below the change by polynomials between the samples.
+/// [BoundSlopesByDirection.WhatObeys...]
 inline constexpr double directed_rounding = 1e-4;
 
 // Normals at samples (sampled_normals)

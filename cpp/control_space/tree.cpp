@@ -77,8 +77,8 @@ Place Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, P
   return cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
 }
 
-// The block of the nodes that a split of the cell adds: in its interior and on its lower and left sides, or on its
-// upper or right `side`.
+// The block of the nodes that a split of the cell adds. They are in its interior and on its lower and left sides, or on
+// its upper or right `side`.
 std::int32_t Tree::block_of(std::int32_t number, int side) {
   const TreeCell& cell = cells_[number];
   if (const std::int32_t beyond = cell.beside[side]; beyond >= 0 && cells_[beyond].size == cell.size)
@@ -121,7 +121,7 @@ void Tree::split(std::int32_t number) {
   join_parts(number);
 }
 
-// The parts of a cell and those beyond its sides get to know each other.
+// Makes the parts of a cell and the cells beyond its sides neighbours.
 void Tree::join_parts(std::int32_t number) {
   const TreeCell cell = cells_[number];
   for (int k = 0; k < 4; ++k)

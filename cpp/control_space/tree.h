@@ -27,7 +27,7 @@ struct TreeCell {
   double vertices = 0;                          ///< that a mesh would have in the whole cell
   /// In the lattice, row by row: corners, middles of sides, centre.
   std::array<std::int32_t, 9> node{};
-  /// Beyond the lower, upper, left, right side: the smallest cell that is not smaller than this one; -1 none.
+  /// Beyond the lower, upper, left, right side: the smallest cell that is not smaller than this cell; -1: no cell.
   std::array<std::int32_t, 4> beside{-1, -1, -1, -1};
 
   [[nodiscard]] GridPoint point(int k) const noexcept { return {i + (k % 3) * (size / 2), j + (k / 3) * (size / 2)}; }

@@ -92,7 +92,8 @@ void ControlSpaceWriter::sort_leaves() {
     if (tree_[c].child < 0) leaves_[begin[rank(tree_[c])]++] = c;
 }
 
-// Predicts what can be predicted. The rest has to wait until all predictions are made: it must not take part in them.
+// Predicts all values that can be predicted. The rest has to wait until all predictions are made: it must not take part
+// in them.
 void ControlSpaceWriter::predict_values() {
   lattice_.forget();
   std::size_t count = 0;

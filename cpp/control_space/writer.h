@@ -12,7 +12,7 @@
 
 namespace carreau {
 
-/// Balances the tree, gives a value to the nine nodes of every leaf (corners, middles of sides, centre), and writes
+/// Balances the tree, and gives a value to the nine nodes of every leaf (corners, middles of sides, centre). Writes
 /// biquadratic polynomials that are continuous and positive definite.
 class ControlSpaceWriter {
  public:

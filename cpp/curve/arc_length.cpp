@@ -48,7 +48,7 @@ double derivative_at(const std::vector<double>& t, const std::vector<double>& s,
   return derivative;
 }
 
-/// dt/ds at sample i from five samples about it, or from as many as edges of positive length join to it. The slope is
+/// dt/ds at sample i from five samples about it, or fewer where edges of zero length separate them. The slope is
 /// bounded so that the cubic is monotone (Fritsch and Carlson 1980: at most three times either secant).
 double slope_at(const std::vector<double>& t, const std::vector<double>& s, std::size_t i) {
   std::size_t first = i, last = i;

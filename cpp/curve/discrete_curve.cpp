@@ -162,7 +162,8 @@ std::vector<double> fractions(const CurveModel& model, const CurvePrescription& 
   return r;
 }
 
-/// Images of all vertices in all uses, and those inside in space. `told`: the owner's parameters if they are known.
+/// Computes images of all vertices in all uses, and inner vertices in space. `told`: the owner's parameters if they are
+/// known.
 void carry(DiscreteCurve& d, const CurveModel& model, double tolerance, const std::vector<double>& told = {}) {
   const std::vector<CurveUse>& uses = model.curve(d.curve).uses;
   carry_ends(d, model);

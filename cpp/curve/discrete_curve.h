@@ -21,7 +21,7 @@ struct DiscreteCurve {
   std::vector<std::vector<double>> t_of_use;
   std::vector<std::vector<Vec2>> uv_of_use;  ///< [use][vertex], exact values of curv0
   std::vector<double> size;                  ///< desired size at each vertex; at the ends the size of the corner points
-  std::vector<double> physical;  ///< the physical part of it, what surfaces interpolate when the host is silent
+  std::vector<double> physical;  ///< the physical part of it, which surfaces interpolate when the host does not answer
   SizeSamples sizes;             ///< along the curve
   /// Largest distance found between a vertex and its position on another use's surface, model length. Measured at all
   /// vertices of the uses in `refined`, at the ends and a few vertices of the others.

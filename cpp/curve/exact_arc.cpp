@@ -17,7 +17,7 @@ constexpr int points = 5;
 constexpr int most_halvings = 10;
 /// Newton's steps; where they would leave the bracket it is halved.
 constexpr int most_steps = 60;
-// Halves that differ by less are equal: rounding, and what finite differences leave of a derivative.
+// Halves that differ by less are equal: rounding, and the remaining error of finite differences.
 constexpr double exact_tolerance = 1e-14, difference_tolerance = 1e-8;
 /// Share of the length below which nothing is missing.
 constexpr double rounding = 1e-15;

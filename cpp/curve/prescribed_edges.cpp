@@ -16,7 +16,7 @@ namespace {
 
 /// Fewest edges of a curve that returns to its start: two would lie on each other.
 constexpr int least_closed = 3;
-/// Share. Ratios of the two uses of a curve that are the same but for rounding.
+/// Share. Ratios of the two uses of a curve that differ by less are equal.
 constexpr double same_ratio = 1e-12;
 
 const FaceCurve& face_curve(const CurveModel& model, const CurveUse& use) {
@@ -61,7 +61,7 @@ int prescribing_use(const CurveModel& model, const Curve& curve) {
   return found;
 }
 
-/// Those of `given`; on a part of a curve, those inside it.
+/// The parameters of `given`; on a part of a curve, the parameters inside it.
 std::vector<double> given_parameters(const CurveModel& model, const CurveUse& use) {
   const FaceCurve& curve = face_curve(model, use);
   const CurveSupport& support = model.support(use);

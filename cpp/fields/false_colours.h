@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of previews, in linear light (what EXR files hold).
+// Colours of previews, in linear light, as in EXR files.
 #pragma once
 
 #include <array>

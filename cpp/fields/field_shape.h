@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameter domain of a face whose fields are sampled, also of one that could not be meshed.
+// The parameter domain of a face whose fields are sampled, also if the face could not be meshed.
 #pragma once
 
 #include <span>

@@ -83,7 +83,7 @@ constexpr double visible_height = 7, hidden_height = 2;
 struct Block {
   int first = 0, rows = 0;
   std::vector<std::uint8_t> mask;
-  std::vector<std::uint32_t> pixel;  // those inside, as ranks in the block
+  std::vector<std::uint32_t> pixel;  // pixels inside, as ranks in the block
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
   std::vector<Metric2> prescribed;

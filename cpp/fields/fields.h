@@ -101,7 +101,7 @@ class FieldImage {
 /// or ".png".
 std::string field_file_of_face(const std::string& path, int ref);
 
-/// Throws InvalidArgument with a sentence on what cannot be.
+/// Throws InvalidArgument that describes the conflict.
 void check_field_options(const FieldOptions& options);
 
 }  // namespace carreau

@@ -22,7 +22,7 @@ enum class SizeOrigin : std::uint32_t {
 
 /// The rules of a run, apart. Each may be missing: that size is ignored.
 struct OriginRules {
-  /// Keeps references to its arguments. Throws what SizeRules throws.
+  /// Keeps references to its arguments. Throws the exceptions of SizeRules.
   OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
   std::optional<SizeRules> physical, geometric;          ///< clamped
@@ -44,7 +44,7 @@ class SizeOrigins {
   SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, bool graded, Monitor& monitor);
 
   /// `jets` hold the derivatives that FaceMetric::wants() of all rules returns; `prescribed`: the metric of FaceMetric
-  /// there, with its gradation. Asks the host for its sizes again; a failure of the host is a place that is not known.
+  /// there, with its gradation. Evaluates the host's sizes again; a place where the host fails has unknown origins.
   /// Throws Cancelled only.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
           std::span<OriginsAt> origins);

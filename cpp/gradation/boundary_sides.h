@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of domains as people see them: boundaries between two corners.
+// The sides of domains: boundaries between two corners.
 #pragma once
 
 #include <array>

@@ -25,8 +25,8 @@ Vec3 resized(const Vec3& v, double length) noexcept {
   return l > 0 ? (length / l) * v : Vec3{};
 }
 
-/// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector: an edge away, the line
-/// is that vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
+/// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector. An edge away, the line
+/// is this vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
 /// through the inside of triangles as a plane wave.
 class Grading {
  public:

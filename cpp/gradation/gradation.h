@@ -40,12 +40,12 @@ struct GradationFronts {
 
 /// ln(beta), the largest derivative of h along a path on the surface, for a ratio beta between sizes one unit edge
 /// apart. With the linear law, the unit length between sizes p and q at distance d is d ln(q / p) / (q - p) (RR-2818
-/// sec. 5.2). So (q / p)^(1 / length) <= beta means q - p <= ln(beta) d, the h-correction h(Q) = h(P) (1 + ln(beta)
-/// length_P(PQ)) of Borouchaki, Hecht and Frey.
+/// sec. 5.2). So (q / p)^(1 / length) <= beta means q - p <= ln(beta) d. This is the h-correction h(Q) = h(P) (1 +
+/// ln(beta) length_P(PQ)) of Borouchaki, Hecht and Frey.
 double slope_of_gradation(double beta);
 
-/// The size at a place by those along a segment from a to b: the least size(p) + slope |place - p| over its points p.
-/// Sizes are linear along it. `edge`: from a to b; `d`: from a to the place. +infinity where a and b are one.
+/// The size at a place by the sizes along a segment from a to b: the least size(p) + slope |place - p| over its points
+/// p. Sizes are linear along it. `edge`: from a to b; `d`: from a to the place. +infinity where a and b are one.
 double size_from_segment(double h_a, double h_b, const Vec3& edge, const Vec3& d, double slope) noexcept;
 
 namespace detail {
@@ -60,8 +60,8 @@ struct GradationSource {
 };
 
 /// The largest field below `h` (one a vertex, +infinity: unknown) whose derivative along the surface is at most
-/// `slope`: h(x) = min over y of h(y) + slope * distance(x, y). Also returns the line that brings the size to each
-/// place. Between vertices the size is the smallest of source_h + slope |line + step| over the places around
+/// `slope`. It is h(x) = min over y of h(y) + slope * distance(x, y). Also returns the line that brings the size to
+/// each place. Between vertices the size is the smallest of source_h + slope |line + step| over the places around
 /// (GradedField). `sources`: sizes known elsewhere than at vertices, seen from the places around. Distances are lengths
 /// of straight lines on the unfolded triangles. They are right within about 2 % on triangles that are not far from
 /// equilateral and turn by less than 30 degrees. Throws InvalidArgument unless slope > 0 and the arrays fit.

@@ -46,8 +46,8 @@ class MetricGrading {
   }
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
 
-  /// Bounds the sizes at `to` by those at the other end of `way` (a tangent vector there, where the normal is n),
-  /// `along` being the sizes there.
+  /// Bounds the sizes at `to` by the sizes `along` at the other end of `way` (a tangent vector there, where the normal
+  /// is n).
   template <typename Along>
   bool bound(int to, Vec3 n, Vec3 way, const Along& along) {
     TangentMetric& q = sizes_[to];

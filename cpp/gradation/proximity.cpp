@@ -128,7 +128,7 @@ class NarrowZones {
     reports_.push_back({gap, across, sides, others, vertices, at_end});
   }
 
-  // A zone goes on to its ends, near corners of one of its sides; squares have ends only, and are none. One of its
+  // A zone goes on to its ends, near corners of one of its sides; squares have ends only, and are not zones. One of its
   // sides is enough: in the graph an arc may turn like a corner.
   void accept() {
     std::set<int> of_zones;

@@ -18,8 +18,8 @@ class SmallestFirst {
  public:
   void push(double size, int place) { queue_.emplace(size, place); }
 
-  /// Until none waits. `counts(size, place)`: whether the place still has that size to hand on; `leave(place)` does it
-  /// and pushes those whose sizes it has changed. Throws Cancelled.
+  /// Runs until no place waits. `counts(size, place)`: whether the place still has that size to hand on; `leave(place)`
+  /// hands it on and pushes places whose sizes it has changed. Throws Cancelled.
   template <typename Counts, typename Leave>
   void run(const Counts& counts, const Leave& leave, Monitor& monitor) {
     std::size_t steps = 0;

@@ -24,8 +24,8 @@ inline constexpr double smooth_corner = 0.9;
 inline constexpr double least_unfolded = -0.999;
 
 // Metrics (metric_grading)
-/// Ratio. Paths run along edges and from the middles of edges: every 30 degrees, so that they are up to 1 / cos(15
-/// degrees) = 1.035 times too long. Half of that is taken from the slope. [Gradation.ByDirectionNoEdgeIsSteeper]
+/// Ratio. Paths run along edges and from the middles of edges, every 30 degrees. So they are up to 1 / cos(15 degrees)
+/// = 1.035 times too long. Half of that is taken from the slope. [Gradation.ByDirectionNoEdgeIsSteeper]
 inline constexpr double detour = 1.0175;
 /// Share of a size. Smaller changes are not followed. [Gradation.ByDirectionNoEdgeIsSteeper; far below the
 /// roughness of surface/grade]

@@ -18,8 +18,8 @@ std::vector<std::vector<std::int32_t>> members_of(const Partition& partition);
 /// others. Deterministic.
 Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hops);
 
-/// The defect of each cluster that keeps it from being part of a well-formed covering; empty if it has none. Regions
-/// that are steep or fold count.
+/// The defect of each cluster that keeps it from being part of a well-formed covering; empty for sound clusters.
+/// Regions that are steep or fold count.
 std::vector<std::string> defects(const Triangulation& surface, const Fans& fans, const Partition& partition);
 /// The defect of one cluster.
 std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition,

@@ -21,7 +21,7 @@ struct Corner {
 /// The domain Omega_i of a region.
 struct Chart {
   Frame frame;
-  Annulus annulus;                    ///< what it shares; phi has a period of pi / 3 a corner
+  Annulus annulus;                    ///< the shared region; phi has a period of pi / 3 a corner
   std::vector<Corner> corners;        ///< counterclockwise: corner k has phi from k pi / 3 to (k + 1) pi / 3
   std::vector<std::int32_t> members;  ///< vertices of its cluster
   std::vector<std::int32_t> around;   ///< vertices of the region's border

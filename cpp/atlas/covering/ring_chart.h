@@ -14,8 +14,8 @@ struct RingChart {
 };
 
 /// The chart of a ring with phi at its spokes. If the pure zone is star-shaped, the inner border gets additional
-/// vertices, so that the middles of spokes and triples have equal phi in all charts that share them. Two charts agree
-/// best where both have large weights.
+/// vertices. The middles of spokes and triples then have equal phi in all charts that share them. Two charts agree best
+/// where both have large weights.
 RingChart chart_of_ring(const Triangulation& surface, const Frame& frame, const Ring& ring);
 
 }  // namespace carreau::atlas

@@ -211,7 +211,7 @@ class FoldMender {
   FoldGrid grid_;
   std::vector<std::size_t> rank_;    ///< of each chart among the active ones, or none
   std::vector<std::size_t> active_;  ///< charts that move
-  std::vector<double> anchor_;       ///< of each of these: what distances from the start count
+  std::vector<double> anchor_;       ///< of each active chart: the weight of distances from the start
   std::vector<Gram> gram_;
   Blocks start_;
   std::vector<FoldPlace> watched_;

@@ -11,7 +11,7 @@ namespace {
 using Basis = std::array<std::array<double, largest_bezier_degree + 1>, 3>;
 
 /// B_i^k = (1 - t) B_i^(k-1) + t B_(i-1)^(k-1); derivatives are differences of derivatives of lower degrees. `Degree`:
-/// int, or one that the compiler knows.
+/// int, or a constant of the compiler.
 template <typename Degree>
 void bernstein_of(Degree degree, double t, int order, Basis& basis) {
   std::array<double, largest_bezier_degree + 1>& b = basis[0];

@@ -12,7 +12,8 @@ namespace carreau::discrete {
 
 /// The plane of (u, v) has a tile for each triangle, far from all others. Triangle t of the surface, with the whole
 /// numbers (i, j) = (t mod w, t div w), has the corners (d i, d j), (d i + 1, d j), (d i, d j + 1), d = tile_distance.
-/// Faces are its regions, and do not matter for where a point is. There are no curves of the parameter plane.
+/// Faces are regions of the surface; the location of points does not use them. There are no curves of the parameter
+/// plane.
 inline constexpr double tile_distance = 64;
 
 class DiscreteCad final : public Cad {

@@ -35,8 +35,8 @@ void add(SurfaceJet& jet, const Jet& w, const Vec3& p) noexcept {
   jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
 }
 
-/// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives but in x = y = 0,
-/// where those along x = y are taken.
+/// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives except in x = y = 0,
+/// where the derivatives along x = y are taken.
 Jet share_of(const Jet& x, const Jet& y) noexcept {
   double a = std::max(x.f, 0.0), b = std::max(y.f, 0.0);
   const double s = a + b;

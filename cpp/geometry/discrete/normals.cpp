@@ -160,7 +160,8 @@ Cubic line_curve(const Vec3& p, const Vec3& q, const Vec3& tp, const Vec3& tq) n
   return {p, z1, z2, q};
 }
 
-/// The inner points of a curve no farther from its chord than what turns the tangents reaches.
+/// Moves the inner points of a curve so that they are no farther from its chord than the reach of the triangles that
+/// turn the tangents.
 Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
   const Vec3 u = unit(z[3] - z[0]);
   const auto keep = [&](Vec3& point, double reach) {

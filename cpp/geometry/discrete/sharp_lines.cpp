@@ -78,7 +78,7 @@ class LineFinder {
       found_.sharp[index(e)] = 1;
   }
 
-  // The paper drops lone edges; of what hangs together few edges with a free end are noise as well.
+  // The paper drops lone edges; a few connected edges with a free end are noise as well.
   void drop_few() {
     UnionFind sets(mesh_.vertices.size());
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
@@ -129,7 +129,7 @@ class LineFinder {
     return line;
   }
 
-  // Ends are prolonged one after the other; what does not reach another line is taken back.
+  // Ends are prolonged one after the other; a prolongation that does not reach another line is removed.
   void go_on() {
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices.size()); ++v) {
       if (degree(v) != 1) continue;

@@ -44,8 +44,8 @@ inline constexpr double share_of_largest = 0.5;
 inline constexpr double least_straightness = 0.5;
 /// Edges by which a line is prolonged at most, as a multiple of its own edges: a longer gap separates two lines.
 inline constexpr int most_prolongation = 2;
-/// Edges of lines that hang together and have a free end, and of a line that fades out after all: fewer are noise. The
-/// paper's one edge lets bunny.off have lines; a crease of a part that no other one meets is longer.
+/// Connected edges of lines with a free end, and edges of a line that fades out: fewer are noise. With the paper's
+/// limit of one edge, bunny.off has lines; a crease of a part without junctions is longer.
 inline constexpr int least_edges = 8, least_faded = 8;
 
 // Normals and tangents

@@ -23,7 +23,7 @@ struct Findings {
   std::int64_t turned_triangles = 0;    ///< ran against most of their shell: turned
   std::int64_t border_edges = 0;        ///< with one triangle
   std::int64_t manifold_breaks = 0;     ///< edges with three triangles or more
-  std::int64_t pinched_vertices = 0;    ///< whose triangles hang together by the vertex alone
+  std::int64_t pinched_vertices = 0;    ///< whose triangles are connected by the vertex alone
   std::int64_t one_sided_edges = 0;     ///< on which no orientation agrees (a Moebius strip)
   std::int64_t shells = 0;              ///< connected over edges
   std::int64_t unused_vertices = 0;

@@ -23,7 +23,7 @@ struct CoonsSurface {
   Node& node(std::size_t i, std::size_t j) { return nodes[i + u.size() * j]; }
   /// All derivatives to order two. Derivatives of second order jump between cells; on a line between cells they belong
   /// to the cell above and to the right. Outside of the cells that are there the nearest one goes on (HDR eq. 4.90,
-  /// 4.91); NaN where none is a neighbour.
+  /// 4.91); NaN without a neighbouring cell.
   [[nodiscard]] SurfaceJet at(const Vec2& uv) const;
   [[nodiscard]] bool has_cell(std::size_t i, std::size_t j) const { return cells.empty() || cells[i + u.size() * j] != 0; }
 };

@@ -21,7 +21,7 @@ enum class Measured {
 struct Block {
   int columns = 0, rows = 0;  ///< at least 2
   std::vector<Vec3> nodes;
-  std::string name = {};  ///< for people; empty: none
+  std::string name = {};  ///< for messages; may be empty
   Measured measured = Measured::points;
   int line = 0;  ///< of the file it was read from; 0: from memory
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C1 surface through the nodes of each block, and what blocks have in common on their borders.
+// The C1 surface through the nodes of each block, and common data of blocks on their borders.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One orientation for blocks that hang together.
+// One orientation for connected blocks.
 #pragma once
 
 #include <vector>

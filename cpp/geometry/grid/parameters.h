@@ -14,7 +14,7 @@ struct Knots {
 
 /// [block]: the integers, or cumulated lengths. An interval between two columns has the mean length of the edges across
 /// it (HDR sec. 4.7.3). Intervals of blocks that have a border edge in common have one length, the mean of all edges of
-/// both, so that both blocks have the same curve along it.
+/// both. So both blocks have the same curve along it.
 std::vector<Knots> find_knots(const std::vector<Block>& blocks, const Borders& borders, bool lengths);
 
 }  // namespace carreau::grid

@@ -22,7 +22,7 @@ Vec3 mean(const Neighbours<Vec3>& n) {
   return d1 + d2 > 0 ? Vec3((d2 * n.before + d1 * n.after) / (d1 + d2)) : n.here;
 }
 
-/// to[i] = from[i] + weight (mean - from[i]) but for the ends of an open line.
+/// to[i] = from[i] + weight (mean - from[i]), except at the ends of an open line.
 template <typename Value>
 void pass(std::span<const Value> from, std::span<Value> to, bool closed, double weight) {
   const std::size_t n = from.size();
@@ -37,7 +37,7 @@ void pass(std::span<const Value> from, std::span<Value> to, bool closed, double 
   }
 }
 
-/// `moved` is room for as many values.
+/// `moved` is scratch space of equal size.
 template <typename Value>
 void smooth(std::span<Value> values, std::span<Value> moved, bool closed, const Smoothing& smoothing) {
   if (values.size() < 3) return;

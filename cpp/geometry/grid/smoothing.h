@@ -13,7 +13,7 @@ namespace carreau::grid {
 /// by (1 - w1 k) (1 + w2 k), with k = 1 - cos(2 pi m / n).
 void smooth_line(std::span<double> values, bool closed, const Smoothing& smoothing);
 
-/// The same of points, whose neighbours weigh by the distance of the other one (`moyenne` of HDR sec. 4.7.1).
+/// Smooths points; each neighbour has the distance of the other neighbour as weight (`moyenne` of HDR sec. 4.7.1).
 void smooth_line(std::span<Vec3> points, bool closed, const Smoothing& smoothing);
 
 /// Whether the first and the last column (or row) of a block have equal points to `tolerance`, and its lines go on

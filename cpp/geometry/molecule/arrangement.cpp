@@ -88,7 +88,7 @@ void add_arcs(std::span<ArcEnd> ends, const Circle& circle, Arrangement& a, Doub
   }
 }
 
-/// The circle of a pair has no vertex: all of it is covered or none.
+/// The circle of a pair has no vertex: it is covered wholly or not at all.
 void add_whole_circle(const Circle& circle, const Neighbours& neighbours, Arrangement& a, Doubts& doubts) {
   const std::array<int, 2> but{circle.i, circle.j};
   const CoverTest test{a.balls, neighbours.of(circle.i), 1e-12 * a.balls[circle.i].radius};

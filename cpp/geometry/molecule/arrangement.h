@@ -41,8 +41,8 @@ struct Arc {
   int circle = 0;
   int start = -1, end = -1;  ///< vertices; -1: the whole circle
   double a = 0, b = 0;
-  /// True if the arc is at most a millionth of the smaller radius long, unless it belongs to a small loop without
-  /// longer arcs: a model has a point in its place.
+  /// True if the arc is at most a millionth of the smaller radius long: a model has a point in its place. Arcs of small
+  /// loops without longer arcs are not tiny.
   bool tiny = false;
 
   [[nodiscard]] bool whole() const { return start < 0; }
@@ -63,7 +63,7 @@ struct Component {
 };
 
 struct Arrangement {
-  std::vector<Ball> balls;   ///< as given, but for radii that were moved
+  std::vector<Ball> balls;   ///< as given, except for moved radii
   std::vector<int> held_by;  ///< [ball]: the ball that holds it; -1: none
   std::vector<int> moved;    ///< balls whose radius was moved, ascending
   std::vector<Circle> circles;
@@ -82,11 +82,11 @@ struct Arrangement {
   [[nodiscard]] int euler_number() const;
 };
 
-/// Linear memory; n log n for balls of similar radii of which few meet at a time. If rounding leaves a decision open
-/// (four spheres through one point, three through a touching one), the radii of its balls are moved by some 1e-9 of
-/// themselves, by a rule of their ranks alone. All decisions are then repeated, so that they belong to one set of
-/// balls. Throws as check_balls(), and InvalidArgument when eight such rounds do not do. The result does not depend on
-/// the number of threads.
+/// Linear memory; n log n for balls of similar radii of which few meet at a time. Rounding may leave a decision open
+/// (four spheres through one point, three through a touching one). Then the radii of its balls are moved by some 1e-9
+/// of themselves, by a rule of their ranks alone. All decisions are then repeated, so that they belong to one set of
+/// balls. Throws as check_balls(), and InvalidArgument when eight such rounds fail. The result does not depend on the
+/// number of threads.
 Arrangement arrange(std::span<const Ball> balls, int threads, Monitor& monitor);
 
 }  // namespace carreau::molecule

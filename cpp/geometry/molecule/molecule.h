@@ -25,7 +25,7 @@ struct Molecule {
 enum class SurfaceKind {
   vws,  ///< of the union of the balls
   sas,  ///< of the union of balls whose radii the probe's is added to
-  ses   ///< of what no probe outside the balls reaches: convex parts of balls, tori, concave parts of probes
+  ses   ///< of the region that no probe outside the balls reaches: convex parts of balls, tori, concave parts of probes
 };
 
 struct SurfaceOptions {
@@ -45,7 +45,7 @@ struct MoleculeSummary {
   UnionMeasures measures;          ///< for an ses: ball_area has convex parts only, shells are the shells of the sas
   int euler_number = 0;            ///< of the model
   std::size_t moved = 0;           ///< radii
-  double torus = 0, concave = 0;   ///< areas of those parts of an ses
+  double torus = 0, concave = 0;   ///< areas of these parts of an ses
   std::vector<double> ball_torus, ball_concave;  ///< [ball]: shares of them; see ExcludedMeasures
 };
 

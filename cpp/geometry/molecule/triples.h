@@ -23,7 +23,7 @@ class Doubts {
   std::vector<int> balls_;
 };
 
-/// Whether some ball covers a point, in the order of `others`; balls of `but` are skipped.
+/// Result of a test whether some ball covers a point, in the order of `others`; balls of `but` are skipped.
 enum class Cover { no, yes, doubtful };
 struct CoverTest {
   std::span<const Ball> balls;

@@ -158,7 +158,7 @@ class Arranger {
     return -1;
   }
 
-  /// The point of a crossing: one that is there, else a new one.
+  /// The point of a crossing: an existing point, else a new one.
   int crossing_of(int c, int d) {
     const Vec2 a = at(first(c)), b = at(second(c)), e = at(first(d)), f = at(second(d));
     const Vec2 ab = b - a, ef = f - e;

@@ -11,8 +11,8 @@
 
 namespace carreau {
 
-/// References are the user's own: any number, 0 for none, equal ones for several entities. Lines count from 1, 0: from
-/// memory. Names are for sentences; empty: the entity is called by its number from 1.
+/// References are the user's own: any number, 0 for none, equal numbers for several entities. Lines count from 1, 0:
+/// from memory. Names are for sentences; empty: the entity is called by its number from 1.
 struct PlanePoint {
   Vec2 xy;
   int ref = 0;
@@ -57,7 +57,7 @@ struct PlaneSeed {
 enum class PlaneRest {
   outside,  ///< nothing else: sides decide
   inside,   ///< all that curves enclose but holes (Triangle's rule)
-  parity,   ///< what curves enclose; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR
+  parity,   ///< regions enclosed by curves; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR
             ///< fig. 3.1)
 };
 

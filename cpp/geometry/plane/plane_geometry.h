@@ -29,9 +29,10 @@ struct PlaneGeometry {
 /// `eps_smooth`: tolerance of the polylines (RR-2818 sec. 3.7) by which curves are compared, in shares of an edge.
 /// Polylines that conflict are refined three times, by a factor ten each, before the conflict is an error.
 ///
-/// Throws InvalidModel with file and line, naming curves and points: the exceptions of cut_into_arcs(); curves that
-/// cross or touch away from points; points on curves that do not pass them, or outside. Also for an open boundary, a
-/// side on which the domain would be unbounded, sides and seeds that contradict one another, and no domain at all.
+/// Throws InvalidModel with file and line, naming curves and points. Causes are the exceptions of cut_into_arcs();
+/// curves that cross or touch away from points; points on curves that do not pass them, or outside. Also for an open
+/// boundary, a side on which the domain would be unbounded, sides and seeds that contradict one another, and no domain
+/// at all.
 PlaneGeometry build_plane_geometry(const PlaneDomainInput& input, double eps_smooth = usual_eps_smooth);
 
 }  // namespace carreau

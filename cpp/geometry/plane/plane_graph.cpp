@@ -100,7 +100,8 @@ void PlaneGraph::find_outsides(const std::map<int, std::vector<int>>& leaving) {
       outside_.push_back(2 * left.arc + (turns_left ? 1 : 0));
       continue;
     }
-    // All directions point east of it, counterclockwise from the east: the last one that points up, or the last one.
+    // All directions point east of it, counterclockwise from the east: the last direction that points up, or the last
+    // one.
     const std::vector<int>& around = leaving.at(left.rank == 0 ? arcs_[left.arc].from : arcs_[left.arc].to);
     int last = around.back();
     for (const int h : around)

@@ -45,8 +45,8 @@ struct ProbeCrossing {
   ProbeArc arc;
 };
 
-/// `tips`: [circle], the two points of a spindle on the axis, towards balls i and j; circles that are not spindles have
-/// none. Points that the crossings end in are tips, or get new references.
+/// `tips`: [circle], the two points of a spindle on the axis, towards balls i and j; empty for other circles. Points
+/// that the crossings end in are tips, or get new references.
 struct Tips {
   int low = 0, high = 0;  ///< references; 0: none
   Vec3 at_low, at_high;

@@ -61,7 +61,7 @@ class UnionBuilder {
       faces_.add_part_of_ball(
           component.ball, std::move(face),
           std::make_unique<SpherePatch>(ball, find_pole(a_, component).direction, std::move(border)));
-    else if (component.loops.empty() || area_of(a_, component) > ball.radius * ball.radius)  // but for tiny holes
+    else if (component.loops.empty() || area_of(a_, component) > ball.radius * ball.radius)  // except for tiny holes
       add_whole_ball(component.ball);
   }
 
