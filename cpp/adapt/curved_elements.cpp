@@ -94,7 +94,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
     step = std::max(std::abs(place.s - s), std::abs(place.t - t));
     if (step < newton_rounding) break;
   }
-  // Far from p the element may fold on the way, and where it stops then p is not.
+  // Far from p the element may fold on the way; then Newton's method stops at a point that is not p.
   place.inside = step < newton_arrived ? least_coordinate(cell.kind, place.s, place.t) : -infinity;
   return place;
 }
@@ -109,7 +109,7 @@ void CurvedElements::interpolate(std::int32_t triangle, const Vec3& p, bool in_s
       if (const Place other = place_in(at_corner_[k], p, in_space); other.inside > best.inside) best = other;
   }
   const Cell& cell = cells_[best.cell];
-  // Beside the mesh: beyond a curved border, a little, the polynomial holds; farther away the nearest value does.
+  // Beside the mesh the polynomial holds slightly beyond a curved border; farther away the nearest value is used.
   double s = std::clamp(best.s, -most_beside, 1 + most_beside), t = std::clamp(best.t, -most_beside, 1 + most_beside);
   if (const double beyond = s + t - 1 - most_beside; corner_count(cell.kind) == 3 && beyond > 0)
     s -= beyond / 2, t -= beyond / 2;

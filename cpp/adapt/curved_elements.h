@@ -12,14 +12,14 @@
 
 namespace carreau {
 
-/// Elements of second order by the triangles that they are looked up with. References only.
+/// Elements of second order, each with the triangles that find it. References only.
 class CurvedElements {
  public:
   /// No elements.
   CurvedElements() = default;
-  /// Those of a face in its parameter plane, by its triangles. None where the face is straight.
+  /// Elements of a face in its parameter plane, by its triangles. Empty if the face is straight.
   CurvedElements(const SurfaceMesh& mesh, const FaceMesh& face);
-  /// Those of all faces in space, by their triangles, face by face.
+  /// Elements of all faces in space, by their triangles, face by face.
   explicit CurvedElements(const SurfaceMesh& mesh);
 
   [[nodiscard]] bool has(std::int32_t triangle) const noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scalar field on a mesh to the sizes or metrics of a better mesh (HDR sec. 3.4.3).
+// Converts a scalar field on a mesh to the sizes or metrics of a better mesh (HDR sec. 3.4.3).
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ enum class ErrorShape : int {
   anisotropic = 2,  ///< by both principal values: ellipses in the mesh's plane and on the graph
 };
 
-/// How derivatives are found from values at vertices.
+/// Method that finds derivatives from values at vertices.
 enum class Recovery : int {
   fit = 0,         ///< quadratics through each vertex: recover_derivatives()
   projection = 1,  ///< the double L2 projection, of plane meshes: project_derivatives()
@@ -66,7 +66,7 @@ VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
                                  const Crew& crew = {}, Monitor* monitor = nullptr);
 
-/// The same from derivatives that are already known (an exact Hessian, project_derivatives()).
+/// Prescribes by derivatives that are already known (an exact Hessian, project_derivatives()).
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
                              const EstimatorOptions& options, const Crew& crew = {}, Monitor* monitor = nullptr);
 

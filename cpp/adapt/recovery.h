@@ -11,8 +11,8 @@
 
 namespace carreau {
 
-/// Plane in which derivatives at a vertex are meant: e1, e2 and the normal (of either sense) are orthonormal.
-/// On meshes of the plane z = 0 they are the axes x, y, z.
+/// Plane of the derivatives at a vertex: e1, e2 and the normal (of either sense) are orthonormal. On meshes of the
+/// plane z = 0 they are the axes x, y, z.
 struct VertexFrame {
   Vec3 e1{1, 0, 0}, e2{0, 1, 0}, normal{0, 0, 1};
   [[nodiscard]] Vec2 in_plane(const Vec3& d) const noexcept { return {dot(d, e1), dot(d, e2)}; }

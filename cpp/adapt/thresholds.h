@@ -43,8 +43,8 @@ inline constexpr double place_rounding = 1e-14;
 /// [CurvedTransfer.IsExactForQuadraticsInAPlane]
 inline constexpr int most_newton_steps = 20;
 inline constexpr double newton_rounding = 1e-14;
-/// The same: a last step of more has not arrived. On surfaces steps shrink by a factor each, not quadratically.
-/// [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
+/// Coordinates: if the last step is larger, the method has not converged. On surfaces steps shrink by a factor each,
+/// not quadratically. [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
 inline constexpr double newton_arrived = 1e-3;
 /// Coordinates of the reference. Distance beside its element up to which a field's polynomial is taken: the sagitta of
 /// a curved border. An edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]

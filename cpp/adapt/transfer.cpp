@@ -159,7 +159,7 @@ class Pieces {
   std::map<std::size_t, std::shared_ptr<Slot>> slots_;
 };
 
-/// A row of the new mesh: where it is looked up.
+/// A row of the new mesh, and the place at which it is looked up.
 struct Wanted {
   std::size_t row;
   Vec3 p;  // of the parameter plane or of space
@@ -194,7 +194,7 @@ class Transfer {
   }
 
  private:
-  // Each in the first face of both meshes that has it, or in space.
+  // Looks each row up in the first face of both meshes that has it, or in space.
   void list_rows() {
     const std::size_t all = at_nodes_ ? node_count(to_) : to_.vertices.size();
     std::vector<char> listed(all, 0);
@@ -228,7 +228,7 @@ class Transfer {
     return row < to_.vertices.size() ? to_.vertices[row] : to_.mid_vertices[row - to_.vertices.size()];
   }
 
-  /// Values, then the distance where the vertex is outside, and 0 where it is not.
+  /// Writes values, then the distance if the vertex is outside, else 0.
   void look_up_in(const Piece& piece, const Wanted& wanted, std::int32_t& guess, double* out) const {
     NearestOnMesh found = piece.tree.nearest(wanted.p, guess);
     guess = found.triangle;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From one mesh to the next: values at vertices, and how well a mesh carries a field.
+// Transfer of values at vertices to a new mesh, and interpolation errors of a mesh.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct TransferredField {
   double farthest = 0;         ///< distance of the farthest one, parameter length (model length: see below)
 };
 
-/// Rows that a field has which is given at all nodes of a mesh: vertices, then nodes on edges (SurfaceMesh::mid_vertices).
+/// Rows of a field that is given at all nodes of a mesh: vertices, then nodes on edges (SurfaceMesh::mid_vertices).
 std::size_t node_count(const SurfaceMesh& mesh) noexcept;
 
 /// Interpolates linearly, from vertices of `from` to vertices of `to`, two meshes of one model. Each vertex is looked

@@ -31,7 +31,7 @@ class Annulus {
 
   [[nodiscard]] const Polygon& inner() const { return inner_; }
   [[nodiscard]] const Polygon& outer() const { return outer_; }
-  /// The outer border that was described in place of the given one; inside it.
+  /// The actual outer border, in place of the given one; inside it.
   [[nodiscard]] const Polygon& described_outer() const { return described_; }
   [[nodiscard]] const Pivots& pivots() const { return chosen_.pivots; }
   [[nodiscard]] PivotChoice pivot_choice() const { return chosen_.how; }
@@ -45,7 +45,7 @@ class Annulus {
   /// annulus.
   template <typename Number>
   [[nodiscard]] std::optional<Strata<Number>> find(const Pair<Number>& p) const;
-  /// Is p inside of the annulus' inner border, which is the smooth one (Atlas sec. 5.5.2.2)?
+  /// Returns whether p is inside of the annulus' inner border, which is the smooth one (Atlas sec. 5.5.2.2).
   [[nodiscard]] bool encloses(const Vec2& p) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace carreau::atlas {
 
-/// Position and slope at both ends of [x1, x2]. Slopes may depend on a parameter, and are then jets.
+/// Values and slopes at both ends of [x1, x2]. Slopes may depend on a parameter, and are then jets.
 template <typename Number>
 struct HermiteData {
   double x1, x2, y1, y2;

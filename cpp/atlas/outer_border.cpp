@@ -70,7 +70,7 @@ class View {
   [[nodiscard]] double nearer(double a, double b) const { return part_.side > 0 ? std::min(a, b) : std::max(a, b); }
   [[nodiscard]] double inner(double at) const { return radius_on(part_.line[interval_of(part_.angle, at)], at); }
 
-  /// The first obstacle behind the inner border, as seen from it.
+  /// The first obstacle behind the inner border, as seen from the pivot.
   [[nodiscard]] Sight look(double at) const {
     const Pair<double> d = part_.direction(at);
     const Vec2 u(d[0], d[1]);
@@ -99,7 +99,7 @@ class View {
     return std::max(least, rho + sight.obstacle->kept * (r - rho));
   }
 
-  /// Angles between which one obstacle is seen and the inner border is straight.
+  /// Angles between which one obstacle is visible and the inner border is straight.
   [[nodiscard]] std::vector<double> directions() const {
     std::vector<double> list = part_.angle;
     for (const Obstacle& o : obstacles_) {
@@ -179,7 +179,7 @@ class Border {
         pieces_[n].radius[k] = inner(n, k) + parts_[n].side * rooms_[n][k];
   }
 
-  /// Less room at the ends of edges that meet others.
+  /// Leaves less room at the ends of edges that meet others.
   bool shrink_crossings() {
     struct Edge {
       Vec2 a, b;

@@ -52,7 +52,7 @@ struct Part {
   [[nodiscard]] HermiteData<Number> angle_data(std::size_t k, const Number& tau) const;
 };
 
-/// Index of the interval of ascending knots that holds x; the first or last one outside.
+/// Index of the interval of ascending knots that holds x; outside, the first or last interval.
 inline std::size_t interval_of(std::span<const double> knots, double x) {
   const auto inside = knots.subspan(1, knots.size() - 2);
   return static_cast<std::size_t>(std::upper_bound(inside.begin(), inside.end(), x) - inside.begin());

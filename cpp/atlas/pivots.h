@@ -8,8 +8,7 @@
 
 namespace carreau::atlas {
 
-/// A closed chain of pivots, counterclockwise: inside, outside, inside, ... A single one sees all of the loop from
-/// inside.
+/// A closed chain of pivots, counterclockwise: inside, outside, inside, ... A single pivot inside sees all of the loop.
 struct Pivots {
   std::vector<Vec2> place;
   /// For each pivot outside, the point of the loop to which it may slide; meaningless for other pivots.
@@ -42,11 +41,12 @@ struct StarCentre {
 };
 StarCentre star_centre(const Polygon& loop);
 
-/// The least distance of a place from the lines of the edges, by the extent of the loop; 0 where it is outside of one.
+/// The least distance of a place from the lines of the edges, over the extent of the loop; 0 if it is outside of a
+/// line.
 double room_around(const Polygon& loop, const Vec2& place);
 
 /// Pivots by the pseudo-skeleton: inner ones at ears and where the loop's turns change, outer ones between them, beyond
-/// the outer border. Without one (nullptr), beyond the loop. They may be wrong.
+/// the outer border. Without an outer border (nullptr), they are beyond the loop. They may be wrong.
 Pivots skeleton_pivots(const Polygon& loop, const Polygon* outer);
 
 /// Pivots at `height[v]` beside each vertex v, and beyond the middles of edges between two that turn the same way.

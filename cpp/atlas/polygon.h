@@ -12,15 +12,15 @@ namespace carreau::atlas {
 /// Vertices in counterclockwise order, the first one not repeated.
 using Polygon = std::vector<Vec2>;
 
-/// Throws DomainError with the vertices, from 1, where a polygon is not simple, or not counterclockwise. `name` is for
-/// the sentence: "the inner border".
+/// Throws DomainError with the vertices, from 1, if a polygon is not simple, or not counterclockwise. `name` is for the
+/// sentence: "the inner border".
 void require_simple(const Polygon& polygon, const std::string& name);
 /// Throws DomainError unless the inner polygon lies inside the outer one without touching it.
 void require_annulus(const Polygon& inner, const Polygon& outer);
 
-/// Do the closed segments ab and cd have a common point?
+/// Returns whether the closed segments ab and cd have a common point.
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
-/// Do they cross at one point that is no end of either?
+/// Returns whether they cross at one point that is no end of either.
 bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
 
 /// Is p strictly inside?

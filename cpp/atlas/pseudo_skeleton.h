@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pseudo-skeleton of a polygon: a wall inside it, and where pivots of the inside may stand (Atlas sec. 5.2.2.2).
+// The pseudo-skeleton of a polygon: a wall inside it, and places of inner pivots (Atlas sec. 5.2.2.2).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace carreau::atlas {
 
 /// Triangles without new points, corners counterclockwise, indices of vertices. The ear whose smallest angle is largest
-/// is cut first, so that ears are no slivers where they need not be. Polygons are simple (require_simple).
+/// is cut first, which avoids slivers if possible. Polygons are simple (require_simple).
 std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon);
 
 struct PseudoSkeleton {

@@ -16,7 +16,7 @@ enum class OuterBorder {
   cubic     ///< one cubic a pivot: simpler, covers less
 };
 
-/// Rounds vertices of the inner border and lays the outer one, so that both stay between `pieces` and the polygon
+/// Rounds vertices of the inner border and constructs the outer one, so that both stay between `pieces` and the polygon
 /// inside.
 void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, OuterBorder kind);
 

@@ -25,8 +25,8 @@ inline constexpr double shared_gap = 0.45;
 inline constexpr double slide = 0.6;
 inline constexpr int slides = 12;
 
-/// Pivots near the loop come nearer by this factor where a condition fails. Two to the minus forty is below any width
-/// that doubles of one size can have in a polygon which is simple for practical purposes.
+/// Pivots near the loop move nearer by this factor if a condition fails. Two to the minus forty is below any width that
+/// doubles of one size can have in a polygon which is simple for practical purposes.
 inline constexpr double nearer = 0.5;
 inline constexpr int nearer_rounds = 40;
 

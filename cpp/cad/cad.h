@@ -27,7 +27,7 @@ struct Interval {
   double a = 0, b = 1;
 };
 
-/// How often each routine of the host was called; one point of a batch counts as one call.
+/// Number of calls of each routine of the host; one point of a batch counts as one call.
 struct CallCounts {
   std::int64_t surf0 = 0, surf1 = 0, surf2 = 0, curv0 = 0, curv1 = 0, curv2 = 0, sizes = 0;
   [[nodiscard]] std::int64_t surface() const noexcept { return surf0 + surf1 + surf2; }
@@ -37,7 +37,7 @@ struct CallCounts {
 /// The host's geometry (RT-0232 sec. 3.1). `face` is the reference of a face, `ic` the rank of a curve
 /// in its face, from 1: exactly the arguments of the cad_m routines.
 /// Implementations throw CallbackError when the host reports failure or returns a value that is not
-/// finite. Called from the thread of the run only, unless reentrant().
+/// finite. Called by the run's thread only, unless reentrant().
 class Cad {
  public:
   virtual ~Cad() = default;
@@ -48,7 +48,7 @@ class Cad {
   virtual Interval curve_interval(int face, int ic) = 0;
   virtual CurveJet curve(int face, int ic, unsigned want, double t) = 0;
 
-  /// Wanted sizes; empty when the host does not answer (RT-0232 sec. 3.1.3 a).
+  /// Prescribed sizes; empty when the host does not answer (RT-0232 sec. 3.1.3 a).
   virtual std::optional<double> surface_size(int /*face*/, Vec2 /*uv*/) { return {}; }
   virtual std::optional<double> curve_size(int /*face*/, int /*ic*/, double /*t*/) { return {}; }
   virtual std::optional<double> point_size(int /*point*/) { return {}; }
@@ -57,7 +57,7 @@ class Cad {
   virtual std::optional<double> curve_radius(int /*face*/, int /*ic*/, double /*t*/) { return {}; }
 
   [[nodiscard]] virtual bool reentrant() const noexcept { return false; }
-  /// Calls since the object was made; all zero when it keeps no count.
+  /// Calls since the object was made; all zero without a count.
   [[nodiscard]] virtual CallCounts counts() const noexcept { return {}; }
 
   /// The Want bits that come from the host itself; the others are found by finite differences.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host's geometry that can be trusted: every value is looked at before the engine sees it.
+// A host's geometry with verified values: every value is checked before the engine uses it.
 #pragma once
 
 #include "cad/call_counter.h"

@@ -17,11 +17,11 @@ namespace {
 
 // Steps, as shares of the parameter's range: the first one decides for a sound derivative.
 constexpr double coarse = 1e-3, fine = 1e-4;
-// Relative; hosts that approximate their derivatives are not wrong, a factor, a sign or a term that is missing is.
+// Relative. Hosts that approximate their derivatives are not wrong; a missing factor, sign or term is.
 constexpr double tolerance = 0.01;
 // Derivatives below this share of extent / range are zero.
 constexpr double negligible = 1e-3;
-// How far from a suspicious point the second opinion is sought; not along a parameter line or a diagonal.
+// Offset of the second check from a suspicious point; not along a parameter line or a diagonal.
 const Vec2 nearby{0.0131, 0.0073};
 
 /// Values along one parameter: up to two functions, each evaluated once at each offset.
@@ -73,7 +73,7 @@ double shown(double value, double size) {
   return std::round(value * unit) / unit;
 }
 
-// `components`: 3 in space, 2 in the parameter plane. Six digits are enough of a finite difference.
+// `components`: 3 in space, 2 in the parameter plane. Six digits of a finite difference are enough.
 std::string text(const Vec3& v, int components, bool rounded) {
   const double size = norm(v);
   const auto number = [&](double x) { return format_number(rounded ? shown(x, size) : x); };

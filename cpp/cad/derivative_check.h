@@ -29,8 +29,8 @@ struct WrongDerivative {
 std::vector<WrongDerivative> find_wrong_surface_derivatives(Cad& cad, int face, std::span<const Vec2> uv, Vec2 low,
                                                             Vec2 high, bool second);
 
-/// The same for curv1, and curv2 when `second`, at parameters `t` of a curve with interval `range`: 3 calls a point, 6
-/// when `second`.
+/// Compares curv1, and curv2 when `second`, at parameters `t` of a curve with interval `range`: 3 calls a point, 6 when
+/// `second`.
 std::vector<WrongDerivative> find_wrong_curve_derivatives(Cad& cad, int face, int ic, std::span<const double> t,
                                                           Interval range, bool second);
 

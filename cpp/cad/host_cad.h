@@ -8,8 +8,8 @@
 
 namespace carreau {
 
-/// The routines of a cad_m module (RT-0232 sec. 3.1), every argument by reference; `cad_init` is the registrar's
-/// business. nullptr: not there. surf0, curv_int and curv0 must be.
+/// The routines of a cad_m module (RT-0232 sec. 3.1), every argument by reference; The registrar calls `cad_init`.
+/// nullptr: the routine is missing. surf0, curv_int and curv0 are required.
 struct CadMTable {
   void (*surf0)(const std::int32_t* refs, const double* uv, double* s) = nullptr;
   void (*surf1)(const std::int32_t* refs, const double* uv, double* su, double* sv) = nullptr;

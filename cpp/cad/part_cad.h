@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host some of whose curves are used in parts.
+// A host with curves that are used in parts.
 #pragma once
 
 #include <map>

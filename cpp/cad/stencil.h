@@ -16,7 +16,7 @@ struct Stencil {
 /// Formulas of second order of accuracy; order of derivative 1 or 2.
 Stencil stencil_of(int order, Side side) noexcept;
 
-/// A step and the side on which it may be taken.
+/// A step and the side for it.
 struct DifferenceStep {
   double step = 0;
   Side side = Side::central;

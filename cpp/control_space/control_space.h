@@ -18,8 +18,8 @@
 
 namespace carreau {
 
-/// Gives the true metric at points of the domain: finite; may be semi-definite (a degenerate side): it is clamped.
-/// Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
+/// Gives the true metric at points of the domain. It must be finite; a semi-definite metric (a degenerate side) is
+/// clamped. Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
 /// Sampler of metrics and first derivatives of the surface, for lengths and directions in space.
@@ -27,14 +27,13 @@ using SurfaceSampler =
     std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric, std::span<SurfaceTangents> tangents)>;
 
 struct ControlSpaceOptions {
-  /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
-  /// the mesh.
+  /// Largest relative error of a length, where the space is checked and the cells are not much smaller than the mesh.
   double tolerance = 0.01;
   /// Samples for each vertex of the mesh to come, where errors are smaller than edges can show. From some thousand
-  /// vertices on it takes fewer.
+  /// vertices on fewer are taken.
   double samples_per_vertex = 1.5;
-  /// Samples as if the mesh were small, and the tolerance also holds in cells smaller than its edges: for gradation,
-  /// which promises something of every kink.
+  /// Samples as if the mesh were small, and the tolerance also holds in cells smaller than its edges. Gradation needs
+  /// this, because it bounds every kink.
   bool thorough = false;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
@@ -77,12 +76,12 @@ class ControlSpace {
             unit_.c * (root[1] * root[1] + root[2] * root[2])};
   }
 
-  /// With its derivatives, which jump from a leaf to the next by as little as the tolerance allows.
+  /// Also returns its derivatives, which jump between leaves by at most the tolerance.
   [[nodiscard]] MetricSlopes slopes_at(const Vec2& uv) const noexcept;
   /// Largest bend of shapes (metric/chart.h) at the middle of a leaf.
   [[nodiscard]] double largest_bend() const noexcept;
 
-  /// Lengths become so many times as large everywhere.
+  /// Multiplies all lengths by `factor`.
   void scale_lengths(double factor) noexcept;
 
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
@@ -101,7 +100,8 @@ class ControlSpace {
            table_.capacity() * sizeof(std::int32_t) + children_.capacity() * sizeof(children_[0]);
   }
 
-  /// As bytes for another process, and back. The second throws Error for bytes that are no space.
+  /// Writes a space as bytes for another process, and reads it back. Reading throws Error for bytes that are not a
+  /// space.
   void put(PacketWriter& packet) const;
   static ControlSpace from(PacketReader& packet);
 

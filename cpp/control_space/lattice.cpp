@@ -22,7 +22,8 @@ void BlockIndex::grow() {
 }
 
 bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept {
-  // Cheap and nearly always enough: the difference to the mean is small against a lower bound of its eigenvalues.
+  // A cheap test that nearly always suffices: the difference to the mean is small against a lower bound of its
+  // eigenvalues.
   const Metric2 twice = p + q, d = 2.0 * root + -1.0 * twice;
   const double bound = 0.25 * determinant(twice) / (twice.a + twice.c);
   if (bound > 0 && d.a * d.a + 2 * d.b * d.b + d.c * d.c < bound * bound) return true;

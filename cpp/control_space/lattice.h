@@ -46,7 +46,7 @@ class BlockIndex {
   }
   /// -1 when absent.
   [[nodiscard]] std::int32_t find(const Position& p) const noexcept { return slots_[slot_of(p.key)].block; }
-  /// The number of the block, and whether it is new (then it is the next one).
+  /// Returns the number of the block, and whether it is new (then it is the next one).
   std::pair<std::int32_t, bool> insert(const Position& p);
 
  private:
@@ -67,8 +67,8 @@ class BlockIndex {
   std::int32_t size_ = 0;
 };
 
-/// A value predicted from others, with the order of the error's leading term (2 linear, 3 quadratic, 4 cubic
-/// interpolation; 1: extrapolation; 0: nothing is known).
+/// A predicted value with the order of the error's leading term (2 linear, 3 quadratic, 4 cubic interpolation; 1:
+/// extrapolation; 0: unknown).
 struct Prediction {
   Metric2 root{};
   int order = 0;
@@ -90,7 +90,7 @@ class Lattice {
   [[nodiscard]] Vec2 low() const noexcept { return low_; }
   /// Extents of a coarsest cell.
   [[nodiscard]] Vec2 cell() const noexcept { return cell_; }
-  /// Parameters of a node; exact on the sides of the box, where hosts are often defined just so far.
+  /// Parameters of a node; exact on the sides of the box, because hosts are often undefined beyond.
   [[nodiscard]] Vec2 parameters(GridPoint p) const noexcept;
   /// The point at which to sample a node inside the domain: its parameters, or a point as near as rounding allows.
   [[nodiscard]] Vec2 sampling_point(std::int32_t node) const noexcept {
@@ -100,7 +100,7 @@ class Lattice {
   [[nodiscard]] Vec2 position(const Vec2& uv) const noexcept {
     return {(uv.x() - low_.x()) / cell_.x() * step_, (uv.y() - low_.y()) / cell_.y() * step_};
   }
-  /// The lower corner of the cell of the finest grid that holds a point; of the nearest one for points outside the box.
+  /// The lower corner of the cell of the finest grid that holds a point; for points outside the box, the nearest cell.
   [[nodiscard]] GridPoint unit_cell(const Vec2& uv) const noexcept {
     const Vec2 p = position(uv);
     const auto within = [](double x, std::int32_t end) {
@@ -173,11 +173,11 @@ class Lattice {
     remember(node, result);
     return result;
   }
-  /// The node itself when it has a value, sampled or predicted from two nodes at least; else -1.
+  /// The node itself when it has a value, sampled or predicted from at least two nodes; else -1.
   std::int32_t valued(std::int32_t node) {
     return nodes_[node].sampled || (inside(node) && predict(node).order >= 2) ? node : -1;
   }
-  /// The same of the node at a place, which is created when new: predictions are remembered in nodes.
+  /// As valued(), for the node at a place. It is created when new: predictions are remembered in nodes.
   std::int32_t valued_node(GridPoint p);
 
  private:

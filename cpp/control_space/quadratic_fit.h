@@ -25,7 +25,7 @@ class QuadraticFit {
     }
   }
 
-  /// Cholesky, U^T U of the reversed order; once only, it overwrites the equations.
+  /// Cholesky, U^T U of the reversed order; it overwrites the equations, so it may be called once only.
   Metric2 value_at_origin() noexcept {
     const double total = matrix_[0][0];
     for (std::size_t r = 1; r < terms; ++r)

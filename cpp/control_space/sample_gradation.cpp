@@ -219,7 +219,7 @@ class DirectedBounds {
     queue_.push(key(to), to);
   }
 
-  // From the middle between two samples, where sizes are the means.
+  // Bounds from the middle between two samples, where sizes are means.
   void bound_by_middle(std::int32_t a, std::int32_t b, std::int32_t to) {
     if (!at_[a].sound || !at_[b].sound || !at_[to].sound) return;
     const auto &p = field_.samples[a], &q = field_.samples[b], &r = field_.samples[to];

@@ -17,7 +17,7 @@ struct SurfaceTangents {
   Vec3 su{}, sv{};
 };
 
-/// Samples of a field over a parameter plane, joined by triangles; links join samples that no triangle does.
+/// Samples of a field over a parameter plane, joined by triangles; links join samples that no triangle joins.
 struct SampledField {
   struct Sample {
     Vec2 uv;

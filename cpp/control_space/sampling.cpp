@@ -145,7 +145,7 @@ Metric2 ControlSpaceSampling::root_in_cells(Metric2 boxed) const noexcept {
 
 Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept { return root_of_boxed(boxed(m)); }
 
-// Model lengths, not edges: the least metric is no bound here, or it would count in small models.
+// Model lengths, not edges: the least metric is no bound here, because it would matter in small models.
 Metric2 ControlSpaceSampling::root_of_form(Metric2 form) const noexcept { return root_in_cells(boxed(form)); }
 
 void ControlSpaceSampling::sample_roots() {
@@ -213,7 +213,7 @@ std::vector<ControlSpaceSampling::BorderPoint> ControlSpaceSampling::border_poin
     tree_->vertices_in(cell, found);
     std::erase_if(found, [this](int v) { return vertex_sampled_[v] != 0; });
     if (found.empty()) continue;
-    // One in the middle, or two at the quarters.
+    // One vertex in the middle, or two at the quarters.
     const std::size_t n = found.size();
     const std::size_t picks[2] = {n >= 4 ? n / 4 : n / 2, n >= 4 ? 3 * n / 4 : n / 2};
     for (std::size_t k = 0; k < (n >= 4 ? 2 : 1); ++k) {
@@ -314,7 +314,7 @@ double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
   return options_.tolerance * std::max(1.0, plain_width * plain_width / width2);
 }
 
-// The cells that samples amid the sides stand for are the parts.
+// Samples on the sides stand for the parts of the cell.
 bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexcept {
   if (options_.thorough) return cell.error > std::max(allowed_error(cell.vertices), options_.tolerance);
   return cell.filled ? cell.decay * cell.error > tolerated_error(0.25 * cell.vertices)
@@ -365,8 +365,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   return crowd;
 }
 
-// Fills or splits cells, and neighbours that turn out to be as bad; returns the new leaves that have points of the
-// domain.
+// Fills or splits cells, and neighbours with errors as large; returns the new leaves that have points of the domain.
 std::vector<std::int32_t> ControlSpaceSampling::refine(std::span<const std::int32_t> cells) {
   std::vector<std::int32_t> now(cells.begin(), cells.end()), fresh;
   while (!now.empty()) {

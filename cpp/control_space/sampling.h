@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides where a control space is sampled. Private to size/.
+// Decides the places at which a control space is sampled. Private to control_space/.
 #pragma once
 
 #include <array>
@@ -28,11 +28,11 @@ class ControlSpaceSampling {
                        const ControlSpaceOptions& options, Monitor& monitor);
   /// Call once, before all others.
   void run();
-  /// Call once, after run(): carreau::bound_slopes(), or that by direction, for the samples, joined in each leaf. They
-  /// must be on_surface.
+  /// Call once, after run(): applies carreau::bound_slopes(), or its version by direction, to the samples, joined in
+  /// each leaf. The samples must be on_surface.
   void bound_slopes(double slope, bool directed);
   [[nodiscard]] bool bounds_slopes() const noexcept { return slope_ != 0; }
-  /// A value predicted at a node of a leaf, made to obey the slope between it and the leaf's samples.
+  /// A value predicted at a node of a leaf, bounded by the slope between it and the leaf's samples.
   [[nodiscard]] Metric2 within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const;
 
   [[nodiscard]] Tree& tree() noexcept { return *tree_; }
@@ -53,7 +53,7 @@ class ControlSpaceSampling {
     std::int32_t node, cell;
     Metric2 expected{};
   };
-  /// A node amid a side of a cell, with the tested leaves on both sides.
+  /// A node inside a side of a cell, with the tested leaves on both sides.
   struct SideProbe {
     std::int32_t node, cell;
     int side;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of sampling that is about gradation.
+// The part of sampling for gradation.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace carreau::detail {
 
 namespace {
 
-// The nodes of a cell but its centre, counterclockwise.
+// The nodes of a cell except its centre, counterclockwise.
 constexpr int around[8] = {0, 1, 2, 5, 8, 7, 6, 3};
 
 }  // namespace
@@ -36,7 +36,7 @@ void ControlSpaceSampling::keep_border(int vertex, Metric2 metric, std::size_t r
   if (on_surface_) at_border_.push_back({vertex, told(metric, rank)});
 }
 
-// Along the boundary the middles of sides are predicted from one side only, which is off where a field has kinks.
+// Along the boundary the middles of sides are predicted from one side only, which is inexact where a field has kinks.
 void ControlSpaceSampling::sample_along_border() {
   std::vector<std::int32_t> nodes;
   std::vector<Vec2> uv;
@@ -53,7 +53,7 @@ void ControlSpaceSampling::sample_along_border() {
   for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
 }
 
-// Polynomials between samples that obey exceed the slope by the tolerance, at kinks.
+// Polynomials between bounded samples exceed the slope by the tolerance, at kinks.
 void ControlSpaceSampling::bound_slopes(double slope, bool directed) {
   slope_ = (1 - options_.tolerance) * slope;
   directed_ = directed;

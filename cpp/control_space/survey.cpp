@@ -42,8 +42,8 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
   return points;
 }
 
-// How many points of that grid are inside. Row by row, from the crossings of the boundary with the row; points that are
-// too near to it for that are located.
+// Number of points of this grid that are inside. They are counted row by row, from the crossings of the boundary with
+// the row; points too near to it are located.
 int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLocator& locator, int n) {
   const Vec2 w = s.high - s.low;
   const auto at = [&](int k, double low, double width) { return low + (k + 0.5) / n * width; };
@@ -99,7 +99,7 @@ double change(Metric2 p, Metric2 q, double floor) {
   return std::sqrt(d.a * d.a + 2 * d.b * d.b + d.c * d.c) / std::min(r.a + r.c, s.a + s.c);
 }
 
-// Change of the field along u over that along v, from metrics on the regular inner grid.
+// Change of the field along u over change along v, from metrics on the regular inner grid.
 double ratio_of_changes(std::span<const Metric2> m, double floor) {
   constexpr int n = inner_points;
   double u = least_change, v = least_change;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A first look at a domain and at the field over it, before there is a grid. Private to size/.
+// A first survey of a domain and of the field over it, before the grid is made. Private to control_space/.
 #pragma once
 
 #include <functional>

@@ -7,13 +7,13 @@
 
 namespace carreau::thresholds::control_space {
 
-// In brackets: the tests that rest on it, of tests/cpp/control_space/control_space_test ("ControlSpace") and
+// In brackets: the tests of the threshold, in tests/cpp/control_space/control_space_test ("ControlSpace") and
 // limits_test ("Limits").
 
 // The first look at the field (survey)
 /// Points. Asked on the boundary. [SmoothFields.AreReproducedFromFewSamples]
 inline constexpr std::size_t most_border_points = 8;
-/// Points. Asked inside, along each side of the box. [as above]
+/// Points. Samples inside, along each side of the box. [as above]
 inline constexpr int inner_points = 3;
 /// Points. Along each side of the box, to find the domain's share of it; no sample is taken. [Limits.AThinSliver...]
 inline constexpr int share_points = 16;
@@ -34,7 +34,7 @@ inline constexpr double least_share_of_usual = 1e-3;
 /// Share of a cell's size. Cells are so much wider when they are compared with an edge: rounding must not lose one.
 /// [Limits.SidesThatWaverByRoundingAreSides]
 inline constexpr double widening = 1e-9;
-/// Points. Asked of the host at a time. [time only]
+/// Points. Samples in one call of the host. [time only]
 inline constexpr std::size_t asked_at_once = 4096;
 /// Vertices. A cell of the first grid for so many, [samples: SmoothFields.AreReproducedFromFewSamples, as all below]
 inline constexpr double usual_vertices_per_cell = 10;
@@ -44,7 +44,7 @@ inline constexpr double many_vertices = 10'000;
 inline constexpr double least_cells = 25;
 /// Samples. Cost of a cell of a uniform grid: a node, its centre, its share of the border.
 inline constexpr double samples_per_cell = 2.4;
-/// Cells. Along a side of the first grid.
+/// Cells. Number along a side of the first grid.
 inline constexpr int least_side = 3, most_side = 1024;
 /// Units of the finest grid. Length of a side, and of a cell: places are whole numbers. [range of integers]
 inline constexpr std::int32_t most_units = 1 << 29, most_step = 1 << 20;
@@ -65,8 +65,8 @@ inline constexpr double negligible_length = 0.03;
 inline constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1;
 /// Edges. Smaller cells serve no purpose. [ControlSpace.SharpSizesAreFollowedDownToTheEdgesOfTheMesh]
 inline constexpr double least_width = 0.25;
-/// Edges. The error that is refined for whatever it costs is the tolerance in cells so wide. Below it grows with the
-/// inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
+/// Edges. In cells at least so wide, errors above the tolerance are refined at any cost. Below, the tolerated error
+/// grows with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
 inline constexpr double plain_width = 2.5;
 /// Share. Remaining part of a cell's error when its centre is known. A cubic along a side errs by half as much as a
 /// cubic for the centre, to which both directions contribute.
@@ -74,9 +74,9 @@ inline constexpr double left_by_centre = 0.5;
 /// Ratio of sizes. From here on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
 /// the shortest edges wide. [ControlSpace.SizesMayVaryAThousandfold]
 inline constexpr double much_stretched = 30;
-/// Share. A boundary sample is compared with an extrapolation that does not know it; later it takes part.
+/// Share. A boundary sample is compared with an extrapolation that does not contain it; later it takes part.
 inline constexpr double border_relief = 0.25;
-/// Shares. Errors of cells fall from a cell to its parts by at most and at least so much. [orders of a quadratic]
+/// Shares. Errors of cells fall from a cell to its parts by at most and at least this share. [orders of a quadratic]
 inline constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5;
 /// Share of the error allowed. If the expected error is smaller, no sample need confirm it.
 inline constexpr double trusted = 0.25;
@@ -91,9 +91,9 @@ inline constexpr double spare_samples = 100;
 inline constexpr double vertices_that_count = 1500;
 /// Share. and this of the others. [surface: Calls.AreAtMostFiveAVertexWhenGeometric]
 inline constexpr double share_of_others = 1.0 / 12;
-/// Samples, and samples a vertex. The same where the tolerance is violated.
+/// Samples, and samples a vertex. Limits where the tolerance is violated.
 inline constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
-/// Samples a vertex. Gradation leaves more kinks, and promises something of each. [surface: GradedModel.
+/// Samples a vertex. Gradation leaves more kinks, and bounds each of them. [surface: GradedModel.
 /// ControlSpacesObeyTheGradation]
 inline constexpr double most_graded_samples_per_vertex = 6;
 
@@ -102,12 +102,12 @@ inline constexpr double most_graded_samples_per_vertex = 6;
 inline constexpr std::size_t enough_neighbours = 10;
 /// Samples. Usual number. [memory only]
 inline constexpr std::size_t usual_neighbours = 48;
-/// Nodes. So few are gone through faster than the places of a grid are looked up. [time only]
+/// Nodes. So few nodes are searched faster one by one than by the places of a grid. [time only]
 inline constexpr std::size_t few_nodes = 400;
 /// Sizes. Reach of the neighbourhood, [ControlSpace.IsDefiniteEverywhereInTheBoxAndTakesTheNearestValueOutside, as
 /// below]
 inline constexpr double reach_in_sizes = 2.2;
-/// Share of the reach, and squared reaches. and how much the weights prefer near samples.
+/// Share of the reach, and squared reaches. and share from which the weights prefer near samples.
 inline constexpr double near_share = 0.5, softness = 0.04;
 /// Ratio. Eigenvalues of the fit over eigenvalues of its samples,
 inline constexpr double most_extrapolation = 2;
@@ -129,11 +129,11 @@ inline constexpr double directed_rounding = 1e-4;
 inline constexpr std::size_t most_normals = 16'384;
 /// Sine. Largest angle between normals of a plane, from rounding. [SampledNormals.ThoseOfAPlaneDoNotDiffer]
 inline constexpr double flat_angle = 1e-6;
-/// Samples. In a bucket of their grid. [time only]
+/// Samples. Number in a bucket of the grid. [time only]
 inline constexpr double samples_per_bucket = 2;
 /// Spacings of samples. First reach.
 inline constexpr double first_reach = 1;
-/// Ratio. From one reach to the next, which is tried when the samples are too few or on a line,
+/// Ratio. Ratio from one reach to the next, if the samples are too few or on a line,
 inline constexpr double reach_growth = 1.5;
 /// Times. so often.
 inline constexpr int most_growths = 8;
@@ -150,7 +150,7 @@ inline constexpr double least_spread = 1e-3;
 /// Share. Inner Bernstein coefficients have eigenvalues of at least this share of the eigenvalues beside them: if all
 /// coefficients are definite, the polynomial is. [ControlSpace.IsDefiniteEverywhereInTheBox...]
 inline constexpr double least_inner_share = 0.1;
-/// Steps. In which a side or a cell is straightened until it is so. [as above]
+/// Steps. Number of steps in which a side or a cell is straightened. [as above]
 inline constexpr int straightening_steps = 8;
 /// Entries of the table for each leaf, at most. [Limits.SmallMeshesTakeLittleMemory]
 inline constexpr std::size_t table_per_leaf = 2;
@@ -158,7 +158,7 @@ inline constexpr std::size_t table_per_leaf = 2;
 inline constexpr int cut_leaf_points = 4;
 
 // Undersampled regions
-/// Vertices of a unit mesh. Smaller squares may well be without any. [surface: Verification, as all below]
+/// Vertices of a unit mesh. Smaller squares may contain none. [surface: Verification, as all below]
 inline constexpr double crowd = 4;
 /// Share of the vertices. A mesh whose edges are twice as long as prescribed has a quarter; if sizes change much within
 /// an edge good meshes have half of them.

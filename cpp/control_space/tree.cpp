@@ -95,7 +95,7 @@ std::int32_t Tree::block_of(std::int32_t number) {
 
 void Tree::split(std::int32_t number) {
   cells_[number].child = size();
-  // Those of the nodes on the upper and right side belong to the cells beyond.
+  // Nodes on the upper and right side belong to the cells beyond.
   const std::int32_t own = block_of(number), right = block_of(number, 3), above = block_of(number, 1);
   const TreeCell cell = cells_[number];
   const std::int32_t half = cell.size / 2;
@@ -140,7 +140,7 @@ void Tree::join_parts(std::int32_t number) {
   for (int side = 0; side < 4; ++side) point_to_parts(number, side);
 }
 
-// All that is smaller than the cell beyond one of its sides.
+// All smaller cells beyond a side of the cell.
 void Tree::point_to_parts(std::int32_t number, int side) {
   const TreeCell cell = cells_[number];
   const std::int32_t beyond = cell.beside[side];

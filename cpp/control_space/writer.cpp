@@ -97,7 +97,7 @@ void ControlSpaceWriter::sort_leaves() {
 void ControlSpaceWriter::predict_values() {
   lattice_.forget();
   std::size_t count = 0;
-  // From fine to coarse: a node outside is extrapolated from the nearest samples that there are.
+  // From fine to coarse: a node outside is extrapolated from the nearest available samples.
   for (auto leaf = leaves_.rbegin(); leaf != leaves_.rend(); ++leaf) {
     if (++count % 1024 == 0) monitor_.checkpoint();
     const TreeCell& cell = tree_[*leaf];
@@ -110,7 +110,7 @@ void ControlSpaceWriter::predict_values() {
     };
     predict(4);
     for (const int k : detail::corners_of_cell) predict(k);
-    // A side that is half of a coarser one takes its middle from there.
+    // A side that is half of a coarser side takes its middle from there.
     for (int side = 0; side < 4; ++side)
       if (coarser_beside(cell, side) < 0) predict(detail::middles_of_sides[side]);
   }
@@ -194,7 +194,7 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
     const std::int32_t other = coarser_beside(cell, side);
     if (other < 0) continue;
     const TreeCell& coarser = tree_[other];
-    // The same side as seen from beyond: lower and upper, left and right change places.
+    // The side as seen from beyond: lower and upper, left and right change places.
     const int facing = side ^ 1;
     const Metric2 low = lattice_.value(coarser.node[detail::ends_of_sides[facing][0]]);
     const Metric2 middle = lattice_.value(coarser.node[detail::middles_of_sides[facing]]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From samples to the piecewise polynomial of a control space. Private to size/.
+// From samples to the piecewise polynomial of a control space. Private to control_space/.
 #pragma once
 
 #include <array>

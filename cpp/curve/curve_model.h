@@ -24,14 +24,14 @@ struct CurveModel {
   }
   /// Reference of the face of a use, as the routines of the host expect it.
   [[nodiscard]] int face_ref(const CurveUse& use) const { return model.faces[static_cast<std::size_t>(use.face)].ref; }
-  /// Length of the curve in space: of its first use, which defines it.
+  /// Length of the curve in space, defined by its first use.
   [[nodiscard]] double length(int index) const { return support(curve(index).uses.front()).length(); }
 };
 
 /// Parameter, in one use, of the point at fraction r of a curve's length (in the direction of the first use).
 double parameter_at(const CurveModel& model, const CurveUse& use, double r);
 
-/// The same for all uses of a curve.
+/// Parameters of this point in all uses of a curve.
 std::vector<double> parameters_at(const CurveModel& model, int curve, double r);
 
 }  // namespace carreau

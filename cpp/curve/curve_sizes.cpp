@@ -18,12 +18,12 @@ namespace {
 constexpr double longest_interval = 4;      ///< times lss
 constexpr double shortest_interval = 0.5;   ///< times lss
 constexpr double steepest_interval = 1.15;  ///< ratio of the sizes at its ends
-/// The same where the field is known exactly along the curve: edges of RR-2818 sec. 6.2 are then equal within .2 %.
+/// Limits if the field is known exactly along the curve: edges of RR-2818 sec. 6.2 are then equal within .2 %.
 constexpr double shortest_exact = 0.005, steepest_exact = 1.003;
 constexpr int initial_intervals = 4;
 constexpr std::size_t most_samples = 20'000;
 constexpr double narrowest = 1e-7;  ///< of the curve's length
-/// Steep places of a source this near to a curve, over its extent, are looked at on the curve; and how far apart.
+/// Share of its extent within which steep places of a source are sampled on the curve; and their spacing.
 constexpr double beside_curve = 0.01, steep_spacing = 0.002;
 
 /// Two samples of sizes from curvature may lie on two inflections. An interval is halved if the curve turns by more
@@ -130,7 +130,7 @@ std::vector<double> kink_fractions(const CurveModel& model, int curve, const Siz
   return fractions;
 }
 
-/// How much a curve turns, by the support of its first use.
+/// The turning of a curve, by the support of its first use.
 class Turning {
  public:
   /// If `known` is false, the curve is not evaluated.
@@ -227,7 +227,7 @@ std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules,
 double parameter_at(const CurveModel& model, const CurveUse& use, double r) {
   const CurveSupport& support = model.support(use);
   const double fraction = use.reversed ? 1 - r : r;
-  // A use without length (one point of space) has nothing but its parameter to go by.
+  // A use without length (one point of space) can only use its parameter.
   if (!(support.length() > 0)) return (1 - fraction) * support.t.front() + fraction * support.t.back();
   return support.t_at_arc(fraction * support.length());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes along a whole curve, sampled so that interpolation between samples can stand for them.
+// Sizes along a whole curve, sampled densely enough for interpolation between samples.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ struct CurveOptions {
   double lss = 0.5;
   /// Distance between two uses' images of a vertex, over its size, above which parameters are refined.
   double carry_tolerance = 1e-3;
-  /// Sizes that are known already: nothing is sampled, and sizes at the ends are these. Null: sample_sizes().
+  /// Known sizes: nothing is sampled, and these are also the sizes at the ends. Null: sample_sizes().
   const SizeSamples* known = nullptr;
 };
 

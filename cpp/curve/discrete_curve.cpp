@@ -91,7 +91,8 @@ std::vector<std::size_t> probes(const DiscreteCurve& d, const CurveModel& model,
   return chosen;
 }
 
-/// Measures how far use u puts a few vertices from where they are; refines all of its parameters when it is too far.
+/// Measures the distance of a few vertices from their images in use u; refines all of its parameters when it is too
+/// large.
 void check_use(DiscreteCurve& d, const CurveModel& model, std::size_t u, double tolerance) {
   const std::vector<std::size_t> at = probes(d, model, u);
   if (at.empty()) return;
@@ -148,7 +149,7 @@ std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double
   return cuts;
 }
 
-/// Prescribed parameters as shares of the first use's length, as far as supports know them.
+/// Prescribed parameters as shares of the first use's length, as far as supports determine them.
 std::vector<double> fractions(const CurveModel& model, const CurvePrescription& told, const Curve& curve) {
   const CurveUse& use = curve.uses[static_cast<std::size_t>(told.use)];
   const CurveSupport& support = model.support(use);

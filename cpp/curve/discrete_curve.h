@@ -36,13 +36,13 @@ struct DiscreteCurve {
 /// space exactly one. Throws the host's exceptions, LimitError.
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 
-/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. False, and nothing done,
-/// when the curve is one point of space, its edges are prescribed, or the segment cannot be divided in floating-point
-/// numbers.
+/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. Returns false, with no
+/// change, when the curve is one point of space, its edges are prescribed, or the segment cannot be divided in
+/// floating-point numbers.
 bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model, double share = 0.5);
 
-/// Puts the vertices inside a curve at other fractions of its length, ascending, strictly between 0 and 1, in every
-/// use. Nothing is done to a curve that is one point of space or whose edges are prescribed.
+/// Moves the vertices inside a curve to other fractions of its length, ascending, strictly between 0 and 1, in every
+/// use. A curve that is one point of space or whose edges are prescribed does not change.
 void place_vertices(DiscreteCurve& discrete, const std::vector<double>& inside, const CurveModel& model);
 
 }  // namespace carreau

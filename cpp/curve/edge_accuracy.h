@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How an edge of a discretised curve approximates its arc (HDR sec. 2.6).
+// Approximation of an arc by an edge of a discretised curve (HDR sec. 2.6).
 #pragma once
 
 #include <span>

@@ -10,8 +10,8 @@
 
 namespace carreau {
 
-/// s(t), the integral of |d S(C(t)) / dt| (HDR eq. 2.3), and its inverse. On a curve without kinks to some 1e-14 of its
-/// length where the host gives first derivatives, to the accuracy of finite differences where it does not.
+/// s(t), the integral of |d S(C(t)) / dt| (HDR eq. 2.3), and its inverse. On a curve without kinks it is exact to some
+/// 1e-14 of its length if the host gives first derivatives, else to the accuracy of finite differences.
 class ExactArc {
  public:
   /// Curve (face, ic), as in the cad_m routines. `t`: places between which the curve bends little, such as the samples

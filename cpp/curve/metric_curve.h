@@ -26,7 +26,7 @@ class MetricCurve {
   [[nodiscard]] V point_at(double s) const noexcept;
   /// Interpolated between the two metrics around s (RR-2818 sec. 4.3.3).
   [[nodiscard]] M metric_at(double s) const;
-  /// Length in the metric, and the points that finding it has cost.
+  /// Length in the metric, and the points that were evaluated for it.
   [[nodiscard]] MetricLengthTable gradation(double lss = 0.5) const;
   /// Abscissae of unit_edge_count() edges of equal metric length (algorithm (A) of RR-2818 sec. 4.1).
   [[nodiscard]] std::vector<double> split(double lss = 0.5) const;

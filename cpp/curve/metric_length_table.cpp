@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_edges = 20e6;
 /// Largest change of a trapezoid by halving, unit edges. An edge of unit length has some four trapezoids, whose errors
-/// are a third of it: it is true to 0.3 %.
+/// are a third of it: its error is at most 0.3 %.
 constexpr double trapezoid_tolerance = 0.002;
 
 void check_count(double l) {

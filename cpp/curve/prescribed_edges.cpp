@@ -23,7 +23,7 @@ const FaceCurve& face_curve(const CurveModel& model, const CurveUse& use) {
   return model.model.faces[static_cast<std::size_t>(use.face)].curves[static_cast<std::size_t>(use.curve)];
 }
 
-// Not the face, which would be left out for it where faces may fail: the curve can be meshed.
+// The error does not name the face, because the face would be left out where faces may fail; the curve can be meshed.
 [[noreturn]] void refuse(const CurveModel& model, const CurveUse& use, const std::string& why) {
   const Face& face = model.model.faces[static_cast<std::size_t>(use.face)];
   throw InvalidModel(Where{.curve = face_curve(model, use).ref},

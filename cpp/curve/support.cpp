@@ -31,7 +31,7 @@ int most_parts_in(int pass) noexcept { return pass == 1 ? most_parts : 4; }
 /// part too many costs one sample, a second cut doubles them all.
 double with_margin(double parts) noexcept { return parts * (1.08 + 0.01 * parts); }
 constexpr int most_passes = 60;
-/// Edges are not made narrower than this fraction of [a, b].
+/// Edges are never narrower than this fraction of [a, b].
 constexpr double narrowest = 1e-13;
 
 /// Deterministic noise in [-1, 1] (splitmix64).
@@ -127,8 +127,8 @@ class Builder {
     return i;
   }
 
-  /// Ends and middles are uniform, the samples between them pseudo-random (HDR fig. 2.2): a periodic curve is not
-  /// mistaken for a straight one.
+  /// Ends and middles are uniform, the samples between them pseudo-random (HDR fig. 2.2), so that a periodic curve is
+  /// not mistaken for a straight one.
   void start(Interval interval) {
     std::vector<double> t;
     for (int i = 0; i <= initial_edges; ++i) {
@@ -143,7 +143,7 @@ class Builder {
 
   static double lerp_t(double a, double b, double w) noexcept { return std::clamp((1 - w) * a + w * b, a, b); }
 
-  /// Evaluates the parameters (ascending, none known yet) in one batch and merges them with the samples.
+  /// Evaluates the parameters (ascending, all new) in one batch and merges them with the samples.
   void insert(const std::vector<double>& added) {
     std::vector<Vec2> uv(added.size());
     std::vector<SurfaceJet> jets(added.size());
@@ -230,7 +230,7 @@ class Builder {
     return width > narrowest * span && width > 8 * std::numeric_limits<double>::epsilon() * magnitude;
   }
 
-  /// New parameters that this pass has to add, ascending. `limited`: whether a deviation is too large.
+  /// New parameters for this pass, ascending. `limited`: set if a deviation is too large.
   [[nodiscard]] std::vector<double> wanted(int pass, bool& limited) const {
     std::vector<double> added;
     limited = false;
@@ -303,7 +303,7 @@ CurvePoint refine_t(Cad& cad, int face, int ic, const CurveSupport& support, dou
     if (!(squared > 0)) break;
     const double share = dot(target - best.xyz, chord) / squared;
     const double next = std::clamp(best.t + share * (support.t[i + 1] - support.t[i]), t_low, t_high);
-    // Another evaluation pays only when the step is a good part of the distance that remains.
+    // A further evaluation is worth its cost only when the step is a good part of the remaining distance.
     if (next == best.t || std::abs(share) * std::sqrt(squared) < 0.1 * best.distance) break;
     const CurvePoint candidate = evaluate(next);
     if (!(candidate.distance < best.distance)) break;

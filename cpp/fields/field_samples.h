@@ -24,7 +24,7 @@ struct TangentSizes {
 /// or not finite.
 TangentSizes tangent_sizes(const SurfaceJet& jet, Metric2 metric) noexcept;
 
-/// Asks at many points and goes on where the host fails: values that are missing are NaN. For one thread.
+/// Evaluates many points and goes on if the host fails: missing values are NaN. For one thread.
 class FieldSampler {
  public:
   /// `want`: bits of the jets; the bits that `prescribed` (may be null) needs are added. Keeps references.

@@ -139,7 +139,7 @@ class Painter {
   std::array<std::size_t, 11> first_{};
 };
 
-// How dark the sides of a triangle make a pixel, 0 to 1.
+// Darkness of a pixel by the sides of a triangle, 0 to 1.
 double ink_of_triangle(const std::array<Vec2, 3>& corner, const Vec2& pixel) {
   double nearest = infinity, longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {

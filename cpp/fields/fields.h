@@ -32,13 +32,13 @@ enum FieldGroup : unsigned {
   field_triangle = 128,  ///< triangle: number of the pixel's triangle in the mesh
   field_mask = 256,      ///< mask: 1 in the domain, 0 outside
   field_preview = 512,   ///< R G B A
-  /// physical.h .h1 .h2 .angle, geometric.h .h1 .h2 .angle: each by itself, clamped; model length, degrees; governs: a
+  /// physical.h .h1 .h2 .angle, geometric.h .h1 .h2 .angle: each alone, clamped; model length, degrees; governs: a
   /// SizeOrigin
   field_governs = 1024,
   all_fields = 2047,
 };
 
-/// In the channel `triangle` where there is no triangle, in `governs` where nothing is known.
+/// In the channel `triangle` a pixel without triangle, in `governs` an unknown origin.
 constexpr std::uint32_t no_triangle = 0xFFFFFFFF;
 
 struct FieldOptions {

@@ -17,9 +17,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr TangentSizes unknown{nan, nan, nan, nan};
 // Points at a time, as elsewhere.
 constexpr std::size_t batch = 1024;
-// Bounds so many times as wide bound nothing that a mesh can have; squares of their ratio are still far from overflow.
+// Bounds so many times as wide bound no size of a mesh; squares of their ratio are still far from overflow.
 constexpr double widening = 1e6;
-// Sizes that differ by a smaller share are one: metrics are decomposed to some 1e-12.
+// Sizes that differ by a smaller share are equal: metrics are decomposed to some 1e-12.
 constexpr double same_size = 1e-6;
 
 SizeParameters physical_of(SizeParameters size) {

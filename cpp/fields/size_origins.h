@@ -20,7 +20,7 @@ enum class SizeOrigin : std::uint32_t {
   gradation = 3,  ///< a place beside
 };
 
-/// The rules of a run, apart. Each may be missing: that size is ignored.
+/// The rules of a run, separately. Each may be missing: its size is ignored.
 struct OriginRules {
   /// Keeps references to its arguments. Throws the exceptions of SizeRules.
   OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
@@ -31,7 +31,7 @@ struct OriginRules {
   SizeParameters size;
 };
 
-/// At one place. All members of sizes are NaN where they are ignored or not known.
+/// Origins at one place. All members of sizes are NaN if they are ignored or unknown.
 struct OriginsAt {
   TangentSizes physical, geometric;
   std::optional<SizeOrigin> governs;  ///< of the least size in any direction; empty: not known

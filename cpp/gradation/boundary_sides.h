@@ -20,9 +20,9 @@ class BoundarySides {
 
   /// Sides that meet at a place, one entry for each edge: both ends of a side that closes there.
   [[nodiscard]] std::span<const int> at_place(int place) const noexcept;
-  /// The same of all places of a vertex.
+  /// Sides at all places of a vertex.
   [[nodiscard]] const std::vector<int>& at_vertex(int vertex) const noexcept { return at_vertex_[vertex]; }
-  /// The one of the edge on a boundary between two places.
+  /// Side of the edge on a boundary between two places.
   [[nodiscard]] std::span<const int> of_edge(int a, int b) const noexcept;
 
  private:

@@ -29,9 +29,9 @@ class EdgeSizes {
   /// Number of unit triangles in the growth zones within `extent` of each edge, in a plane. Each ring counts its area
   /// over the area of its triangles; edges beside each other share rings. An upper bound.
   [[nodiscard]] double triangles_within(double extent) const noexcept;
-  /// The same edges with sizes of at least h.
+  /// Copies the edges with sizes of at least h.
   [[nodiscard]] EdgeSizes bounded_below(double h) const;
-  /// The size at p, or `most` where it is smaller. Logarithmic in the number of edges where few of them are near.
+  /// The smaller of the size at p and `most`. Logarithmic in the number of edges where few of them are near.
   [[nodiscard]] double at(const Vec3& p, double most = infinity) const noexcept;
 
  private:

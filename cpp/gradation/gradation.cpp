@@ -92,7 +92,7 @@ class Grading {
   [[nodiscard]] Vec3 normal(int place) const noexcept { return graph_.places[place].normal; }
   [[nodiscard]] Front& front_at(int place) noexcept { return front_[graph_.places[place].vertex]; }
 
-  /// The line of a vertex as another of its places sees it; false when the surface cannot be unfolded there.
+  /// Carries the line of a vertex to another of its places; returns false when the surface cannot be unfolded there.
   bool carry(int v, int to, Vec3& line) const noexcept {
     line = front_[v].line;
     return fans_.carry(front_[v].place, to, line);

@@ -24,7 +24,7 @@ struct GradationGraph {
   std::vector<std::array<int, 2>> segments;  ///< vertices joined by a curve, for curves without triangles; may be empty
 };
 
-/// How a size comes to a place: h = source_h + slope |line|.
+/// The path of a size to a place: h = source_h + slope |line|.
 struct GradationFront {
   double source_h = 0;
   Vec3 line;  ///< from the source, in the tangent plane of the place; zero where the size is the vertex's own

@@ -38,7 +38,7 @@ struct GradedFace {
   std::vector<std::array<std::int32_t, 3>> beyond;
 };
 
-/// From `origin`, where the unit normal is given, to a point nearby: in the tangent plane and as long as the arc.
+/// Step from `origin`, where the unit normal is given, to a point nearby: in the tangent plane and as long as the arc.
 Vec3 step_on_surface(const Vec3& normal, const Vec3& chord) noexcept;
 
 /// Sizes h(x) = min over sources y of h(y) + slope |x - y| (HDR sec. 1.1.2; Borouchaki, Hecht, Frey). The sources are
@@ -59,7 +59,7 @@ class GradedField {
 
   /// Sizes by direction: `prescribed`, bounded, with its directions.
   [[nodiscard]] TangentMetric sizes(int face, const Vec2& uv, const Vec3& xyz, TangentMetric prescribed) const noexcept;
-  /// The smaller of both, interpolated: for places without a tangent plane. +infinity where nothing is bounded.
+  /// The smaller of both, interpolated: for places without a tangent plane. +infinity without a bound.
   [[nodiscard]] double smaller_size(int face, const Vec2& uv) const noexcept;
 
  private:

@@ -43,7 +43,7 @@ struct TangentMetric {
 /// The sizes of a metric of the parameter plane in the tangent plane; empty where the parametrisation is degenerate. h1
 /// is the smaller size; of equal sizes the first is along su.
 std::optional<TangentMetric> tangent_metric(const SurfaceJet& jet, Metric2 metric) noexcept;
-/// The inverse. The parametrisation must not be degenerate.
+/// The inverse conversion. The parametrisation must not be degenerate.
 Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept;
 
 /// Shrinks h2, down to h1 at most, until triangles of these sizes lean against the surface by at most `lean` (a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Narrow zones: how near boundaries come to each other, measured in space along the surface (HDR sec. 1.1.2).
+// Narrow zones: distances between boundaries, measured in space along the surface (HDR sec. 1.1.2).
 #pragma once
 
 #include <cstdint>

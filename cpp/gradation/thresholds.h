@@ -7,7 +7,7 @@
 
 namespace carreau::thresholds::gradation {
 
-// In brackets: the tests that rest on it, of tests/cpp/gradation and tests/cpp/surface/grade.
+// In brackets: the tests of the threshold, in tests/cpp/gradation and tests/cpp/surface/grade.
 
 // Fronts of one size (gradation, graded_field)
 /// Cosine. The line from a source to a vertex passes near the previous vertex if it sees both within this angle. The

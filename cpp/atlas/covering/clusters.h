@@ -24,8 +24,8 @@ std::vector<std::string> defects(const Triangulation& surface, const Fans& fans,
 /// The defect of one cluster.
 std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition,
                       const std::vector<std::int32_t>& members);
-/// 0 for a cluster without a defect whose pure zone is well star-shaped; the larger, the further from it; from 1 on, a
-/// defect.
+/// Penalty of a cluster: 0 without a defect and with a well star-shaped pure zone, larger the farther it is from that.
+/// From 1 on it is a defect.
 double cluster_badness(const Triangulation& surface, const Fans& fans, const Partition& partition,
                        const std::vector<std::int32_t>& members);
 

@@ -12,7 +12,7 @@
 
 namespace carreau::atlas {
 
-/// A corner of a triangle T: which T, and which of its corners.
+/// A corner of a triangle T: the index of T, and the corner's index.
 struct Corner {
   std::int32_t triple = 0;
   int corner = 0;
@@ -27,7 +27,7 @@ struct Chart {
   std::vector<std::int32_t> around;   ///< vertices of the region's border
 };
 
-/// Three charts that meet, counterclockwise, and which of their corners it is.
+/// Three charts that meet, counterclockwise, and the index of the corner in each.
 struct Triple {
   std::array<std::int32_t, 3> chart{0, 0, 0};
   std::array<std::int32_t, 3> slot{0, 0, 0};
@@ -46,7 +46,7 @@ class Covering {
   /// Makes the clusters itself, and divides triangles in four until clusters are found. Throws InvalidArgument (see
   /// Fans), DomainError with a vertex.
   explicit Covering(const Triangulation& surface, const CoveringOptions& options = {});
-  /// With given clusters. Throws DomainError with the vertex where they do not make a well-formed covering.
+  /// Uses given clusters. Throws DomainError with the vertex where they do not make a well-formed covering.
   Covering(const Triangulation& surface, const Partition& partition, const CoveringOptions& options);
 
   /// The covered surface: the triangulation given, or its division.
@@ -63,12 +63,12 @@ class Covering {
   };
   template <typename Number>
   [[nodiscard]] std::optional<OnT<Number>> on_t(std::size_t chart, const Pair<Number>& m) const;
-  /// Point of the chart at a corner of a T. Beyond its region, without meaning.
+  /// Point of the chart at a corner of a T. Beyond its region the result is meaningless.
   template <typename Number>
   [[nodiscard]] Pair<Number> from_t(std::int32_t triple, int corner, const Pair<Number>& place) const;
 
   [[nodiscard]] Zone zone(std::size_t chart, const Vec2& m) const;
-  /// The transition phi_ij. Empty where m is in no zone that both share.
+  /// The transition phi_ij. Empty if m is in no zone that both share.
   [[nodiscard]] std::optional<Vec2> transition(std::size_t i, std::size_t j, const Vec2& m) const;
   /// Weights of the three corners of a T at a place: they are alpha_i, and their sum is 1 (Atlas sec. 5.5.2).
   template <typename Number>

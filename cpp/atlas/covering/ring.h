@@ -11,13 +11,13 @@
 
 namespace carreau::atlas {
 
-/// An edge from a vertex of the cluster to one of another cluster.
+/// An edge from a vertex of the cluster to a vertex of another cluster.
 struct Spoke {
   std::int32_t inner = 0, outer = 0;
   double phi = 0;  ///< set by the covering
 };
 
-/// Triangles that touch a cluster and lie not inside of it, counterclockwise: triangle k is between spokes k and k + 1.
+/// Triangles that touch a cluster and are not inside it, counterclockwise: triangle k is between spokes k and k + 1.
 struct Ring {
   std::vector<Spoke> spokes;
   std::vector<std::size_t> triples;        ///< triangles of three clusters, ascending

@@ -13,7 +13,7 @@
 namespace carreau::atlas {
 namespace {
 
-/// A direction from the centre of the pure zone and the phi that it has.
+/// A direction from the centre of the pure zone and its phi.
 struct Bearing {
   double angle, phi;
 };

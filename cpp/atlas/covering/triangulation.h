@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A closed triangulated surface and who is beside whom.
+// A closed triangulated surface and its neighbourhoods.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 
 namespace carreau::atlas {
 
-/// S(m) = sum of alpha_j(phi_ij m) P_j(phi_ij m): the same point whatever the chart that m is given in.
+/// S(m) = sum of alpha_j(phi_ij m) P_j(phi_ij m): the point does not depend on the chart of m.
 class BlendedSurface {
  public:
   explicit BlendedSurface(Covering covering);

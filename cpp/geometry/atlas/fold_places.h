@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places at which the blended surface is looked at for folds.
+// Places at which the blended surface is checked for folds.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace carreau::atlas {
 
-/// A place as all charts that count there see it.
+/// A place with its coordinates and weights in all charts that count there.
 struct FoldPlace {
   struct Share {
     std::size_t chart = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Primitives moved until the blended surface is nowhere turned over.
+// Moves primitives until the blended surface is nowhere turned over.
 #pragma once
 
 #include <vector>

@@ -6,8 +6,8 @@
 
 namespace carreau::atlas {
 
-/// Three cubic polynomials of the chart's coordinates. A quadratic height field to begin with; where neighbours
-/// disagree places move along the plane, too: the transitions between charts are no projections.
+/// Three cubic polynomials of the chart's coordinates. It starts as a quadratic height field. If neighbours disagree
+/// places move along the plane, too: the transitions between charts are no projections.
 struct Primitive {
   static constexpr int terms = 10;
   template <typename Number>

@@ -25,7 +25,7 @@ class BezierCad final : public Cad {
   std::optional<double> curve_radius(int face, int ic, double t) override;
   [[nodiscard]] bool reentrant() const noexcept override { return true; }
 
-  /// Throws InvalidArgument when there is no such face.
+  /// Throws InvalidArgument when the face does not exist.
   [[nodiscard]] const BezierPatch& patch(int face) const;
 
  private:

@@ -16,7 +16,7 @@ inline constexpr int bezier_sides = 4;
 
 struct BezierPatches {
   std::vector<BezierPatch> patches;
-  /// References of the sides of each patch; empty: to be found in space, by gluing.
+  /// References of the sides of each patch; empty: gluing finds them in space.
   std::vector<std::array<int, bezier_sides>> side_refs;
 };
 

@@ -36,7 +36,7 @@ class DiscreteCad final : public Cad {
   std::int32_t width_;
 };
 
-/// Evaluator, and a model with faces only (Face::discrete): one each reference of face_refs().
+/// Evaluator, and a model with faces only (Face::discrete): one for each reference of face_refs().
 BuiltGeometry discrete_geometry(std::shared_ptr<const DiscreteSurface> surface);
 
 }  // namespace carreau::discrete

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes triangles without area out of a surface without opening it.
+// Removes triangles without area from a surface without opening it.
 #pragma once
 
 #include <array>

@@ -70,7 +70,7 @@ SurfaceJet second_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
     add(jet, 4 * (b2[i] * ij), patch.border[4 * i + 1]);
     add(jet, 6 * (ij * ij), patch.border[4 * i + 2]);
     add(jet, 4 * (ij * b2[j]), patch.border[4 * i + 3]);
-    // Beside corner i: of side i, which keeps its planes where b(k) is 0, and of side k, where b(j) is.
+    // Weights beside corner i: for side i, which keeps its planes where b(k) is 0, and for side k, where b(j) is 0.
     const Jet weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
     add(jet, weight * share, patch.inner[2 * i]);
     add(jet, weight * rest_of(share), patch.inner[2 * k + 1]);

@@ -23,7 +23,7 @@ struct GregoryTriangle {
   /// end.
   std::array<Vec3, 6> inner;
 
-  /// Exact up to second derivatives, which have no limit at corners: there it is that along the bisector.
+  /// Exact up to second derivatives. They have no limit at corners: there the limit along the bisector is taken.
   [[nodiscard]] SurfaceJet at(Vec2 uv, unsigned want) const noexcept;
   /// Largest distance between corresponding control points of the patch and of the flat triangle. It bounds the
   /// distance between points of the patch and of the triangle with equal (u, v), in both directions.

@@ -95,7 +95,7 @@ class SectorNormals {
     return normal;
   }
 
-  // How far edges leave the tangent plane at most.
+  // Largest distance of edges from the tangent plane.
   [[nodiscard]] std::vector<double> lifts(const std::vector<Vec3>& normal) const {
     std::vector<double> lift(first_.size(), 0);
     for (std::size_t c = 0; c < first_.size(); ++c)
@@ -104,7 +104,7 @@ class SectorNormals {
     return lift;
   }
 
-  // How far triangles that turn the normal extend at least in the direction in which they turn it.
+  // Least extent of triangles that turn the normal, in the direction of the turn.
   [[nodiscard]] std::vector<double> reaches(const std::vector<Vec3>& normal) const {
     std::vector<double> reach(first_.size(), infinity);
     for (std::size_t c = 0; c < first_.size(); ++c) {
@@ -173,8 +173,8 @@ Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
   return z;
 }
 
-/// The inner points of the curve of a sharp edge no farther inside the triangles of the edge than halfway to the other
-/// sides. A curve beyond these would fold patches, or bend long edges there.
+/// Moves the inner points of the curve of a sharp edge no farther inside the triangles of the edge than halfway to the
+/// other sides. A curve beyond these would fold patches, or bend long edges there.
 Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept {
   for (const Side& side : mesh.sides(e)) {
     const std::int32_t first = mesh.corner(side.triangle, side.side);

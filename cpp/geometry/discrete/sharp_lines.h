@@ -21,7 +21,7 @@ struct SharpOptions {
   std::vector<std::int32_t> corners = {};  ///< ascending: vertices on lines that are corners however these turn
 };
 
-/// Edges from corner to corner, or all around.
+/// Edges from corner to corner, or a closed line.
 struct Line {
   std::vector<std::int32_t> vertices;  ///< the first one again at the end of a closed line without corners
   std::vector<std::int32_t> edges;     ///< indices in Triangulation::edges

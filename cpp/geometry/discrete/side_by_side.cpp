@@ -52,7 +52,7 @@ class Joiner {
     return static_cast<std::size_t>(std::ranges::upper_bound(first_, v) - first_.begin()) - 1;
   }
 
-  // Vertices that one surface has several of at a place were kept so: only its first one is joined to others.
+  // One surface may have several vertices at a place: only the first one is joined to other surfaces.
   void join() {
     number_.resize(flat_.vertices.size());
     std::iota(number_.begin(), number_.end(), 0);

@@ -9,10 +9,10 @@ namespace carreau::discrete::thresholds {
 inline constexpr double flat_height = 1e-12;
 
 // Sharp angle
-/// Degrees: where the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
+/// Degrees: if the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
 inline constexpr double usual_sharp = 45;
 /// Degrees: flatter edges are no features, wherever the gap is. Tessellations of CAD programs turn by up to 12 (.2 rad)
-/// with usual settings; kinks of less move a surface little.
+/// with usual settings; smaller kinks move a surface little.
 inline constexpr double min_sharp = 20;
 /// Degrees: the width of a gap.
 inline constexpr double gap_width = 5;
@@ -58,7 +58,7 @@ inline constexpr double lower_lift = 0.5;
 /// Times the largest bulge of the borders of a patch: no inner point is farther from its place in the flat triangle. On
 /// bunny.off it is 2.2 at the 99th percentile, on spot.obj 2 at most; on needles it is up to the ratio of sides.
 inline constexpr double max_inner_bulge = 3;
-/// Heights of the triangle: no inner point of a patch is shifted farther along the triangle. They lie a quarter of it away
+/// Heights of the triangle: no inner point of a patch is shifted farther along the triangle. Inner points lie a quarter of the height away
 /// from the sides.
 inline constexpr double max_inner_shift = 0.25;
 /// Sine of the angle between the normals beside a line: below, their cross product is no tangent of it.

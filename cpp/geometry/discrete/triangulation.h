@@ -32,7 +32,7 @@ struct Findings {
   std::vector<std::string> sentences = {};
 };
 
-/// A side of a triangle that an edge is.
+/// An edge as a side of a triangle.
 struct Side {
   std::int32_t triangle;
   int side;  ///< from this corner to the next one
@@ -60,7 +60,7 @@ class Triangulation {
   [[nodiscard]] std::int32_t edge(std::int32_t triangle, int side) const {
     return edge_[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(side)];
   }
-  /// All sides that an edge has; two on most edges.
+  /// All sides of an edge; most edges have two.
   [[nodiscard]] std::span<const Side> sides(std::int32_t edge) const;
   /// The other triangle on a side with exactly two that agree; triangle -1: none.
   [[nodiscard]] Side beyond(std::int32_t triangle, int side) const;
@@ -74,8 +74,8 @@ class Triangulation {
   [[nodiscard]] Vec3 normal(std::int32_t triangle) const;
   /// Angle of a triangle at a corner, radians.
   [[nodiscard]] double angle(std::int32_t triangle, int k) const;
-  /// Between the normals of the two triangles of an edge, degrees; 180 on edges with other than two, or two that run
-  /// the same way.
+  /// Angle between the normals of the two triangles of an edge, degrees. It is 180 on edges with other than two, or two
+  /// that run in one direction.
   [[nodiscard]] double bend(std::int32_t edge) const;
   [[nodiscard]] double diagonal() const;
 

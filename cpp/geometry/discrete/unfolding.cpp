@@ -100,8 +100,8 @@ class Unfolder {
     return folded;
   }
 
-  /// Shares the sum of the angles of a window out in the ratio of their sizes; false where nothing is folded, or
-  /// nothing can be done.
+  /// Distributes the sum of the angles of a window in the ratio of their sizes. Returns false if nothing is folded, or
+  /// the window cannot be unfolded.
   bool mend(const Fan& fan) {
     const std::vector<double> beta = turns(fan);
     const std::size_t n = beta.size();

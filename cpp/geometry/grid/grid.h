@@ -34,7 +34,7 @@ struct Block {
   [[nodiscard]] bool has_cell(int i, int j) const {
     return has(i, j) && has(i + 1, j) && has(i, j + 1) && has(i + 1, j + 1);
   }
-  /// "block 3, cell (2, 5)": numbers from 1.
+  /// Returns "block 3, cell (2, 5)": numbers from 1.
   [[nodiscard]] static std::string place(std::size_t block, int i, int j);
 };
 
@@ -52,7 +52,7 @@ struct Smoothing {
 
 struct Options {
   Smoothing smoothing{};
-  /// Parameters are cumulated mean lengths of edges (HDR sec. 4.7.3) and not the integers.
+  /// Parameters are cumulated mean lengths of edges (HDR sec. 4.7.3) instead of integers.
   bool lengths = false;
   /// Blocks whose normals differ by less than this (radians) along a common border get one tangent plane there. 0: each
   /// block has its own derivatives, and they meet with G0.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missing nodes that have others all around them.
+// Holes: missing nodes with nodes all around them.
 #pragma once
 
 #include <cstddef>

@@ -147,7 +147,7 @@ class Interpolator {
   }
 
   [[nodiscard]] bool is_smooth(const EdgeUse& a, const EdgeUse& b) const {
-    // Faces on both sides of an edge run along it against one another when they are turned alike.
+    // Faces on both sides of an edge run along it in opposite directions when they have one orientation.
     const Place start = place(a, a.edge.start()), end = place(a, a.edge.end());
     const double turned = point(start) == point(place(b, b.edge.start())) ? -1 : 1;
     for (const Place& at : {start, end}) {
@@ -213,7 +213,7 @@ class Interpolator {
     }
   }
 
-  /// Sv differenced along u and Su along v, [block][node]: the same inside.
+  /// Sv differenced along u and Su along v, [block][node]: equal inside a block.
   struct Twists {
     std::vector<Vec3> uv, vu;
     [[nodiscard]] const Vec3& along(const BorderEdge& edge, std::size_t node) const {

@@ -67,7 +67,7 @@ bool is_smooth(const Block& block, bool columns) {
   return block.measured == Measured::radii || sum < thresholds::closed_turn * count;
 }
 
-/// Nodes of a line without missing ones, node k at first + k * step.
+/// Successive present nodes of a line, node k at first + k * step.
 struct Run {
   std::size_t first, step, count;
   bool closed;  ///< a whole closed line, without the node that repeats its first one

@@ -25,7 +25,7 @@ struct Closed {
 };
 Closed closed_directions(const Block& block, double tolerance);
 
-/// All rows, then all columns, smoothing.rounds times. Missing nodes end a line. Asks the monitor between rounds.
+/// All rows, then all columns, smoothing.rounds times. Missing nodes end a line. Looks for a stop between rounds.
 void smooth_block(Block& block, const Closed& closed, const Smoothing& smoothing, Monitor& monitor);
 
 }  // namespace carreau::grid

@@ -42,7 +42,7 @@ struct Arc {
   int start = -1, end = -1;  ///< vertices; -1: the whole circle
   double a = 0, b = 0;
   /// True if the arc is at most a millionth of the smaller radius long: a model has a point in its place. Arcs of small
-  /// loops without longer arcs are not tiny.
+  /// loops with a longer arc are never tiny.
   bool tiny = false;
 
   [[nodiscard]] bool whole() const { return start < 0; }

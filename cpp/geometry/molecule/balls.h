@@ -15,7 +15,7 @@ struct Ball {
   double radius = 0;
 };
 
-/// A unit vector at a right angle to a unit vector, by a rule.
+/// A unit vector orthogonal to a unit vector, by a fixed rule.
 Vec3 across(const Vec3& unit);
 
 /// Throws InvalidArgument, naming the ball (from 1), for a centre or a radius that is not finite. Also for a radius

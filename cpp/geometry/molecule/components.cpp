@@ -7,7 +7,7 @@ namespace carreau::molecule {
 
 namespace {
 
-/// Which arc a vertex has on the circle of its balls 0 and 1, 0 and 2, 1 and 2.
+/// The arc of a vertex on the circle of its balls 0 and 1, 0 and 2, 1 and 2.
 using ArcsAt = std::vector<std::array<int, 3>>;
 
 int slot_of(const Vertex& v, const Circle& circle) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From where an exposed part of a sphere is projected.
+// Centres from which exposed parts of spheres are projected.
 #pragma once
 
 #include "geometry/molecule/arrangement.h"

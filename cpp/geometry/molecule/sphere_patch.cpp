@@ -8,7 +8,7 @@ namespace carreau::molecule {
 
 SpherePatch::SpherePatch(const Ball& ball, const Vec3& pole, std::vector<SpaceArc> border, Side side)
     : ball_(ball), x_(across(pole)), z_(pole), border_(std::move(border)) {
-  // Opposite the pole Su x Sv = x cross y, which is outwards there.
+  // Opposite the pole Su x Sv = x cross y, which points outwards there.
   y_ = side == Side::outer ? cross(x_, z_) : cross(z_, x_);
 }
 

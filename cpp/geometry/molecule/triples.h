@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of three spheres, and whether balls cover points. Steps of arrange().
+// Points of three spheres, and tests whether balls cover points. Steps of arrange().
 #pragma once
 
 #include <vector>
@@ -32,7 +32,7 @@ struct CoverTest {
   [[nodiscard]] Cover of(const Vec3& p, std::span<const int> but, int& doubtful_ball) const;
 };
 
-/// The points of spheres i < j < k, of all j and k for one i, that no ball covers: appended.
+/// Appends the points of spheres i < j < k, of all j and k for one i, that no ball covers.
 void find_vertices(std::span<const Ball> balls, const Neighbours& neighbours, int i, std::vector<Vertex>& vertices,
                    Doubts& doubts);
 

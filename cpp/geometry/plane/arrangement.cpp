@@ -14,9 +14,9 @@ namespace carreau {
 
 namespace {
 
-/// Share of the diagonal within which a rounded crossing is a point that is there: some ulps of its coordinates.
+/// Share of the diagonal within which a rounded crossing is an existing point: some ulps of its coordinates.
 constexpr double same_point = 4e-13;
-/// Rounds of division: the pieces of one may cross by rounding in the next one.
+/// Rounds of division: the pieces of a round may cross by rounding in the next one.
 constexpr int max_rounds = 20;
 
 bool between(const Vec2& a, const Vec2& b, const Vec2& p) noexcept {
@@ -90,7 +90,7 @@ class Arranger {
     input_.curves = std::move(kept);
   }
 
-  /// Divides all segments at the points that they meet; false: they meet at their ends alone.
+  /// Divides all segments at the points that they meet; returns false if they meet at their ends alone.
   bool divide() {
     const std::size_t n = input_.curves.size();
     if (n == 0) return false;

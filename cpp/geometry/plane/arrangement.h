@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrangement of segments of a plane domain: a point where two of them meet.
+// The arrangement of segments of a plane domain: segments meet only at points.
 #pragma once
 
 #include <cstddef>

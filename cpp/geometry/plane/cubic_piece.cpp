@@ -34,7 +34,7 @@ Roots roots_inside(double p, double q, double r, double a, double b) noexcept {
   return found;
 }
 
-/// Halving and cutting at extrema ends long before: each cut leaves less than half of the bend (README).
+/// Halving and cutting at extrema ends long before this depth: each cut leaves less than half of the bend (README).
 constexpr int deepest = 60;
 
 class Subdivision {
@@ -45,7 +45,7 @@ class Subdivision {
     const Vec2 from = piece_.at(a);
     const Vec2 chord = piece_.at(b) - from;
     const double d = norm(chord);
-    // A closed piece has no chord to be turned along; any direction serves to cut it.
+    // A closed piece has no chord as direction; any direction serves to cut it.
     const Vec2 along = d > 0 ? Vec2(chord / d) : Vec2{1, 0};
     const auto height = [&](double t) { return std::abs(cross(along, Vec2(piece_.at(t) - from))); };
     // g_y' = cross(along, f')  (RR-2818 sec. 3.4)

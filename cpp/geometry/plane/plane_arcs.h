@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curves of a plane domain, cut where others end, and polylines that stand for them.
+// The curves of a plane domain, cut where others end, and polylines that approximate them.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A domain of the plane as arrays or a file give it: points, curves through them, and on which side it lies.
+// A domain of the plane from arrays or a file: points, curves through them, and sides of curves.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which faces of a plane graph are subdomains.
+// Selects the faces of a plane graph that are subdomains.
 #pragma once
 
 #include <vector>

@@ -15,7 +15,8 @@ constexpr int unknown = -3;
 
 bool comes_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
-/// Half-planes of directions, so that a turn by less than half a circle compares two of one: 0 above, 1 below.
+/// Half-planes of directions: 0 above, 1 below. A turn by less than half a circle compares two directions of one
+/// half-plane.
 int half_plane(const Vec2& d) noexcept { return d.y() > 0 || (d.y() == 0 && d.x() > 0) ? 0 : 1; }
 
 }  // namespace
@@ -154,13 +155,13 @@ int PlaneGraph::half_edge_above(int edge) const noexcept {
   return 2 * e.arc + (runs_right ? 0 : 1);
 }
 
-// The face that a loop around the outside of a component lies in.
+// The face that contains a loop around the outside of a component.
 int PlaneGraph::container_of(int loop) {
   if (face_of_loop_[loop] != unknown) return face_of_loop_[loop];
   const int component = component_[first_of_loop_[loop] / 2];
   bool on_it = false;
   const int below = edge_below(leftmost_[component].at, component, on_it);
-  // Components come one after another to the left: no ring.
+  // Components follow one another to the left: no cycle.
   const int face = below < 0 ? unbounded : container_of(loop_[half_edge_above(below)]);
   return face_of_loop_[loop] = face;
 }

@@ -11,7 +11,7 @@ namespace {
 /// Chords of each piece: they give the lengths of curves.
 constexpr int steps = 32;
 
-/// From the start of an arc, at t = 0, 1 / steps, ...
+/// Lengths from the start of an arc, at t = 0, 1 / steps, ...
 std::vector<double> lengths_of(const PlaneArc& arc) {
   std::vector<double> lengths{0};
   Vec2 before = arc.polyline.front();

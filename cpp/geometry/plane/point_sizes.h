@@ -10,11 +10,11 @@
 
 namespace carreau {
 
-/// Values at points hold at these points. Along a curve they vary with its length between the points it passes that
-/// have some, and are constant beyond the first and the last one. Inside faces there is no answer.
+/// Values at points hold at these points. Along a curve they vary with its length between its points with values, and
+/// are constant beyond the first and the last one. Inside faces there is no answer.
 class PointSizes final : public PrescriptionSource {
  public:
-  /// `points`: indices of points by the references that the model gives them.
+  /// `points`: indices of points by their references in the model.
   PointSizes(const PlaneDomainInput& input, std::shared_ptr<const PlaneCad> cad, std::map<int, int> points);
 
   [[nodiscard]] std::string name() const override { return "the sizes at the points of the plane domain"; }

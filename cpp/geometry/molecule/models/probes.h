@@ -54,7 +54,7 @@ struct Tips {
 std::vector<ProbeCrossing> find_crossings(const Arrangement& arrangement, std::span<const ProbeTriangle> probes,
                                           std::span<const Tips> tips, NextReferences& next);
 
-/// The parts of one probe's sphere: `sides` are pieces of the triangle's border. Nothing when pieces do not close.
+/// The parts of one probe's sphere: `sides` are pieces of the triangle's border. Empty when pieces do not close.
 std::optional<std::vector<ProbePart>> parts_of_probe(int vertex, const ProbeTriangle& triangle,
                                                      std::vector<ProbeArc> pieces,
                                                      const std::function<bool(const Vec3&)>& bare);

@@ -140,7 +140,7 @@ class ExcludedBuilder {
         }
   }
 
-  /// A contact circle as the border of a convex part: the circle of the grown balls drawn to the centre.
+  /// Adds a contact circle as the border of a convex part: the circle of the grown balls shrunk to the centre.
   void add_contacts(const ArcUse& use, double share, Face& face, std::vector<SpaceArc>& border) {
     if (a_.arcs[use.arc].tiny) return;
     SpaceArc arc = a_.space_arc(use);
