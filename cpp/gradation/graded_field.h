@@ -24,17 +24,17 @@ struct GradedFace {
   std::vector<GradationFront> front;
   std::vector<TangentMetric> metric;  ///< graded, where sizes differ by direction: then h and front are empty
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counterclockwise in (u, v)
-  /// By triangle: bit i is set when the side from corner i to the next one lies on a curve. Sizes between the corners
-  /// of such a side are interpolated.
+  /// For each triangle: bit i is set when the side from corner i to the next one lies on a curve. Sizes between the
+  /// corners of such a side are interpolated.
   std::vector<std::uint8_t> on_curve;
-  /// By triangle: true if the prescribed sizes inside agree with its corners, and count. Otherwise the corners alone
-  /// count, because sizes that jump between samples obey no gradation.
+  /// For each triangle: true if the prescribed sizes inside agree with its corners, and count. Otherwise the corners
+  /// alone count, because sizes that jump between samples obey no gradation.
   std::vector<std::uint8_t> smooth;
   std::vector<Vec2>
       size_minima;  ///< vertices whose size is smaller than all around allow: points that control spaces miss
   TriangleTree tree;
-  /// By triangle: the third corners of its neighbours across its sides, in their order; -1: no neighbour. Filled by
-  /// GradedField.
+  /// For each triangle: the third corners of its neighbours across its sides, in their order; -1: no neighbour. Filled
+  /// by GradedField.
   std::vector<std::array<std::int32_t, 3>> beyond;
 };
 

@@ -16,7 +16,7 @@ void smooth_line(std::span<double> values, bool closed, const Smoothing& smoothi
 /// Smooths points; each neighbour has the distance of the other neighbour as weight (`moyenne` of HDR sec. 4.7.1).
 void smooth_line(std::span<Vec3> points, bool closed, const Smoothing& smoothing);
 
-/// Whether the first and the last column (or row) of a block have equal points to `tolerance`, and its lines go on
+/// Flags that the first and the last column (or row) of a block have equal points to `tolerance`, and its lines go on
 /// smoothly there. Scans always do; other lines turn by less than thresholds::closed_turn in the mean. The trailing
 /// edge of a wing stays sharp.
 struct Closed {
