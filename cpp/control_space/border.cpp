@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::control_space;
 
-// Keeps a root between these bounds of the eigenvalues of others; they are found only if it may be outside.
+// Clamps a root to bounds by the eigenvalues of `near`. The bounds are computed exactly only if it may be outside.
 template <class Samples>
 Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
   // Bounds for each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant

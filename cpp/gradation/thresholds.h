@@ -10,8 +10,9 @@ namespace carreau::thresholds::gradation {
 // In brackets: the tests of the threshold, in tests/cpp/gradation and tests/cpp/surface/grade.
 
 // Fronts of one size (gradation, graded_field)
-/// Cosine. The line from a source to a vertex passes near the previous vertex if it sees both within this angle. The
-/// six neighbours of a vertex of a good mesh leave at most 30 degrees. [Gradation.ConeOnATriangulationOfVaryingSize]
+/// Cosine. A front goes straight on over a vertex if the line from its source and the edge to the next vertex make at
+/// most this angle. The six neighbours of a vertex of a good mesh leave at most 30 degrees.
+/// [Gradation.ConeOnATriangulationOfVaryingSize]
 inline constexpr double seen_from_beside = 0.7;
 /// Cosine. Lines that agree so well are one wave from a line of sources, not two cones.
 /// [Gradation.RidgeBetweenTwoSourcesAndPlaneWaveFromALine]

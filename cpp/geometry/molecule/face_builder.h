@@ -15,7 +15,7 @@ class FaceBuilder {
 
   /// Adds a part of a ball, with the number of its atom, or as a part of the face with this number. By ball.
   void add_part_of_ball(int ball, Face face, std::unique_ptr<const Patch> patch);
-  /// Adds a face that no part shares; `ball` gives the name.
+  /// Adds a face with a new reference; `ball` gives the name.
   void add_own(int ball, Face face, std::unique_ptr<const Patch> patch);
 
   /// Adds two hemispheres of a sphere about a ball's centre. They have curves `curve` and the next one, points `point`
