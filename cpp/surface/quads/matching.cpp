@@ -179,7 +179,7 @@ class Matching {
     best_path_ = path_;
     best_is_circle_ = circle;
   }
-  // Rejects a path from a triangle that keeps its own pair, unless it closes.
+  // Returns whether the path leaves its first triangle by a new pair: such a path is valid only if it closes.
   [[nodiscard]] bool starts_with_new_pair() const {
     const std::int32_t first = path_.triangle[0];
     return path_.size > 1 && other(chosen_[first], first) != path_.triangle[1];
