@@ -28,8 +28,8 @@ void mesh_discretised(CompositeRun& run) {
   assemble_patches(run);
 }
 
-// Neighbours of vanishing faces are meshed without their end caps. Where a face cannot vanish, all faces are meshed with
-// end caps, and as many vanish as can.
+// Neighbours of vanishing faces are meshed without their end caps. If a face cannot vanish, meshes all faces with end
+// caps, and then removes as many narrow faces as possible.
 void mesh_without_narrow(CompositeRun& run) {
   const std::vector<DiscreteCurve> before = run.curves;
   mesh_discretised(run);

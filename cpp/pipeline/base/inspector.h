@@ -23,7 +23,7 @@ struct RefinementRequests {
   bool patch_elements = false;   ///< patches place their vertices for quadrilaterals, and the mesh keeps them
 };
 
-/// One kind of fault that a finer mesh can mend.
+/// One kind of fault that a finer mesh can repair.
 class Inspector {
  public:
   virtual ~Inspector() = default;

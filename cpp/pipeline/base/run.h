@@ -64,7 +64,8 @@ struct CompositeRun {
   RefinedDomains domains;                         ///< refine_boundaries()
   std::vector<NarrowPatch> between;               ///< the same; of narrow.strips
   std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
-  /// The process that keeps each patch, which is empty elsewhere: all_have where patches do not stay; no_process: there is none.
+  /// The process that owns each patch; other processes hold an empty one. all_have: patches are not distributed; no_process: the
+  /// patch has no owner.
   std::vector<int> keeper;
   std::map<std::size_t, std::string> remarks;     ///< the same; remarks on faces that were meshed
   CompositeResult result;                         ///< assemble_patches()
@@ -76,7 +77,8 @@ struct CompositeRun {
   bool trying = false;
 };
 
-/// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws what the host throws, LimitError and Cancelled.
+/// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws the host's exceptions, LimitError and
+/// Cancelled.
 
 /// Grades the prescribed sizes of the whole model if a gradation is given. One size everywhere keeps every gradation.
 void grade_sizes(CompositeRun& run);

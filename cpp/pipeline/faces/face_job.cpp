@@ -26,8 +26,8 @@ namespace {
 
 using namespace thresholds::patches;
 
-/// True if the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
-/// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
+/// True if the surface jumps between two places. Halves the edge repeatedly, taking the longer half: on a continuous
+/// surface the chord shrinks, even if derivatives vanish at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
   const double whole = norm(q - p);
@@ -226,7 +226,7 @@ bool FaceJob::sample_bounded(Monitor& monitor) {
   return space_->measure() <= std::min(most, static_cast<double>(options_.max_triangles));
 }
 
-// False: there is none.
+// Returns false if there is none.
 bool FaceJob::take_best(Monitor& monitor) {
   if (!best_) return false;
   const SurfaceAgreement agreement = best_->agreement;
@@ -276,7 +276,7 @@ void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
   even->cad = reparametrised(*cad_, input_.ref, even->map);
   even->rules.emplace(rules_->asking(*even->cad));
   even->host_domain = input_.domain, even->host_cad = cad_, even->host_rules = rules_;
-  input_.limits.field = nullptr;  // it knows nothing of such faces, or (u, v) only
+  input_.limits.field = nullptr;  // the field does not know such faces, or depends on (u, v) only
   input_.domain = &even->domain, cad_ = even->cad.get(), rules_ = &*even->rules;
   even_ = std::move(even);
 }

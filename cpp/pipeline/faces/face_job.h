@@ -19,7 +19,8 @@
 
 namespace carreau {
 
-/// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. The mesh step alone calls no host.
+/// Samples, meshes and lifts; repeats the last two while the lift finds details that the sampling has missed. The mesh step
+/// alone calls no host.
 class FaceJob final : public SteppedTask {
  public:
   /// Keeps references to `cad` and `options`.
@@ -101,7 +102,7 @@ class FaceJob final : public SteppedTask {
   bool evened_out_ = false;     // once is enough
   std::optional<ControlSpace> space_;
   SampledNormals normals_;
-  /// The best mesh so far, while another one is tried.
+  /// The best mesh so far, while the job makes another mesh.
   struct Attempt {
     PatchMesh mesh;
     ControlSpace space;

@@ -16,8 +16,8 @@ struct FaceGap {
   Vec3 place;          ///< between the points of that distance
 };
 
-/// Looks for a common point first, by Newton's method on both tangent planes. If there is none over the two triangles,
-/// projects points of one face to the other by turns. Throws what the host throws.
+/// Looks for a common point first, by Newton's method on both tangent planes. If the two triangles have no common
+/// point, projects points from one face to the other in turn. Throws the host's exceptions.
 FaceGap measure_gap(Cad& cad, const FaceTriangle& s, const FaceTriangle& t, const Vec3& place);
 
 }  // namespace carreau

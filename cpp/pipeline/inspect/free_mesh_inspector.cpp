@@ -57,7 +57,7 @@ struct Made {
   double shape = 0;            ///< mean
   double elements = 0;
 
-  /// Faults that smaller elements may mend.
+  /// Faults that smaller elements may repair.
   [[nodiscard]] std::size_t faults() const noexcept { return invalid + crossings.fresh.size(); }
 };
 
@@ -225,7 +225,7 @@ class FreeMeshInspector final : public Inspector {
   From from_ = From::remeshing;
   int round_ = 0;
   bool is_first_ = true;
-  bool is_free_ = false;      // the mesh of now
+  bool is_free_ = false;      // the current mesh
   Made now_;                  // the same
   InvalidInSpace invalid_;    // the same
   Messages messages_;         // the same

@@ -14,8 +14,8 @@
 
 namespace carreau {
 
-/// Rows of `mesh`: own triangles first, ascending by their numbers in the whole mesh, then ghosts: the triangles of other processes
-/// that have a vertex of an own one. Own vertices first, then those of other processes, both ascending.
+/// Rows of `mesh`: own triangles first, ascending by their numbers in the whole mesh, then ghosts. Ghosts are triangles of other
+/// processes that have an own vertex. Own vertices come first, then vertices of other processes, both ascending.
 struct PartMesh {
   int rank = 0, processes = 1;
   FlatMesh mesh;  ///< without faces and fields; edges of curves, each in one of the parts
@@ -42,8 +42,8 @@ inline std::string needs_whole_mesh(const std::string& what) {
   return "a mesh that several processes keep in parts cannot have " + what + ": that needs the whole mesh";
 }
 
-/// The part of this process of a result in parts (CompositeResult::shares), which is used up. `all_edges`: files have those of all
-/// curves. All processes call it.
+/// The part of this process of a result in parts (CompositeResult::shares), which is used up. `all_edges`: include the edges of
+/// all curves, which files require. All processes call it.
 PartMesh make_part(Team& team, CompositeResult result, bool all_edges, int threads);
 
 }  // namespace carreau

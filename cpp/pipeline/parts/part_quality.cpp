@@ -85,8 +85,8 @@ Distribution distribution_of_all(Team& team, const std::vector<double>& values, 
   return d;
 }
 
-/// Edges with at least one vertex inside a face are of one process. What there is of those between vertices of curves, and of these
-/// vertices, comes together.
+/// Edges with at least one vertex inside a face are of one process. Edges between vertices of curves, and these vertices, are
+/// summed over the processes.
 class Edges {
  public:
   Edges(const SurfaceMesh& mesh, const MeshShares& shares)
