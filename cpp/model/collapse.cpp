@@ -43,7 +43,7 @@ class Collapser {
     });
   }
 
-  // What is one point cannot bound anything: an internal curve would tear a hole.
+  // A curve that is one point cannot bound anything: an internal curve would tear a hole.
   void keep_internal_curves() {
     for_each_curve([&](std::size_t f, std::size_t c) {
       const FaceCurve& curve = model_.faces[f].curves[c];

@@ -71,7 +71,7 @@ class Splitter {
     const Entry& entry = entries_[k];
     const Box box = box_of(entry.trace);
     const double length = trace_length(entry.trace);
-    const double reach = eps_ + trace_deviation(entry.trace);  // an arc bulges off its trace by more than eps, say
+    const double reach = eps_ + trace_deviation(entry.trace);  // an arc may deviate from its trace by more than eps
     std::map<std::size_t, CurveSplit> by_set;
     std::vector<std::size_t> near;
     const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x() - reach, std::size_t{0}});

@@ -31,7 +31,7 @@ TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p);
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough, double negligible = 0);
 /// Both sides (HDR sec. 4.5.1).
 double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough, double negligible = 0);
-/// Of the box of all traces.
+/// Diagonal of the box of all traces.
 double traces_diagonal(const CurveTraces& traces);
 /// How far the polyline may be off the curve that it samples, about: the largest distance of a vertex to the chord of
 /// its neighbours. 0 for straight ones.

@@ -53,8 +53,8 @@ void run_alone(std::span<const std::unique_ptr<SteppedTask>> tasks, const Steppe
   }
 }
 
-/// Lets helpers into a run. One that comes when the run is over finds the gate closed, and one that never comes keeps
-/// nobody waiting: without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
+/// Lets helpers into a run. A helper that arrives after the run finds the gate closed, and the run never waits for an
+/// absent helper. Without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
 class Gate {
  public:
   [[nodiscard]] bool enter() {
@@ -125,7 +125,7 @@ class ThreadedRun {
         continue;
       }
       std::unique_lock lock(mutex_);
-      // The time is for checkpoints: a stop can be asked without notice.
+      // The timeout is for checkpoints: a stop can come without notice.
       changed_.wait_for(lock, std::chrono::milliseconds(20),
                         [this] { return !bound_.empty() || !free_.empty() || done_[evaluation_] != 0; });
     }
@@ -147,7 +147,7 @@ class ThreadedRun {
     }
   }
 
-  /// Where the next step of a task waits. Under the lock; whether it is bound.
+  /// Queues the next step of a task. Under the lock; whether it is bound.
   bool make_ready(std::size_t task) {
     const bool bound = tasks_[task]->bound();
     (bound ? bound_ : free_).push_back(task);
@@ -180,7 +180,7 @@ class ThreadedRun {
       // The calling thread may be long at work.
       try {
         start_some();
-      } catch (...) {  // no memory: what has not been started waits for the calling thread
+      } catch (...) {  // no memory: the calling thread does the steps that have not started
       }
     }
   }
