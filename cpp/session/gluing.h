@@ -36,14 +36,14 @@ struct Interface {
 };
 
 /// Gives references to a model without any: cuts curves where curves of other faces end, then glues (model/splits.h,
-/// model/topology.h). A model with references keeps them; what curves_to_glue() tells is compared. `supports` are those
-/// of the model, before and after. Tells what it has found: a summary, and in detail each pair with its gap and each
-/// curve that stays open. `remarks`: as glue(). Throws what the host throws.
+/// model/topology.h). A model with references keeps them; only the curves of curves_to_glue() are compared. `supports`
+/// belong to the model, before and after. Reports its results: a summary, and in detail each pair with its gap and each
+/// curve that stays open. `remarks`: as glue(). Throws the host's exceptions.
 Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                       std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 
-/// The same for each geometry of a mixed model (model/geometries.h) that has none, by itself. `report` has what was
-/// found in all of them.
+/// The same for each geometry of a mixed model (model/geometries.h) that has none, by itself. `report` receives the
+/// results for all of them.
 void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                                    std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the parameters of a session mean for a run. Private to session/.
+// Options of a run from the parameters of a session. Private to session/.
 #pragma once
 
 #include "session/parameters.h"
