@@ -90,7 +90,7 @@ class ElementEvaluation {
     std::array<Vec3, 8> uv, xyz;
   };
 
-  // Those of (u, v), or those that are not.
+  // The quadrilaterals or triangles of (u, v), or the spread ones.
   [[nodiscard]] std::vector<Placed> elements(bool quad, bool spread) const {
     std::vector<Placed> placed;
     const auto corners = static_cast<std::int32_t>(face_->uv.size());
