@@ -14,24 +14,24 @@
 
 namespace carreau {
 
-/// Triangles of a mesh in space whose corners are vertices of faces with their (u, v), kept in the host's own arrays,
-/// to which references are held; adjacency is kept up to date. Orientation is decided in (u, v), exactly. Edges of
-/// curves and imposed ones are never swapped or split; vertices that are kept neither move nor go.
+/// Triangles of a mesh in space whose corners are vertices of faces with their (u, v). Holds references to the host's
+/// arrays, and updates the adjacency. Orientation is decided in (u, v), exactly. Edges of curves and imposed ones are
+/// never swapped or split; vertices that are kept neither move nor go.
 ///
 /// A vertex is an index in the list of positions. A vertex of a face (`Vertex`: face and local index) has one (u, v); a
-/// vertex of space on a curve, a seam or at a pole is several of those.
+/// vertex of space on a curve, a seam or at a pole is several vertices of faces.
 class EditableMesh {
  public:
   using Triangle = std::array<std::int32_t, 3>;
-  /// The part of the mesh in one face. Arrays outlive the EditableMesh, and nobody else changes their sizes.
+  /// The part of the mesh in one face. Arrays outlive the EditableMesh, and only it changes their sizes.
   struct Face {
     std::vector<Vec2>* uv;                        ///< of local vertices
     std::vector<Triangle>* triangles;             ///< local vertices
     std::vector<std::int32_t>* vertex = nullptr;  ///< local vertex -> vertex; null: the same numbers
-    /// By triangle. Null: edits stay inside the face. Else (several faces in one list, where borders between them mean
-    /// nothing) edges whose two triangles have other local vertices may be edited, too; marked triangles are those
-    /// whose corners have no (u, v) in common afterwards. They are judged in space: they must not turn over against
-    /// those they replace.
+    /// By triangle. Null: edits stay inside the face. Else (several faces in one list, whose borders do not count)
+    /// edges between triangles with different local vertices may be edited, too. Triangles whose corners have no common
+    /// (u, v) afterwards are marked. They are compared in space: they must not turn over against the triangles that
+    /// they replace.
     std::vector<char>* mixed = nullptr;
   };
   struct Place {
@@ -77,7 +77,7 @@ class EditableMesh {
   [[nodiscard]] Vec2 uv(Vertex v) const { return (*faces_[v.face].uv)[v.local]; }
   [[nodiscard]] Vec3 position(std::int32_t face, std::int32_t local) const { return (*xyz_)[global(face, local)]; }
 
-  /// Whether all triangles around v are known.
+  /// True if all triangles around v are known.
   [[nodiscard]] bool is_known(std::int32_t v) const { return rank_[v] >= 0; }
   /// Triangles around v, in an order that depends on the edits alone.
   [[nodiscard]] const std::vector<Place>& fan(std::int32_t v) const { return stars_[rank_[v]].fan; }
@@ -89,11 +89,11 @@ class EditableMesh {
   [[nodiscard]] int rank_in(Place p, std::int32_t v) const;
   /// The vertex of a face that v is, if it is not kept and all around its neighbours is known.
   [[nodiscard]] std::optional<Vertex> inside(std::int32_t v) const;
-  /// Whether the edge is one of a curve, or imposed.
+  /// True if the edge is an edge of a curve, or imposed.
   [[nodiscard]] bool is_imposed(std::int32_t v, std::int32_t w) const;
   /// Other ends of such edges.
   [[nodiscard]] const std::vector<std::int32_t>& imposed_around(std::int32_t v) const { return star(v).imposed; }
-  /// Whether no edit takes it away or moves it.
+  /// True if no edit removes or moves it.
   [[nodiscard]] bool is_corner(std::int32_t v) const { return kept_[v] == Kept::always; }
   /// On side `side` of a triangle, if that is not imposed, has two triangles in the face, and the four vertices are
   /// known.
@@ -106,12 +106,13 @@ class EditableMesh {
   /// Not of unit length.
   [[nodiscard]] Vec3 normal(Place p) const { return normal(p.face, at(p)); }
   [[nodiscard]] Vec3 normal(std::int32_t face, const Triangle& t) const;
-  /// Of unit length, unless it is zero: weighted by areas.
+  /// The unit normal, weighted by areas, or zero.
   [[nodiscard]] Vec3 mean_normal(std::span<const Place> places) const;
   /// Counterclockwise in (u, v), exactly.
   [[nodiscard]] bool is_positive(std::int32_t face, const Triangle& t) const;
 
-  /// The two triangles of the other diagonal: {a, d, c}, which takes the number of t, and {d, b, c}, that of u.
+  /// The two triangles of the other diagonal: {a, d, c}, which takes the number of t, and {d, b, c}, which takes the
+  /// number of u.
   [[nodiscard]] static std::array<Triangle, 2> swapped(const Quad& q) noexcept {
     return {Triangle{q.a, q.d, q.c}, Triangle{q.d, q.b, q.c}};
   }
@@ -120,20 +121,20 @@ class EditableMesh {
   /// Exchanges the diagonal. False where it cannot; then nothing is changed.
   bool swap(const Quad& q);
 
-  /// Whether all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.
+  /// True if all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.
   [[nodiscard]] bool can_split(const Quad& q, const Vec2& uv) const;
   /// A new vertex on the edge, which is the last one of its face and of all. Tests nothing; parts of mixed triangles are
   /// mixed.
   Vertex split(const Quad& q, const Vec2& uv, const Vec3& xyz, Split keeps = Split::at_a);
 
-  /// Whether all triangles around stay counterclockwise when a vertex goes there.
+  /// True if all triangles around stay counterclockwise when a vertex moves there.
   [[nodiscard]] bool can_move(Vertex v, const Vec2& uv) const;
   /// Tests nothing.
   void move(Vertex v, const Vec2& uv, const Vec3& xyz);
 
-  /// Whether `gone` can become one with its neighbour `kept`: topology stays (the link condition: Dey, Edelsbrunner,
-  /// Guha, Nekhayev 1999), triangles stay counterclockwise, and no imposed edge vanishes but that between the two, when
-  /// the line that it is part of goes straight on at `gone`.
+  /// True if `gone` can merge with its neighbour `kept`. Topology must stay (the link condition: Dey, Edelsbrunner,
+  /// Guha, Nekhayev 1999), and triangles must stay counterclockwise. The edge between the two is the only imposed edge
+  /// that may vanish, if its line is straight at `gone`.
   [[nodiscard]] bool can_collapse(std::int32_t gone, std::int32_t kept) const;
   /// False where it cannot; then nothing is changed. Triangles that go, and the vertex, keep their numbers (the corners
   /// of such triangles are -1) until compact().
@@ -144,7 +145,7 @@ class EditableMesh {
 
   /// The number of edits so far that are not undone.
   [[nodiscard]] std::size_t edits() const noexcept { return edits_.size(); }
-  /// Back to so many edits: the mesh is the same bit for bit.
+  /// Undoes edits until `edits` are left: the mesh is identical to the mesh after these.
   void undo(std::size_t edits);
 
  private:
@@ -171,7 +172,7 @@ class EditableMesh {
     Vec2 uv{0, 0};
     Vec3 xyz{0, 0, 0};  // as they were
   };
-  /// For each local vertex of the one that goes, that of the other one.
+  /// For each local vertex of the removed vertex, the replacing local vertex.
   using Replacements = std::vector<std::pair<Vertex, std::int32_t>>;
   struct Replaced {
     Place place;
@@ -203,7 +204,7 @@ class EditableMesh {
   [[nodiscard]] bool keeps_topology(std::int32_t gone, std::int32_t kept) const;
   [[nodiscard]] bool keeps_lines(std::int32_t gone, std::int32_t kept) const;
   [[nodiscard]] Replacements replacements(std::int32_t gone, std::int32_t kept) const;
-  /// What becomes of the triangles around; none where one may not.
+  /// The triangles around after the collapse; none if one would be invalid.
   [[nodiscard]] std::optional<std::vector<Replaced>> collapsed(std::int32_t gone, std::int32_t kept) const;
   /// The same; none where anything forbids it.
   [[nodiscard]] std::optional<std::vector<Replaced>> what_collapses(std::int32_t gone, std::int32_t kept) const;

@@ -13,8 +13,8 @@ namespace carreau {
 
 /// 2 sqrt(3) inradius / longest edge (HDR eq. 1.5); 1 for an equilateral triangle, 0 for a flat one.
 double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
-/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6); 0 where all corners are one. Inline: searches ask for a hundred a
-/// vertex.
+/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6); 0 where all corners are one. Inline: searches call it a hundred
+/// times a vertex.
 inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noexcept {
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
@@ -30,7 +30,7 @@ struct Distribution {
   double mean = 0, min = 0, p1 = 0, max = 0;  ///< p1: first percentile
 };
 
-/// Of any list, which it reorders; zeros when empty.
+/// The distribution of any list, which it reorders; zeros when empty.
 Distribution distribution_of(std::span<double> values);
 
 struct QualitySummary {
@@ -43,7 +43,7 @@ struct QualitySummary {
 QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);
 /// The same of triangles where they are. No figure depends on the number of threads.
 QualitySummary summarise_quality(const TriangleLists& mesh, int threads);
-/// Its two parts: without what is known of edges only, and that, added to the first.
+/// Its two parts: the figures that need no edges, and the figures of edges, added to the first.
 QualitySummary summarise_shapes(const TriangleLists& mesh, int threads);
 inline QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
   return summarise_shapes(TriangleLists(mesh), threads);

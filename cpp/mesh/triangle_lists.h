@@ -26,7 +26,7 @@ class TriangleLists {
     for (const FaceMesh& face : mesh.faces) add(face.triangles, face.vertex.data());
   }
 
-  /// Of corners; nodes on edges come after them.
+  /// Corners; nodes on edges follow them.
   [[nodiscard]] std::span<const Vec3> vertices() const noexcept { return vertices_; }
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

@@ -195,12 +195,12 @@ class Graphs {
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
   std::span<const TriangleView> views_;
-  // Of the triangles at hand:
+  // State of the current triangles:
   std::span<const std::int32_t> some_;
   HalfEdges halves_;
   std::vector<std::int32_t> of_;
   std::int32_t count_ = 0;
-  // Of the graph at hand:
+  // State of the current graph:
   std::int8_t side_ = 0;
   std::vector<std::int32_t> members_;
   std::vector<OutlineEdge> outline_;

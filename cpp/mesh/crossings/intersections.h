@@ -30,8 +30,8 @@ struct IntersectionOptions {
 };
 
 /// Decided exactly, in a time of the order of (n + count) log n. Vertices at one place are one vertex: edges that
-/// faces have twice do not cross. Passed over, since find_defects tells of them: triangles with an index out of range,
-/// a coordinate that is not finite, or without area. Throws Cancelled soon after `monitor` was asked to stop.
+/// faces have twice do not cross. Ignores triangles that find_defects reports: with an index out of range, a coordinate
+/// that is not finite, or without area. Throws Cancelled soon after `monitor` received a request to stop.
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor);
 

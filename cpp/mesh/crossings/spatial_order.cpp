@@ -15,17 +15,17 @@ namespace {
 
 using Box = BoxTree::Box;
 
-// Triangles that one thread sorts at once, and those of a task that deals them out to cells. [time only]
+// Triangles that one thread sorts at once, and triangles of a task that distributes them to cells. [time only]
 constexpr std::size_t most_sorted = 1 << 16, most_dealt = 1 << 17;
 // Neighbouring cells with fewer triangles are sorted together. [time only]
 constexpr std::size_t least_sorted = 1 << 12;
-// Triangles with one code that are left as they are, and those that are sorted without digits. [time only]
+// Triangles with one code that stay unsorted, and triangles that are sorted without digits. [time only]
 constexpr std::size_t crowd = 16, few = 128;
-// Bits of each coordinate of cells that triangles are dealt out to.
+// Bits of each coordinate of the cells that triangles are distributed to.
 constexpr int cell_bits = 4;
 constexpr std::size_t cells = std::size_t{1} << (3 * cell_bits);
-// Bits of each coordinate of the codes that triangles are sorted by, and of each of the three digits that codes have:
-// cells of the finest grid are smaller than triangles of one size on a surface are. [time only]
+// Bits of each coordinate of the codes that triangles are sorted by, and of each of the three digits of a code. Cells
+// of the finest grid are smaller than the triangles of a surface meshed with one size. [time only]
 constexpr int code_bits = 8, code_bits_of_many = 10;
 constexpr std::size_t many = 1 << 14;
 
@@ -183,7 +183,7 @@ class SpatialSort {
     }
   }
 
-  // The lowest digit first; those that are equal stay in their order.
+  // Sorts by the lowest digit first; equal keys keep their order.
   static void sort_by_digits(Keys& keys, int bits) {
     constexpr std::size_t digits = 3;
     const std::uint32_t last = (1U << bits) - 1;

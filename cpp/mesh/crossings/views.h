@@ -28,7 +28,7 @@ inline constexpr double least_along_squared = 0.25;
 struct TriangleView {
   static constexpr std::int8_t none = -1;
 
-  std::int8_t side = none; ///< exact: of the axis with most of the area if doubles can tell; none: there is no area
+  std::int8_t side = none; ///< exact: seen along the axis of the largest area if doubles can decide; none: no area
   std::uint8_t good = 0;   ///< bits of the sides from which it is well seen, by doubles
 
   [[nodiscard]] bool any() const noexcept { return side != none; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes elements other than straight triangles unusable.
+// Defects of elements other than straight triangles.
 #include <algorithm>
 #include <map>
 
@@ -108,7 +108,7 @@ class CellDefects {
     }
   }
 
-  // (u, v) of faces that are turned over in part tell nothing (FaceMesh::triangles), nor where it is of several charts.
+  // Ignores (u, v) of faces that are partly turned over (FaceMesh::triangles) or of several charts.
   void check_jacobian(const FaceMesh& face, const Cell& cell, std::size_t c, bool in_plane) {
     if (cell.kind == CellKind::triangle3) return;
     const auto n = static_cast<std::size_t>(node_count(cell.kind));

@@ -18,8 +18,8 @@ struct Simplex {
 };
 
 /// Tetrahedra, triangles that are no face of these, edges that are no side of either: in this order, each list in its own.
-/// What is left out says nothing that the larger simplices do not say. Corners of tetrahedra ascend, so that what depends
-/// on their order is the same on both sides of a face. Indices are not looked at.
+/// The omitted simplices add no information to the larger ones. Corners of tetrahedra ascend, so that what depends on
+/// their order is the same on both sides of a face. Indices are not looked at.
 std::vector<Simplex> simplices_of(std::span<const std::array<std::int32_t, 4>> tetrahedra,
                                   std::span<const std::array<std::int32_t, 3>> triangles,
                                   std::span<const std::array<std::int32_t, 2>> edges);
