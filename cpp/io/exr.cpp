@@ -21,7 +21,7 @@ namespace {
 // Chunks of 2^31 bytes and more are beyond the format; this leaves room for some hundred channels of 32 rows.
 constexpr int most_pixels_a_side = 65536;
 
-// What the library's callbacks see.
+// The state for the library's callbacks.
 struct Sink {
   NewFile* file = nullptr;
   std::mutex mutex;

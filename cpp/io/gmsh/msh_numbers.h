@@ -16,7 +16,7 @@ class MshNumbers : public Words {
   void set_binary(bool swapped) noexcept { binary_ = true, swapped_ = swapped, count_bytes(); }
   [[nodiscard]] bool is_binary() const noexcept { return binary_; }
 
-  /// Where the next number is, for fail().
+  /// The place of the next number, for fail().
   [[nodiscard]] const char* here() noexcept {
     if (!binary_) skip_blanks();
     return position();

@@ -21,7 +21,7 @@ constexpr std::int32_t line_type = 1, triangle_type = 2, quad_type = 3, line_of_
                        quad_of_nine_nodes_type = 10;
 
 /// Number of vertices of the elements that are read (points, lines, triangles and quadrilaterals of first and second
-/// order, solids); 0: of others, without which a surface would have holes.
+/// order, solids). Returns 0 for other types, without which a surface would have holes.
 std::size_t vertices_of_type(std::int32_t type) {
   static constexpr std::pair<std::int32_t, std::size_t> known[] = {
       {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {quad_type, 4}, {line_of_order_2_type, 3},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"): one surface a triangle reference,
+// Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"). One surface a triangle reference,
 // one curve an edge reference, one point a vertex reference that no other vertex has.
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int line_type = 1, line_of_order_2_type = 8, point_type = 15;
 
-/// Of a kind of elements; nodes have the order of the format already.
+/// The format's type of a kind of elements; nodes have the order of the format already.
 int type_of(CellKind kind) noexcept {
   switch (kind) {
     case CellKind::triangle3:
@@ -33,7 +33,7 @@ int type_of(CellKind kind) noexcept {
 struct Entity {
   int tag = 0, physical = 0;
   std::string name;                  // of the physical group
-  std::vector<std::size_t> members;  // elements, kind by kind (of a solid: those of its faces), edges or the vertex
+  std::vector<std::size_t> members;  // elements, kind by kind (for a solid: the elements of its faces), edges or the vertex
   std::vector<std::size_t> nodes;    // that belong to no entity of a lower dimension
   std::vector<int> bounds;           // tags of the faces of a solid, negative where triangles look inwards
 };

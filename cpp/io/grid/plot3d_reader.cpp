@@ -31,7 +31,7 @@ std::uint64_t nodes_of(const Counts& n) {
   return static_cast<std::uint64_t>(n[0]) * static_cast<std::uint64_t>(n[1]) * static_cast<std::uint64_t>(n[2]);
 }
 
-/// What is wrong with the counts of a block; "" when nothing is.
+/// The defect of the counts of a block; "" if they are sound.
 std::string defect_of(const Counts& n) {
   int ones = 0;
   for (const std::int32_t k : n) {
@@ -186,7 +186,7 @@ class BinaryFile {
  public:
   BinaryFile(std::string_view bytes, const Layout& layout) : bytes_(bytes), layout_(layout) {}
 
-  /// Whether header and size fit.
+  /// True if header and size fit.
   bool fits() {
     std::uint64_t at = 0;
     std::int32_t blocks = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a part of a mesh has of the binary file of the whole one.
+// The bytes of a part of a mesh in the binary file of the whole mesh.
 #include <algorithm>
 #include <cstring>
 #include <limits>

@@ -71,7 +71,7 @@ std::int32_t GmfSections::next() {
   code_ = raw<std::int32_t>();
   const std::int64_t end = sized(sizes_.position);
   if (code_ == static_cast<std::int32_t>(GmfCode::end)) return code_;
-  // Sections in ascending order: what every writer does, and what makes a loop impossible.
+  // Sections are in ascending order: every writer does so, and it prevents loops.
   if (end < static_cast<std::int64_t>(pos_) || static_cast<std::uint64_t>(end) > bytes_.size())
     fail(section_start_,
          "section " + std::to_string(code_) + " ends at " + std::to_string(end) + ", which is outside of the file");

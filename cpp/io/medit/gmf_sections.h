@@ -21,7 +21,8 @@ class GmfSections {
 
   /// Mark of the format and version, either byte order.
   void header();
-  /// Goes to the content of the next section, whatever was read of the one before; its code, or `end`.
+  /// Goes to the content of the next section, even if the previous section was not read to its end; returns its code,
+  /// or `end`.
   std::int32_t next();
 
   [[nodiscard]] std::size_t position() const noexcept { return pos_; }

@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// What a file gave, and sentences on what was left out of it.
+/// The content of a file, and sentences on the omitted data.
 struct MoleculeFile {
   molecule::Molecule molecule;
   std::vector<std::string> remarks;

@@ -45,7 +45,7 @@ class Su2Reader {
   }
 
  private:
-  /// "NDIME=", "NDIME" before "=", or "NDIME=2" as one word: the number is what comes next.
+  /// "NDIME=", "NDIME" before "=", or "NDIME=2" as one word: the number follows.
   std::string key_of(std::string_view word) {
     const std::size_t equals = word.find('=');
     if (equals != std::string_view::npos) {
@@ -121,7 +121,7 @@ class Su2Reader {
     if (type == quad_type) lists_.quads.nodes.push_back({n[0], n[1], n[2], n[3]}), lists_.quads.refs.push_back(ref);
   }
 
-  /// What elements have as their reference until the end: the number of their marker, from 0; -1: they are of none.
+  /// The reference of elements until the end: the number of their marker, from 0; -1: no marker.
   std::int32_t marker() {
     const auto found = std::ranges::find(tags_, tag_);
     if (found == tags_.end()) return tags_.push_back(tag_), static_cast<std::int32_t>(tags_.size()) - 1;

@@ -21,7 +21,7 @@ struct VtuArray {
 /// How the numbers of a file are stored, and where.
 class VtuArrays {
  public:
-  /// Keeps references to both arguments. `root`: the tag VTKFile. Throws FileError for what is not known.
+  /// Keeps references to both arguments. `root`: the tag VTKFile. Throws FileError for unknown forms.
   VtuArrays(std::string_view content, const std::string& name, const XmlTag& root);
 
   /// The tag AppendedData. Throws FileError.
@@ -55,7 +55,7 @@ class VtuArrays {
   [[nodiscard]] std::string bytes_of(const VtuArray& array);
   [[nodiscard]] std::string inflated_bytes(const VtuArray& array, const Stored& stored, std::uint64_t blocks);
   [[nodiscard]] std::string decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const;
-  /// Number i of what lies before the bytes of an array.
+  /// Number i of the header before the bytes of an array.
   [[nodiscard]] std::uint64_t header_number(std::string_view header, std::size_t i) const;
   void check_count(const VtuArray& array, std::size_t found, std::size_t expected) const;
 

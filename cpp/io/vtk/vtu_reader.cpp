@@ -295,7 +295,7 @@ void VtuReader::add_fields(VtuArrays& numbers) {
     add_refs(numbers, on_vertices);
     for (const auto& [name, each] : pieces_.front().sections[section]) {
       if (name == "reference" || name == "vtkGhostType") continue;
-      // Made of what is known of faces: add_faces() has it.
+      // add_faces() has read it from the data of faces.
       if (of_faces && !on_vertices && (name == "status" || name == "rgb")) continue;
       add_field(numbers, name, on_vertices);
     }
@@ -314,7 +314,7 @@ void VtuReader::add_strings(VtuArrays& numbers, const VtuArray& array, std::stri
   }
 }
 
-/// What the writer tells of faces.
+/// The writer's data of faces.
 void VtuReader::add_faces(VtuArrays& numbers) {
   const Arrays& arrays = field_data_;
   const auto found = arrays.find("face_reference"), status = arrays.find("face_status"),
