@@ -16,9 +16,9 @@ namespace carreau {
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor);
 
-/// Constrained Delaunay triangulation of the imposed vertices and edges alone, outside removed
-/// (the "maillage frontalier" of RR-2928 sec. 2.2), in the metric of (u, v) scaled to the domain's box.
-/// Same errors as mesh_plane.
+/// Constrained Delaunay triangulation of the imposed vertices and edges alone, outside removed (the "maillage
+/// frontalier" of RR-2928 sec. 2.2). Its metric is the metric of (u, v) scaled to the domain's box. Same errors as
+/// mesh_plane.
 PlaneMesh triangulate_domain(const PlaneDomain& domain, Monitor& monitor);
 
 }  // namespace carreau

@@ -123,7 +123,7 @@ class Chains {
       v = other_end(link.edge, v);
       result_.edges.push_back(link.edge);
       const bool last = k + 1 == chain_.size();
-      // Whether the next link would be farther from where this edge should end.
+      // Continues if the end of the next link is nearer to the edge's intended end.
       if (!last && 0.5 * (upto[k] + upto[k + 1]) < next) continue;
       PlaneEdge coarse = domain_.edges[link.edge];
       coarse.a = number(a), coarse.b = number(v);

@@ -13,7 +13,7 @@
 
 namespace carreau::plane {
 
-/// Whether there are triangles enough, by what the metric promises.
+/// True if the metric promises enough triangles.
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept;
 
 /// `a_piece`: triangles that a piece has, about. The same for any number of threads. Empty: the domain cannot be

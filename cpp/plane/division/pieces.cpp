@@ -15,7 +15,7 @@ namespace carreau::plane {
 
 namespace {
 
-// Of the metric along separators, whose points are a unit apart.
+// Samples of the metric along separators, whose points are a unit apart.
 constexpr double samples_a_unit = 8;
 
 using Ends = std::pair<std::int32_t, std::int32_t>;

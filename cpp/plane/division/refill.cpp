@@ -41,7 +41,7 @@ class Void {
   }
 
   PlaneDomain domain;
-  std::vector<std::int32_t> of;  ///< by vertex of the domain: that of the zone
+  std::vector<std::int32_t> of;  ///< by vertex of the domain: the vertex of the zone
   double expected = 0;           ///< triangles
 
  private:

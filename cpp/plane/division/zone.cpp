@@ -38,7 +38,7 @@ class TrianglesAround {
   UnfilledVector<std::int32_t> triangles_;
 };
 
-// Layers of vertices from those that have level 0, up to `most`.
+// Marks layers of vertices from the vertices of level 0, up to `most`.
 void spread(Triangles triangles, std::vector<std::uint8_t>& level, int most, Monitor& monitor) {
   monitor.checkpoint();
   const TrianglesAround around(triangles, level.size());

@@ -110,7 +110,7 @@ class BoundaryMesher {
     throw_at(std::isfinite(at) ? a + at * d : a, name_of(edge) + " crosses " + name_of_edge_between(domain_, u, v));
   }
 
-  // Recovered edges have spoiled what was Delaunay: swap back, exactly, which always ends.
+  // Recovered edges have spoiled the Delaunay property: swaps back, exactly, which always ends.
   void make_delaunay() {
     std::vector<HalfEdge> open;
     open.reserve(3 * mesh_.triangles.size());

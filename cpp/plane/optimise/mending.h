@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes of the mesh around one bad triangle: each is kept only if it makes what it touches better.
+// Changes of the mesh around one bad triangle: each is kept only if it improves the triangles that it touches.
 #pragma once
 
 #include <cstdint>

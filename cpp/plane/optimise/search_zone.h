@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles around a bad one that the local search changes, what they cost, and how they were.
+// The triangles around a bad one that the local search changes, their cost, and their previous state.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace carreau::plane {
 
-/// Cost of a triangle of this shape. The worst weigh most: 2.8 at .8, 0.36 at .95. Equilateral triangles cost nothing.
+/// Cost of a triangle of this shape. The worst cost most: 2.8 at .8, 0.36 at .95. Equilateral triangles cost nothing.
 inline double shape_cost(double quality) noexcept {
   if (!(quality > 0)) return infinity;
   const double inverse2 = 1 / (quality * quality);
@@ -26,11 +26,12 @@ struct ZoneCost {
   double mean = 0, worst = 1, sum = 0;  ///< of triangles: mean and sum of costs, worst shape
   double shortest2 = 1, longest2 = 1;   ///< squared lengths of edges that are not imposed, and 1
   int across = 0;                       ///< halves of edges that are not imposed, between two fixed vertices
-  /// Of the surface along these edges, as chords of unit normals, from a floor on: largest square, sum of 4th powers.
+  /// Turning of the surface along these edges, as chords of unit normals, from a floor on: largest square, sum of 4th
+  /// powers.
   double turn2 = 0, turns4 = 0;
 };
 
-/// Two rings of triangles around one. What was found out about places is kept from zone to zone: they overlap.
+/// Two rings of triangles around one. Results for places are kept from zone to zone: zones overlap.
 class SearchZone {
  public:
   /// `normals`: of a curved surface; null: a plane.

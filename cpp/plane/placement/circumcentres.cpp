@@ -62,8 +62,8 @@ bool halve(Placement& placement, int t) {
   return insert_near(placement, 0.5 * (mesh.at(T.v[next3[i]]) + mesh.at(T.v[prev3[i]])), t, bent_edge_distance);
 }
 
-// Layers that must gain points all along make too few, those that must lose them too many. Where sizes are graded, what
-// is missing of the expected number lowers the radius that asks for a point, what is too many raises it.
+// Layers that must gain points all along make too few, layers that must lose points too many. In graded sizes, a lack
+// against the expected number lowers the radius that requires a point, an excess raises it.
 double graded_radius(const Placement& placement, double radius) {
   if (placement.shapes.classify() != Sizes::graded) return radius;
   const double missing =
