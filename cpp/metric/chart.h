@@ -15,7 +15,7 @@ struct MetricSlopes {
 };
 
 /// y(p) = J (e + Gamma(e, e) / 2), e = p - origin, where J^T J is the metric and Gamma holds its Christoffel symbols at
-/// the origin: distances of the field between points nearby are those of the plane of y up to third order, where a
+/// the origin. Distances of the field between close points equal distances in the plane of y up to third order; a
 /// tensor alone errs in the first. Triangles keep their orientation near the origin.
 class Chart {
  public:

@@ -16,8 +16,7 @@ double field_length(const Field& at, const Vec2& p, const Vec2& q, double lss = 
   struct FieldPiece {
     double start, width, end_speed;
   };
-  // Left to right; what is still to do lies on the right, each piece at most as wide as the next: depth entries
-  // suffice.
+  // Left to right; the remaining pieces lie on the right, each at most as wide as the next: depth entries suffice.
   FieldPiece todo[64];
   depth = depth < 1 ? 1 : (depth > 60 ? 60 : depth);
   double narrowest = 1;

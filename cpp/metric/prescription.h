@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host, a background mesh or an estimator says about the wanted size or metric at one place.
+// Prescriptions of a host, a background mesh or an estimator: the size or metric at one place.
 #pragma once
 
 #include <span>
@@ -37,14 +37,14 @@ struct Prescription {
   }
 };
 
-/// A place of space beside which a field varies more than its surroundings tell.
+/// A place of space beside which a field varies more than samples of its surroundings show.
 struct SteepPlace {
   Vec3 at;
   double reach = 0;  ///< surfaces and curves that pass it at this distance may have the place
 };
 
-/// A field of wanted sizes or metrics: a host's metric callbacks, a background mesh, an estimator's result. Called from
-/// the thread of the run only.
+/// A field of prescribed sizes or metrics: a host's metric callbacks, a background mesh, an estimator's result. Called
+/// from the thread of the run only.
 class PrescriptionSource {
  public:
   virtual ~PrescriptionSource() = default;
@@ -58,14 +58,14 @@ class PrescriptionSource {
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
   /// Relative error of lengths that its values are worth: sampling need not be finer. Below 0.01: as if 0.01.
   [[nodiscard]] virtual double accuracy() const noexcept { return 0; }
-  /// Places of a face's parameter plane near which the field varies more than its surroundings tell.
+  /// Places of a face's parameter plane near which the field varies more than samples of its surroundings show.
   [[nodiscard]] virtual std::vector<Vec2> steep_places(int /*face*/) const { return {}; }
   /// The same of fields that know space only.
   [[nodiscard]] virtual std::span<const SteepPlace> steep_in_space() const { return {}; }
-  /// Parameters of a curve at which the field along it has a kink, and between which it is as exact as its law: it is then
-  /// sampled at these, and finely between. Empty: nothing is known.
+  /// Parameters of a curve at which the field along it has a kink, and between which it is as exact as its law. The field
+  /// is sampled at these, and finely between. Empty: nothing is known.
   [[nodiscard]] virtual std::vector<double> kinks_on_curve(int /*face*/, int /*ic*/) const { return {}; }
-  /// True: the source speaks of curves and points alone, and each face takes what its boundary has, by interpolation.
+  /// True: the source prescribes curves and points alone, and each face interpolates the sizes of its boundary.
   [[nodiscard]] virtual bool curves_only() const noexcept { return false; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;

@@ -18,7 +18,7 @@ enum class GeometricCriterion {
   radii,  ///< RR-2928: proportional to the radii, the larger one cut so that no direction exceeds its own (eq. 41)
 };
 
-/// What keeps a mesh close to the geometry. Lengths are model lengths.
+/// The criterion that keeps a mesh close to the geometry. Lengths are model lengths.
 struct GeometricRule {
   GeometricCriterion criterion = GeometricCriterion::angle;
   bool anisotropic = false;

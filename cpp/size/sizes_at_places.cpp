@@ -458,8 +458,8 @@ class SizesAtPlaces {
 
   // ---- at points ----
 
-  /// The smallest size of the metric at the point along the curves that end here; else the mean over the curves, or over
-  /// the surfaces beside them, of the sizes along these curves. A corner of a surface has no direction of its own.
+  /// The smallest size of the metric at the point along the curves that end here; else the mean of the sizes along the
+  /// curves, over the curves or over the surfaces beside them. A corner of a surface has no direction.
   [[nodiscard]] double physical_along_curves_at(int point) const {
     const double usual = rules_.clamped_physical(rules_.parameters_.hphydef);
     const Answers<Metric2> own = answers_at_point(point);

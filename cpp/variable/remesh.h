@@ -17,7 +17,7 @@ namespace carreau::variable {
 /// How values go from one mesh to the next.
 enum class FieldKind : int {
   nodal = 0,              ///< at vertices: linear; exact for linear fields
-  element_mean = 1,       ///< in triangles: mean over what a new triangle covers; exact for constants, bounded
+  element_mean = 1,       ///< in triangles: mean over the part that a new triangle covers; exact for constants, bounded
   element_conserved = 2,  ///< in triangles: integrals stay, as densities
 };
 
@@ -45,21 +45,21 @@ struct RemeshInput {
   double curvature_angle = 8;  ///< between edges and tangents of the boundary, degrees
   bool sizes_by_damage = true;
   bool keep_all_parts = false;
-  bool remove_overlaps = false;  ///< elements whose boundary edges cross each other's are removed; else refused
+  bool remove_overlaps = false;  ///< elements whose boundary edges cross each other's are removed; else rejected
   Smoothness smoothness = Smoothness::tangent;
   int imposed_smoothing = 0;   ///< rounds
-  int error_field = -1;        ///< index of a nodal field of one component, whose interpolation error asks for sizes
+  int error_field = -1;        ///< index of a nodal field of one component, whose interpolation error prescribes sizes
   EstimatorOptions estimator;  ///< its bounds of sizes are those above
   std::int64_t max_triangles = INT64_C(500'000'000);
-  bool measure = false;  ///< `in_range` is told
+  bool measure = false;  ///< computes `in_range`
 };
 
-/// How close the new boundary came to what was asked.
+/// Agreement of the new boundary with the requested one.
 enum class Faithfulness : int {
   smooth = 0,    ///< as asked
   partly = 1,    ///< runs near places where new edges crossed each other keep their nodes
-  kept = 2,      ///< all nodes are those of the piece, and bound ones have moved to the tools
-  as_given = 3,  ///< the boundary is that of the piece
+  kept = 2,      ///< all nodes are nodes of the piece, and bound ones have moved to the tools
+  as_given = 3,  ///< the boundary is the boundary of the piece
 };
 
 /// What happened.
@@ -72,7 +72,7 @@ struct RemeshSummary {
   double area_bound = 0;     ///< gained by nodes that moved to tools, were smoothed or removed
   double area_geometry = 0;  ///< inside the new geometry of the boundary, of which the mesh has the chords
   double area = 0;           ///< of the new mesh
-  double in_range = 0;       ///< share of edges whose length in the size wanted lies in [1/sqrt 2, sqrt 2]
+  double in_range = 0;       ///< share of edges whose length in the prescribed size lies in [1/sqrt 2, sqrt 2]
   Faithfulness boundary = Faithfulness::smooth;
 };
 
@@ -83,7 +83,7 @@ struct RemeshResult {
   std::vector<std::array<std::int32_t, 2>> edges;  ///< of the boundary, the piece on their left
   std::vector<std::int32_t> edge_kinds;
   std::vector<std::int32_t> parts;  ///< of triangles, from 0
-  std::vector<double> damage;       ///< mean over what a triangle covers
+  std::vector<double> damage;       ///< mean over the part that a triangle covers
   std::vector<RemeshField> fields;
   RemeshSummary summary;
 };
@@ -92,8 +92,8 @@ struct RemeshResult {
 /// DomainError when the piece overlaps itself, LimitError, Cancelled. The input stays as it is.
 RemeshResult remesh(const RemeshInput& input, Monitor& monitor);
 
-/// Throws InvalidArgument: counts, indices, numbers that are not finite, a triangle that is turned over, a displacement
-/// or step larger than h_min, damage outside [0, 1], a field of a wrong length, bounds without sense.
+/// Throws InvalidArgument for wrong counts or indices, numbers that are not finite, a turned triangle, a displacement
+/// or step larger than h_min, damage outside [0, 1], a field of a wrong length, or inconsistent bounds.
 void check_input(const RemeshInput& input);
 
 }  // namespace carreau::variable

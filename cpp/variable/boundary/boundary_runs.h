@@ -17,8 +17,8 @@ struct BoundaryRun {
   bool closed = false;    ///< a whole loop without a corner
 };
 
-/// Ends of runs: nodes where the kind of edges changes, bound nodes that a free edge leaves, and corners, where the
-/// boundary turns by more than `corner_angle` (degrees) and does not follow a tool.
+/// Ends of runs: nodes where the kind of edges changes, bound nodes that a free edge leaves, and corners. At a corner
+/// the boundary turns by more than `corner_angle` (degrees) and does not follow a tool.
 std::vector<BoundaryRun> runs_of(const BoundaryLoop& loop, double corner_angle);
 
 /// Ends of runs that are nearer to each other along the boundary than a share of h_min become one: bound nodes and

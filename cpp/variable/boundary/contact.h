@@ -37,7 +37,7 @@ struct BoundaryLoop {
   [[nodiscard]] std::int32_t kind_of_edge(std::size_t i) const noexcept;
   /// A node between edges of two kinds is bound rather than imposed, and imposed rather than free.
   [[nodiscard]] std::int32_t kind_of_node(std::size_t i) const noexcept;
-  /// Removes a node; the edge to the next one goes with it, and the one before takes its place.
+  /// Removes a node; the edge to the next node goes with it, and the previous edge takes its place.
   void remove(std::size_t i);
 };
 

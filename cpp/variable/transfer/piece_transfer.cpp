@@ -75,7 +75,7 @@ std::vector<double> PieceTransfer::conserved(std::span<const double> values, int
   const auto n = static_cast<std::size_t>(components);
   const Overlaps& shared = overlaps();
   std::vector<double> covered(old_->triangles.size(), 0), result(n * piece_->triangles.size(), 0);
-  std::vector<Vec2> moment(old_->triangles.size());  // of what is covered: slopes are taken about its centre
+  std::vector<Vec2> moment(old_->triangles.size());  // moment of the covered part: slopes are taken about its centre
   for (const Overlaps::Entry& part : shared.entries) {
     const auto old = static_cast<std::size_t>(part.old);
     covered[old] += part.area, moment[old] += part.area * part.centre;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linear functions in triangles from their mean values, limited: values between those of the triangles around.
+// Linear functions in triangles from their mean values, limited to values between the values of the triangles around.
 #pragma once
 
 #include <span>
