@@ -48,9 +48,9 @@ struct MeditElements {
   std::vector<Vec3> centres;  ///< the vertices that follow the vertices of the mesh
 };
 
-/// Fills the elements of a mesh of which the vertices are known. If all are straight triangles, FlatMesh::cells stays
-/// empty. Corners of quadrilaterals are turned so that their triangles have the better shape. Throws InvalidArgument,
-/// with a sentence for the reader to place, when elements of both orders are mixed.
+/// Fills the elements of a mesh whose vertices are known. If all are straight triangles, FlatMesh::cells stays empty.
+/// Corners of quadrilaterals are turned so that their triangles have the better shape. Throws InvalidArgument, with a
+/// sentence for the reader to place, when elements of both orders are mixed.
 void set_elements(const ElementLists& lists, FlatMesh& mesh);
 
 /// Appends quadrilaterals of nine nodes without their ninth node, the centre. Centres that no other element has leave

@@ -26,8 +26,8 @@ struct MeshFileOptions {
   bool curve_groups = true;
 };
 
-/// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing those
-/// known.
+/// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing the known
+/// ones.
 MeshFormat mesh_format_of(const std::string& path);
 
 /// The content of the file. Lists of references may be empty (all 0). A mesh of dimension 2 is written with z = 0 in
@@ -36,7 +36,7 @@ MeshFormat mesh_format_of(const std::string& path);
 /// precision.
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
+/// Throws the exceptions of mesh_bytes, and FileError. The older file does not change then.
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
 
 /// Reads a file by its suffix, see mesh_format_of(). Throws InvalidArgument for another suffix, FileError with file and

@@ -155,7 +155,7 @@ struct Delivery {
   [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }
 };
 
-/// Largest distances between a mesh and the triangles that it stands for, model length: each lies between both figures. NaN: not measured.
+/// Largest distances between a mesh and the triangles that it represents, model length: each lies between both figures. NaN: not measured.
 struct InputDistances {
   double distance = std::numeric_limits<double>::quiet_NaN(), bound = distance;            ///< from the mesh to the triangles
   double back_distance = std::numeric_limits<double>::quiet_NaN(), back_bound = back_distance;
@@ -189,13 +189,13 @@ struct MeshEvaluation {
 void summarise(MeshEvaluation& delivered);
 
 /// Measures a mesh on the surface that `cad` gives. About 24 evaluations a vertex: 1 of surf1 there, 9 of surf0 and
-/// surf1 on edges, 14 inside triangles; and 9 an edge of a curve. Throws what callbacks throw, and Cancelled.
+/// surf1 on edges, 14 inside triangles; and 9 an edge of a curve. Throws the exceptions of callbacks, and Cancelled.
 MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
                              const EvaluationOptions& options, Monitor& monitor);
 
 /// Faces that exceed the limit of EvaluationKind::bound_share, worst face first.
 std::vector<BeyondInFace> beyond_in_faces(const SurfaceMesh& mesh, const MeshEvaluation& delivered);
-/// The same for a person; empty: none is.
+/// A sentence about them; empty if there are none.
 std::string describe(const std::vector<BeyondInFace>& beyond);
 
 /// For a person.

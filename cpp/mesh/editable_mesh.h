@@ -27,7 +27,7 @@ class EditableMesh {
   struct Face {
     std::vector<Vec2>* uv;                        ///< of local vertices
     std::vector<Triangle>* triangles;             ///< local vertices
-    std::vector<std::int32_t>* vertex = nullptr;  ///< local vertex -> vertex; null: the same numbers
+    std::vector<std::int32_t>* vertex = nullptr;  ///< local vertex -> vertex; null: equal numbers
     /// By triangle. Null: edits stay inside the face. Else (several faces in one list, whose borders do not count)
     /// edges between triangles with different local vertices may be edited, too. Triangles whose corners have no common
     /// (u, v) afterwards are marked. They are compared in space: they must not turn over against the triangles that
@@ -60,11 +60,11 @@ class EditableMesh {
   EditableMesh(SurfaceMesh& mesh, std::span<const std::int32_t> centres, int rings);
   /// A patch in the plane, lifted to `xyz`. Vertices of the domain are kept, its edges imposed.
   EditableMesh(const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz);
-  /// The same of some triangles: others are not met, as if the mesh ended there.
+  /// For some triangles: the mesh ends at them.
   EditableMesh(const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
                std::span<const std::int32_t> triangles);
-  /// All triangles of `faces`. `imposed`: edges; their vertices are kept, but for collapses along them: so are those
-  /// where other than two of them meet, and `corners`.
+  /// All triangles of `faces`. `imposed`: edges; their vertices are kept, except in collapses along them. Vertices at
+  /// which more or fewer than two imposed edges meet are kept always, as are `corners`.
   EditableMesh(std::vector<Face> faces, std::vector<Vec3>& xyz, std::span<const std::array<std::int32_t, 2>> imposed,
                std::span<const std::int32_t> corners);
 
@@ -83,7 +83,7 @@ class EditableMesh {
   [[nodiscard]] const std::vector<Place>& fan(std::int32_t v) const { return stars_[rank_[v]].fan; }
   /// Vertices around v, each once, in increasing order.
   [[nodiscard]] std::vector<std::int32_t> ring(std::int32_t v) const;
-  /// The same, and v at the end.
+  /// Like ring(), with v at the end.
   [[nodiscard]] std::vector<std::int32_t> with_ring(std::int32_t v) const;
   /// Rank of the vertex v among the corners of a triangle.
   [[nodiscard]] int rank_in(Place p, std::int32_t v) const;
@@ -98,7 +98,7 @@ class EditableMesh {
   /// On side `side` of a triangle, if that is not imposed, has two triangles in the face, and the four vertices are
   /// known.
   [[nodiscard]] std::optional<Quad> quad(Place p, int side) const;
-  /// The same on the edge from a to the local vertex b of its face.
+  /// Like quad(), on the edge from a to the local vertex b of its face.
   [[nodiscard]] std::optional<Quad> quad_between(Vertex a, std::int32_t b) const;
   /// The vertices a, b, c, d.
   [[nodiscard]] std::array<std::int32_t, 4> corners(const Quad& q) const;
@@ -139,7 +139,7 @@ class EditableMesh {
   /// False where it cannot; then nothing is changed. Triangles that go, and the vertex, keep their numbers (the corners
   /// of such triangles are -1) until compact().
   bool collapse(std::int32_t gone, std::int32_t kept);
-  /// After the last edit: removes what collapses left. Lists of the host that go by vertex follow by the result: the
+  /// After the last edit: removes the rests of collapses. Lists of the host that go by vertex follow by the result: the
   /// new number of each vertex, -1 where it is gone. Order stays. Nothing can be undone or edited after it.
   std::vector<std::int32_t> compact();
 
@@ -206,7 +206,7 @@ class EditableMesh {
   [[nodiscard]] Replacements replacements(std::int32_t gone, std::int32_t kept) const;
   /// The triangles around after the collapse; none if one would be invalid.
   [[nodiscard]] std::optional<std::vector<Replaced>> collapsed(std::int32_t gone, std::int32_t kept) const;
-  /// The same; none where anything forbids it.
+  /// Like collapsed(); none if anything forbids the collapse.
   [[nodiscard]] std::optional<std::vector<Replaced>> what_collapses(std::int32_t gone, std::int32_t kept) const;
   void compact_face(std::int32_t face, const std::vector<std::int32_t>& number);
 

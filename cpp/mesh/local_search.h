@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Local searches for a better mesh: the order of the search, its edits, and its end.
 //
-// The caller defines "better". Nothing here depends on time, threads or addresses: the same mesh gets the same edits.
+// The caller defines "better". Nothing here depends on time, threads or addresses: equal meshes get equal edits.
 #pragma once
 
 #include <algorithm>
@@ -66,8 +66,8 @@ std::vector<std::int32_t> improve_ring_by_ring(std::vector<std::int32_t> first, 
   return met;
 }
 
-/// Up to `most` times: what `list()` names, in its order (worst first, if it is sorted so), goes through `improve(x)`.
-/// Ends when a pass has improved nothing. Returns true if any pass improved something.
+/// Up to `most` times: calls `improve(x)` for each x of `list()`, in its order (worst first, if it is sorted so). Ends
+/// when a pass has improved nothing. Returns true if any pass improved something.
 template <typename List, typename Improve>
 bool improve_in_passes(int most, Monitor& monitor, const List& list, const Improve& improve) {
   bool any = false;

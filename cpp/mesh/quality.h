@@ -23,7 +23,7 @@ inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c, double twi
 inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   return quality_q2(a, b, c, norm(cross(b - a, c - a)));
 }
-/// A triangle of no more than this Q2 has no area: it is what rounding leaves of a flat one.
+/// A triangle of no more than this Q2 has no area: it is a flat one with rounding errors.
 inline constexpr double flat_quality = 1e-12;
 
 struct Distribution {
@@ -41,7 +41,7 @@ struct QualitySummary {
   double degree6 = 0;  ///< share of interior vertices of degree 6
 };
 QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);
-/// The same of triangles where they are. No figure depends on the number of threads.
+/// Summarises triangles without a copy. No figure depends on the number of threads.
 QualitySummary summarise_quality(const TriangleLists& mesh, int threads);
 /// Its two parts: the figures that need no edges, and the figures of edges, added to the first.
 QualitySummary summarise_shapes(const TriangleLists& mesh, int threads);

@@ -84,7 +84,8 @@ constexpr std::size_t chunk = 1024;
 /// Most pieces that a triangle is cut into, and pieces more for each triangle of the other mesh near it: some 5 k
 /// pieces lie beside k triangles.
 constexpr std::size_t most_pieces = 4096, pieces_of_each = 64;
-/// A piece so many times as long as the triangle beside it is halved: cuts beside a small one would leave slivers.
+/// A piece is halved if it is longer than the triangle beside it by this factor: cuts beside a small one would leave
+/// slivers.
 constexpr double halved_from = 3;
 /// Share of the length of a piece: a plane so near to its corners does not cut it.
 constexpr double clear_cut = 1e-9;

@@ -40,7 +40,7 @@ struct FarPoint {
 /// How near bounds are to be.
 struct DistanceTolerance {
   double share = 0.01;   ///< of the distance
-  double length = 1e-6;  ///< and this, as a share of the diagonal of the box of `to`
+  double length = 1e-6;  ///< added to the share, as a share of the diagonal of the box of `to`
 };
 
 /// The distance to a single triangle is convex: over a convex polygon it is largest at a corner. Triangles are cut, beside

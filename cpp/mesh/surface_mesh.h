@@ -91,9 +91,9 @@ struct SurfaceMesh {
   [[nodiscard]] bool cells_are_not_triangles() const noexcept;
 };
 
-/// The elements of a face, quadrilaterals first: nodes are local, those on edges uv.size() + index in mid_uv.
+/// The elements of a face, quadrilaterals first: nodes are local, nodes on edges uv.size() + index in mid_uv.
 std::vector<Cell> local_cells(const FaceMesh& face);
-/// The same, with nodes numbered in the mesh: vertices, then mid_vertices.
+/// The elements of a face, with nodes numbered in the mesh: vertices, then mid_vertices.
 std::vector<Cell> cells_of(const SurfaceMesh& mesh, const FaceMesh& face);
 
 /// Gives a face quadrilaterals and triangles of first order, counterclockwise and convex in (u, v), by local vertices.

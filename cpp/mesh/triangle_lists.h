@@ -15,7 +15,7 @@
 
 namespace carreau {
 
-/// Those of a surface mesh are numbered face after face, as flatten() has them. The mesh outlives the lists.
+/// Triangles of a surface mesh are numbered face after face, in the order of flatten(). The mesh outlives the lists.
 class TriangleLists {
  public:
   explicit TriangleLists(const FlatMesh& mesh) : vertices_(mesh.vertices), nodes_(mesh.vertices.size()) {
@@ -52,7 +52,7 @@ class TriangleLists {
   struct List {
     std::size_t first;
     std::span<const std::array<std::int32_t, 3>> triangles;
-    const std::int32_t* vertex;  // local -> whole; null: the same
+    const std::int32_t* vertex;  // local -> whole; null: equal
   };
 
   void add(std::span<const std::array<std::int32_t, 3>> triangles, const std::int32_t* vertex) {

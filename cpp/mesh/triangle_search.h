@@ -30,7 +30,7 @@ class TriangleSearch {
  public:
   TriangleSearch() = default;
   /// Indices lie in range, coordinates are finite. Flat triangles are segments or points. Throws Cancelled soon after
-  /// `monitor` received a request to stop; it may be null. The same for any number of threads.
+  /// `monitor` received a request to stop; it may be null. The tree does not depend on the number of threads.
   TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                  Monitor* monitor = nullptr, int threads = 1);
 
@@ -38,7 +38,7 @@ class TriangleSearch {
   /// The nearest point; of equally near triangles, the lowest index is returned. `guess`, any triangle (one found
   /// nearby), saves time and changes nothing. Not for an empty tree.
   [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
-  /// Adds the triangles that a segment may meet: all those whose boxes it meets, and some others beside.
+  /// Adds the triangles that a segment may meet: all triangles whose boxes it meets, and some others beside.
   void beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const;
   /// Adds triangles whose boxes have a point in common with the closed box from `low` to `high`, each once. May omit
   /// long triangles that have no point in it themselves.

@@ -56,7 +56,7 @@ class Chart {
     return origin_ + e;
   }
 
-  /// |Gamma / 2| in an orthonormal frame: what straight lines of unit length and geodesic ones are apart, at most.
+  /// |Gamma / 2| in an orthonormal frame: largest distance between straight and geodesic lines of unit length.
   [[nodiscard]] double bend() const noexcept {
     const Vec2 e{1 / p_, 0}, f{-q_ / (p_ * r_), 1 / r_};  // orthonormal
     const auto symbol = [&](Vec2 s, Vec2 t) { return to_frame({dot(u_, s, t), dot(v_, s, t)}); };

@@ -32,7 +32,7 @@ class Collapser {
     double length;
   };
 
-  // The first curve of a reference stands for all of them (RT-0232 sec. 3.2).
+  // The first curve of a reference represents all of them (RT-0232 sec. 3.2).
   void find_tiny() {
     std::set<int> seen;
     for_each_curve([&](std::size_t f, std::size_t c) {

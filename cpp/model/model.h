@@ -26,8 +26,8 @@ enum class CurveType : int { boundary = 1, internal = 2 };
 /// How the lengths of prescribed edges follow one another. Values are part of the C ABI.
 enum class Progression : int { equal = 0, arithmetic = 1, geometric = 2, given = 3 };
 
-/// The edges of a curve, prescribed in place of sizes (HDR sec. 2.1, 2.3). Lengths are those of the curve's arcs in
-/// space, in the direction of the parameter t of the FaceCurve that they are prescribed on.
+/// The edges of a curve, prescribed in place of sizes (HDR sec. 2.1, 2.3). Lengths are arc lengths in space, in the
+/// direction of the parameter t of the FaceCurve with the prescription.
 struct PrescribedEdges {
   Progression progression = Progression::equal;
   int edges = 1;          ///< their number, not of `given`
@@ -48,8 +48,8 @@ struct FaceCurve {
   /// Treated as one point of space although it has a small extent (eps_collapse, RT-0232 sec. 3.3). The curve keeps its
   /// rank: hosts address curves by it.
   bool collapsed = false;
-  /// Rank of the host's curve of which this is the part from t = part_a to t = part_b; 0: the host's curve of the same
-  /// rank, whole.
+  /// Rank of the host's curve whose part from t = part_a to t = part_b this is; 0: the host's curve of equal rank,
+  /// whole.
   int part_of = 0;
   double part_a = 0, part_b = 0;
   /// Reference of the curve that results name in place of this one, which is a part of it; 0: none.
@@ -86,8 +86,8 @@ inline int host_rank(const Face& face, std::size_t curve) {
   return part_of != 0 ? part_of : static_cast<int>(curve) + 1;
 }
 
-/// References of a geometry among others: those from first_ to last_ are its own, which it counts from 1. last_ is
-/// first_ - 1 where it has none.
+/// References of a geometry among others: the ones from first_ to last_ belong to it, and it counts them from 1. last_
+/// is first_ - 1 if it has none.
 struct GeometryRange {
   int first_face = 1, last_face = 0;
   int first_curve = 1, last_curve = 0;

@@ -19,8 +19,8 @@ struct CurveSplit {
 
 /// For each face, curve and arc: ends within eps of a curve, measured to its trace; the curve may be farther from the
 /// end by the trace's deviation. Ends that are one (merged within eps) cut a curve once, at their nearest. A curve is
-/// never cut within eps of its own ends. Internal curves cut and are cut like boundaries. Only curves_to_glue() take
-/// part. Throws InvalidArgument when traces are missing.
+/// never cut within eps of its own ends. Internal curves cut and are cut like boundaries. Only curves_to_glue() are cut
+/// and cut others. Throws InvalidArgument when traces are missing.
 std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& traces, double eps);
 
 /// The model with curves cut; where it has references, parts behind the first, and points between, get new ones: `t[i]`

@@ -189,7 +189,7 @@ class TopologyBuilder {
                                        ", as another curve gave it before (tolerance " + format_number(apart_) + ")");
   }
 
-  // Farther apart than usual, and joined all the same.
+  // Farther apart than usual, and joined nevertheless.
   void note_gap(const CurveUse& use, double gap) {
     if (gap <= eps_) return;
     ++wide_;

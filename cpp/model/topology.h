@@ -48,7 +48,7 @@ struct Topology {
 /// boundary reference twice in one face) and curves that return to their starting point (closed, degenerate) are legal, although the manual
 /// forbade them. Only the references of omitted faces are checked.
 std::vector<std::string> find_model_defects(const Model& model);
-/// The same with their places, to leave a face out.
+/// The defects with their places, to leave a face out.
 struct ModelDefect {
   Where where;
   std::string sentence;  ///< without the place
@@ -56,14 +56,14 @@ struct ModelDefect {
 };
 std::vector<ModelDefect> list_model_defects(const Model& model);
 
-/// Polylines that stand for the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
+/// Polylines that approximate the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
 using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
 
 /// That of the first face that is not left out; nullptr: it has none. It decides whether references are known.
 const FaceCurve* first_curve(const Model& model);
 /// True when references are to be found by gluing: the very first curve has reference 0.
 bool needs_gluing(const Model& model);
-/// The curves that have references all the same, which gluing finds anew.
+/// Number of curves that have references although gluing will find them again.
 std::size_t references_to_forget(const Model& model);
 
 /// [face][curve]: whether gluing compares the curve with others: all curves, or, when the model has references already,
@@ -75,7 +75,7 @@ struct GlueReport {
   struct Place {
     std::size_t face = 0, curve = 0;
   };
-  /// Two curves that became one, and their two-sided Hausdorff distance beyond what their traces may be off them.
+  /// Two curves that became one, and their two-sided Hausdorff distance beyond the deviation of their traces.
   struct Pair {
     Place a, b;
     double gap = 0;

@@ -14,7 +14,7 @@ namespace {
 // Segments on either side of a point's nearest segment; the search for the next point starts with them.
 constexpr std::size_t beside = 2;
 
-/// Boxes around runs of segments of a trace: what cannot be near is passed over, and no distance found differs by that.
+/// Boxes around runs of segments of a trace. Skips runs that cannot be near, which does not change any distance.
 class Runs {
  public:
   explicit Runs(std::span<const Vec3> trace) {

@@ -125,7 +125,7 @@ bool collapse_narrow_together(CompositeRun& run) {
 
 void collapse_narrow_one_by_one(CompositeRun& run) {
   std::vector<FaceCollapse> all = collapses(run);
-  for (FaceCollapse& face : all) {  // those near a point have been meshed
+  for (FaceCollapse& face : all) {  // faces near a point have been meshed
     const FaceMesh& mesh = run.result.mesh.faces[face.face];
     if (!face.one.empty() || mesh.triangles.empty()) continue;
     face.one.emplace_back(mesh.vertex.size());

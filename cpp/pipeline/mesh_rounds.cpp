@@ -113,7 +113,7 @@ bool MeshRounds::mesh_again(const RefinementRequests& requests) {
   return done;
 }
 
-// The mesh of the run is the best so far, or one that was given up.
+// The mesh of the run is the best so far, or a discarded one.
 void MeshRounds::put_aside() {
   CompositeResult before = std::exchange(run_.result, {});
   run_.result.graded = before.graded, run_.result.report = before.report;

@@ -26,12 +26,12 @@ void require_same_values(const Crew& crew, std::span<const double> values, const
 /// values at all nodes, or at their corners alone; the sizes are for straight elements in either case. Bounds of 0 are replaced by hphymin
 /// and hphymax.
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options);
-/// The same from the field itself, at all nodes: see estimate_function().
+/// Estimates from the field, at all nodes: see estimate_function().
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options);
 
 struct AdaptationOptions {
   EstimatorOptions estimator;  ///< bounds of 0 are replaced by hphymin and hphymax
-  /// Derivatives of the field itself by differences (meshes of the plane z = 0), in place of those recovered from its
+  /// Derivatives of the field by differences (meshes of the plane z = 0), in place of derivatives recovered from its
   /// values at the vertices.
   bool differences = false;
   int iterations = 5;  ///< at most; > 0

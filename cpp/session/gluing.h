@@ -42,8 +42,8 @@ struct Interface {
 Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                       std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 
-/// The same for each geometry of a mixed model (model/geometries.h) that has none, by itself. `report` receives the
-/// results for all of them.
+/// Finds the references of each geometry of a mixed model (model/geometries.h) that has none, one geometry at a time.
+/// `report` receives the results for all of them.
 void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                                    std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 

@@ -10,7 +10,7 @@ namespace carreau {
 /// `threads`, or as many as the machine runs at a time where it is 0.
 int threads_of(const Parameters& parameters);
 
-/// failing_faces: faces that fail are left out of a run, which goes on.
+/// failing_faces: a run leaves out faces that fail, and continues.
 bool leaves_out(const Parameters& parameters);
 
 /// All but the sources of prescriptions. `diag`: of the model, for values relative to it. Throws InvalidArgument where

@@ -174,7 +174,7 @@ PartMesh Session::make_part() {
   return part;
 }
 
-// `part`: what becomes of it; null: the mesh of the session.
+// `part`: receives the part of this process; null: makes the mesh of the session.
 void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   State& s = *state_;
   if (part == nullptr) s.tried_parameters = s.parameters, s.last_failed = true;

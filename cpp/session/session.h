@@ -62,8 +62,8 @@ class Session {
   void set_model(Model model);
   void load_pardom(const std::string& path);
   /// Processes that make meshes together from now on; nullptr: this one alone, as at the start. All of them must have
-  /// the same geometry, model and parameters, and call make_mesh() together: each throws what one throws. Differences
-  /// that show in curves or in the mesh are errors.
+  /// equal geometries, models and parameters, and call make_mesh() together; an exception in one process is thrown in
+  /// all. Visible differences of curves or of the mesh are errors.
   void set_team(std::shared_ptr<TeamLink> link);
   /// Calls body(crew), which may make meshes, in all processes of the team together: an exception in one of them reaches
   /// all. Without a team in this one alone.
@@ -90,7 +90,7 @@ class Session {
   /// Throws InvalidArgument before the first make_mesh().
   [[nodiscard]] const SurfaceMesh& mesh() const;
   [[nodiscard]] bool has_mesh() const noexcept;
-  /// The mesh before mesh(): what fields are transferred from. Throws InvalidArgument before the second make_mesh().
+  /// The mesh before mesh(), from which fields are transferred. Throws InvalidArgument before the second make_mesh().
   [[nodiscard]] const SurfaceMesh& previous_mesh() const;
   [[nodiscard]] bool has_previous_mesh() const noexcept;
   /// The face whose (u, v) a node has (local_cells()), as an index in mesh().faces. On a cross-patch mesh it may differ from the face that
@@ -107,8 +107,8 @@ class Session {
   /// Writes delivered() as JSON.
   void write_delivered(const std::string& path);
 
-  /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written; `delivered` adds its
-  /// values as fields.
+  /// The content that `call export` would write with the values of option, refs, flag (RT-0232 sec. 4); `delivered`
+  /// adds its values as fields.
   [[nodiscard]] FlatMesh exported(const MeshEvaluation* delivered = nullptr, bool with_fields = true) const;
   /// Writes exported() to a file; format by suffix. A .vtu holds the values of delivered(), if they were computed or
   /// the parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
@@ -138,14 +138,14 @@ class Session {
   [[nodiscard]] bool knows_crossings(std::size_t limit) const;
   /// The curves of the mesh in space. Throws like mesh().
   [[nodiscard]] const std::vector<Interface>& interfaces() const;
-  /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).
+  /// Geometric supports of the curves of the last make_mesh(), for the option smo3d.
   [[nodiscard]] const ModelSupports& supports() const;
 
   /// Runs all actions of a blsurf.env until `call exit` or the end of the file (RT-0232 sec. 3.3). `<pref>.pardom` is
   /// read and `<pref>.mesh` written beside the env file; a model given by set_model() or load_pardom() is used instead
   /// of that file. Parameters have their defaults at the start, after each call and at the end, also when this throws
-  /// (but not when the file cannot be read): FileError or InvalidArgument with file and line, and what make_mesh() and
-  /// write() throw.
+  /// (but not when the file cannot be read): FileError or InvalidArgument with file and line, and the exceptions of
+  /// make_mesh() and write().
   void run_env(const std::string& path);
 
   /// Sets the parameters that a blsurf.env has before its first action, and runs no action; relative names of

@@ -66,7 +66,7 @@ struct GeometricLimits {
 };
 GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
 
-/// The same sizes, all so many times as large: for a mesh whose edges will be divided.
+/// The sizes multiplied by `factor`: for a mesh whose edges will be divided.
 SizeParameters enlarged(SizeParameters size, double factor) noexcept;
 
 /// The rule for geometric sizes, with the factors of guarantees and enlargement.
@@ -114,7 +114,7 @@ class SizeRules {
   /// ]0, 90], or anisotropy_max is below 1. Also if eps_chord is needed and not positive.
   SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
-  /// The same rules asking another host, by the same sources.
+  /// These rules with another host, and these sources.
   [[nodiscard]] SizeRules asking(Cad& cad) const { return {model_, topology_, cad, parameters_}; }
 
   /// Returns the Want bits that on_surface() needs in its jets.

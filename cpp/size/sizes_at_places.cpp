@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes at places from the answers of hosts and sources and from the geometry. Each function stands for both
+// Sizes at places from the answers of hosts and sources and from the geometry. Each function handles both
 // representations: a size is a double, or a Metric2 of the tangent plane if sizes differ by direction.
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 template <typename Size>
 constexpr bool has_directions = std::is_same_v<Size, Metric2>;
 
-/// The same size in all directions.
+/// One size in all directions.
 template <typename Size>
 constexpr Size of_size(double h) noexcept {
   if constexpr (has_directions<Size>)

@@ -12,7 +12,7 @@ namespace {
 
 using Box = BoxTree::Box;
 
-// Fewer things are looked at one by one. [time only]
+// Fewer things are tested one by one. [time only]
 constexpr std::int32_t leaf_size = 4;
 // Things that are moved between two looks at the monitor. [time only]
 constexpr std::int64_t moved_between_checks = 1 << 16;

@@ -41,7 +41,7 @@ class BoxTree {
   BoxTree() = default;
   /// `boxes`: of the things, without NaN. `centres`: they are halved at medians of these along the longest sides of
   /// their boxes, equal ones by number. Throws Cancelled soon after `monitor` received a request to stop; `monitor` may
-  /// be null. The same for any number of threads.
+  /// be null. The tree does not depend on the number of threads.
   BoxTree(std::span<const Box> boxes, std::span<const Vec3> centres, Monitor* monitor = nullptr, int threads = 1);
 
   [[nodiscard]] bool empty() const noexcept { return order_.empty(); }

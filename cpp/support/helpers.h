@@ -18,7 +18,7 @@ class Helpers {
   Helpers& operator=(const Helpers&) = delete;
 
   /// Runs `work`, which throws nothing, in another thread soon. From any thread. Throws when there is no memory or no
-  /// thread; `work` may be run all the same.
+  /// thread; `work` may run nevertheless.
   void send(std::function<void()> work);
 
   /// That may be at work at a time in this process.

@@ -32,7 +32,7 @@ struct Helpers::State {
   }
 
   std::size_t most;
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards the following
   std::condition_variable changed;
   std::deque<std::function<void()>> waiting;
   std::vector<std::thread> threads;

@@ -105,7 +105,7 @@ class ThreadedRun {
   ThreadedRun(const ThreadedRun&) = delete;
   ThreadedRun& operator=(const ThreadedRun&) = delete;
   ~ThreadedRun() {
-    first_failed_ = 0;  // what is still at work ends at its next checkpoint
+    first_failed_ = 0;  // running tasks end at their next checkpoint
     {
       const std::scoped_lock lock(mutex_);
       waiting_.clear();
@@ -132,7 +132,7 @@ class ThreadedRun {
   }
 
  private:
-  /// Tasks that wait for a thread, as many as keep all at work: those not started cost no memory.
+  /// Starts tasks that wait for a thread, enough to occupy all threads: tasks that have not started take no memory.
   void start_some() {
     const std::size_t most = 2 * static_cast<std::size_t>(threads_);
     for (;;) {
@@ -251,7 +251,7 @@ class ThreadedRun {
   std::atomic<std::size_t> first_failed_{none};
   std::size_t evaluation_ = 0;  // of the calling thread
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the following
   std::condition_variable changed_;
   std::deque<std::size_t> waiting_;  // not started
   std::deque<std::size_t> bound_, free_;
@@ -293,7 +293,7 @@ void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const Step
   if (threads <= 1) {
     run_alone(tasks, run, monitor);
   } else {
-    // On the heap: on the stack the thread sanitizer takes what lay there before for a race.
+    // On the heap: on the stack the thread sanitizer reports a race with earlier data there.
     std::make_unique<ThreadedRun>(tasks, run, threads, monitor)->run();
   }
 }

@@ -33,8 +33,8 @@ struct SteppedRun {
   std::function<void(std::size_t)> on_finished = {};
 };
 
-/// Runs all tasks to their end. When steps or on_finished throw, the exception of the first such task, in rank, comes
-/// out after on_finished of all tasks before it, whatever the number of threads. Throws Cancelled soon after a stop was
+/// Runs all tasks to their end. If steps or on_finished throw, rethrows the exception of the first such task, in rank,
+/// after on_finished of all tasks before it, whatever the number of threads. Throws Cancelled soon after a stop was
 /// requested. No thread works when it returns.
 void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor);
 

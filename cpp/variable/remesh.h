@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A piece that deforms, breaks and touches tools is meshed anew (HDR sec. 3.4).
+// Remeshes a piece that deforms, breaks and touches tools (HDR sec. 3.4).
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct RemeshInput {
 
   double h_min = 0, h_max = 0;
   double step = 0;    ///< of the tools in an increment: delta of HDR eq. 3.1; at most h_min
-  double reach = -1;  ///< what lies outside of a tool is bound within this; negative: the step
+  double reach = -1;  ///< points outside of a tool are bound within this; negative: the step
   double damage_limit = 1;
   double gradation = 1.3;      ///< largest ratio of neighbouring sizes one edge apart
   double corner_angle = 45;    ///< degrees
@@ -49,7 +49,7 @@ struct RemeshInput {
   Smoothness smoothness = Smoothness::tangent;
   int imposed_smoothing = 0;   ///< rounds
   int error_field = -1;        ///< index of a nodal field of one component, whose interpolation error prescribes sizes
-  EstimatorOptions estimator;  ///< its bounds of sizes are those above
+  EstimatorOptions estimator;  ///< the bounds of sizes above are its bounds
   std::int64_t max_triangles = INT64_C(500'000'000);
   bool measure = false;  ///< computes `in_range`
 };
@@ -70,7 +70,7 @@ struct RemeshSummary {
   std::int64_t bound_vertices = 0, free_vertices = 0, imposed_vertices = 0;
   double area_given = 0, area_removed = 0;
   double area_bound = 0;     ///< gained by nodes that moved to tools, were smoothed or removed
-  double area_geometry = 0;  ///< inside the new geometry of the boundary, of which the mesh has the chords
+  double area_geometry = 0;  ///< inside the new geometry of the boundary; the mesh has its chords
   double area = 0;           ///< of the new mesh
   double in_range = 0;       ///< share of edges whose length in the prescribed size lies in [1/sqrt 2, sqrt 2]
   Faithfulness boundary = Faithfulness::smooth;

@@ -279,8 +279,8 @@ void MshReader::elements_4() {
   }
 }
 
-/// The first tag of an element is its physical group, the second one its entity. Binary elements come in blocks of one
-/// type.
+/// The first tag of an element is its physical group, the second one its entity. Binary elements are stored in blocks
+/// of one type.
 void MshReader::elements_2() {
   const std::int32_t count = in_.Words::integer("the number of elements");  // text in both forms
   if (in_.is_binary()) in_.rest_of_line();

@@ -21,7 +21,7 @@ enum class GridFormat {
 /// do not fit, a binary file in place of text. `step` is the step of heights and scans whose file does not contain it.
 grid::Grid read_grid(const std::string& path, GridFormat format = GridFormat::by_suffix, double step = 1);
 
-// The same of contents; `name` is for messages.
+// The readers below take contents; `name` is for messages.
 
 /// PLOT3D in text or binary: one block (three counts) or several (their number, three counts each). One of the three counts is 1, or the
 /// block is a volume: its sides are the blocks, except sides that two volumes share. Then each block has all x, all y, all z and, if there

@@ -161,7 +161,7 @@ Grid read_matrix(std::string_view text, const std::string& name, double step) {
   return read_rows(words, raster, name);
 }
 
-/// The first line of plain text: counts, and what may follow them. Nothing: it is no header.
+/// The first line of plain text: counts, and optional numbers behind them. Empty: it is no header.
 std::optional<Raster> header_of(const Line& line, double step) {
   constexpr std::size_t most = 6;
   if (line.words.size() < 2 || line.words.size() > most || line.words.size() == 5) return {};

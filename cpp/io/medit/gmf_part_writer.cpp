@@ -12,7 +12,7 @@ namespace carreau {
 
 namespace {
 
-/// Joins what follows each other, up to a block.
+/// Joins consecutive pieces, up to a block.
 class PositionedWriter {
  public:
   explicit PositionedWriter(const PositionedSink& sink) : sink_(sink) { block_.reserve(block_size); }

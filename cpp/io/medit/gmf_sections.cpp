@@ -64,7 +64,7 @@ void GmfSections::header() {
 std::int32_t GmfSections::next() {
   if (section_end_ != 0) {
     if (pos_ > section_end_) fail(section_start_, "section " + std::to_string(code_) + " is longer than it says");
-    pos_ = section_end_;  // what was not read is skipped
+    pos_ = section_end_;  // skips the unread rest
   }
   section_start_ = pos_;
   if (bytes_.size() - pos_ < 4 + sizes_.position) fail(bytes_.size(), "the file ends before the section End");

@@ -82,7 +82,7 @@ Metric3 space_tensor(const Solution& solution, std::size_t vertex) noexcept;
 std::string solution_text(const Solution& solution);
 /// GMF version 2.
 std::string solution_bytes(const Solution& solution);
-/// By suffix: `.sol` or `.solb`. Throws what solution_text throws, InvalidArgument for another suffix, FileError.
+/// By suffix: `.sol` or `.solb`. Throws the exceptions of solution_text, InvalidArgument for another suffix, FileError.
 void write_solution(const Solution& solution, const std::string& path);
 
 }  // namespace carreau

@@ -61,7 +61,7 @@ class EnvLine {
     for (;; ++pos_) {
       if (pos_ >= line_.size()) fail("the quote that opens " + shown(word.text) + " is not closed on its line");
       if (line_[pos_] == quote) {
-        const bool doubled = pos_ + 1 < line_.size() && line_[pos_ + 1] == quote;  // stands for itself, as in Fortran
+        const bool doubled = pos_ + 1 < line_.size() && line_[pos_ + 1] == quote;  // represents a quote, as in Fortran
         if (!doubled) break;
         ++pos_;
       }

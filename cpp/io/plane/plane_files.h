@@ -20,9 +20,9 @@ inline constexpr double usual_corner_angle = 50;
 /// suffix, FileError with file and line.
 PlaneDomainInput read_plane_domain(const std::string& path);
 
-/// Triangle's format with its points in the same file, or in `nodes`. Segments may cross (PlaneDomainInput::arrange). Markers are references. Those of regions are
-/// their attributes when all are positive whole numbers, else their numbers. Inside all edges is the domain, but for
-/// holes.
+/// Triangle's format with its points in the same file, or in `nodes`. Segments may cross (PlaneDomainInput::arrange). Markers are
+/// references. Markers of regions are their attributes if all are positive whole numbers, else their numbers. Inside all edges is the
+/// domain, but for holes.
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name);
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name, std::string_view nodes,
                                 const std::string& nodes_name);
@@ -38,7 +38,7 @@ PlaneDomainInput read_airfoil_text(std::string_view text, const std::string& nam
 /// is for messages. Throws FileError for a mesh of dimension 3 or without edges and triangles.
 PlaneDomainInput plane_domain_of(const FlatMesh& mesh, const std::string& name);
 
-/// BL2D: what people write, and the same compiled.
+/// BL2D: the form that users write, and the compiled form.
 PlaneDomainInput read_bl2d_data_text(std::string_view text, const std::string& name);
 PlaneDomainInput read_bl2d_g_text(std::string_view text, const std::string& name);
 

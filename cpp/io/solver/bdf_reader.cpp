@@ -149,7 +149,7 @@ class BdfReader {
     card_ = {};
   }
 
-  /// Three coordinates; those left out are 0.
+  /// Three coordinates; absent ones are 0.
   Vec3 point(std::size_t first) const {
     Vec3 p;
     for (int x = 0; x < 3; ++x) {

@@ -72,7 +72,7 @@ void add_grid(std::size_t number, const Vec3& p, std::string& text) {
           "\n";
 }
 
-/// Properties have positive numbers: other references get those above the largest one.
+/// Properties have positive numbers: other references get numbers above the largest one.
 std::vector<std::size_t> properties_of(const ElementSets& sets) {
   std::size_t next = 0;
   for (const FaceSet& face : sets.faces) next = std::max<std::size_t>(next, face.ref > 0 ? std::size_t(face.ref) : 0);

@@ -181,7 +181,7 @@ class InpReader {
   const char* element_keyword_ = nullptr;
   std::size_t expected_ = 0;  ///< nodes of an element of the keyword; 0: it is skipped
   bool is_solid_ = false;
-  bool open_ = false;         ///< its nodes go on in the next line
+  bool open_ = false;         ///< its nodes continue on the next line
   SolverElement element_;
 };
 

@@ -39,7 +39,7 @@ class Su2Reader {
       else if (key == "MARKER_ELEMS")
         elements(in_.count("the number of elements of a marker", 2), true);
       else
-        in_.rest_of_line();  // what other programs add
+        in_.rest_of_line();  // additions of other programs
     }
     return finished();
   }
@@ -69,7 +69,7 @@ class Su2Reader {
     if (dimension_ == 0) in_.fail(in_.position(), "NPOIN comes before NDIME");
     if (!mesh_.vertices.empty()) in_.fail(in_.position(), "NPOIN comes twice");
     const std::size_t n = in_.count("the number of points", static_cast<std::size_t>(dimension_));
-    in_.rest_of_line();  // a second number counts those without halos
+    in_.rest_of_line();  // a second number counts the elements without halos
     for (std::size_t i = 0; i < n; ++i) {
       Vec3 p;
       for (int x = 0; x < dimension_; ++x) p[x] = in_.real("a coordinate of a point");
@@ -128,7 +128,7 @@ class Su2Reader {
     return static_cast<std::int32_t>(found - tags_.begin());
   }
 
-  /// References of markers: those in their names, and for others the least numbers that are left.
+  /// References of markers: from their names, otherwise the least unused numbers.
   std::vector<std::int32_t> references() {
     const char* const before = dimension_ == 2 ? "curve_" : "face_";
     std::vector<std::int32_t> refs(tags_.size(), 0);

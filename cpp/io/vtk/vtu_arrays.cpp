@@ -62,7 +62,7 @@ void VtuArrays::set_appended(const XmlTag& tag) {
 }
 
 /// Decodes up to the first character that is no digit of base64, or until there are enough bytes. A length may be
-/// encoded apart from what follows it: groups of four that end with '=' are passed.
+/// encoded apart from the data behind it: groups of four that end with '=' are skipped.
 std::string VtuArrays::decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const {
   std::string bytes;
   std::uint32_t group = 0;

@@ -43,7 +43,7 @@ class VtuArrays {
   std::vector<T> numbers_of_bytes(const VtuArray& array, std::string_view bytes) const;
   template <typename T>
   std::vector<T> numbers(const VtuArray& array, bool finite);
-  /// The bytes of an array and what may follow them.
+  /// The bytes of an array and the text behind them.
   struct Stored {
     std::string_view bytes;
     bool base64 = false;

@@ -211,7 +211,7 @@ std::vector<std::int32_t> VtuReader::refs(const VtuArray& array, const std::vect
   return result;
 }
 
-/// Values of triangles and of edges; a list of which all are NaN was made to fill the array.
+/// Values of triangles and of edges; a list of NaN alone only fills the array of the writer.
 void VtuReader::add_cell_field(const std::string& name, int components, const std::vector<double>& values) {
   MeshField field{.name = name, .on_vertices = false, .components = components, .values = {}};
   const auto n = static_cast<std::size_t>(components);

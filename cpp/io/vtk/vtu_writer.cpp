@@ -124,7 +124,7 @@ void add_solids(VtuFile& file, const VtkOutput& all) {
   file.array("solids", 2, solids);
 }
 
-/// For each cell what programs that look at cells only would not find: the status of its face (edges: 0), and its
+/// For each cell the data that programs for cells only would not find: the status of its face (edges: 0), and its
 /// colour when any face has one.
 void add_face_data(VtuFile& file, const VtkOutput& all) {
   const FlatMesh& mesh = all.mesh();

@@ -24,7 +24,7 @@ struct ChartedPlace {
 
 /// An edge of the mesh between two triangles of (u, v) of one face.
 struct SharedEdge {
-  std::array<std::int32_t, 2> beside{-1, -1};  ///< those triangles, of the face
+  std::array<std::int32_t, 2> beside{-1, -1};  ///< the triangles beside, in the face
   std::int32_t place = -1, from = 0, to = 0;   ///< the first of its places; local vertices
 };
 

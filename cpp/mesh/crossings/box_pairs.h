@@ -30,8 +30,9 @@ class BoxPairs {
   BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> numbers,
            Monitor& monitor, int threads);
 
-  /// The same without pairs of one set: some of them may come all the same. `order`: neighbours near each other, except
-  /// that triangles of different sets may be far apart; `set`: by triangle of the mesh; -1: in no set.
+  /// Like the constructor above, without pairs of one set; may report some of them nevertheless. `order`: neighbours
+  /// near each other, except that triangles of different sets may be far apart; `set`: by triangle of the mesh; -1: in
+  /// no set.
   BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> order,
            std::span<const std::int32_t> set, Monitor& monitor, int threads);
 

@@ -34,7 +34,7 @@ std::vector<char> changed_triangles(const SearchedMesh& before, std::span<const 
                                     std::span<const std::array<std::int32_t, 3>> triangles, Monitor& monitor);
 
 /// For each triangle: 1 if it is in `asked`, or if its closed box has a point in common with the box of one in `asked`. Selects
-/// all triangles if a search costs more. The same for any number of threads.
+/// all triangles if a search costs more. The result does not depend on the number of threads.
 std::vector<char> near_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const std::vector<char>& asked, int threads, Monitor& monitor);
 

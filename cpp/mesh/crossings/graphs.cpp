@@ -15,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-// Triangles that are looked at together; smaller sets are not worth it. [time only]
+// Triangles that are searched together; smaller sets are not searched. [time only]
 constexpr std::size_t triangles_at_once = 32768, least_graph = 24;
 // How often triangles at vertices where a set hangs together by a corner only are left out. [time only]
 constexpr int most_repairs = 3;
@@ -43,7 +43,7 @@ class HalfEdges {
   [[nodiscard]] std::int32_t to(std::int32_t half) const noexcept {
     return corners_[static_cast<std::size_t>(half) + 1];
   }
-  /// The half edge beyond; negative where an edge has not two triangles that are turned alike.
+  /// The half edge beyond; negative if the edge does not have two triangles of equal orientation.
   [[nodiscard]] std::int32_t beyond(std::int32_t half) const noexcept {
     return beyond_[static_cast<std::size_t>(half)];
   }
@@ -73,7 +73,7 @@ class HalfEdges {
     if (other >= 0) beyond_[static_cast<std::size_t>(other)] = open_edge;
     other = no_pair;
   }
-  // The same for both directions.
+  // The slot is equal for both directions.
   static std::size_t place_of(std::int32_t a, std::int32_t b) noexcept {
     const auto low = static_cast<std::uint32_t>(std::min(a, b)), high = static_cast<std::uint32_t>(std::max(a, b));
     return ((std::uint64_t{low} << 32 | high) * 0x9E3779B97F4A7C15U) >> 32;
@@ -182,7 +182,7 @@ class Graphs {
     });
   }
 
-  // Those of none first, the others in their order.
+  // Triangles without a graph come first, the others in their order.
   void put_graph_by_graph(std::span<std::int32_t> some) {
     std::vector<std::size_t> next(static_cast<std::size_t>(count_) + 2, 0);
     for (const std::int32_t g : of_) ++next[static_cast<std::size_t>(g + 2)];

@@ -35,8 +35,8 @@ struct IntersectionOptions {
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor);
 
-/// The same question for two triangles with area; corners are one when their coordinates are equal. `place` is set
-/// when they cross; may be null.
+/// The test for two triangles with area; corners are one when their coordinates are equal. `place` is set when they
+/// cross; may be null.
 bool triangles_intersect(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t, Vec3* place) noexcept;
 
 }  // namespace carreau

@@ -11,7 +11,7 @@ namespace carreau {
 
 namespace {
 
-// Pairs of edges that are looked at, for each edge. [time only]
+// Pairs of edges that are compared, for each edge. [time only]
 constexpr std::size_t most_pairs_per_edge = 256;
 
 bool is_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }

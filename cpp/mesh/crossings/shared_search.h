@@ -7,7 +7,7 @@
 
 namespace carreau {
 
-/// find_intersections() by all processes of a team together, who get what one finds, whoever they are. `limit`: of
+/// find_intersections() by all processes of a team together: each process receives the whole result. `limit`: of
 /// Intersections::pairs.
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  std::size_t limit, const Crew& crew, Monitor& monitor);

@@ -109,7 +109,7 @@ class SpatialSort {
       small_.push_back(range);
   }
 
-  /// Sorts by cells of the range's box: those with few triangles are small, those with many large.
+  /// Sorts by cells of the range's box: cells with few triangles are small, cells with many large.
   void deal_out(const Range& range, std::vector<Range>& large) {
     const std::size_t tasks = (range.size() + most_dealt - 1) / most_dealt;
     const auto each = [&](const auto& work) {

@@ -22,7 +22,7 @@ class CellDefects {
   std::vector<std::string> run() {
     for (const FaceMesh& face : mesh_.faces) check_lists(face);
     check_curves();
-    if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    if (!defects_.empty()) return std::move(defects_);  // the checks below need sound indices
     used_.assign(mesh_.mid_vertices.size(), 0);
     for (const FaceMesh& face : mesh_.faces) check_face(face);
     for (const CurveMesh& curve : mesh_.curves)

@@ -13,7 +13,7 @@ namespace carreau {
 /// that faces do not share or no element uses, and Jacobians that are not positive in (u, v) or in space (Bernstein
 /// coefficients).
 std::vector<std::string> find_cell_defects(const SurfaceMesh& mesh);
-/// The same of a mesh as files have it, of its elements alone.
+/// Checks the elements of a mesh of a file.
 std::vector<std::string> find_cell_defects(const FlatMesh& mesh);
 
 }  // namespace carreau

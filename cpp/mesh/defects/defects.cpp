@@ -18,7 +18,7 @@ class DefectFinder {
 
   std::vector<std::string> run() {
     check_indices();
-    if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    if (!defects_.empty()) return std::move(defects_);  // the checks below need sound indices
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) check_triangles(f);
     check_duplicates();
     check_unused();

@@ -24,7 +24,7 @@ struct Jacobian {
   /// Least coefficient along the mean normal over the mean: 1 where the Jacobian is constant, positive: the element is
   /// valid. 0 or less where the mean vanishes.
   [[nodiscard]] double least() const noexcept;
-  /// The same along a direction that is given: of plane elements {0, 0, 1}.
+  /// The least along a given direction: {0, 0, 1} for plane elements.
   [[nodiscard]] double least_along(const Vec3& direction) const noexcept;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Straight triangles over all nodes of elements of second order: what estimators and background meshes work on.
+// Straight triangles over all nodes of elements of second order, for estimators and background meshes.
 #pragma once
 
 #include "mesh/flat_mesh.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra, triangles and edges as one list, and what bounds tetrahedra.
+// Tetrahedra, triangles and edges as one list, and the boundary of tetrahedra.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@ struct Simplex {
   int corners = 0;  ///< 2, 3 or 4
 };
 
-/// Tetrahedra, triangles that are no face of these, edges that are no side of either: in this order, each list in its own.
-/// The omitted simplices add no information to the larger ones. Corners of tetrahedra ascend, so that what depends on
-/// their order is the same on both sides of a face. Indices are not looked at.
+/// Tetrahedra, triangles that are no face of these, edges that are no side of either: in this order, each list in its
+/// order. The omitted simplices add no information to the larger ones. Corners of tetrahedra ascend, so that results that
+/// depend on their order are equal on both sides of a face. Indices are not checked.
 std::vector<Simplex> simplices_of(std::span<const std::array<std::int32_t, 4>> tetrahedra,
                                   std::span<const std::array<std::int32_t, 3>> triangles,
                                   std::span<const std::array<std::int32_t, 2>> edges);

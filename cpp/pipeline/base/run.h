@@ -37,7 +37,7 @@ struct CompositeRun {
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
   /// Shows progress; `share` counts from the end of the gradation.
   void show_progress(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
-  /// Reports a sentence once; nothing while a mesh may still be given up.
+  /// Reports a sentence once; nothing while a mesh may still be discarded.
   void report(Level level, const std::string& what);
   /// Reports that the prescribed edges of a curve stay although a rule requires others.
   void report_kept(int curve, const std::string& what_requires_others);
@@ -45,7 +45,7 @@ struct CompositeRun {
   [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
   /// True if an inspector may request a finer mesh.
   [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
-  /// The face has no mesh; others go on.
+  /// The face has no mesh; the run continues with the others.
   void fail(std::size_t face, const std::string& why);
 
   const Model& model;
@@ -69,7 +69,7 @@ struct CompositeRun {
   std::vector<int> keeper;
   std::map<std::size_t, std::string> remarks;     ///< the same; remarks on faces that were meshed
   CompositeResult result;                         ///< assemble_patches()
-  /// The input of the mesh, which the next round refines: its curves, and by face what sizes inside grow from.
+  /// The input of the mesh, which the next round refines: its curves, and by face the sources of sizes inside.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
   KnownPatches known;          ///< mesh_patches(), where rounds may follow

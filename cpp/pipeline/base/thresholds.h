@@ -16,8 +16,8 @@ inline constexpr int most_corrections = 3;
 /// Rounds that sample a face again because it has missed places of small sizes. Each round finds the missed places
 /// beside the ones known. [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
 inline constexpr int most_refills = 6;
-/// Ratio of triangles. A mesh that would become so many times larger has not missed a place: its sizes are damaged
-/// nearly everywhere. [BadModels.SurfaceThatJumpsInManyPlaces]
+/// Ratio of triangles. A mesh with a larger ratio has not missed a place: its sizes are wrong nearly everywhere.
+/// [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr double most_growth = 1000;
 /// Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
 /// [Leaning.TrianglesOfRatio100LieOnTheSurface]
@@ -27,18 +27,18 @@ inline constexpr double most_lean = 0.5;
 inline constexpr double gentle = 1.5;
 /// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
 inline constexpr double most_growth_bounded = 64;
-/// Share of the extent squared. A patch of less area is what rounding leaves of a line. [BadModels.SurfaceWithoutArea]
+/// Share of the extent squared. A patch of less area is a line with rounding errors. [BadModels.SurfaceWithoutArea]
 inline constexpr double no_area = 1e-14;
 
 // Jumps of a surface (face_job)
-/// Edges that are looked at before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
+/// Edges that are checked before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t most_looked_at_first = 30;
 /// Halvings of an edge, to 1e-9 of it; more would compare numbers that are rounded.
 /// [BadModels.DerivativesThatVanishOnABorderAreNoJump]
 inline constexpr int jump_halvings = 30;
 /// Share of the chord that must be left; a surface as steep as a square root leaves 3e-5. [as above]
 inline constexpr double jump_share = 0.1;
-/// Share of coordinates, more than what evaluators leave. [as above]
+/// Share of coordinates, above the errors of evaluators. [as above]
 inline constexpr double jump_noise = 1e-10;
 
 // Short edges (patch_step)
@@ -78,7 +78,7 @@ namespace carreau::thresholds::crossings {
 /// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them
 /// again.
 inline constexpr std::size_t most_known = 2'000'000;
-/// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
+/// Pairs of triangles that are checked; a model whose parts share places has as many pairs as triangles there.
 inline constexpr std::size_t most_pairs = 100'000;
 /// Surfaces meet at two crossing triangles if Newton's method finds a common point in this number of steps. The point
 /// lies within a share of the longest edge, and the sine between the normals is at least this. [share: rounding; steps:

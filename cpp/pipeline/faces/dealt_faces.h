@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// The faces to mesh, with their order; the same in all processes.
+/// The faces to mesh, with their order; equal in all processes.
 struct DealtFaces {
   Team& team;
   std::span<std::unique_ptr<SteppedTask>> jobs;  ///< FaceJob; one that this process has meshed is null afterwards

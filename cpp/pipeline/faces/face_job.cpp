@@ -72,7 +72,7 @@ void FaceJob::step(Monitor& monitor) {
       case Step::none:
         break;
     }
-  } catch (const LimitError& error) {  // other faces go on, as for a DomainError
+  } catch (const LimitError& error) {  // the run continues with other faces, as for a DomainError
     if (take_best(monitor)) return;
     beyond_limit_ = error.where().face != 0 ? error : LimitError(Where{.face = input_.ref}, error.what());
     fail(beyond_limit_->what());
@@ -124,7 +124,7 @@ void FaceJob::sample(Monitor& monitor) {
     space_ = sampled(monitor, &facts);
   } catch (const UnevenSpeed& speed) {
     even_out(speed, monitor);
-    return;  // and the same step again
+    return;  // and repeats the step
   }
   input_.one_size = facts.isotropic;
   bound_growth_from_edges(monitor);
@@ -285,7 +285,7 @@ void FaceJob::return_to_host(Monitor& monitor) {
   const PlaneDomain& host = even_->host_domain->plane;
   const std::size_t turned = carreau::return_to_host(host, even_->map, *mesh_, monitor);
   if (input_.slope > 0)
-    space_.reset();  // sizes along edges are judged by what governed
+    space_.reset();  // sizes along edges are compared with the field that governed them
   else
     space_ = returned_to_host(host, even_->map, *space_, monitor);
   if (turned > 0)

@@ -38,7 +38,8 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
-  /// The same face from its beginning, for all processes of the team to make it together, step by step, and share the work.
+  /// The job of this face from its beginning, for all processes of the team to make it together, step by step, and share
+  /// the work.
   [[nodiscard]] std::unique_ptr<FaceJob> shared() const;
   /// Triangles that its samples promise, when it has been sampled and not been meshed; else 0.
   [[nodiscard]] double promised() const noexcept {

@@ -17,7 +17,7 @@ namespace carreau {
 /// callbacks or parameters are others.
 void require_same_curves(Team& team, const CompositeRun& run);
 
-/// The same for the answers of hosts at a few vertices of each patch: positions and prescribed sizes.
+/// Throws Error if the hosts' answers differ at a few vertices of each patch: positions and prescribed sizes.
 void require_same_surfaces(Team& team, const CompositeRun& run);
 
 /// Throws Error if the processes sampled a face that all make together differently: its pieces would not fit together.

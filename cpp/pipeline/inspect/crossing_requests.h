@@ -57,7 +57,7 @@ struct CrossingRequests {
 };
 CrossingRequests find_requests(const CompositeRun& run, const Crossings& crossings, FacePairs& meeting);
 
-/// A part of the requests: what faces and curves are to have.
+/// A part of the requests, by faces and curves.
 struct RefinementPlan {
   std::vector<std::vector<EdgeSizes::Source>> sources;    ///< by face
   std::set<std::pair<std::int32_t, std::int32_t>> edges;  ///< to be halved if they lie on curves, by vertices

@@ -22,7 +22,7 @@ using Box = BoxTree::Box;
 // others cost 4 bytes a triangle. [time and memory only]
 constexpr std::size_t triangles_of_box = 256, triangles_of_small_box = 16;
 // Largest ratio of the sides of a box to the sides of the box of its first triangle: neighbours in the order may be far apart, and
-// their common box would meet unrelated ones. Twice what compact groups of such numbers have. [time and memory only]
+// their common box would meet unrelated ones. Twice the ratios of compact groups. [time and memory only]
 constexpr double widest_box = 32, widest_small_box = 8;
 
 /// Which of two processes looks: each for half of the others.
@@ -138,7 +138,7 @@ std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::v
   return boxes;
 }
 
-/// Those that others look at.
+/// Own triangles that other processes need.
 std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnTriangles& own, const Groups& groups, const Groups& small,
                                               const std::vector<Box>& lookers) {
   std::vector<TriangleOfFace> shown;

@@ -26,12 +26,12 @@ struct PartMesh {
 
   // Counts of the whole mesh.
   std::int64_t vertices = 0, triangles = 0, curve_edges = 0;
-  std::int64_t loose_edges = 0;  ///< of those, on curves of no face
+  std::int64_t loose_edges = 0;  ///< the part of them on curves of no face
   std::vector<WholeFace> faces;  ///< with the triangles of all processes
   QualitySummary quality;        ///< sums are rounded otherwise than in one process
   std::int64_t crossings = -1;   ///< pairs of triangles that cross; -1: not searched
-  /// Those that a file has, by vertices of the whole mesh, with their references: of curves without faces, or of all. Rank 0 alone has
-  /// them, and all their number.
+  /// Edges for files, by vertices of the whole mesh, with their references: edges of curves without faces, or of all curves. Rank 0
+  /// alone has them, and all their number.
   std::int64_t file_edges = 0;
   std::vector<std::array<std::int32_t, 2>> file_edge_vertices;
   std::vector<std::int32_t> file_edge_refs;

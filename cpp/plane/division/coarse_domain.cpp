@@ -100,7 +100,7 @@ class Chains {
     cut_chain(start, v);
   }
 
-  // Into edges that have the same share each of what may be its length and its turns.
+  // Cuts into edges with equal shares of the possible length and of the turns.
   void cut_chain(int start, int end) {
     std::vector<double> upto;  // shares, by link
     double sum = 0;

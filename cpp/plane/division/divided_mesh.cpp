@@ -36,7 +36,7 @@ double coarse_edge(double triangles) {
 // Empty where separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
   const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
-  const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
+  const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish together
   if (parts < 2) return {};
   const double edge = coarse_edge(context.known.triangles);
   ControlSpace wide = context.metric;
@@ -168,7 +168,7 @@ class Assembly {
     const PlaneMesh& mesh = joined_.mesh(p);
     std::vector<std::int32_t> number(mesh.vertices.size());
     const std::size_t shared = joined_.pieces.pieces[p].whole.size();
-    // Those inside have consecutive numbers but for some that are removed.
+    // Inner vertices have consecutive numbers, without some removed ones.
     const std::int32_t inside = joined_.inside[p];
     auto gone = std::lower_bound(removed_.begin(), removed_.end(), inside);
     for (std::size_t v = 0; v < number.size(); ++v) {

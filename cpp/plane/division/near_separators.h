@@ -14,7 +14,7 @@ namespace carreau::plane {
 
 /// The part of a piece's mesh near separators.
 struct NearSeparators {
-  std::vector<std::int32_t> vertices;   ///< those less than zone_layers layers away
+  std::vector<std::int32_t> vertices;   ///< vertices less than zone_layers layers away
   std::vector<std::int32_t> level;      ///< by these: layers from the separators
   std::vector<std::int32_t> band;       ///< by these: the separator, or Pieces::several
   std::vector<std::int32_t> triangles;  ///< triangles with one of these vertices, ascending

@@ -15,7 +15,7 @@
 
 namespace carreau::plane {
 
-/// A mesh of which parts are made.
+/// A coarse mesh that is divided into parts.
 struct CoarseMesh {
   PlaneMesh mesh;
   std::vector<std::array<std::int32_t, 3>> beyond;  ///< by triangle and side (opposite to its corner); -1: nothing

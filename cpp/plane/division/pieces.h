@@ -21,7 +21,7 @@ struct Piece {
 struct Pieces {
   std::vector<Piece> pieces;
   std::vector<Vec2> separators;         ///< vertices on separators that do not belong to the whole domain
-  std::vector<std::int32_t> separator;  ///< by vertex of the whole domain, then by those: of which one; none, several
+  std::vector<std::int32_t> separator;  ///< by vertex of the whole domain, then by vertices on separators: the separator; none, several
   static constexpr std::int32_t none = -1, several = -2;
 };
 

@@ -17,7 +17,7 @@ struct UndividedMesh {
   int fixed = 0;  ///< the first vertices: imposed vertices, and vertices of the fans of degenerate sides
 };
 
-/// The same as the mesher works on it, with neighbours. Triangles and vertices that are removed are still there.
+/// The state of the mesher, with neighbours. Triangles and vertices that are removed are still there.
 struct UndividedWork {
   BoundaryMesh framed;
   int fixed = 0;
@@ -30,7 +30,7 @@ UndividedWork work_undivided(const PlaneDomain& domain, const ControlSpace& metr
 UndividedMesh mesh_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                              const PlaneMesherOptions& options, Monitor& monitor);
 
-/// The same before it is improved.
+/// Like mesh_undivided(), without the improvement.
 UndividedMesh place_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                               const PlaneMesherOptions& options, Monitor& monitor);
 

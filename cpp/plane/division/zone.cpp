@@ -110,7 +110,7 @@ class ZoneMaker {
   const JoinedPieces& joined_;
   std::vector<std::int32_t> shared_;  // numbers in the zone, by vertex of the whole mesh
   std::vector<std::int32_t> number_;  // the same by vertex of the piece
-  std::vector<std::int32_t> near_;    // by vertex of the piece: its place among those near separators
+  std::vector<std::int32_t> near_;    // by vertex of the piece: its place among the vertices near separators
   Zone zone_;
 };
 

@@ -35,7 +35,7 @@ class Field {
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
         known_(known) {}
-  /// The same with sizes so many times as large.
+  /// The field with its sizes multiplied by `times`.
   [[nodiscard]] Field coarser(double times) const noexcept {
     Field coarse = *this;
     const double share = 1 / (times * times);

@@ -21,7 +21,7 @@ struct ChartedTriangle {
       : chart(field.chart((1.0 / 3) * (p + q + r), curved)), a(chart.at(p)), b(chart.at(q)), c(chart.at(r)) {}
 };
 
-/// Squared lengths of the edges of a triangle, and what follows from them (Heron). No plane triangle may have these
+/// Squared lengths of the edges of a triangle, and its area and shape (Heron). No plane triangle may have these
 /// lengths; then its area is 0.
 struct Lengths {
   double a, b, c;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thresholds of the plane mesher in one table: value, unit, reason, and what supports it (README, "Thresholds").
+// The thresholds of the plane mesher in one table: value, unit, reason and evidence (README, "Thresholds").
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 namespace carreau::plane {
 
 // Numbers (kernel/triangulation)
-/// Triangles. In one piece: a side has four times its triangle's number and more, in 32 bits; what improves meshes adds a
+/// Triangles. Limit of one piece: a side has four times its triangle's number and more, in 32 bits; improvements add a
 /// few. [Placement.IsBoundByNumbersOf32Bits]
 inline constexpr std::int64_t most_triangles_of_a_piece = 500'000'000;
 static_assert(4 * (most_triangles_of_a_piece + most_triangles_of_a_piece / 16) < INT32_MAX);
 
 // Bends of the field (kernel/frame, kernel/shapes)
-/// Bend a unit. From here on a chart replaces the tensor. Tensors still serve well if a size grows by a tenth, or if
-/// directions turn so that an edge's sagitta is a tenth of a unit. [0.5: worst of swirl 0.79 to 0.72]
+/// Bend a unit. From here on a chart replaces the tensor. Tensors are still accurate enough if a size grows by a tenth,
+/// or if directions turn so that an edge's sagitta is a tenth of a unit. [0.5: worst of swirl 0.79 to 0.72]
 inline constexpr double least_bend = 0.4;
 /// Bend a unit. Beyond, charts are of no use. The plane keeps 1 - bend / (2 sqrt(3)) of the area of a unit triangle
 /// whose height in the chart is along the bend; here this is little more than a quarter. [3.1: worst of swirl at 51 : 1
@@ -56,7 +56,7 @@ inline constexpr std::size_t fewest_for_lattice = 4000;
 
 // Kernel (kernel/cavity, triangulation, metric_delaunay, domain_reader)
 /// Squared units. Within this distance the metric or chart of the new point replaces the others; a chart's error grows
-/// with its cube. [7 and 11: longest edges on turning fields 2.5 to 2.0, Q2 of smooth ones alike]
+/// with its cube. [7 and 11: longest edges on turning fields 2.5 to 2.0, equal Q2 of smooth ones]
 inline constexpr double near2 = 9;
 /// Share. Nearly cocircular points are left as they are: rounding must not dig. [any other value changes symmetric
 /// meshes by rounding; boundary_test, cocircular vertices]
@@ -78,7 +78,7 @@ inline constexpr int least_exponent = -900;
 inline constexpr int largest_exponent = 1020;
 
 // Stops (all): work between two looks at the monitor, well within a tenth of a second
-/// Triangles or vertices. A few operations each. [MeshPlane.LooksForAStopThroughout, as those below]
+/// Triangles or vertices. A few operations each. [MeshPlane.LooksForAStopThroughout, as the following]
 inline constexpr int steps_between_checks = 1 << 16;
 /// Points or swaps.
 inline constexpr int insertions_between_checks = 4096;
@@ -99,11 +99,11 @@ inline constexpr double large_radius = 0.87;
 /// Units. Least distance of a point of a layer to other vertices. [0.60: lengths in range on turning fields 82 to 76 %;
 /// 0.94: 12 % fewer triangles than expected]
 inline constexpr double layer_distance = 0.75;
-/// Units. The same of circumcentres and, in algebraic placement, of points on edges, [0.56: 5 % more triangles in
+/// Units. Least distance of circumcentres and, in algebraic placement, of points on edges, [0.56: 5 % more triangles in
 /// algebraic meshes, length 0.97; 0.87: 23 % fewer, 1.13]
 inline constexpr double point_distance = 0.7;
-/// Units. and of circumcentres in a second pass. [0.48: lengths in range of turning fields 85 to 81 %; 0.75: 6 %
-/// fewer triangles]
+/// Units. Least distance of circumcentres in a second pass. [0.48: lengths in range of turning fields 85 to 81 %; 0.75:
+/// 6 % fewer triangles]
 inline constexpr double last_distance = 0.6;
 /// Units. Distance of points on long edges of bent triangles, which join distant places: crowded points are removed in
 /// the end, but edges that cannot be swapped would stay. [0.2 and 0.3: worst of swirl at 51 : 1 0.36 to 0.34 and 0.33]
@@ -148,8 +148,8 @@ inline constexpr int strain_window = 5;
 /// Edges. Misfit that adds or removes a point, in small meshes [0.7 and 1.1: degrees of six on a coarse cone and
 /// ellipses 87 to 62, 100 to 80 %]
 inline constexpr double strain_limit_small = 0.9;
-/// Edges. and in large ones, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst 0.91 to
-/// 0.85]
+/// Edges. The misfit in large meshes, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst
+/// 0.91 to 0.85]
 inline constexpr double strain_limit_large = 1.3;
 /// Triangles. Size from which the second limit applies. [8000: longest edge of a paraboloid 1.31 to 1.37]
 inline constexpr double large_mesh = 10000;
@@ -161,7 +161,7 @@ inline constexpr int circumcentre_attempts = 4;
 /// Units a share of missing triangles. 1 % of points more where the radius is less by 0.045,
 /// [Graded.EdgesAreOfUnitLength]
 inline constexpr double radius_a_share = 4.5;
-/// Units. but at least the reduction of many triangles that the front makes. [Graded.EdgesAreOfUnitLength]
+/// Units. Lower bound: the reduction of many triangles that the front makes. [Graded.EdgesAreOfUnitLength]
 inline constexpr double largest_reduction = 0.1;
 /// Units. Edges about a larger radius become longer than 1.5. [0.04: length at slope 0.26 0.9925 to 0.9921]
 inline constexpr double largest_rise = 0.05;
@@ -172,7 +172,7 @@ inline constexpr double shorter_edge = 0.9;
 inline constexpr int most_pieces = 4096;
 
 // Degenerate sides (placement/degenerate_sides)
-/// Rays. 0.2 units apart round a pole, if all are alike. [16 and 66: no figure changes, only bits]
+/// Rays. 0.2 units apart round a pole, if all are equal. [16 and 66: no figure changes, only bits]
 inline constexpr int rays = 33;
 /// Units. Between rays at unit height; else there are more of them, [metrics that differ by direction at a pole]
 inline constexpr double widest_ray_gap = 0.4;
@@ -183,13 +183,13 @@ inline constexpr double ray_step = 0.05;
 /// Steps. 1.5 units: a layer fits between the ring and the domain beyond it. [15: degrees of six on a coarse cone 87 to
 /// 59 %]
 inline constexpr std::size_t steps_of_room = 30;
-/// Units. Below, no ring. [MeshPlane.SurroundsAnApexWithThreeTriangles, as those below]
+/// Units. Below, no ring. [MeshPlane.SurroundsAnApexWithThreeTriangles, as the following]
 inline constexpr double least_room = 0.5;
 /// Heights. Width of the triangles of a wide fan.
 inline constexpr double narrowest_fan = 0.5;
 /// Units. Least distance of a ring point to other vertices.
 inline constexpr double ring_distance = 0.5;
-/// Heights. Length of a lateral edge that takes part in the fan.
+/// Heights. Length of a lateral edge in the fan.
 inline constexpr double longest_lateral = 1.6;
 /// Heights.
 inline constexpr double shortest_lateral = 0.5;
@@ -198,12 +198,13 @@ inline constexpr double shortest_lateral = 0.5;
 /// Passes. Swaps can run in circles in a metric that varies. [5: shapes on turning fields, p1 0.39 to 0.38; 20: as
 /// 10]
 inline constexpr int delaunay_passes = 10;
-/// Share of the least eigenvalue. Metrics of corners that differ by no more are much alike (settled.h). [by the proof
+/// Share of the least eigenvalue. Metrics of corners that differ by no more are similar (settled.h). [by the proof
 /// there; time only, as the next five]
 inline constexpr double alike_share = 0.2;
 /// Cosine. Largest angle of a triangle whose edges need no test: more than the 0.125 that metrics may err by.
 inline constexpr double acute_cosine = 0.2;
-/// Squared units in the mean metric. Longer than crowded_length2 in the mean of any two alike: 0.52 / (1 - 0.2) = 0.65.
+/// Squared units in the mean metric. Longer than crowded_length2 in the mean of any two similar metrics: 0.52 / (1 -
+/// 0.2) = 0.65.
 inline constexpr double surely_not_crowded2 = 0.66;
 /// Q2 in the mean metric. More than doubtful_quality, beyond rounding.
 inline constexpr double surely_not_bad = 0.86;
@@ -214,22 +215,23 @@ inline constexpr std::size_t settled_ahead = 12;
 inline constexpr double long_edge2 = 9;
 /// Passes. [1: degrees of six on a coarse disc 62 to 57 %; 4: as 2]
 inline constexpr int degree_passes = 2;
-/// Q2. A swap for the sake of degrees leaves no triangle worse than this. [0.48: degrees of six on algebraic meshes
-/// 83 to 72 %; 0.75: on coarse poles 87 to 67 %]
+/// Q2. A swap for better degrees leaves no triangle worse than this. [0.48: degrees of six on algebraic meshes 83 to 72
+/// %; 0.75: on coarse poles 87 to 67 %]
 inline constexpr double degree_swap_quality = 0.6;
 /// Q2. A layer that is shifted by one edge leaves triangles of 0.6 until vertices move; none may be much worse.
 /// [0.4: longest edge of paraboloid 1.31 to 1.43; 0.6: degrees of six 83 to 78 %]
 inline constexpr double shifted_quality = 0.5;
 /// Steps. Steps of a degree pair along its layer, [2: degrees of six 91.7 to 92.4 %, but longest edges 1.31 to 1.42]
 inline constexpr int pair_reach_even = 1;
-/// Steps. and where sizes are graded: more pairs are there. [1: degrees of six at slope 0.26 90 to 88 %; 6: as 3]
+/// Steps. The reach in graded sizes, which have more pairs. [1: degrees of six at slope 0.26 90 to 88 %; 6: as 3]
 inline constexpr int pair_reach_graded = 3;
 /// Squared units. Mean over a vertex' edges below which it may go. [0.7: length at slope 0.26 0.990 to 0.986]
 inline constexpr double dense_length2 = 0.9;
 /// Squared units. Length of the remaining edges, [2.1: length at slope 0.26 0.990 to 0.982; 3.2: longest edges 1.45 to
 /// 1.49]
 inline constexpr double longest_thinned2 = 2.6;
-/// Q2. and for the worst triangle, before smoothing. [0.36: no figure changes; 0.56: degrees of six 83.3 to 83.2 %]
+/// Q2. The limit for the worst triangle, before smoothing. [0.36: no figure changes; 0.56: degrees of six 83.3 to 83.2
+/// %]
 inline constexpr double thinned_quality = 0.45;
 
 // Smoothing (optimise/smoothing, optimise)
@@ -253,7 +255,7 @@ inline constexpr double least_root = 1e-30;
 // Bad triangles (optimise/bad_triangles, mending)
 /// Q2. Worse triangles are improved. [0.64: p1 of rough sizes 0.80 to 0.71; 1: twice the time]
 inline constexpr double bad_quality = 0.8;
-/// Q2 in the mean metric of the vertices. Worse ones are looked at: those metrics are at hand. [0.68: shapes are
+/// Q2 in the mean metric of the vertices. Worse ones are tested: these metrics are at hand. [0.68: shapes are
 /// overlooked; 1: half as much time again, 6 of 42 meshes change]
 inline constexpr double doubtful_quality = 0.85;
 /// Q2. Below, shape goes before size: points are added over short edges. [0.56: more triangles than expected on turning
@@ -275,7 +277,7 @@ inline constexpr double longest_after_removal2 = 2.0;
 inline constexpr double crowded_length2 = 0.52;
 /// Squared units. Length of the remaining edges, [2.6: length on a coarse disc 1.01 to 1.06]
 inline constexpr double longest_uncrowded2 = 2.1;
-/// Q2. and of the worst triangle. [0.75: lengths in range on rough sizes 91.5 to 89.7 %]
+/// Q2. Shape of the worst triangle. [0.75: lengths in range on rough sizes 91.5 to 89.7 %]
 inline constexpr double uncrowded_quality = 0.6;
 /// Shapes. Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing
 /// but bad triangles. It is counted in shapes, since a fine boundary far from all other vertices gives stars of
@@ -291,8 +293,8 @@ inline constexpr double flat_height = 1e-7;
 // Local search (optimise/local_search, search_zone, zone_moves)
 /// Q2. Better triangles are left alone. [LocalSearch; 0.92: twice the time, and no worst one is raised]
 inline constexpr double searched_quality = 0.88;
-/// Q2 in the mean metric of the corners, where these are much alike. Better triangles are no worse than searched_quality
-/// in the metric of their middle. [0.9: all of 63 meshes stay; time only]
+/// Q2 in the mean metric of the corners, if these are similar. Better triangles are no worse than searched_quality in
+/// the metric of their middle. [0.9: all of 63 meshes stay; time only]
 inline constexpr double surely_not_searched = 0.93;
 /// Passes. [with none here and below, the mesh of frame.step by 8 degrees changes]
 inline constexpr int search_passes = 8;
@@ -300,7 +302,7 @@ inline constexpr int search_passes = 8;
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
 inline constexpr std::int64_t search_shapes_a_triangle = 48;
-/// Shapes. and where nothing helps, strips between fixed borders, there is an end sooner:
+/// Shapes. The limit until the first success: strips between fixed borders cannot be improved.
 inline constexpr std::int64_t first_search_shapes = 2'400;
 /// Shapes.
 inline constexpr std::int64_t first_search_shapes_a_triangle = 4;
@@ -308,7 +310,7 @@ inline constexpr std::int64_t first_search_shapes_a_triangle = 4;
 inline constexpr std::int64_t search_shapes_a_success = 12'000;
 /// Share of the mean cost. Required gain of a change, [0.8 to 1.25 times: no figure changes; ends the search]
 inline constexpr double change_gain = 0.01;
-/// Share of the mean cost. and of a round of moves after it, which another round then follows. [0.8 to 1.25 times: no
+/// Share of the mean cost. Required gain of a round of moves, which another round then follows. [0.8 to 1.25 times: no
 /// figure changes; ends the rounds]
 inline constexpr double round_gain = 0.02;
 /// Rounds. up to these. [as above]
@@ -318,7 +320,8 @@ inline constexpr std::size_t most_promising = 5;
 /// Squared units. Length of edges that a change leaves, unless some were longer [3: longest edge of rough sizes 1.75 to
 /// 1.97]
 inline constexpr double longest_left2 = 2.4;
-/// Squared units. or shorter before. [0.32: lengths in range of rough sizes 91.5 to 91.1 %]
+/// Squared units. Lower bound of the length, unless some were shorter before. [0.32: lengths in range of rough sizes
+/// 91.5 to 91.1 %]
 inline constexpr double shortest_left2 = 0.4;
 /// Squared units. Length of an edge that is split. [0.9: 7 of 17 meshes change, degrees of six on ellipses 73 to 67 %]
 inline constexpr double least_split2 = 1.1;
@@ -378,7 +381,7 @@ inline constexpr double most_coarse_turn = 0.45;
 inline constexpr double shortest_coarse2 = 0.16, least_coarse_quality = 0.5;
 /// Coarse triangles between degenerate sides and separators.
 inline constexpr int rings_at_degenerate_sides = 2;
-/// Layers of vertices on each side of a separator, itself among them, whose points are placed anew.
+/// Layers of vertices on each side of a separator, the separator included, whose points are placed again.
 inline constexpr int refilled_layers = 3;
 /// Layers of triangles beside a separator that are improved when pieces have been joined, [8: Q2 better by 1e-5] and
 /// around places where several separators meet.

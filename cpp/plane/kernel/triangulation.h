@@ -99,7 +99,7 @@ class Triangulation {
   /// Triangle that contains p (on its border counts), walking from triangle `hint`; -1 when the walk leaves the
   /// triangulation or meets an imposed edge.
   [[nodiscard]] int locate(const Vec2& p, int hint) const noexcept;
-  /// The same; -1 also when p is more than `most_steps` triangles away.
+  /// Like locate(); returns -1 also when p is more than `most_steps` triangles away.
   [[nodiscard]] int locate_near(const Vec2& p, int hint, int most_steps) const noexcept;
 
   /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.

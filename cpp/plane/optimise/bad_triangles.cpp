@@ -34,7 +34,7 @@ bool needs_help(const PlaneWork& work, Helped helped, int t) {
   return doubtful && work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]) < bad_quality;
 }
 
-// Returns the triangles that were looked at, some of them several times.
+// Returns the tested triangles, some of them several times.
 std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled) {
   const auto total = static_cast<std::int32_t>(work.mesh.triangles.size());
   std::vector<std::int32_t> open, looked_at;

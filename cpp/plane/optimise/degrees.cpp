@@ -53,7 +53,7 @@ bool wants_swap(const PlaneWork& work, const Degrees& degrees, int t, int i) {
 constexpr std::uint8_t uneven = 1;   // only an edge between two of these may be swapped
 constexpr std::uint8_t changed = 2;  // since the pass began: other edges would be rejected again
 
-// Marks the triangles whose edges see the degree of v: those around it, and those beyond.
+// Marks the triangles whose edges depend on the degree of v: the triangles around it, and their outer neighbours.
 void mark_around(const Triangulation& mesh, int v, std::uint8_t bits, std::vector<std::uint8_t>& marks) {
   const auto mark = [&](int t) { marks[t] = static_cast<std::uint8_t>(marks[t] | bits); };
   for_each_around(mesh, v, [&](int t) {

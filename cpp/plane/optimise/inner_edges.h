@@ -30,7 +30,7 @@ inline void list_edges(const Triangulation& mesh, std::int32_t first, std::int32
   edges.resize(static_cast<std::size_t>(to - edges.data()));
 }
 
-/// Those of them between triangles t and u of which calls_for(t, u) is true, as it is of few.
+/// The edges between triangles t and u for which calls_for(t, u) is true: few.
 template <typename CallsFor>
 void list_calling_edges(const Triangulation& mesh, std::int32_t first, std::int32_t end, std::vector<HalfEdge>& edges,
                         const CallsFor& calls_for) {
@@ -63,7 +63,7 @@ inline void prefetch_beyond(const Triangulation& mesh, const std::vector<HalfEdg
 
 /// Calls use(t, i) for the inner edges between two triangles t < u for which calls_for(t, u) is true when their batch
 /// begins. In a batch, calls it for all edges after the first use(t, i) that returns true for a change. The result equals
-/// calls for all edges if use(t, i) ignores edges that need nothing.
+/// the result of calls for all edges if use(t, i) ignores edges that need nothing.
 template <typename CallsFor, typename Use>
 void for_calling_edges(const Triangulation& mesh, Monitor& monitor, const CallsFor& calls_for, const Use& use) {
   std::vector<HalfEdge> calling, all;

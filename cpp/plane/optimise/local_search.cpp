@@ -145,7 +145,7 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   return false;
 }
 
-// Those that are to be searched around, worst first, by shapes that are rounded.
+// Triangles to search around, worst first, by rounded shapes.
 class BadTriangles {
  public:
   BadTriangles(const PlaneWork& work, const Settled& settled) : work_(work), in_vain_(work.mesh.triangles.size(), 0) {

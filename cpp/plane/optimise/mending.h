@@ -13,7 +13,7 @@ namespace carreau::plane {
 
 struct Mending {
   PlaneWork& work;
-  std::vector<std::int32_t> changed = {};  ///< triangles to be looked at again
+  std::vector<std::int32_t> changed = {};  ///< triangles to be tested again
   std::vector<std::int32_t> nudged = {};   ///< changed by so little that they need not be
   std::int64_t shapes_asked = 0;           ///< so far
   Memo<bool> failed_moves = {};            ///< of stars

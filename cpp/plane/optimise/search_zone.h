@@ -37,7 +37,7 @@ class SearchZone {
   /// `normals`: of a curved surface; null: a plane.
   SearchZone(PlaneWork& work, const SampledNormals* normals);
 
-  /// The triangles around the corners of t and around their neighbours, and what else a change of these touches.
+  /// The triangles around the corners of t and around their neighbours, and all that a change of these affects.
   void collect(int t);
   /// All as it was when the zone was collected.
   void restore();
@@ -67,11 +67,11 @@ class SearchZone {
   Memo<double> known_shapes_;
   Memo<Vec3> known_normals_;  // of places
   std::vector<std::int32_t> vertices_;
-  std::vector<std::pair<std::int32_t, Triangle>> as_they_were_;  // these, and those around
+  std::vector<std::pair<std::int32_t, Triangle>> as_they_were_;  // these, and the triangles around
   std::vector<std::pair<std::int32_t, Vertex>> old_vertices_;
   std::vector<char> seen_;  // by vertex; scratch, 0 between uses
   std::size_t mesh_triangles_ = 0, mesh_vertices_ = 0, own_triangles_ = 0,
-              own_movable_ = 0;  // without what changes add
+              own_movable_ = 0;  // without added ones
 };
 
 }  // namespace carreau::plane

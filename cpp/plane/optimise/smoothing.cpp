@@ -15,7 +15,7 @@ namespace carreau::plane {
 namespace {
 
 constexpr std::size_t prefetch_distance = 12;
-// The same in the plane, times the root of the determinant of the sum of three metrics.
+// The limit in the plane, times the root of the determinant of the sum of three metrics.
 constexpr double least_area_in_sum = 3 * least_area;
 
 // True if the triangle of three vertices has area. `enough(area)`: returns true if that is enough in the metric.

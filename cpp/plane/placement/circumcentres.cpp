@@ -79,7 +79,7 @@ void insert_circumcentres(Placement& placement, double radius, double distance) 
   const double graded = graded_radius(placement, radius);
   const double radius2 = radius * radius, graded2 = graded * graded;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    // Those that are done, nearly all, have a smaller radius.
+    // The done ones, nearly all, have a smaller radius.
     if (mesh.triangles[k].done != Done::no) continue;
     const auto t = static_cast<int>(k);
     for (int attempt = 0; attempt < circumcentre_attempts && mesh.triangles[t].done == Done::no; ++attempt) {

@@ -48,7 +48,7 @@ struct Level {
   std::vector<Complex> value;
   std::vector<char> fixed;
   std::vector<std::int32_t> aggregate;  // node of the coarser level
-  std::vector<Complex> up;              // what is there, in the frame here
+  std::vector<Complex> up;              // the remote cross, in the frame here
 
   [[nodiscard]] std::size_t size() const { return value.size(); }
 };

@@ -65,7 +65,7 @@ void judge_all(Placement& placement);
 /// Inserts p, which lies in triangle `start`. Requires its metric distance to all vertices of its cavity to be at least
 /// `distance`, and its height over imposed edges to suffice. Judges the new triangles.
 bool try_insert(Placement& placement, Vec2 p, int start, double distance);
-/// The triangle is looked for from the candidate's edge on.
+/// The search for the triangle starts at the candidate's edge.
 bool try_insert(Placement& placement, const Candidate& candidate, double distance);
 
 /// Fills the cavity that was dug for p, and judges the new triangles.

@@ -143,7 +143,7 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
                   std::string(step) + "\" (step " + std::to_string(step_) + ")");
     }
     const std::size_t size = reader.count(1);
-    all[r].erase(0, all[r].size() - size);  // what comes before it
+    all[r].erase(0, all[r].size() - size);  // the text before it
     given.push_back(std::move(all[r]));
   }
   return given;

@@ -29,8 +29,8 @@ class TeamLink {
   /// Adds `count` to a number that all processes share, and returns its previous value. exchange() makes it 0. Throws
   /// Error.
   virtual std::int64_t take(std::int64_t count) = 0;
-  /// Waits for all processes, and gives what each has given, by rank. Throws Error when it has failed, which it does in
-  /// all processes or in none, and std::bad_alloc in one that has no memory for the answer.
+  /// Waits for all processes, and returns the values that they gave, by rank. Throws Error when it has failed, which it
+  /// does in all processes or in none, and std::bad_alloc in one that has no memory for the answer.
   virtual std::vector<std::string> exchange(std::string_view mine) = 0;
 };
 
@@ -46,8 +46,8 @@ struct SharedError {
   [[noreturn]] void raise(const std::string& teller = "") const;
 };
 
-/// The protocol of a team: all processes take part in equal exchanges in equal order. A process that leaves the run by
-/// an error informs the others at their next exchange. Used by the thread that runs, but for take().
+/// All processes take part in equal exchanges in equal order. A process that leaves the run by an error informs the
+/// others at their next exchange. The running thread uses it, except for take().
 class Team {
  public:
   /// Keeps a reference to `link`.
@@ -64,8 +64,8 @@ class Team {
   /// Returns the values of all processes for `step`, by rank. Throws the error of a process that has left the run, and
   /// Error where processes are at different steps.
   std::vector<std::string> exchange(std::string_view step, std::string_view mine);
-  /// The same of what mine() gives, which may throw: the error of the first process that has one comes out of all, with its class
-  /// and sentence. Throws stops, and exceptions that are not Errors, at once: the process leaves the run.
+  /// exchange() of the results of mine(), which may throw: all processes throw the error of the first process that has one, with
+  /// its class and sentence. Throws stops, and exceptions that are not Errors, at once: the process leaves the run.
   std::vector<std::string> exchange_results(std::string_view step, const std::function<std::string()>& mine);
   /// Like exchange_results() for large values: calls use(rank, value) for one process after another, so that no process
   /// ever holds all values.

@@ -37,7 +37,7 @@ std::vector<Vec3> in_space(const std::vector<Vec2>& vertices);
 
 /// For each side (t[k], t[k + 1]) of each triangle the triangle on its other side, or -1.
 using Adjacency = std::vector<std::array<std::int32_t, 3>>;
-/// Throws InvalidArgument where more than two triangles share an edge, or two run the same way along it.
+/// Throws InvalidArgument if more than two triangles share an edge, or two have equal directions along it.
 Adjacency adjacency_of(const Piece& piece);
 
 /// Parts joined by edges: the part of each triangle, numbered in the order of their first triangles, and their number.

@@ -18,7 +18,7 @@ std::vector<double> damage_sizes(const Piece& piece, std::span<const double> dam
 /// Lowers the sizes of vertices until each is at most the size of each neighbour plus slope times the distance.
 void grade_sizes(const Piece& piece, double slope, std::vector<double>& sizes);
 
-/// Linear between the vertices of the piece, and no larger than what grows from edges of space. Refers to its
+/// Linear between the vertices of the piece, and bounded by the sizes that grow from edges of space. Refers to its
 /// arguments.
 class SizeMap {
  public:

@@ -10,7 +10,7 @@
 
 namespace carreau::variable {
 
-/// Row i lists what triangle i of the new mesh shares with triangles of the old one, these ascending.
+/// Row i lists the common parts of triangle i of the new mesh and triangles of the old mesh, these ascending.
 struct Overlaps {
   struct Entry {
     std::int32_t old = 0;
