@@ -98,7 +98,7 @@ class EqualHalves {
     candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   }
 
-  // The better diagonal, from its lower end; of two equally good diagonals the one with the lowest end.
+  // The better diagonal, from its lower end; if both are equally good, the diagonal with the lowest end.
   void set_canonical(std::array<std::int32_t, 8>& n) const {
     while (n[0] != std::min({n[0], n[1], n[2], n[3]})) n = turned_once(n);
     if (worse_half(mesh_, turned_once(n)) > worse_half(mesh_, n)) turn(n);

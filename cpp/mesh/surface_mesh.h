@@ -40,8 +40,8 @@ struct FaceMesh {
   std::vector<std::array<std::int32_t, 3>> mid = {};
   std::vector<Vec2> mid_uv = {};              ///< of nodes on edges; one on a seam has two places
   std::vector<std::int32_t> mid_vertex = {};  ///< the same -> index in SurfaceMesh::mid_vertices
-  /// For cross-patch meshes; else empty. By local vertex: the face (index in SurfaceMesh::faces) whose (u, v) it has.
-  /// By triangle: 1 if its corners are of several charts (faces, or sides of a seam), so that it is no triangle of (u,
+  /// For cross-patch meshes; else empty. For each local vertex: the face (index in SurfaceMesh::faces) whose (u, v) it has.
+  /// For each triangle: 1 if its corners are of several charts (faces, or sides of a seam), so that it is no triangle of (u,
   /// v).
   std::vector<std::int32_t> uv_face = {};
   std::vector<char> spread = {};

@@ -214,7 +214,7 @@ class Gluer {
     }
   }
 
-  /// True if b starts where a ends, and a's end is nearer to b's start than a's start.
+  /// True if the curves have opposite directions: the end of a is at the start of b.
   static bool runs_against(const Entry& a, const Entry& b) {
     const Vec3 p = a.trace.front(), q = a.trace.back(), r = b.trace.front(), s = b.trace.back();
     return std::max(norm(p - s), norm(q - r)) < std::max(norm(p - r), norm(q - s));

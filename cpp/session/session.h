@@ -111,7 +111,7 @@ class Session {
   /// adds its values as fields.
   [[nodiscard]] FlatMesh exported(const MeshEvaluation* delivered = nullptr, bool with_fields = true) const;
   /// Writes exported() to a file; format by suffix. A .vtu holds the values of delivered(), if they were computed or
-  /// the parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
+  /// the parameter measure is 1. `.exr`: the fields of all faces, or of the face of onesurf*, in one file.
   void write(const std::string& path);
   /// The bytes of such a file of a mesh.
   std::string encoded(MeshFormat format);

@@ -14,7 +14,7 @@ namespace carreau::thresholds::patches {
 /// [Verification.DipsOfTheSizesThatNoSampleHitsAreMeshed]
 inline constexpr int most_corrections = 3;
 /// Rounds that sample a face again because it has missed places of small sizes. Each round finds the missed places
-/// beside the ones known. [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
+/// beside known ones. [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
 inline constexpr int most_refills = 6;
 /// Ratio of triangles. A mesh with a larger ratio has not missed a place: its sizes are wrong nearly everywhere.
 /// [BadModels.SurfaceThatJumpsInManyPlaces]

@@ -95,7 +95,7 @@ class Layers {
     sort_once(around_);
   }
 
-  // To the corners of the triangles around the front. If several bands meet, the first one continues.
+  // Spreads to the corners of the triangles around the front. If several bands meet, the first one continues.
   void spread(std::int32_t now) {
     for (const std::int32_t k : around_) {
       const auto& corners = mesh_.triangles[k].v;

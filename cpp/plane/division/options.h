@@ -24,7 +24,7 @@ struct PlaneMesherOptions {
   /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), each as its places. After the
   /// placement, places still far from all vertices receive a seed, from which the front continues.
   std::span<const std::vector<Vec2>> undersampled = {};
-  /// By vertex of the domain, or empty: layers do not start from an edge with a nonzero end.
+  /// For each vertex of the domain, or empty: layers do not start from an edge with a nonzero end.
   std::span<const std::uint8_t> resting = {};
   int threads = 1;  ///< at work on a large domain; the mesh does not depend on it
   /// Processes that mesh this domain together, each with this call, null: this one alone. The mesh does not depend on it.

@@ -173,7 +173,7 @@ void Triangulation::fill(int p) {
     cavity_[cavity_size_++] = static_cast<std::int32_t>(triangles.size());
     triangles.emplace_back();
   }
-  // Plain addresses: the compiler must assume that the bytes written belong to their vectors.
+  // Plain addresses: for the compiler, bytes written could be a part of the vectors themselves.
   Triangle* const all = triangles.data();
   Vertex* const all_vertices = vertices.data();
   const RimEdge* const rim = rim_.data();

@@ -128,7 +128,7 @@ inline constexpr double least_apex_height2 = 0.3;
 /// Rounds. Apex and centroid of its triangle, each by the other. [1: degrees of six on swirl 92.6 to 91.8 %; 4: as
 /// 2]
 inline constexpr int chart_rounds = 2;
-/// Points. First points of a layer to insert, far from each other. [32: longest edge of paraboloid 1.31 to 1.42; 128:
+/// Points. Stride of the first points of a layer to insert. [32: longest edge of paraboloid 1.31 to 1.42; 128:
 /// of stretched 1.30 to 1.44]
 inline constexpr int first_stride = 64;
 /// Units. Candidates nearer to each other become one. [0.44: 15 % fewer triangles on a coarse sphere, length 1.06;
@@ -148,7 +148,7 @@ inline constexpr int strain_window = 5;
 /// Edges. Misfit that adds or removes a point, in small meshes [0.7 and 1.1: degrees of six on a coarse cone and
 /// ellipses 87 to 62, 100 to 80 %]
 inline constexpr double strain_limit_small = 0.9;
-/// Edges. The misfit in large meshes, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst
+/// Edges. Misfit in large meshes, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst
 /// 0.91 to 0.85]
 inline constexpr double strain_limit_large = 1.3;
 /// Triangles. Size from which the second limit applies. [8000: longest edge of a paraboloid 1.31 to 1.37]
@@ -161,7 +161,7 @@ inline constexpr int circumcentre_attempts = 4;
 /// Units a share of missing triangles. 1 % of points more where the radius is less by 0.045,
 /// [Graded.EdgesAreOfUnitLength]
 inline constexpr double radius_a_share = 4.5;
-/// Units. Lower bound: the reduction of many triangles that the front makes. [Graded.EdgesAreOfUnitLength]
+/// Units. Limit of the reduction: the radius stays above the one of many triangles of the front. [Graded.EdgesAreOfUnitLength]
 inline constexpr double largest_reduction = 0.1;
 /// Units. Edges about a larger radius become longer than 1.5. [0.04: length at slope 0.26 0.9925 to 0.9921]
 inline constexpr double largest_rise = 0.05;
@@ -221,7 +221,7 @@ inline constexpr double degree_swap_quality = 0.6;
 /// Q2. A layer that is shifted by one edge leaves triangles of 0.6 until vertices move; none may be much worse.
 /// [0.4: longest edge of paraboloid 1.31 to 1.43; 0.6: degrees of six 83 to 78 %]
 inline constexpr double shifted_quality = 0.5;
-/// Steps. Steps of a degree pair along its layer, [2: degrees of six 91.7 to 92.4 %, but longest edges 1.31 to 1.42]
+/// Steps. Reach of a degree pair along its layer, [2: degrees of six 91.7 to 92.4 %, but longest edges 1.31 to 1.42]
 inline constexpr int pair_reach_even = 1;
 /// Steps. The reach in graded sizes, which have more pairs. [1: degrees of six at slope 0.26 90 to 88 %; 6: as 3]
 inline constexpr int pair_reach_graded = 3;
@@ -235,7 +235,7 @@ inline constexpr double longest_thinned2 = 2.6;
 inline constexpr double thinned_quality = 0.45;
 
 // Smoothing (optimise/smoothing, optimise)
-/// Area of a parallelogram in the metric (ideal: 0.87). After a move; a smaller area undoes it. [0.16: lengths in range
+/// Area of a parallelogram in the metric after a move (ideal: 0.87); a smaller one undoes it. [0.16: lengths in range
 /// on rough sizes 91.5 to 92.2 %; 0.25: longest edges on turning fields 2.5 to 2.2]
 inline constexpr double least_area = 0.2;
 /// Rounds. Then all moves of the pass are taken back.
@@ -306,14 +306,14 @@ inline constexpr std::int64_t search_shapes_a_triangle = 48;
 inline constexpr std::int64_t first_search_shapes = 2'400;
 /// Shapes.
 inline constexpr std::int64_t first_search_shapes_a_triangle = 4;
-/// Shapes. each success allows for more.
+/// Shapes. Increase of the limit for each success.
 inline constexpr std::int64_t search_shapes_a_success = 12'000;
 /// Share of the mean cost. Required gain of a change, [0.8 to 1.25 times: no figure changes; ends the search]
 inline constexpr double change_gain = 0.01;
 /// Share of the mean cost. Required gain of a round of moves, which another round then follows. [0.8 to 1.25 times: no
 /// figure changes; ends the rounds]
 inline constexpr double round_gain = 0.02;
-/// Rounds. up to these. [as above]
+/// Rounds. Most of these rounds. [as above]
 inline constexpr int relaxing_rounds = 4;
 /// Changes. Followed through. [2: one of 17 meshes changes for the better, one for the worse; 10: as 5]
 inline constexpr std::size_t most_promising = 5;

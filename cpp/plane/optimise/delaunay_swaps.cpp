@@ -19,7 +19,7 @@ bool sum_exceeds_pi(double dot_c, double area_c, double dot_d, double area_d) no
   return s < -swap_tolerance * scale;
 }
 
-// By Simpson's rule: on an edge of several units sizes may change manifold, for example beside a waist.
+// Uses Simpson's rule: on an edge of several units sizes may change manifold, for example beside a waist.
 double squared_length_along(const PlaneWork& work, int u, int v) {
   const Vertex &U = work.mesh.vertices[u], &V = work.mesh.vertices[v];
   const Vec2 d = V.point() - U.point();

@@ -37,7 +37,7 @@ bool swap(Mending& m, int t) {
   return false;
 }
 
-// To the best of places around, at shrinking distances in the metric; whether that gains. Uses the collected link.
+// Moves to the best of places around, at shrinking distances in the metric; true if that gains. Uses the collected link.
 bool move_to_best(Mending& m, int v) {
   Triangulation& mesh = m.work.mesh;
   Vertex& P = mesh.vertices[v];
@@ -85,7 +85,7 @@ bool move(Mending& m, int v) {
 }
 
 // Removes a vertex that moves freely by merging it into one of its neighbours, if no edge becomes long and the worst
-// triangle improves. Among crowded vertices it only must not become bad.
+// triangle improves. If vertices are crowded, the worst triangle only must not become bad.
 bool remove(Mending& m, int v, bool crowded) {
   Triangulation& mesh = m.work.mesh;
   if (!m.star.collect(mesh, v) || has_imposed_spoke(mesh, m.star, v)) return false;

@@ -112,7 +112,7 @@ void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
   // squared base, 1 + slope - slope * base.
   const double slope = 2.0 / 3 * pull, third = slope / 3;
   const std::size_t n = mesh.triangles.size();
-  // Plain addresses: the compiler must assume that the data written belong to their vectors.
+  // Plain addresses: for the compiler, data written could be a part of the vectors themselves.
   const Triangle* const triangles = mesh.triangles.data();
   const Vertex* const vertices = mesh.vertices.data();
   const SmoothingArrays::Steady* const steady = arrays.steady.data();

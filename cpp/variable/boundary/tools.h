@@ -54,7 +54,7 @@ class Tools {
 
   [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
   [[nodiscard]] std::size_t count() const noexcept { return tool_.size(); }
-  /// Logarithmic in the number of parts. Of equally near places, the lowest part is returned.
+  /// Logarithmic in the number of parts. If places are equally near, returns the place of the lowest part.
   [[nodiscard]] ToolPlace nearest(const Vec2& p) const noexcept;
   [[nodiscard]] const ToolPart& part(std::int32_t index) const { return parts_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] std::span<const ToolPart> parts() const noexcept { return parts_; }
