@@ -77,7 +77,7 @@ class EqualHalves {
  private:
   using Half = std::array<std::int32_t, 3>;
 
-  // Quadrilaterals that share three corners with another element, by whichever diagonal either is cut.
+  // Quadrilaterals that share three corners with another element, whatever their diagonals.
   void find_candidates() {
     std::vector<std::pair<Half, std::int32_t>> halves;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {

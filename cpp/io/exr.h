@@ -14,7 +14,7 @@
 
 namespace carreau {
 
-/// How a channel is stored: 32-bit real, 16-bit real (of pictures for the eye), unsigned 32-bit integer.
+/// The storage of a channel: 32-bit real, 16-bit real (of pictures for the eye), unsigned 32-bit integer.
 enum class ExrType { real, half, integer };
 
 struct ExrChannel {

@@ -26,8 +26,7 @@ struct MeshFileOptions {
   bool curve_groups = true;
 };
 
-/// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing the known
-/// ones.
+/// Format by the suffix of `path`, in any case. Throws InvalidArgument for another suffix, listing the known ones.
 MeshFormat mesh_format_of(const std::string& path);
 
 /// The content of the file. Lists of references may be empty (all 0). A mesh of dimension 2 is written with z = 0 in

@@ -29,7 +29,7 @@ class Words {
   std::int64_t integer_64(const char* what);
   /// A number of entities of `words_each` words each: not negative, and no more than the rest of the text can hold.
   std::size_t count(const std::string& what, std::size_t words_each);
-  /// Checks a number that was read before. `at`: where it ends.
+  /// Checks a number that was read before. `at`: its end.
   std::size_t checked_count(std::int64_t n, const char* at, const std::string& what, std::size_t words_each) const;
   /// The rest of the line, without blanks at both ends; goes to the next line.
   std::string_view rest_of_line();

@@ -19,14 +19,14 @@ MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad,
 void bound_input_distances(const discrete::DiscreteSurface& surface, const SurfaceMesh& mesh, int threads,
                            Monitor& monitor, MeshEvaluation& delivered);
 
-/// A place where a mesh and the triangles that it was made of are apart.
+/// A place at which a mesh and its input triangles are apart.
 struct FarPlace {
   Vec3 at{};
   double distance = 0;
   double size = 0;  ///< mean length of the edges of the mesh's triangle there
 };
 
-/// Returns the place where the distance is the largest share of the size. `of_made`, `of_given`: by bound_distance().
+/// Returns the place whose distance is the largest share of the size. `of_made`, `of_given`: by bound_distance().
 FarPlace farthest_by_size(const TrianglesOfSpace& made, std::span<const FarPoint> of_made,
                           std::span<const FarPoint> of_given);
 

@@ -223,7 +223,7 @@ class ElementEvaluation {
     set(p, EvaluationKind::angle, std::max(of(EvaluationKind::angle)[p.triangle], angle));
   }
 
-  // Its corners in a plane where the metric of its middle is Euclidean.
+  // Its corners in a plane in which the metric of its middle is Euclidean.
   void judge_in_metric(const Placed& p, const Metric2& m) {
     const double a = std::sqrt(m.a), b = m.b / a, c = std::sqrt(std::max(0.0, m.c - b * b));
     std::array<Vec3, 4> flat;

@@ -38,13 +38,13 @@ enum class EvaluationKind : int {
   /// An edge's length in the prescribed metric of the image of its segment of (u, v), by Gauss quadrature; 1 is as
   /// prescribed.
   length = 1,
-  /// An edge's largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN where both ends
-  /// are singular.
+  /// An edge's largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN if both ends are
+  /// singular.
   edge_angle = 2,
   /// An edge's max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
   /// (Borouchaki, Hecht, Frey: H-shock of an edge). Inside a face, sizes and length are from EvaluationOptions::spaces
   /// if there are any. Edges shorter than a tenth of a unit are judged by the ratio of sizes alone, as if they were
-  /// that long. NaN where an end is singular.
+  /// that long. NaN if an end is singular.
   gradation = 3,
   /// A vertex's longest over shortest edge, lengths in space. If the metric has directions, each length is divided by
   /// the size along it over the mean size, to make them comparable. NaN without triangles.
@@ -107,7 +107,8 @@ struct EvaluationOptions {
   /// sizes of their first face; so have all edges if there are no entries.
   std::span<const std::vector<double>> curve_size = {};
   SizeLaw law = SizeLaw::linear;
-  /// [curve of SurfaceMesh::curves]: where its vertices are; edges without are not compared with their curve.
+  /// [curve of SurfaceMesh::curves]: the places of its vertices; edges without places are not compared with their
+  /// curve.
   std::span<const CurveParameters> curve_parameters = {};
   /// [face]: the fields that governed the mesh, on which a gradation is to hold; may be empty.
   std::span<const std::optional<ControlSpace>> spaces = {};
@@ -118,7 +119,7 @@ struct EvaluationOptions {
   /// model length, or if that is infinite a share of the mean size at the corners of a triangle; the tolerance of A1 is in degrees.
   bool bounds = false;
   double deviation_tolerance = infinity, deviation_share = 0.3, angle_tolerance = 52;
-  std::span<const double> vertex_size = {};  ///< by vertex; may be empty: bound_share is NaN where it is needed
+  std::span<const double> vertex_size = {};  ///< by vertex; may be empty: bound_share is then NaN for tolerances that need it
   double bound_share_limit = infinity;
 };
 
@@ -150,7 +151,7 @@ struct Delivery {
   /// Number of violations that are forced: angles of edges no longer than `shortest` and of triangles with such edges alone, gradations of
   /// inner edges between vertices of curves.
   std::int64_t forced = 0;
-  double shortest = 0;  ///< edges so long are as short as the smallest size lets them be; model length
+  double shortest = 0;  ///< edges of this length are as short as the smallest size permits; model length
 
   [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }
 };

@@ -49,7 +49,7 @@ class EditableMesh {
 
     [[nodiscard]] std::array<Place, 2> places() const noexcept { return {Place{face, t}, Place{face, u}}; }
   };
-  /// Which part of a triangle that is split keeps its number; the other one is the last of its face.
+  /// The part of a split triangle that keeps its number; the other one is the last of its face.
   enum class Split {
     at_a,     ///< of both triangles that with the corner a of the edge
     at_start  ///< that with the corner at which the edge starts in the triangle: a in one, b in the other
@@ -91,7 +91,7 @@ class EditableMesh {
   [[nodiscard]] std::optional<Vertex> inside(std::int32_t v) const;
   /// True if the edge is an edge of a curve, or imposed.
   [[nodiscard]] bool is_imposed(std::int32_t v, std::int32_t w) const;
-  /// Other ends of such edges.
+  /// Other ends of imposed edges.
   [[nodiscard]] const std::vector<std::int32_t>& imposed_around(std::int32_t v) const { return star(v).imposed; }
   /// True if no edit removes or moves it.
   [[nodiscard]] bool is_corner(std::int32_t v) const { return kept_[v] == Kept::always; }
@@ -118,10 +118,10 @@ class EditableMesh {
   }
   /// Both would be counterclockwise, and the new edge exists nowhere.
   [[nodiscard]] bool can_swap(const Quad& q) const;
-  /// Exchanges the diagonal. False where it cannot; then nothing is changed.
+  /// Exchanges the diagonal. If it cannot, returns false and changes nothing.
   bool swap(const Quad& q);
 
-  /// True if all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.
+  /// True if all four triangles would be counterclockwise with a new vertex there. Never if one is mixed.
   [[nodiscard]] bool can_split(const Quad& q, const Vec2& uv) const;
   /// A new vertex on the edge, which is the last one of its face and of all. Tests nothing; parts of mixed triangles are
   /// mixed.
@@ -136,11 +136,11 @@ class EditableMesh {
   /// Guha, Nekhayev 1999), and triangles must stay counterclockwise. The edge between the two is the only imposed edge
   /// that may vanish, if its line is straight at `gone`.
   [[nodiscard]] bool can_collapse(std::int32_t gone, std::int32_t kept) const;
-  /// False where it cannot; then nothing is changed. Triangles that go, and the vertex, keep their numbers (the corners
-  /// of such triangles are -1) until compact().
+  /// If it cannot, returns false and changes nothing. Triangles that go, and the vertex, keep their numbers (the
+  /// corners of such triangles are -1) until compact().
   bool collapse(std::int32_t gone, std::int32_t kept);
-  /// After the last edit: removes the rests of collapses. Lists of the host that go by vertex follow by the result: the
-  /// new number of each vertex, -1 where it is gone. Order stays. Nothing can be undone or edited after it.
+  /// After the last edit: removes the rests of collapses. The result updates the host's lists by vertex: the new number
+  /// of each vertex, -1 if it was removed. Order stays. Nothing can be undone or edited after it.
   std::vector<std::int32_t> compact();
 
   /// The number of edits so far that are not undone.

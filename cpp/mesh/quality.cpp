@@ -65,7 +65,7 @@ struct Part {
   }
   void see(Corner corner) {
     const double sine = norm(cross(corner.p, corner.q)), cosine = dot(corner.p, corner.q);
-    // Sides of a flat triangle: 0 or 180 degrees; as atan2 has it, 0 where a side has no length.
+    // Sides of a flat triangle: 0 or 180 degrees; as atan2 has it, 0 for a side without length.
     corner.cotangent = sine > 0 ? cosine / sine : std::copysign(std::numeric_limits<double>::max(), cosine);
     keep(corner);
   }
@@ -86,14 +86,14 @@ struct EdgesByVertex {
   UnfilledVector<std::int32_t> others; ///< their larger vertices
 
   EdgesByVertex(const TriangleLists& mesh, int threads) : start(mesh.nodes() + 1, 0), others(3 * mesh.size()) {
-    // Atomic sums take their time even where there is only one thread.
+    // Atomic sums are slow even with only one thread.
     const auto raise = [&](std::int32_t v, std::size_t by) {
       std::size_t& x = start[static_cast<std::size_t>(v)];
       return threads > 1 ? std::atomic_ref(x).fetch_add(by, std::memory_order_relaxed) : std::exchange(x, x + by);
     };
     for_each_side(mesh, threads, [&](std::int32_t low, std::int32_t) { raise(low, 1); });
     std::partial_sum(start.begin(), start.end(), start.begin());
-    // From the ends back: in the end they are where each vertex starts.
+    // Counts down from the ends: the results are the starts of the vertices.
     constexpr std::size_t one_less = static_cast<std::size_t>(-1);
     for_each_side(mesh, threads,
                   [&](std::int32_t low, std::int32_t high) { others[raise(low, one_less) - 1] = high; });

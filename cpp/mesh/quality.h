@@ -13,7 +13,7 @@ namespace carreau {
 
 /// 2 sqrt(3) inradius / longest edge (HDR eq. 1.5); 1 for an equilateral triangle, 0 for a flat one.
 double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
-/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6); 0 where all corners are one. Inline: searches call it a hundred
+/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6); 0 if all corners are one. Inline: searches call it a hundred
 /// times a vertex.
 inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noexcept {
   const Vec3 ab = b - a, bc = c - b, ca = a - c;

@@ -244,7 +244,7 @@ class DistanceBounder {
     return best;
   }
 
-  /// The largest height of the other mesh over a piece; infinite where the mesh does not cover it, or is higher than `enough`.
+  /// The largest height of the other mesh over a piece; infinite if the mesh does not cover it, or is higher than `enough`.
   [[nodiscard]] double height_over(const Piece& piece, const Vec3& normal, const Corner& middle, double enough) const {
     if (normal.isZero()) return infinity;
     std::vector<Vec3> polygon;

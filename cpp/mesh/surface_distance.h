@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far one mesh is from another.
+// The distance of one mesh from another.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct TrianglesOfSpace {
 };
 
 /// The largest distance to the triangles of the second mesh from the vertices, the middles of edges and the middles of
-/// triangles of the first mesh. 0 where one of them has none. The result does not depend on the crew.
+/// triangles of the first mesh. 0 if one of them has no triangles. The result does not depend on the crew.
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
                         Monitor& monitor, const Crew& crew = {});
@@ -37,7 +37,7 @@ struct FarPoint {
   std::int32_t nearest = 0;  ///< triangle of the other mesh
 };
 
-/// How near bounds are to be.
+/// Required accuracy of the bounds.
 struct DistanceTolerance {
   double share = 0.01;   ///< of the distance
   double length = 1e-6;  ///< added to the share, as a share of the diagonal of the box of `to`
@@ -45,9 +45,9 @@ struct DistanceTolerance {
 
 /// The distance to a single triangle is convex: over a convex polygon it is largest at a corner. Triangles are cut, beside
 /// the triangles that are nearest and then in halves, until one triangle of `to` shows of each piece that it is near
-/// enough. If that takes too many pieces, returns the upper bound reached. `of_triangles`, unless it is null, gets an upper bound for each
-/// triangle, and `farthest` the farthest of its corners and its middle. Both 0 where one of the meshes has none. The result does not depend
-/// on the crew. Throws Cancelled.
+/// enough. If that takes too many pieces, returns the upper bound reached. `of_triangles`, unless it is null, receives an upper bound for
+/// each triangle, and `farthest` the farthest of its corners and its middle. Both 0 if one of the meshes has no triangles. The result does
+/// not depend on the crew. Throws Cancelled.
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
                               const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles = nullptr,
                               std::vector<FarPoint>* farthest = nullptr);

@@ -121,7 +121,7 @@ struct DefectOptions {
 std::vector<std::string> find_defects(const SurfaceMesh& mesh, const DefectOptions& options = {});
 
 /// Returns, ascending, the vertices of edges with two equally directed triangles of a face, of edges with a wrong number of
-/// triangles, and of duplicated triangles. None if indices are out of range.
+/// triangles, and of duplicated triangles. Empty if indices are out of range.
 std::vector<std::int32_t> find_wrong_joints(const SurfaceMesh& mesh);
 
 }  // namespace carreau

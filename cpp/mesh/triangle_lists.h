@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a mesh where they are: nothing is copied.
+// A view of the triangles of a mesh, without copies.
 #pragma once
 
 #include <algorithm>

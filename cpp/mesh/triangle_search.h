@@ -36,7 +36,7 @@ class TriangleSearch {
 
   [[nodiscard]] bool empty() const noexcept { return tree_.empty(); }
   /// The nearest point; of equally near triangles, the lowest index is returned. `guess`, any triangle (one found
-  /// nearby), saves time and changes nothing. Not for an empty tree.
+  /// nearby), saves time and changes nothing. Requires a tree that is not empty.
   [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
   /// Adds the triangles that a segment may meet: all triangles whose boxes it meets, and some others beside.
   void beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const;

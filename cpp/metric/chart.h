@@ -41,7 +41,7 @@ class Chart {
 
   /// J^-1 d: the offset that the tensor alone gives.
   [[nodiscard]] Vec2 offset(const Vec2& d) const noexcept { return {(d.x() - q_ * d.y() / r_) / p_, d.y() / r_}; }
-  /// The point at y, by Newton's method from one nearby, which is given back where the chart folds.
+  /// The point at y, by Newton's method from a point nearby, which is returned if the chart folds.
   [[nodiscard]] Vec2 point(const Vec2& y, const Vec2& near) const noexcept {
     constexpr int steps = 4;           // from within a unit length: 1e-8 after three
     constexpr double least_det = 0.1;  // of the derivative: 1 at the origin, 0 on the fold
@@ -72,8 +72,7 @@ class Chart {
   Metric2 u_, v_;                 // the components of Gamma / 2
 };
 
-/// How much a field bends by the change of its shapes and directions alone: as if sizes were kept, the determinant
-/// constant.
+/// Bend of a field by the change of its shapes and directions alone: as if sizes were kept, the determinant constant.
 inline double bend_of_shapes(const MetricSlopes& s) noexcept {
   const Metric2 m = s.metric;
   const auto traceless = [&](Metric2 d) {

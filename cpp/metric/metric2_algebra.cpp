@@ -49,7 +49,8 @@ Reduction reduce(Metric2 p, Metric2 q) noexcept {
   return r;
 }
 
-// The reduction starts from the better conditioned of the two, so that the order of the arguments does not matter.
+// The reduction starts from the better conditioned of the two, so that it does not depend on the order of the
+// arguments.
 bool better_conditioned(Metric2 p, Metric2 q) noexcept {
   const double tp = p.a + p.c, tq = q.a + q.c;
   const double left = accurate_determinant(p) * tq * tq, right = accurate_determinant(q) * tp * tp;

@@ -51,12 +51,12 @@ Metric3 interpolate(const Metric3& p, const Metric3& q, double t, MetricLaw law)
 Metric3 intersection(const Metric3& p, const Metric3& q) noexcept;
 
 /// An ellipsoid inside all unit balls, by intersections of two (RR-2818 sec. 4.3.4), the smallest ball first. It does
-/// not depend on the order of the arguments, nor on rotations. Not the largest one in general, from three metrics on.
-/// Requires at least one metric.
+/// not depend on the order of the arguments, nor on rotations. From three metrics on, it is not the largest one in
+/// general. Requires at least one metric.
 Metric3 intersection(std::span<const Metric3> metrics);
 Metric2 intersection(std::span<const Metric2> metrics);
 
-/// How a prescribed metric is combined with another that must not be exceeded (RR-2928 sec. 5.3).
+/// Combinations of a prescribed metric with another that must not be exceeded (RR-2928 sec. 5.3).
 enum class MetricCombination : int {
   scale = 0,         ///< the prescribed one keeps its shape and shrinks until it lies inside (eq. 57)
   intersection = 1,  ///< largest ellipsoid inside both
@@ -74,8 +74,7 @@ struct TangentFrame {
   Vec3 e1, e2;
   double p = 1, q = 0, r = 1;
 
-  /// Empty where the parametrisation is degenerate: a derivative below 1e-12 of the other, or both parallel within
-  /// 1e-10.
+  /// Empty if the parametrisation is degenerate: a derivative below 1e-12 of the other, or both parallel within 1e-10.
   static std::optional<TangentFrame> of(const Vec3& su, const Vec3& sv) noexcept;
 
   /// The restriction of a metric of space to the plane.

@@ -12,8 +12,8 @@
 
 namespace carreau {
 
-/// An answer, or none. Values are as given: whoever uses them checks that they are finite and positive definite, and
-/// clamps them.
+/// An answer, or none. Values are unchecked: their users check that they are finite and positive definite, and clamp
+/// them.
 struct Prescription {
   enum class Kind {
     none,       ///< no answer here
@@ -48,13 +48,13 @@ struct SteepPlace {
 class PrescriptionSource {
  public:
   virtual ~PrescriptionSource() = default;
-  /// How sentences call it when an answer cannot be used.
+  /// Its name in sentences about unusable answers.
   [[nodiscard]] virtual std::string name() const { return "the prescription of sizes"; }
   /// False: `xyz` is never read, and need not be evaluated.
   [[nodiscard]] virtual bool needs_position() const noexcept { return true; }
-  /// Called before a run; `law`: how values vary between places where they are known (hinterpol_flag).
+  /// Called before a run; `law`: the variation of values between known places (hinterpol_flag).
   virtual void begin_run(MetricLaw /*law*/) {}
-  /// Sentences about the run that is over, for whoever reads messages.
+  /// Sentences about the run that is over, as messages.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
   /// Relative error of lengths in the field: sampling need not be finer. Below 0.01: as if 0.01.
   [[nodiscard]] virtual double accuracy() const noexcept { return 0; }

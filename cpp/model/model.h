@@ -23,7 +23,7 @@ struct FacePoint {
 
 enum class CurveType : int { boundary = 1, internal = 2 };
 
-/// How the lengths of prescribed edges follow one another. Values are part of the C ABI.
+/// Progression of the lengths of prescribed edges. Values are part of the C ABI.
 enum class Progression : int { equal = 0, arithmetic = 1, geometric = 2, given = 3 };
 
 /// The edges of a curve, prescribed in place of sizes (HDR sec. 2.1, 2.3). Lengths are arc lengths in space, in the

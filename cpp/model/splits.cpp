@@ -128,7 +128,7 @@ class FreshReferences {
       for (const FacePoint& point : face.points) point_ = std::max(point_, point.ref);
     }
   }
-  /// 0 where references are still to be found.
+  /// 0 if references are unknown.
   int curve() { return known_ ? ++curve_ : 0; }
   int point() { return known_ ? ++point_ : 0; }
 

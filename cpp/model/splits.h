@@ -23,7 +23,7 @@ struct CurveSplit {
 /// and cut others. Throws InvalidArgument when traces are missing.
 std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& traces, double eps);
 
-/// The model with curves cut; where it has references, parts behind the first, and points between, get new ones: `t[i]`
+/// The model with curves cut; if it has references, parts behind the first, and points between, get new ones: `t[i]`
 /// strictly inside the host's interval, ascending for one curve.
 struct CurveCut {
   std::size_t face = 0, curve = 0;

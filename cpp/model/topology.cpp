@@ -103,7 +103,7 @@ class TopologyBuilder {
     }
   }
 
-  // The manual demanded two references even where a side is one point: they are one corner. Ends of collapsed curves
+  // The manual required two references even for a side that is one point: they are one corner. Ends of collapsed curves
   // may be as far from their corner as the curves were long.
   void merge_ends_of_points() {
     for_each_curve([&](const FaceCurve& curve, std::span<const Vec3> points) {
@@ -164,7 +164,7 @@ class TopologyBuilder {
     shape.uses.push_back(use);
   }
 
-  // Each end must be where its reference was first seen.
+  // Each end must be at the first place of its reference.
   void check_ends(const CurveUse& use, int end1, int end2) {
     const Vec3 front = trace(use).front(), back = trace(use).back();
     const Vec3 p1 = topology_.points[end1].position, p2 = topology_.points[end2].position;

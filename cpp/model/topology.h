@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which curves and points are one in space.
+// Finds curves and points that are one in space.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ struct Curve {
   bool degenerate = false;     ///< maps to one point of space (HDR sec. 4.5.4)
 };
 
-/// A point of space where curves end.
+/// A point of space at ends of curves.
 struct CornerPoint {
   int ref = 0;
   Vec3 position;            ///< from the first curve end that has this reference
@@ -59,7 +59,8 @@ std::vector<ModelDefect> list_model_defects(const Model& model);
 /// Polylines that approximate the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
 using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
 
-/// That of the first face that is not left out; nullptr: it has none. It decides whether references are known.
+/// The first curve of the first face that is not left out; nullptr: it has no curve. It decides whether references are
+/// known.
 const FaceCurve* first_curve(const Model& model);
 /// True when references are to be found by gluing: the very first curve has reference 0.
 bool needs_gluing(const Model& model);
@@ -113,8 +114,8 @@ Model collapse_tiny_curves(const Model& model, const CurveTraces& traces, double
 /// Collects curves and points. Finds directions; closed curves are compared at equal lengths. Finds degenerate curves:
 /// collapsed curves, traces within eps / 1000 of a point, and open curves within `eps` of a point that have one
 /// reference at both ends. The end references of a short trace become one corner; if a whole loop would vanish, the
-/// limit is a thousandth of its longest side. `eps` (model length) is how far curves and ends of one reference may be
-/// apart, or `eps_match` where that is more: `remarks` (may be null) receives a sentence when some are farther apart
+/// limit is a thousandth of its longest side. `eps` (model length) is the largest distance of curves and ends of one
+/// reference, or `eps_match` if that is more: `remarks` (may be null) receives a sentence when some are farther apart
 /// than eps. The model must have no defect. Throws InvalidModel, naming faces, curves, references and the gap: curves
 /// of one reference that are farther apart, ends away from the end of their reference (exchanged ends are named), refp1
 /// = refp2 on a curve that does not return, a closed curve of undetermined direction. Throws InvalidArgument when eps

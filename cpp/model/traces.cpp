@@ -96,7 +96,7 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
   const Runs runs(to);
   for (const Vec3& p : from) {
     double best = infinity;
-    // A point that is no farther than an earlier point does not matter.
+    // A point that is no farther than an earlier point is irrelevant.
     const auto look = [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last && best > worst * worst; ++i) {
         const double distance = squared_distance_to_segment(p, to[i - 1], to[i]);

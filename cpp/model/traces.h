@@ -33,8 +33,8 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
 double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough, double negligible = 0);
 /// Diagonal of the box of all traces.
 double traces_diagonal(const CurveTraces& traces);
-/// How far the polyline may be off the curve that it samples, about: the largest distance of a vertex to the chord of
-/// its neighbours. 0 for straight ones.
+/// Approximate deviation of the polyline from its curve: the largest distance of a vertex to the chord of its
+/// neighbours. 0 for straight curves.
 double trace_deviation(std::span<const Vec3> trace);
 /// Largest distance of a vertex to the first one.
 double trace_extent(std::span<const Vec3> trace);

@@ -41,7 +41,7 @@ void mesh_without_narrow(CompositeRun& run) {
   collapse_narrow_one_by_one(run);
 }
 
-// Keeps the promise of the gradation for neighbouring edges on the assembled mesh, too.
+// Also enforces the gradation of neighbouring edges on the assembled mesh.
 void even_out(CompositeRun& run) {
   const CompositeOptions& options = run.options;
   if (run.slope() == 0) return;

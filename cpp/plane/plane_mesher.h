@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// Triangulates `domain` so that edges have length 1 in the metric as far as possible.
-/// Deterministic, for any number of threads; re-entrant; no callback but monitor.checkpoint().
+/// Triangulates `domain` so that edges have lengths near 1 in the metric. Deterministic, for any number of threads;
+/// re-entrant; no callback but monitor.checkpoint().
 /// @throws DomainError   loops that do not close, cross or touch (edges and (u, v) in the message)
 /// @throws LimitError, Cancelled
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,

@@ -45,7 +45,7 @@ class Session {
 
   void set_cad(std::shared_ptr<Cad> cad);
   /// Evaluates all faces that are given by triangles (Face::discrete), in place of the Cad of set_cad; nullptr: no such
-  /// faces. A DiscreteCad that set_cad() gets is that itself.
+  /// faces. A DiscreteCad given to set_cad() serves both.
   void set_triangles(std::shared_ptr<const discrete::DiscreteCad> triangles);
   /// Prescribed sizes and metrics, unless hphy_flag = 0: the host's callbacks, and an additional source that is
   /// evaluated after them (a background mesh). The prescriptions of both at a place are intersected. nullptr: none, as
@@ -55,7 +55,7 @@ class Session {
   /// A background mesh as that other source; the parameters background_mesh and background_sol come before it. nullptr:
   /// none.
   void set_background(std::shared_ptr<BackgroundField> background);
-  /// How the background mesh of the last make_mesh() was used; zero when there was none.
+  /// Use of the background mesh in the last make_mesh(); zero when there was none.
   [[nodiscard]] const BackgroundReport& background_report() const noexcept;
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. If the
   /// parameter failing_faces requires it, leaves out the faces that break a rule.

@@ -57,8 +57,8 @@ struct Session::State {
   void check_model(const Model& candidate) const;
 };
 
-/// Files that parameters name take precedence over the host's background mesh. Throws InvalidArgument where one of two
-/// is named.
+/// Files that parameters name take precedence over the host's background mesh. Throws InvalidArgument if one of two is
+/// named.
 std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters, bool one_plane,
                                                    const std::shared_ptr<BackgroundField>& set);
 

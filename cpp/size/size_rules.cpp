@@ -137,7 +137,7 @@ unsigned SizeRules::surface_wants() const noexcept {
   unsigned wants = parameters_.geometric == GeometricSizes::curvature ? both_derivatives : 0;
   if (!uses_metrics()) return wants;
   wants |= want_first;
-  if (uses_curvature()) wants |= want_second;  // where the host does not give its radius
+  if (uses_curvature()) wants |= want_second;  // if the host does not give its radius
   if (needs_positions()) wants |= want_position;
   return wants;
 }

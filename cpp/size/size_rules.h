@@ -45,7 +45,7 @@ struct SizeParameters {
   SizeLaw law = SizeLaw::linear;
   double angle_mesh = 8;  ///< degrees
   GeometricCriterion geo_rule = GeometricCriterion::angle;
-  double eps_chord = 0;          ///< A0, model length; > 0 where geo_rule is chord or both
+  double eps_chord = 0;          ///< A0, model length; > 0 if geo_rule is chord or both
   bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor or guaranteed_chord_factor (thresholds.h)
   bool geo_anisotropic = false;  ///< sizes by both principal radii
   double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
@@ -60,7 +60,7 @@ struct SizeParameters {
 struct GeometricLimits {
   double edge_angle_deg = infinity;  ///< of edges with tangent planes at their ends
   double deviation = infinity;       ///< A0 of triangles, model length
-  double shortest_divided = 0;       ///< edges below it are as short as hgeomin lets them be, whatever they exceed
+  double shortest_divided = 0;       ///< edges below it are as short as hgeomin permits, whatever they exceed
 
   [[nodiscard]] bool any() const noexcept { return std::isfinite(edge_angle_deg) || std::isfinite(deviation); }
 };
@@ -82,8 +82,8 @@ double mean_size(SizeMean kind, std::span<const double> values);
 /// 5.2.1, HDR sec. 4.4.2). Returns +infinity on a plane point; empty if the parametrisation is degenerate.
 std::optional<double> smallest_radius(const SurfaceJet& jet) noexcept;
 
-/// Radius of curvature of the space curve S(C(t)) from both jets with first and second derivatives; +infinity where
-/// straight and where the curve does not move.
+/// Radius of curvature of the space curve S(C(t)) from both jets with first and second derivatives; +infinity if the
+/// curve is straight or does not move.
 double curve_radius(const SurfaceJet& surface, const CurveJet& curve) noexcept;
 
 /// The prescriptions at one point inside a curve, along its tangent.
@@ -138,7 +138,7 @@ class SizeRules {
   [[nodiscard]] std::vector<SteepPlace> steep_in_space() const;
   /// Parameters of a use of a curve at which sources report kinks.
   [[nodiscard]] std::vector<double> kinks_on_curve(const CurveUse& use) const;
-  /// How sizes vary between two points where they are known.
+  /// The variation of sizes between two known points.
   [[nodiscard]] SizeLaw law() const noexcept { return parameters_.law; }
 
   /// h = min of the clamped physical and geometric sizes at a corner point (index in Topology::points).

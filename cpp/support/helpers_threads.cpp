@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of helpers_tbb.cpp where oneTBB is not built in.
+// Replaces helpers_tbb.cpp if oneTBB is not built in.
 #include <condition_variable>
 #include <deque>
 #include <mutex>

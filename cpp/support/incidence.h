@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of many small sets a thing belongs to.
+// Finds which of many small sets hold a thing.
 #pragma once
 
 #include <array>

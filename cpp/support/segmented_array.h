@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An array that grows where it is.
+// An array that grows in place.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ class SteppedTask {
   /// The next step calls a host that must be called from the calling thread only.
   [[nodiscard]] virtual bool bound() const = 0;
   /// Runs the next step. `monitor` accepts checkpoints and messages from the thread at work; they reach the host in
-  /// order of the tasks. Not called any more when it has thrown.
+  /// order of the tasks. Never called again after it has thrown.
   virtual void step(Monitor& monitor) = 0;
 };
 

@@ -270,11 +270,11 @@ class Remeshing {
   Monitor& monitor_;
   double slope_;
   Tools tools_;
-  std::vector<double> damage_;  // 1 where elements overlap
+  std::vector<double> damage_;  // 1 if elements overlap
   Eroded eroded_;
   TriangleSearch search_;
   std::vector<double> physical_;
-  std::vector<Vec2> rough_;  // where new edges crossed each other
+  std::vector<Vec2> rough_;  // crossings of new edges
   RemeshResult result_;
 };
 

@@ -14,7 +14,7 @@
 
 namespace carreau::variable {
 
-/// How values go from one mesh to the next.
+/// The transfer of values from one mesh to the next.
 enum class FieldKind : int {
   nodal = 0,              ///< at vertices: linear; exact for linear fields
   element_mean = 1,       ///< in triangles: mean over the part that a new triangle covers; exact for constants, bounded
@@ -33,7 +33,7 @@ struct RemeshInput {
   Piece piece;                     ///< the displacement of the increment already added
   std::vector<Vec2> displacement;  ///< of the increment, by vertex, to be checked; empty: not checked
   std::vector<double> damage;      ///< in [0, 1], by triangle; empty: none
-  std::vector<Tool> tools;         ///< where they are now
+  std::vector<Tool> tools;         ///< at their current places
   std::vector<RemeshField> fields;
 
   double h_min = 0, h_max = 0;
@@ -57,7 +57,7 @@ struct RemeshInput {
 /// Agreement of the new boundary with the requested one.
 enum class Faithfulness : int {
   smooth = 0,    ///< as asked
-  partly = 1,    ///< runs near places where new edges crossed each other keep their nodes
+  partly = 1,    ///< runs near crossings of new edges keep their nodes
   kept = 2,      ///< all nodes are nodes of the piece, and bound ones have moved to the tools
   as_given = 3,  ///< the boundary is the boundary of the piece
 };

@@ -10,7 +10,7 @@
 namespace carreau::variable {
 
 /// Remaining triangles whose boundary edges cross, or touch, boundary edges of triangles elsewhere; ascending. Exact. n
-/// log n in boundary edges where few are near each other.
+/// log n in boundary edges, if few are near each other.
 std::vector<std::int32_t> crossing_triangles(const Eroded& eroded);
 
 }  // namespace carreau::variable

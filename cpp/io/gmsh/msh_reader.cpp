@@ -38,7 +38,7 @@ bool is_surface(std::int32_t type) noexcept {
          type == quad_of_eight_nodes_type || type == quad_of_nine_nodes_type;
 }
 
-/// A solid: its shape, and where SolidSkin's nodes are in Gmsh's order, or its corners alone.
+/// A solid: its shape, and the positions of SolidSkin's nodes in Gmsh's order, or its corners alone.
 struct GmshSolid {
   SolidShape shape;
   std::vector<std::size_t> nodes;

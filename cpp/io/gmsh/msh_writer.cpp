@@ -35,13 +35,13 @@ struct Entity {
   std::string name;                  // of the physical group
   std::vector<std::size_t> members;  // elements, kind by kind (for a solid: the elements of its faces), edges or the vertex
   std::vector<std::size_t> nodes;    // that belong to no entity of a lower dimension
-  std::vector<int> bounds;           // tags of the faces of a solid, negative where triangles look inwards
+  std::vector<int> bounds;           // tags of the faces of a solid, negative if triangles look inwards
 };
 
 using Entities = std::map<std::int32_t, Entity>;  // by reference
 
-/// Tags are positive in the format: other references get numbers above the largest one, and the least that are free
-/// where numbers end.
+/// Tags are positive in the format: other references get numbers above the largest one, and the least free numbers
+/// after the last number.
 void give_tags(Entities& entities) {
   int next = entities.empty() ? 0 : std::max(entities.rbegin()->first, 0);
   const auto advance = [&] { next = next == std::numeric_limits<int>::max() ? 1 : next + 1; };
@@ -126,7 +126,7 @@ class MshText {
     }
   }
 
-  /// Solids have no elements. The signed tags of the faces around them let programs fill them.
+  /// Solids have no elements. The signed tags of the faces around them enable programs to fill them.
   void collect_solids() {
     for (const auto& [ref, sides] : mesh_.names.face_solids) {
       const auto face = entities_[2].find(ref);

@@ -36,7 +36,7 @@ std::vector<std::string_view> words_of_line(std::string_view line, const std::st
   return found;
 }
 
-/// The next line that has words; where the rest starts.
+/// The next line that has words; and the start of the rest.
 struct Line {
   std::vector<std::string_view> words;
   std::size_t end = 0;

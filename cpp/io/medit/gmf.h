@@ -51,7 +51,7 @@ constexpr std::uint64_t gmf_next(std::uint64_t at, int version, std::uint64_t co
 struct GmfCounts {
   int dimension = 3;
   std::uint64_t vertices = 0, triangles = 0, edges = 0;
-  std::uint64_t cells = 0;  ///< elements, where they are not the triangles
+  std::uint64_t cells = 0;  ///< elements, if they are not the triangles
 };
 
 /// Bytes of a file of version 3, at most.

@@ -35,7 +35,7 @@ class GmfSections {
   double real(const char* what);
   /// Number of records of a section.
   std::int64_t announced() { return sized(sizes_.count); }
-  /// Throws unless `n` records of that many bytes fit in the rest of the section. `at`: where n was read.
+  /// Throws unless `n` records of that many bytes fit in the rest of the section. `at`: the place of n.
   std::size_t checked_count(std::int64_t n, std::size_t at, const char* what, std::size_t record) const;
   std::size_t count(const char* what, std::size_t record) {
     const std::size_t at = pos_;

@@ -38,7 +38,7 @@ bool looks_like_integer(std::string_view word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// The numbers of the text in order, and where they stand.
+/// The numbers of the text in order, and their places.
 class PardomReader {
  public:
   PardomReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}

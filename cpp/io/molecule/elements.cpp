@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-/// Bondi 1964 for his 38 elements (D and T: the value of H). Alvarez 2013 for others; where he has none, Mantina et al.
+/// Bondi 1964 for his 38 elements (D and T: the value of H). Alvarez 2013 for others; if he has none, Mantina et al.
 /// 2009 (At, Fr, Po, Ra, Rn) and for Pm and elements from Fm on 2.54 alpha^(1/7) bohr (Fedorov et al.
 /// 2018) of the polarizabilities of Schwerdtfeger and Nagle 2019 (Lv: the mean of its neighbours).
 constexpr std::array<std::pair<std::string_view, double>, 120> radii{{

@@ -21,8 +21,8 @@ inline constexpr double usual_corner_angle = 50;
 PlaneDomainInput read_plane_domain(const std::string& path);
 
 /// Triangle's format with its points in the same file, or in `nodes`. Segments may cross (PlaneDomainInput::arrange). Markers are
-/// references. Markers of regions are their attributes if all are positive whole numbers, else their numbers. Inside all edges is the
-/// domain, but for holes.
+/// references. Markers of regions are their attributes if all are positive whole numbers, else their numbers. The domain lies inside
+/// all edges, without holes.
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name);
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name, std::string_view nodes,
                                 const std::string& nodes_name);

@@ -52,7 +52,7 @@ void add_card(const char* name, const std::vector<std::size_t>& numbers, std::st
   end_line(text);
 }
 
-/// Small fields where they hold all coordinates exactly, else large ones.
+/// Small fields if they hold all coordinates exactly, else large ones.
 void add_grid(std::size_t number, const Vec3& p, std::string& text) {
   std::string fields[3];
   bool small = true;

@@ -24,7 +24,7 @@ struct CurveSet {
   std::int32_t ref = 0;
   std::string name;       ///< "curve_5"
   std::size_t first = 0;  ///< from 1
-  std::vector<std::vector<std::int32_t>> edges;  ///< two ends, and the node between them where edges are curved
+  std::vector<std::vector<std::int32_t>> edges;  ///< two ends, and the node between them if edges are curved
 };
 
 /// Faces, or curves, to which the file or the host has given one name.

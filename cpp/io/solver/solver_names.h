@@ -16,7 +16,7 @@
 
 namespace carreau {
 
-/// Throws FileError where `text`, which `in` reads, has a zero byte: names would end there in other files.
+/// Throws FileError if `text`, which `in` reads, has a zero byte: names would end there in other files.
 void refuse_zero_bytes(const Words& in, std::string_view text);
 
 /// Returns 7 for "face_7" if `before` is "face_", and -7 for "face_m7", capitals or not; false: a different name.
@@ -30,7 +30,7 @@ class SolverNodes {
  public:
   explicit SolverNodes(const Words& in) : in_(in) {}
 
-  /// `at`: where it stands. Throws FileError where the number comes twice.
+  /// `at`: its place in the text. Throws FileError if the number comes twice.
   void add(std::int64_t number, const Vec3& p, const char* at);
   /// All vertices, once. Throws FileError when there are none.
   void give_to(FlatMesh& mesh);
@@ -47,7 +47,7 @@ struct SolverElement {
   std::int64_t number = 0;
   std::vector<std::int64_t> nodes;  ///< 3, 4, 6 or 8: corners, then nodes on sides; of a solid as SolidSkin has them
   std::string set;                  ///< that it names itself; "": none
-  const char* at = nullptr;         ///< where it stands
+  const char* at = nullptr;         ///< its place in the text
   std::optional<SolidShape> solid = {};  ///< nothing: an element of a surface
 };
 

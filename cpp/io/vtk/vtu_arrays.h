@@ -18,7 +18,7 @@ struct VtuArray {
   [[nodiscard]] std::string shown_name() const;
 };
 
-/// How the numbers of a file are stored, and where.
+/// The storage of the numbers of a file, and their places.
 class VtuArrays {
  public:
   /// Keeps references to both arguments. `root`: the tag VTKFile. Throws FileError for unknown forms.

@@ -100,7 +100,7 @@ std::size_t VtuReader::text_size(const VtuArray& array) {
   }
 }
 
-/// Reads the tags: where the arrays are.
+/// Reads the tags: the places of the arrays.
 void VtuReader::collect(VtuArrays& numbers) {
   std::string section;
   for (XmlTag tag = tags_.next();; tag = tags_.next()) {

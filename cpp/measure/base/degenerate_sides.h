@@ -22,7 +22,7 @@ class DegenerateSides {
 
   /// Returns the point at which the straight way from `a` arrives on the side that ends at local vertex `p`; su, sv: derivatives at a;
   /// `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of the side represents the pole in (u, v). If no
-  /// side ends at p, as in cross-patch meshes, `at_pole` gives the axis of the way; empty where that is zero.
+  /// side ends at p, as in cross-patch meshes, `at_pole` gives the axis of the way; empty if that is zero.
   [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, const Tangents& at_pole, const Vec2& a, const Tangents& at_a, const Vec3& chord) const;
 
  private:

@@ -44,7 +44,7 @@ class ChartedPlaces {
 
   /// Sees the lattices of these triangles.
   void see(std::span<const std::int32_t> triangles);
-  /// That of the k-th one.
+  /// Places of the k-th triangle.
   [[nodiscard]] std::array<BoundPlace, TriangleBound::lattice_size> lattice(std::size_t k) const;
   /// Other places of the triangles seen last.
   [[nodiscard]] std::vector<BoundPlace> see(std::span<const ChartedPlace> places);

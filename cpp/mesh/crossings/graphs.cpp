@@ -17,7 +17,7 @@ namespace {
 
 // Triangles that are searched together; smaller sets are not searched. [time only]
 constexpr std::size_t triangles_at_once = 32768, least_graph = 24;
-// How often triangles at vertices where a set hangs together by a corner only are left out. [time only]
+// Most removals of triangles at vertices that alone connect parts of a set. [time only]
 constexpr int most_repairs = 3;
 
 using Triangle = std::array<std::int32_t, 3>;
@@ -89,7 +89,7 @@ class Graphs {
   Graphs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const TriangleView> views)
       : vertices_(vertices), triangles_(triangles), views_(views) {}
 
-  /// Puts them graph by graph. `graph`: by triangle of the mesh; the numbers count from 0. How many there are.
+  /// Puts them graph by graph. `graph`: by triangle of the mesh; the numbers count from 0. Returns their number.
   std::int32_t find(std::span<std::int32_t> some, std::span<std::int32_t> graph, Monitor& monitor) {
     halves_.set(triangles_, some);
     some_ = some;
@@ -125,7 +125,8 @@ class Graphs {
            1 - 2 * (side_ & 1);
   }
 
-  // All that hang together by edges and are seen from the side from which this one is seen best, and the lines round them.
+  // Collects all triangles that are connected by edges and visible from the best side of this one, and the lines round
+  // them.
   void grow(std::int32_t seed) {
     side_ = view(static_cast<std::size_t>(seed)).side;
     members_.assign(1, seed);

@@ -88,7 +88,7 @@ bool segment_meets(const Vec3& p, const Vec3& q, const Corners& t, Vec3& place) 
     place = middle_over(t, axis_of(t), p, q);
     return true;
   }
-  // The line crosses the plane in one point: inside where it passes all sides in one sense.
+  // The line crosses the plane in one point: inside if it passes all sides in one sense.
   const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]), c = orientation(p, q, t[2], t[0]);
   if (std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0) return false;
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);

@@ -76,7 +76,7 @@ std::vector<std::int32_t> followers(std::span<const OutlineEdge> edges) {
   return next;
 }
 
-// How often simple lines go round counterclockwise: by the corner that comes first along the axes, which is convex; -1:
+// Number of turns of simple lines counterclockwise: by the corner that comes first along the axes, which is convex; -1:
 // some line is not closed.
 int counterclockwise_lines(std::span<const OutlineEdge> edges) {
   const std::vector<std::int32_t> next = followers(edges);

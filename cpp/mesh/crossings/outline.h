@@ -13,7 +13,7 @@ namespace carreau {
 /// A directed edge, the set on its left.
 struct OutlineEdge {
   std::int32_t from, to;  ///< vertices
-  Vec2 p, q;              ///< where they are
+  Vec2 p, q;              ///< their places
 };
 
 /// Vertices from which more than one edge starts, ascending. Sorts the edges by their first vertices.

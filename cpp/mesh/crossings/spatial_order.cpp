@@ -56,7 +56,7 @@ class Grid {
   }
 
  private:
-  // Any value at all, where numbers are too large to be subtracted.
+  // Any value at all, if numbers are too large to be subtracted.
   [[nodiscard]] std::uint32_t step(const Vec3& p, int axis) const noexcept {
     const double x = (p[axis] - low_[axis]) * scale_;
     return x > 0 ? static_cast<std::uint32_t>(std::min(x, last_)) : 0;

@@ -20,7 +20,7 @@ struct CellQuality {
   /// over.
   double scaled_jacobian = 0;
   double least_jacobian = 0;           ///< Jacobian::least(): positive for a valid element
-  double angle_min = 0, angle_max = 0;  ///< degrees, between the tangents of its sides; above 180 where turned over
+  double angle_min = 0, angle_max = 0;  ///< degrees, between the tangents of its sides; above 180 if turned over
   double area = 0;                      ///< of the curved element
 };
 
@@ -37,7 +37,7 @@ struct CellSummary {
 };
 CellSummary summarise_cells(const FlatMesh& mesh);
 
-/// The elements of a mesh, its triangles where FlatMesh::cells is empty: use(index, cell, nodes, first triangle).
+/// The elements of a mesh, its triangles if FlatMesh::cells is empty: use(index, cell, nodes, first triangle).
 template <typename Use>
 void for_cells(const FlatMesh& mesh, const Use& use) {
   std::array<Vec3, 8> nodes;

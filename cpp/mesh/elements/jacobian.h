@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jacobians of elements, by their Bernstein coefficients: where all are positive the element is valid everywhere, not
-// at some points only.
+// Jacobians of elements, by their Bernstein coefficients: if all are positive the element is valid everywhere, not at
+// some points only.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ struct Jacobian {
 
   /// The integral of the normal over the reference triangle or square, up to a factor: it depends on the border alone.
   [[nodiscard]] Vec3 mean() const noexcept;
-  /// Least coefficient along the mean normal over the mean: 1 where the Jacobian is constant, positive: the element is
-  /// valid. 0 or less where the mean vanishes.
+  /// Least coefficient along the mean normal over the mean: 1 for a constant Jacobian, positive: the element is valid.
+  /// 0 or less if the mean vanishes.
   [[nodiscard]] double least() const noexcept;
   /// The least along a given direction: {0, 0, 1} for plane elements.
   [[nodiscard]] double least_along(const Vec3& direction) const noexcept;

@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// Entries. In memory at once, where there are not many more.
+/// Entries. Number in memory at once, if there are not many more.
 inline constexpr std::size_t entries_at_once = std::size_t{1} << 22;
 
 /// Calls use(v, entries) for each vertex v that has any, ascending; `entries` (std::span<Entry>) may be sorted there.

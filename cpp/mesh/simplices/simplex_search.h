@@ -34,7 +34,7 @@ class SimplexSearch {
   SimplexSearch(std::span<const Vec3> vertices, std::span<const Simplex> simplices);
 
   /// The nearest point; of equally near simplices, the lowest index is returned. `guess`, any simplex (one found
-  /// nearby), saves time and changes nothing. Not for an empty tree.
+  /// nearby), saves time and changes nothing. Requires a tree that is not empty.
   [[nodiscard]] NearestOnSimplices nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
   /// Longest edge of a simplex.
   [[nodiscard]] double longest_edge(std::int32_t simplex) const noexcept;

@@ -24,11 +24,11 @@ std::vector<Simplex> simplices_of(std::span<const std::array<std::int32_t, 4>> t
                                   std::span<const std::array<std::int32_t, 3>> triangles,
                                   std::span<const std::array<std::int32_t, 2>> edges);
 
-/// The corners of the face opposite to each corner of a tetrahedron; turned inward where its volume is positive.
+/// The corners of the face opposite to each corner of a tetrahedron; turned inward for a positive volume.
 inline constexpr std::array<std::array<std::size_t, 3>, 4> faces_of_tetrahedron{
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
-/// Six times the volume of a tetrahedron, positive where (b - a) x (c - a) points to d.
+/// Six times the volume of a tetrahedron, positive if (b - a) x (c - a) points to d.
 inline double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
   return dot(cross(b - a, c - a), d - a);
 }

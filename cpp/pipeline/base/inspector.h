@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inspectors look at the assembled mesh and return requests for a finer one. None of them meshes. Private to pipeline/.
+// Inspectors look at the assembled mesh and return requests for a finer one. Inspectors never mesh. Private to
+// pipeline/.
 #pragma once
 
 #include <cstdint>

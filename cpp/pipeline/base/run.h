@@ -72,7 +72,7 @@ struct CompositeRun {
   /// The input of the mesh, which the next round refines: its curves, and by face the sources of sizes inside.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
-  KnownPatches known;          ///< mesh_patches(), where rounds may follow
+  KnownPatches known;          ///< mesh_patches(), if rounds may follow
   std::set<std::string> reported;  ///< once, however often something is meshed
   bool trying = false;
 };

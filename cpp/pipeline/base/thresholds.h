@@ -19,10 +19,10 @@ inline constexpr int most_refills = 6;
 /// Ratio of triangles. A mesh with a larger ratio has not missed a place: its sizes are wrong nearly everywhere.
 /// [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr double most_growth = 1000;
-/// Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
+/// Tangent of the angle by which triangles may lean if long sizes are bounded for it: a ninth more area at worst.
 /// [Leaning.TrianglesOfRatio100LieOnTheSurface]
 inline constexpr double most_lean = 0.5;
-/// Ratio by which sizes then grow from one edge to the next: where the curvature vanishes along a line they would jump.
+/// Ratio by which sizes then grow from one edge to the next: at lines of zero curvature they would jump.
 /// [Leaning.ShortEdgesAreNotBounded]
 inline constexpr double gentle = 1.5;
 /// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
@@ -52,7 +52,7 @@ inline constexpr double short_share = 0.7;
 inline constexpr int most_curve_halvings = 4;
 
 // Progress (curve_steps, run)
-/// Curves that are cut between two reports where several threads cut them. [time only]
+/// Curves that are cut between two reports, if several threads cut them. [time only]
 inline constexpr std::size_t curves_at_once = 64;
 /// Shares of the run: the gradation if there is one, then shares of the rest for curves and for patches.
 /// [GradedModel.TellsItsProgressAndStops]

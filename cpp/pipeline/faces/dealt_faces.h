@@ -25,12 +25,12 @@ struct DealtFaces {
   bool parts = false;  ///< patches stay with the process that meshed them; the processes own the patches that all made together in turn
   /// Called from the thread that runs when job `i` is begun, the `begun`-th of all processes.
   std::function<void(std::size_t i, std::size_t begun)> on_begun;
-  /// Called for 0, 1, 2, ... in every process, with the same outcomes; where patches stay, in one of them with the patch.
+  /// Called for 0, 1, 2, ... in every process, with equal outcomes; if patches stay, in one of them with the patch.
   std::function<void(std::size_t i, FaceOutcome)> on_finished;
 };
 
 /// First the faces that all make together. Then each process takes a face whenever one of its threads is free, and at the end all exchange
-/// the outcomes. A process puts aside a face whose samples promise more than its share of triangles; all processes mesh it together at the
+/// the outcomes. A process puts a face off if its samples require more than its share of triangles; all processes mesh it together at the
 /// end. All processes throw the error of the first face in order, after the outcomes before it. An error without a face (a stop, no memory)
 /// comes first, as does an error of a face made together. Messages of faces reach all hosts, in order of the faces.
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor);

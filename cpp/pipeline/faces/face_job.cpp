@@ -168,7 +168,7 @@ void FaceJob::mesh(Monitor& monitor) {
 
 void FaceJob::lift(Monitor& monitor) {
   std::vector<Vec2> places;
-  std::optional<std::vector<std::int32_t>> bad;  // triangles, where they are known
+  std::optional<std::vector<std::int32_t>> bad;  // triangles, if known
   {
     const Stopwatch watch(report_.seconds_lift);
     lift_patch(input_, *cad_, *mesh_, monitor, asking_positions());
@@ -179,7 +179,7 @@ void FaceJob::lift(Monitor& monitor) {
       places.insert(places.end(), steep.begin(), steep.end());
     }
   }
-  // Samples at a jump promise triangles without end.
+  // Samples at a jump require triangles without end.
   refuse_jumps(most_looked_at_first, monitor);
   const bool again = refill_undersampled(places, monitor);
   if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {
@@ -201,7 +201,7 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
   if (bounded_rounds_ == 0) prescribed_ = agreement;
   if (!best_ || agreement.better_than(best_->agreement))
     best_.emplace(Attempt{std::move(*mesh_), std::move(*space_), agreement, bounded_rounds_ > 0});
-  if (best_->agreement.wrong() && squares_) {  // equilateral triangles may follow the surface where halves of squares do not
+  if (best_->agreement.wrong() && squares_) {  // equilateral triangles may follow the surface if halves of squares do not
     squares_ = false;
     space_.emplace(best_->space);
     next_ = Step::mesh;
@@ -214,8 +214,8 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
     take_best(monitor);
 }
 
-// First long sizes are bounded by the curvature along them; then they also grow gently: where it vanishes along a line
-// they would jump. False: there is nothing more to try.
+// First bounds long sizes by the curvature along them; then also bounds their growth: at lines of zero curvature they
+// would jump. Returns false if no more bounds are left.
 bool FaceJob::sample_bounded(Monitor& monitor) {
   if (++bounded_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
   input_.limits.lean = most_lean;
@@ -294,7 +294,7 @@ void FaceJob::return_to_host(Monitor& monitor) {
                " turned over in (u, v), not in space");
 }
 
-// True if the mesh has missed places that the control space knows correctly. Other places are added to `places`.
+// True if the mesh has missed places that the control space knows correctly. Adds other places to `places`.
 bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   const std::size_t vertices = mesh_->plane.vertices.size();
   if (refills_ == most_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;

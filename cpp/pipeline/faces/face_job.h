@@ -41,7 +41,7 @@ class FaceJob final : public SteppedTask {
   /// The job of this face from its beginning, for all processes of the team to make it together, step by step, and share
   /// the work.
   [[nodiscard]] std::unique_ptr<FaceJob> shared() const;
-  /// Triangles that its samples promise, when it has been sampled and not been meshed; else 0.
+  /// Triangles that its samples require, when it has been sampled and not been meshed; else 0.
   [[nodiscard]] double promised() const noexcept {
     return next_ == Step::mesh && space_ && !mesh_ && !best_ && !squares_ ? space_->measure() : 0;
   }

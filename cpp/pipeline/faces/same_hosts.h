@@ -13,8 +13,8 @@ namespace carreau {
 /// The minimum over the processes: machines differ in memory, and the mesh must not depend on the machine.
 [[nodiscard]] std::int64_t least_of(Team& team, std::int64_t most_triangles);
 
-/// Throws Error, which names process and curve, where a process has cut one in another way than the first process: its
-/// callbacks or parameters are others.
+/// Throws Error, which names process and curve, if a process has cut a curve differently from the first process: its
+/// callbacks or parameters differ.
 void require_same_curves(Team& team, const CompositeRun& run);
 
 /// Throws Error if the hosts' answers differ at a few vertices of each patch: positions and prescribed sizes.

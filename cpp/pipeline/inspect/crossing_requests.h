@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests for smaller triangles where triangles cross although their faces are apart. Private to pipeline/.
+// Requests for smaller triangles at triangles that cross although their faces are apart. Private to pipeline/.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ class Crossings {
 /// Pairs of faces, by index, ascending.
 using FacePairs = std::set<std::pair<int, int>>;
 
-/// A request to mesh two faces finer where their triangles cross.
+/// A request to mesh two faces finer at their crossing triangles.
 struct CrossingRequest {
   std::pair<int, int> faces;
   std::map<std::int32_t, double> triangles;               ///< by number: the share that its edges are to have

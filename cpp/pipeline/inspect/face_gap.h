@@ -8,7 +8,7 @@
 
 namespace carreau {
 
-/// Over one place where two triangles cross.
+/// The gap at a place at which two triangles cross.
 struct FaceGap {
   double width = 0;    ///< least distance found between the two pieces of the faces; 0: they meet
   double sagitta = 0;  ///< largest distance between the triangles and their faces, at the place and at centroids

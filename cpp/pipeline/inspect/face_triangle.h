@@ -38,8 +38,8 @@ struct OnFace {
 };
 
 /// A triangle and the piece of the face over it. Sides on curves follow their curves, because a chord may leave the
-/// face: across a hole, a triangle lies where the face does not. Positions in the plane of the triangle are
-/// orthonormal, in model length.
+/// face: across a hole, a triangle has no face over it. Positions in the plane of the triangle are orthonormal, in
+/// model length.
 class FaceTriangle {
  public:
   /// Evaluates the curves of its sides at a few points, and the face at one. Throws the host's exceptions.

@@ -25,7 +25,7 @@ constexpr std::size_t triangles_of_box = 256, triangles_of_small_box = 16;
 // their common box would meet unrelated ones. Twice the ratios of compact groups. [time and memory only]
 constexpr double widest_box = 32, widest_small_box = 8;
 
-/// Which of two processes looks: each for half of the others.
+/// The process of two that searches: each does so for half of the others.
 int looks(int a, int b) noexcept { return (a + b) % 2 == 0 ? std::min(a, b) : std::max(a, b); }
 
 Box box_of(const std::vector<Vec3>& vertices, const Corners& corners) {

@@ -153,7 +153,7 @@ class Edges {
     for_sides(face, [&](std::int32_t a, std::int32_t b) {
       if (b >= on_curves_) others[next[static_cast<std::size_t>(b - first)]++] = a;
     });
-    auto begin = others.begin();  // each list ends where the next one began
+    auto begin = others.begin();  // each list starts at the end of the previous one
     for (std::size_t v = 0; v < n; ++v) {
       const auto end = others.begin() + static_cast<std::ptrdiff_t>(next[v]);
       std::sort(begin, end);

@@ -33,7 +33,7 @@ double coarse_edge(double triangles) {
   return separator_length * std::sqrt(std::sqrt(std::max(triangles / many_for_longer_separators, 1.0)));
 }
 
-// Empty where separators find no way.
+// Empty if separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
   const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
   const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish together

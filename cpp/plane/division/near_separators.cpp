@@ -69,7 +69,7 @@ class Layers {
   }
 
  private:
-  // Vertices where the piece touches itself have triangles that no walk from one to the next finds.
+  // Vertices at which the piece touches itself have triangles that no walk from one to the next finds.
   void find_pinched(const Piece& piece) {
     std::vector<std::int32_t> edges(piece.whole.size(), 0);
     for (const PlaneEdge& edge : piece.domain.edges)

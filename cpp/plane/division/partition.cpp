@@ -77,8 +77,8 @@ class Division {
     return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > least_coarse_quality * (pq + qr + rp));
   }
 
-  // Sectors: where layers arrive that start at a stretch of the border. Separators lie across these layers, or between
-  // layers from several sides. Clumps go where their first triangle does.
+  // Sectors: targets of the layers that start at a stretch of the border. Separators lie across these layers, or
+  // between layers from several sides. Clumps follow their first triangle.
   void cut_into_sectors(int parts) {
     const std::vector<double> place = arrivals(coarse_, domain_);
     monitor_.checkpoint();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The zone around separators, where a mesh is improved once more after its pieces have been joined.
+// The zone around separators, which is improved once more after the pieces have been joined.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ struct JoinedPieces {
 
 JoinedPieces join(const Pieces& pieces, std::span<const MeshedPiece> meshes);
 
-/// The zone, improved: first the bands along separators, each by itself, then where several of them meet.
+/// The zone, improved: first the bands along separators, each separately, then the places at which several meet.
 Zone improved_zone(const JoinedPieces& joined, const ZoneContext& context);
 
 }  // namespace carreau::plane

@@ -23,8 +23,8 @@ class Field {
  public:
   /// Known properties of a field.
   struct Known {
-    /// There may be places where it does. False without layers: points amid long edges, where these do not lead, come from
-    /// both ends of an arc, and folded charts do not see that they meet.
+    /// True if the field may bend somewhere. False without layers: points amid long edges then come from both ends of an
+    /// arc, and folded charts do not detect that they meet.
     bool bends;
     double triangles;  ///< number of unit triangles in the domain, which may be a part of the space's domain
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures of a triangulation's edges and triangles: in mean tensors of the vertices; where the field bends, from
-// lengths in the tensors halfway, and in charts.
+// Measures of a triangulation's edges and triangles: in mean tensors of the vertices; if the field bends, from lengths
+// in the tensors halfway, and in charts.
 #pragma once
 
 #include <cstddef>

@@ -42,8 +42,7 @@ inline constexpr double integrated_quality = 0.7;
 /// paraboloid and torus 1.3 to 1.4]
 inline constexpr double graded_change = 1.3;
 /// Ratio of determinants. 40 % of the size. A few triangles of a field of slope 0.26 change as much before they are
-/// smoothed; where it jumps more of them do. [3.2: a field of slope 0.26 counts as rough, degrees of six 90 to 82
-/// %]
+/// smoothed; at jumps more of them do. [3.2: a field of slope 0.26 counts as rough, degrees of six 90 to 82 %]
 inline constexpr double rough_change = 4;
 /// Share of the triangles. [Graded in quality_test]
 inline constexpr double graded_share = 0.15;
@@ -158,8 +157,7 @@ inline constexpr double large_mesh = 10000;
 /// Points. In one triangle, one after the other. [8: longest edge of rough sizes 1.75 to 1.99; 2: 2 % more
 /// triangles]
 inline constexpr int circumcentre_attempts = 4;
-/// Units a share of missing triangles. 1 % of points more where the radius is less by 0.045,
-/// [Graded.EdgesAreOfUnitLength]
+/// Units a share of missing triangles. 1 % more points for a radius less by 0.045, [Graded.EdgesAreOfUnitLength]
 inline constexpr double radius_a_share = 4.5;
 /// Units. Limit of the reduction: the radius stays above the one of many triangles of the front. [Graded.EdgesAreOfUnitLength]
 inline constexpr double largest_reduction = 0.1;
@@ -243,8 +241,8 @@ inline constexpr int undo_rounds = 20;
 /// Share. Weight of unit lengths in the aim, against equilateral triangles; [0.04 and 0.06: lengths in range on turning
 /// fields - 0.3 %]
 inline constexpr double pull_even = 0.05;
-/// Share. where sizes are graded, whose lengths are farther off. [0.08 and 0.12: longest edges at slope 0.26 1.45
-/// to 1.46 and 1.43, worst 0.81 to 0.82 and 0.80]
+/// Share. Weight in graded sizes, whose lengths are less accurate. [0.08 and 0.12: longest edges at slope 0.26 1.45 to
+/// 1.46 and 1.43, worst 0.81 to 0.82 and 0.80]
 inline constexpr double pull_graded = 0.1;
 /// Root of the determinant over the trace. Bound for metrics in single precision.
 /// [MeshPlane.WildMetricsStillGiveAValidMesh]
@@ -285,9 +283,8 @@ inline constexpr double uncrowded_quality = 0.6;
 inline constexpr std::int64_t mending_shapes = 4'000'000;
 /// Shapes. [time only]
 inline constexpr std::int64_t mending_shapes_a_triangle = 24;
-/// Longest sides. Good triangles of metrics have the inverse of the metric's ratio, of some ten thousand at most;
-/// points put on edges are on them but for rounding.
-/// [AnisotropicField.FieldsThatEdgesCannotFollowLeaveNoFlatTriangle]
+/// Longest sides. Good triangles of metrics have the inverse of the metric's ratio, some ten thousand at most; points
+/// on edges are on them up to rounding. [AnisotropicField.FieldsThatEdgesCannotFollowLeaveNoFlatTriangle]
 inline constexpr double flat_height = 1e-7;
 
 // Local search (optimise/local_search, search_zone, zone_moves)
@@ -327,7 +324,7 @@ inline constexpr double shortest_left2 = 0.4;
 inline constexpr double least_split2 = 1.1;
 /// Q2. Shape of triangles that a collapse leaves, before moves. [0.04: no figure changes]
 inline constexpr double least_collapse_quality = 0.05;
-/// Cost. That of a triangle of Q2 .97: vertices amid such ones need not move. [time only]
+/// Cost. The cost of a triangle of Q2 .97: vertices amid such triangles need not move. [time only]
 inline constexpr double cheap_enough = 0.2;
 /// Moves. At one distance. [1: p1 of ellipses 0.88 to 0.86; 6: as 3]
 inline constexpr int turns_a_step = 3;
@@ -354,13 +351,13 @@ inline constexpr double many_for_background = 4000;
 /// Nodes of the coarsest level, and sweeps on the others.
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
-/// Change of unit crosses. Sweeps end where none moves farther in one: a thousandth of a degree.
+/// Change of unit crosses. Sweeps end when no cross moves farther in one: a thousandth of a degree.
 inline constexpr double cross_at_rest = 1e-5;
 
 // Division of large domains (division)
 /// Triangles. Approximate size of a piece. [90 000: a fifth more time on one thread at a million]
 inline constexpr double triangles_a_piece = 250'000;
-/// Pieces reach from the border to where layers meet: more of them would become narrow.
+/// Pieces reach from the border to the meeting of the layers: more of them would become narrow.
 inline constexpr double most_sectors = 64;
 /// Triangles. Smaller domains are not divided.
 inline constexpr double least_divided = 250'000;
@@ -372,8 +369,8 @@ inline constexpr double many_for_longer_separators = 1e6;
 /// Places of the first sector that are tried on a single loop, for four sectors and more. [1: square has separators 1.75
 /// times as long]
 inline constexpr int starts_of_sectors = 8;
-/// Share of the length of separators that start with the loop. Others are taken below. [1: degrees of six on a sphere of
-/// 290 000 triangles in pieces of 90 000 98.15 to 97.9 %]
+/// Share of the length of separators that start with the loop. Separators that start elsewhere must be shorter than this
+/// share. [1: degrees of six on a sphere of 290 000 triangles in pieces of 90 000 98.15 to 97.9 %]
 inline constexpr double much_shorter = 0.75;
 /// Radians. Turn of the boundary over one coarse edge.
 inline constexpr double most_coarse_turn = 0.45;
@@ -386,7 +383,7 @@ inline constexpr int refilled_layers = 3;
 /// Layers of triangles beside a separator that are improved when pieces have been joined, [8: Q2 better by 1e-5] and
 /// around places where several separators meet.
 inline constexpr int zone_layers = 5, meeting_layers = 7;
-/// Share of the triangles that lie in the zone. Domains where it is larger are not divided.
+/// Share of the triangles that lie in the zone. Domains with a larger share are not divided.
 inline constexpr double most_of_zone = 0.3;
 
 }  // namespace carreau::plane

@@ -25,7 +25,7 @@ struct Vertex {
   }
 };
 
-/// How the directions and shapes of the field change about a vertex.
+/// The change of the field's directions and shapes about a vertex.
 enum class Bend : std::uint8_t {
   none,    ///< mean tensors of vertices do
   smooth,  ///< a chart gives distances

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of vertices of degrees five and seven, where a layer of the advancing front ends. In graded sizes some pairs
+// Pairs of vertices of degrees five and seven, at the ends of layers of the advancing front. In graded sizes some pairs
 // are necessary; many of the others find a partner a few edges away that cancels them.
 #pragma once
 

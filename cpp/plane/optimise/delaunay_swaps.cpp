@@ -40,7 +40,7 @@ bool wants_bent_swap(const PlaneWork& work, int a, int b, int c, int d) {
   return sum_exceeds_pi(abc.a + abc.b - ab, std::sqrt(abc.area2()), abd.a + abd.b - ab, std::sqrt(abd.area2()));
 }
 
-// Delaunay in the mean metric of the four vertices, or by lengths where the field bends.
+// Delaunay in the mean metric of the four vertices, or by lengths if the field bends.
 bool wants_swap(const PlaneWork& work, int t, int i) {
   const Triangulation& mesh = work.mesh;
   const Triangle& A = mesh.triangles[t];

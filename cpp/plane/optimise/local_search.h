@@ -9,9 +9,9 @@
 
 namespace carreau::plane {
 
-/// Not where fields bend. On curved surfaces, whose `normals` are given, no change adds an edge between two fixed
-/// vertices. No change adds edges along which the surface turns more than along the previous edges: flat spots.
-/// `settled`: the result of optimise().
+/// Requires a field that does not bend. On curved surfaces, whose `normals` are given, no change adds an edge between
+/// two fixed vertices. No change adds edges along which the surface turns more than along the previous edges: flat
+/// spots. `settled`: the result of optimise().
 void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const SampledNormals* normals);
 
 }  // namespace carreau::plane

@@ -54,7 +54,7 @@ bool move_to_best(Mending& m, int v) {
       const Vertex kept = P;
       const Vec2 to = centre + circle.vector(step * d);
       P.x = to.x(), P.y = to.y();
-      // Shapes depend on it only where the field bends.
+      // Shapes depend on it only if the field bends.
       if (!mesh.bends.empty()) P.set_metric(m.work.field.at(P.point()));
       const double now = cost(best);
       if (now < best)

@@ -24,8 +24,8 @@ struct Mending {
 /// An edge of t that is not imposed is much shorter than one.
 [[nodiscard]] bool is_crowded(const PlaneWork& work, int t);
 
-/// Removes an end of an edge of t that is much shorter than one: where sizes change much over a triangle, such edges
-/// are left. No edge becomes too long by that, and no triangle bad.
+/// Removes an end of an edge of t that is much shorter than one: large changes of sizes over a triangle leave such
+/// edges. No edge becomes too long by that, and no triangle bad.
 bool remove_crowded_vertex(Mending& mending, int t);
 
 /// Tries removals of crowded vertices, swaps, moves, removals and insertions, until t is bad no more.

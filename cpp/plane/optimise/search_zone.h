@@ -54,7 +54,7 @@ class SearchZone {
   std::vector<std::int32_t> triangles, movable;  ///< inner vertices that are not fixed
   std::vector<PlaceKey> places;                  ///< by vertex
   std::int64_t shapes_asked = 0;                 ///< so far
-  Memo<Vec2> known_moves;                        ///< of stars: where the vertex goes
+  Memo<Vec2> known_moves;                        ///< of stars: the new place of the vertex
   Memo<bool> known_swaps;                        ///< of diagonals: whether they are swapped
   Star star;                                     ///< scratch
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves of all vertices at once, each some of the way to where its triangles would be equilateral.
+// Moves of all vertices at once, each some of the way to the places at which its triangles would be equilateral.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct SmoothingArrays {
   struct Steady {
     float a, b, c, weight;
   };
-  std::vector<Steady> steady;                 // where triangles count by size
+  std::vector<Steady> steady;                 // if triangles count by size
   std::vector<double> heights;                // elsewhere: of equilateral triangles, over their bases
   std::vector<Vec2> proposals;                // by vertex, weighted and summed up
   std::vector<double> weights;                // their sums: exact, or places would shift by a share of the box

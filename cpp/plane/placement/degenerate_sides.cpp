@@ -21,8 +21,8 @@ struct Ring {
   std::vector<std::vector<Vec2>> ray;  // ray[k][i]: at i steps
 };
 
-// Places at multiples of the ray_step along a ray, as far as there is room. `hint`: the triangle that it begins in; -1:
-// it is not looked where it goes.
+// Places at multiples of the ray_step along a ray, within the room. `hint`: the triangle in which the ray begins; -1:
+// does not follow the triangles.
 std::vector<Vec2> walk(const Placement& placement, const Vec2& from, const Vec2& direction, int hint) {
   const bool inside = hint >= 0;
   std::vector<Vec2> ray{from};

@@ -13,8 +13,8 @@
 
 namespace carreau {
 
-/// Calls work(i, monitor) for each i below n once, in one of the processes, on as many threads as each has: whoever is
-/// free takes the next one. All processes receive the outcomes, by i. `step`: of Team::exchange. All processes call it.
+/// Calls work(i, monitor) for each i below n once, in one of the processes, on as many threads as each has: a free
+/// thread takes the next i. All processes receive the outcomes, by i. `step`: of Team::exchange. All processes call it.
 /// All processes throw the error of the first i that has one, with its class and sentence; an error of a process (a
 /// stop, no memory) comes first.
 std::vector<std::string> deal_out(Team& team, std::string_view step, std::size_t n, int threads,

@@ -17,7 +17,7 @@
 
 namespace carreau {
 
-/// How the processes of a team reach each other: one class a communication library.
+/// The link between the processes of a team: one class a communication library.
 class TeamLink {
  public:
   virtual ~TeamLink() = default;
@@ -62,7 +62,7 @@ class Team {
   /// No process takes a job any more until the next exchange.
   void stop_taking();
   /// Returns the values of all processes for `step`, by rank. Throws the error of a process that has left the run, and
-  /// Error where processes are at different steps.
+  /// Error if processes are at different steps.
   std::vector<std::string> exchange(std::string_view step, std::string_view mine);
   /// exchange() of the results of mine(), which may throw: all processes throw the error of the first process that has one, with
   /// its class and sentence. Throws stops, and exceptions that are not Errors, at once: the process leaves the run.

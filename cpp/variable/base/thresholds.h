@@ -10,7 +10,7 @@ namespace carreau::thresholds::variable {
 /// Degrees. Arcs of tools have a node at least so often: a piece may touch them between its own nodes.
 /// [Contact.ToolNodesBetweenNodesOfThePieceAreInserted]
 inline constexpr double arc_node_angle = 15;
-/// Share of a side. Arcs at both ends of a side may take all of it, but for rounding. [Tools.RefusesRadiiThatDoNotFit]
+/// Share of a side. Arcs at both ends of a side may take all of it, up to rounding. [Tools.RefusesRadiiThatDoNotFit]
 inline constexpr double side_rounding = 1e-12;
 
 // Contact
@@ -40,7 +40,7 @@ inline constexpr double largest_bulge = 0.15;
 
 /// Times that elements are removed because their boundary edges cross others. [SelfOverlap.ElementsThatHaveMetGo]
 inline constexpr int most_overlap_rounds = 10;
-/// Times that runs where new edges have crossed each other get their old nodes back, before all do.
+/// Times that crossing runs of new edges get their old nodes back, before all runs do.
 /// [Remesh.RunsThatCrossKeepTheirNodes]
 inline constexpr std::size_t most_rough_places = 12;
 

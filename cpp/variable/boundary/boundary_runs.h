@@ -25,8 +25,8 @@ std::vector<BoundaryRun> runs_of(const BoundaryLoop& loop, double corner_angle);
 /// sharper corners stay.
 void join_close_ends(BoundaryLoop& loop, const Tools& tools, double corner_angle, double h_min);
 
-/// Removes nodes where the boundary turns back and leaves an angle of the piece below 15 degrees: no triangle there has
-/// a shape.
+/// Removes nodes at which the boundary turns back and leaves an angle of the piece below 15 degrees: no triangle there
+/// has a shape.
 void cut_tips(BoundaryLoop& loop, const Tools& tools, double h_min);
 
 /// Nodes that the removal of elements has laid bare go `rounds` times halfway to the middle of their neighbours, by at

@@ -62,7 +62,7 @@ class Tools {
   [[nodiscard]] const std::vector<ToolPlace>& nodes() const noexcept { return nodes_; }
 
   /// Distance along the tool from abscissa p back to abscissa q: a boundary that has the tool on its right runs against
-  /// it. Negative where the tool is open and q is ahead.
+  /// it. Negative if the tool is open and q is ahead.
   [[nodiscard]] double way_back(std::int32_t tool, double p, double q) const noexcept;
   [[nodiscard]] ToolPlace at(std::int32_t tool, double s) const noexcept;
   /// Abscissae of sharp corners strictly between p and q, q a way back from p; in the order of that way, as distances.

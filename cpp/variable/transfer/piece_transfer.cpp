@@ -17,7 +17,7 @@ const std::vector<PieceTransfer::Place>& PieceTransfer::places() {
   for (const Vec2& p : piece_->vertices) {
     const NearestOnMesh found = search_->nearest(in_space(p), guess);
     Place place{guess = found.triangle, found.weight};
-    // Not clamped to the triangle: linear fields stay so where the new boundary lies beside the old one.
+    // Not clamped to the triangle: linear fields stay linear if the new boundary lies beside the old one.
     const auto& v = old_->triangles[static_cast<std::size_t>(guess)];
     const Vec2 a = old_->vertices[static_cast<std::size_t>(v[0])], b = old_->vertices[static_cast<std::size_t>(v[1])],
                c = old_->vertices[static_cast<std::size_t>(v[2])];

@@ -24,7 +24,7 @@ class PieceTransfer {
   /// of the nearest old triangle if it meets none. Between the smallest and the largest value around.
   [[nodiscard]] std::vector<double> means(std::span<const double> values, int components);
   /// The integral over each old triangle is distributed to the new ones in proportion to their common area, or to the
-  /// nearest one: the integral over all stays, but for rounding.
+  /// nearest one: the integral over all stays, up to rounding.
   [[nodiscard]] std::vector<double> conserved(std::span<const double> values, int components);
 
  private:
