@@ -30,7 +30,7 @@ volatile std::sig_atomic_t active = 0;
 volatile std::sig_atomic_t successes = 0, unwritten = 0;
 
 void remove_staged() noexcept {
-  // Another thread may open a file between its removal and that of its folder, but only once.
+  // Another thread may create a file after the removal of files and before the removal of the folder, but only once.
   constexpr int tries = 3;
   for (int i = 0; i < tries; ++i) {
     for (const Staged& s : staged) unlink(s.file.c_str()), unlink(s.temporary.c_str());

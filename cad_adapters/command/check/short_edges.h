@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges below the lower bound of sizes: short curves and narrow zones of the input ask for them whatever the bound is.
+// Edges below the lower bound of sizes: short curves and narrow zones of the input cause them whatever the bound is.
 #pragma once
 
 #include <carreau.h>
@@ -12,7 +12,7 @@ namespace command {
 struct ShortEdges {
   double bound = 0;  ///< hphymin or hgeomin, the smaller of those in force; model length
   std::int64_t count = 0;
-  double shortest = 0;              ///< of them, model length; 0: there is none
+  double shortest = 0;              ///< of them, model length; 0: no such edge
   std::vector<std::int32_t> faces;  ///< that they belong to, ascending
 };
 

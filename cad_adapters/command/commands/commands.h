@@ -38,7 +38,7 @@ struct InfoOptions : InputChoice {
   bool json = false;
 };
 
-/// Prints what a file of geometry holds, and what of it is hard to mesh. 0; throws Failure.
+/// Prints the content of a file of geometry, and potential meshing problems. 0; throws Failure.
 int info(const InfoOptions& options);
 /// `carreau info` on STEP, IGES and BREP files. Returns the exit code; throws Failure.
 int print_cad_info(const InfoOptions& options);

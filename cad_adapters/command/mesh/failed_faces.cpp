@@ -59,7 +59,7 @@ std::string fields_name(const std::string& path, std::int32_t face, std::int32_t
   return path + (part != face ? "_part_" + std::to_string(part) : "") + ".exr";
 }
 
-/// The parameters that say what is exported, as they were, whatever happens.
+/// Restores the parameters of exports, whatever happens.
 class ExportKept {
  public:
   explicit ExportKept(carreau_session* session) : session_(session) {
@@ -96,7 +96,7 @@ FailedFaces::FailedFaces(std::string folder) : folder_(std::move(folder)) {
 }
 
 std::string FailedFaces::stem(std::int32_t ref, const std::string& name) const {
-  constexpr std::size_t longest = 60;  // of a name within that of a file
+  constexpr std::size_t longest = 60;  // of a name within the name of a file
   std::string text = folder_ + "/face_" + std::to_string(ref);
   if (!name.empty()) text += '_';
   for (const char c : name.substr(0, longest)) {

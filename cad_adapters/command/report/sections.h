@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections of a report: each is "" where there is nothing to tell.
+// The sections of a report: each is "" if it has no content.
 #pragma once
 
 #include <string>

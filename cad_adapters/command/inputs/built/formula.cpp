@@ -40,7 +40,7 @@ void check_characters(const std::string& text) {
   }
 }
 
-/// An expression with variables of its own.
+/// An expression with its variables.
 struct Evaluator {
   Place at;
   mu::Parser parser;
@@ -82,8 +82,8 @@ Formula::Formula(const std::string& text, const std::string& names)
 Formula::~Formula() = default;
 
 double Formula::operator()(const Place& place) const noexcept try {
-  // A parser holds the values of its variables: one for each thread, and a few formulas at a time are in use: a size,
-  // and the coordinates of a surface.
+  // A parser holds the values of its variables, so that each thread has parsers. A few formulas are in use at a time: a
+  // size, and the coordinates of a surface.
   struct Known {
     std::uint64_t serial = 0;
     std::unique_ptr<Evaluator> evaluator;

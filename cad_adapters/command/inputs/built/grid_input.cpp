@@ -43,7 +43,7 @@ carreau_grid_options options_of(const GridChoice& choice) {
   return options;
 }
 
-/// Whether a line holds integers alone, and how many.
+/// Counts the integers of a line that holds integers alone.
 int integers_in(const std::string& line) {
   std::istringstream words(line);
   int count = 0;

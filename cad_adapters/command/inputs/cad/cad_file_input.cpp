@@ -127,7 +127,7 @@ class CadFileInput final : public CadInput {
     const carreau_status status = carreau_model_clear(session);
     return status == CARREAU_OK ? cad_library().add(file_.get(), session) : status;
   }
-  // Without a usable face there is none: any length will do for a run that tells why of each.
+  // Without a usable face any length will do: the run reports the error of each face.
   [[nodiscard]] double diagonal() const override { return content_.diagonal > 0 ? content_.diagonal : 1; }
   [[nodiscard]] double glue_tolerance() const override { return content_.glue_tolerance; }
   [[nodiscard]] double open_tolerance() const override { return content_.open_tolerance; }
