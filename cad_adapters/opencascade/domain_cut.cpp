@@ -25,7 +25,7 @@ struct Node {
   gp_Pnt2d uv;
 };
 
-/// Whether a point is inside closed polylines, by the sides that a ray along u meets.
+/// True if a point is inside closed polylines, by the sides that a ray along u meets.
 class Inside {
  public:
   void add(const std::vector<gp_Pnt2d>& polyline) { polylines_.push_back(&polyline); }
@@ -123,7 +123,7 @@ class Cutter {
   }
 
   void add_crossings() {
-    constexpr double aside = 1e-5;  // of the extent: not on what lies along the lines
+    constexpr double aside = 1e-5;  // of the extent: avoids polylines that lie along the lines
     double extent[2] = {0, 0};
     for (const int direction : {0, 1}) {
       double low = HUGE_VAL, high = -HUGE_VAL;
@@ -261,7 +261,7 @@ class Cutter {
     struct Place {
       int vertex = 0;
       gp_Pnt2d uv;
-      int balance = 0;  // curves that leave it, less those that arrive
+      int balance = 0;  // leaving curves less arriving curves
       std::size_t top = 0;
     };
     constexpr double apart = 0.01;  // of the cell: images of one vertex that a seam or a pole has

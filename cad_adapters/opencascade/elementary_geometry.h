@@ -12,7 +12,7 @@
 
 namespace carreau_occ {
 
-/// Nothing, where the surface is of another kind. The values are those of the adaptor.
+/// Empty if the surface is of another kind. Values are identical to the adaptor's.
 class ElementarySurface {
  public:
   ElementarySurface() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard_ErrorHandler.hxx makes OCC_CATCH_SIGNALS do something only when asked.
+// Standard_ErrorHandler.hxx activates OCC_CATCH_SIGNALS only with this macro.
 #if !defined(OCC_CONVERT_SIGNALS)  // its packages define it for some configurations
 #define OCC_CONVERT_SIGNALS
 #endif
@@ -22,13 +22,13 @@ namespace {
 
 constexpr std::array trapped{SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
-// Actions of signals belong to the process, and so does what is known of them.
+// Actions of signals belong to the process, and so do these variables.
 std::mutex mutex;
 int traps = 0;                                     // guarded by the mutex
 std::atomic<bool> active{false};                   // traps > 0
 std::array<struct sigaction, trapped.size()> old;  // written while no fault is trapped
 
-/// Recursion without end uses up the stack: the handler needs one of its own.
+/// Recursion without end uses up the stack: the handler needs another stack.
 class HandlerStack {
  public:
   HandlerStack() {
@@ -67,8 +67,8 @@ Handle(Standard_Failure) failure_of(int signal) {
 }
 
 extern "C" void on_fault(int signal, siginfo_t* info, void* context) {
-  // A positive code: the processor's, not somebody's kill(). OpenCASCADE's list of handlers tells by the thread whether
-  // there is somewhere to go; if so, this does not return.
+  // A positive code comes from the processor, not from a kill(). OpenCASCADE's list of handlers knows if the thread has
+  // a place to jump to; if so, this does not return.
   if (info->si_code > 0 && Standard_ErrorHandler::IsInTryBlock()) failure_of(signal)->Jump();
   std::size_t i = 0;
   while (trapped[i] != signal) ++i;

@@ -15,8 +15,8 @@ struct Kink {
   bool torn = false;  ///< the surface itself jumps: an offset of one that bends
 };
 
-/// Those above 2 degrees, by u and then v. Curvatures on both sides say nothing of them: sizes by an angle or a chord
-/// cut across. Throws what OpenCASCADE throws.
+/// Finds kinks above 2 degrees, by u and then v. Curvatures on both sides do not show them, and sizes by an angle or a
+/// chord cut across. Throws what OpenCASCADE throws.
 std::vector<Kink> kinks_of(const TopoDS_Face& face);
 
 /// A face that goes once around a periodic surface, from a kink to itself: where its box begins and ends.

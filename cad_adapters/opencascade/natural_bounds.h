@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces that are the whole of a closed or bounded surface, which files may say by no wire at all.
+// Faces that are the whole of a closed or bounded surface, which files may give without a wire.
 #pragma once
 
 #include <TopoDS_Shape.hxx>

@@ -279,7 +279,7 @@ class Finder {
     return turn;
   }
 
-  /// Round faces that go over smoothly into two faces at least, with those that they meet.
+  /// Finds round faces that go over smoothly into at least two faces, with adjacent round faces.
   void find_fillets() {
     const auto is_fillet = [&](int f) {
       const Look& l = look(f);
@@ -297,7 +297,7 @@ class Finder {
     }
   }
 
-  /// Whether the two longest edges to other faces are such.
+  /// True if `holds` for the two longest edges to other faces, and these are two faces.
   template <typename Holds>
   static bool has_two(const Look& look, Holds&& holds) {
     std::vector<Meeting> meetings;
@@ -330,7 +330,7 @@ class Finder {
   std::vector<SmallFeature> found_;
 };
 
-/// What is left of the faces of a file, from one operation to the next.
+/// The remaining faces of a file, from one operation to the next.
 class Remains {
  public:
   explicit Remains(const ShapeFile& file) {
