@@ -51,10 +51,11 @@ constexpr std::array<unsigned char, 256> kinds = kinds_of_characters();
 
 bool is_of(char c, unsigned kind) { return (kinds[static_cast<unsigned char>(c)] & kind) != 0; }
 
-/// The records of a file as OpenCASCADE's parser makes them: lists before what holds them, numbered within each entity.
-/// Accepted is what that parser takes in one way only; where its lexer has rules for more (numbers and names that run
-/// into each other, lower case, scopes, user's types, binary numbers), the file is not plain; nor where two entities have one number or none has
-/// one that is referred to.
+/// The records of a file as OpenCASCADE's parser makes them: lists before their owners, numbered within each entity.
+/// Accepts syntax that this parser takes in one way only.
+/// A file is not plain where the parser's lexer has more rules: numbers and names that run into each other, lower case,
+/// scopes, user's types, binary numbers. It is not plain either where two entities have one number, or where a number
+/// that is referred to is missing.
 class PlainStep {
  public:
   struct Argument {

@@ -60,13 +60,13 @@ Format format_by_content(std::string_view head) {
   const auto has = [head](std::string_view text) { return head.find(text) != std::string_view::npos; };
   if (has("ISO-10303-21")) return Format::step;
   if (has("DBRep_DrawableShape") || has("CASCADE Topology")) return Format::brep;
-  // Column 73 of the first line says S (start section).
+  // Column 73 of the first line is S (start section).
   if (head.size() > 73 && head[72] == 'S') return Format::iges;
   return Format::unknown;
 }
 
-/// OpenCASCADE writes to std::cout what it meets, through its messengers and, where it reads BREP files, by itself;
-/// nobody asked for that.
+/// OpenCASCADE writes its findings to std::cout, through its messengers and, for BREP files, directly. This removes
+/// them.
 class Silence {
  public:
   Silence() : printers_(Message::DefaultMessenger()->Printers()), buffer_(std::cout.rdbuf(nullptr)) {
@@ -99,8 +99,8 @@ class Indicator final : public Message_ProgressIndicator {
   std::atomic<bool> stopped_{false};
 };
 
-// OpenCASCADE's reader of BREP files looks for words without end when there is nothing left to read; and it goes on
-// with what it had when a number is none.
+// OpenCASCADE's reader of BREP files looks for words without end behind the end of the file. It also goes on with the
+// previous value when a number is unreadable.
 void read_brep(std::istream& stream, const std::string& name, const Message_ProgressRange& progress, ShapeFile& file) {
   const bool binary = is_binary_brep([&stream] {
     std::string head(head_size, '\0');
@@ -120,7 +120,7 @@ void read_brep(std::istream& stream, const std::string& name, const Message_Prog
   } catch (const std::ios_base::failure&) {
     refuse(name, "is not a readable BREP file: it is cut off, or a number in it is none");
   }
-  // Here only: other formats say the bounds of each face, and one whose bounds could not be read is not the whole.
+  // Here only: other formats give the bounds of each face, and a face with unreadable bounds is not the whole surface.
   if (!file.shape.IsNull()) add_natural_bounds(file.shape);
 }
 

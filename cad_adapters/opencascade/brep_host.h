@@ -34,7 +34,7 @@ class BrepHost {
   /// carreau.h; after an error the session is as before, and has the sentence. If a callback fails later, it names the
   /// face and the error of OpenCASCADE.
   carreau_status add_to(carreau_session* session);
-  /// The same in place of all that the session has.
+  /// Replaces the geometry and model of a session.
   carreau_status give_to(carreau_session* session);
   /// Keeps an object as long as this object or a session that calls its callbacks.
   void keep(std::shared_ptr<void> companion);
@@ -42,7 +42,7 @@ class BrepHost {
   /// Sets the size on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the
   /// smallest size of its faces. Before give_to. False: there is no such face.
   bool set_face_size(const std::string& face, double size);
-  /// The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
+  /// Sets the size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
   bool set_size(int dimension, int number, double size);
 
   /// Faces that give_to leaves out of meshes: OpenCASCADE fails on them, or their data has an error or reaches too far.

@@ -6,8 +6,8 @@
 
 namespace carreau_occ {
 
-/// Gives each face of a shape that has no wire the bounds of its surface, wherever the face is used. Those of surfaces
-/// without end stay without.
+/// Gives each face of a shape that has no wire the bounds of its surface, wherever the face is used. Faces of unbounded
+/// surfaces stay without.
 void add_natural_bounds(const TopoDS_Shape& shape);
 
 }  // namespace carreau_occ

@@ -91,7 +91,7 @@ class SignalsBlocked {
   sigset_t old_;
 };
 
-/// The same for all names of one file, whether it exists or not: its own place, behind symbolic links.
+/// Returns one name for all names of a file, whether it exists or not: its place behind symbolic links.
 std::string place_of(const std::string& given) {
   const std::string path = behind_links(given);
   const auto resolved = [](const std::string& name) {

@@ -16,7 +16,7 @@ struct ShortEdges {
   std::vector<std::int32_t> faces;  ///< that they belong to, ascending
 };
 
-/// Those more than sqrt(2) times shorter than the bound: unit meshes have edges of 1 / sqrt(2) to sqrt(2).
+/// Finds edges more than sqrt(2) times shorter than the bound: unit meshes have edges of 1 / sqrt(2) to sqrt(2).
 /// `quality`: of the mesh.
 ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh, const carreau_quality& quality);
 

@@ -27,7 +27,7 @@ class Projection {
 
   /// {x, y, depth}.
   [[nodiscard]] Point operator()(const Point& p) const;
-  /// The same place with the depth of one so much nearer to the eye.
+  /// The place on the picture with a depth nearer to the eye by `length`.
   [[nodiscard]] Point ahead(const Point& p, double length) const;
   /// False beside or behind the eye, or nearly so: only when the picture does not hold the whole mesh.
   [[nodiscard]] bool is_before_eye(const Point& p) const { return in_camera(p)[2] < 0.9 * distance_; }

@@ -31,20 +31,20 @@ class CadInput {
   virtual carreau_status give_to(carreau_session* session) = 0;
   /// Diagonal of the box of the geometry.
   [[nodiscard]] virtual double diagonal() const = 0;
-  /// Distance below which curves that one face only has are one, as the file's own tolerances have it; 0: none is.
+  /// Distance below which open curves are one, by the file's own tolerances; 0: do not glue.
   [[nodiscard]] virtual double glue_tolerance() const { return 0; }
-  /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
+  /// Distance for curves that are still open, whatever the shortest curve of the file; 0: as above.
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
   /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
   [[nodiscard]] virtual double ends_tolerance() const { return 0; }
-  /// Faces are divided by curves that mean nothing, and may be crooked: edges on them are not cut for the sake of the
+  /// True if faces are divided by arbitrary, perhaps crooked curves: edges on them are not cut for the sake of the
   /// shapes beside them.
   [[nodiscard]] virtual bool has_arbitrary_borders() const { return false; }
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
   /// Sets the size of the face of this number, or of all faces of this name; before give_to. False: no such face.
   virtual bool set_face_size(const std::string& face, double size) = 0;
-  /// The same for a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
+  /// Sets the size of a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
   virtual bool set_size(int dimension, std::int32_t number, double size) {
     return dimension == 2 && set_face_size(std::to_string(number), size);
   }

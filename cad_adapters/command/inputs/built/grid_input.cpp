@@ -52,8 +52,8 @@ int integers_in(const std::string& line) {
   return count;
 }
 
-/// Files .xyz are molecules or grids of PLOT3D. Those of grids are binary, or begin with counts of nodes: two numbers or
-/// three, which may stand below the number of blocks. A molecule begins with the number of its atoms and a title.
+/// Files .xyz are molecules or grids of PLOT3D. Grids are binary, or begin with counts of nodes: two numbers or three,
+/// which may stand below the number of blocks. A molecule begins with the number of its atoms and a title.
 bool is_plot3d(const std::string& path) {
   if (suffix_of(path) != ".xyz") return false;
   std::ifstream file(path, std::ios::binary);
