@@ -454,7 +454,7 @@ bool PlainStepLibrary::read_plain(Standard_CString path, Handle(Interface_Interf
   PlainStep plain(text);
   if (step.IsNull() || !plain.parse()) return false;
   Handle(StepData_StepModel) read = model_of(plain, step);
-  // A reader stops at the first attribute that it cannot read, so that mending it shows the next one.
+  // A reader stops at the first unreadable attribute: each repair reveals the next one.
   std::set<std::string> all;
   for (int round = 0; mended != nullptr && round < most_mending_rounds; ++round) {
     const std::set<std::string> now = plain.mend_attributes(errors_of(*read));

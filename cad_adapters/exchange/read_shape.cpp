@@ -74,7 +74,7 @@ class Silence {
   }
   ~Silence() {
     Message::DefaultMessenger()->ChangePrinters() = printers_;
-    std::cout.rdbuf(buffer_);  // clears what went wrong without one
+    std::cout.rdbuf(buffer_);  // clears errors of writing without a buffer
   }
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
@@ -84,7 +84,7 @@ class Silence {
   std::streambuf* buffer_;
 };
 
-/// Hands on how far a translation is.
+/// Hands on the progress of a translation.
 class Indicator final : public Message_ProgressIndicator {
  public:
   explicit Indicator(const ReadingProgress& progress) : progress_(progress) {}

@@ -73,7 +73,7 @@ Handle(StepShape_ShapeRepresentation) representation_of(const StepParts::Product
   return nullptr;
 }
 
-/// Names what one product's item holds.
+/// Names the shapes in the item of one product.
 class Inside {
  public:
   Inside(const StepParts& parts, int item) : parts_(parts), item_(item) {}

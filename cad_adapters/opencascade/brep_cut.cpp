@@ -280,7 +280,7 @@ class KinkCutter {
     return Divided{face, std::move(curves), std::move(all)};
   }
 
-  /// A piece that is to be glued: how long it is, and how far its new end is from the edge. An edge that OpenCASCADE
+  /// Records the length of a piece for gluing, and the distance of its new end from the edge. An edge that OpenCASCADE
   /// has computed across a bend is farthest from its faces there.
   void note_free(const TopoDS_Edge& edge, const gp_Pnt& from, const gp_Pnt& to) {
     result_.shortest_free_piece = std::min(result_.shortest_free_piece, from.Distance(to));

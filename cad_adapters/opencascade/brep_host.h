@@ -81,7 +81,7 @@ class BrepHost {
     double of_each = 0;  ///< whatever the lengths (eps_glue_open, which checks the lengths of each pair)
   };
   [[nodiscard]] GlueTolerances glue_tolerances() const;
-  /// How far faces may be from the edges and vertices that they share (parameter eps_match).
+  /// Largest distance between faces and the edges and vertices that they share (parameter eps_match).
   [[nodiscard]] double match_tolerance() const;
   /// No edge has one face alone (a seam has its face twice).
   [[nodiscard]] bool is_closed() const noexcept;

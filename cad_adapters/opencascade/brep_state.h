@@ -60,13 +60,13 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   int vertex_total = 0;                              // vertices of the shape and of cuts
   std::map<int, int> whole_edge;                     // of the numbers behind all edges that are pieces of one
   double shortest_free_piece = std::numeric_limits<double>::infinity();  // of edges of one face that were cut
-  double free_gap = 0;                         // how far from such edges they were cut, at most
+  double free_gap = 0;                         // largest distance between such edges and their cuts
   std::vector<int> bent;                       // faces that bend inside and could not be cut, ascending
   std::optional<double> diagonal;              // once computed
   std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
   std::map<int, double> own_edge_sizes, own_vertex_sizes;  // by number
   Evaluators evaluators;
-  std::mutex mutex;                     // of what follows: callbacks come from several threads
+  std::mutex mutex;                     // of the next members: callbacks come from several threads
   std::map<int, std::string> failures;  // by face
   int sessions = 0;                     // sessions that use the callbacks
   std::shared_ptr<State> self;          // while there are some

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far faces of planes, cylinders, cones, spheres and tori reach.
+// Boxes of faces of planes, cylinders, cones, spheres and tori.
 #pragma once
 
 #include <Bnd_Box.hxx>

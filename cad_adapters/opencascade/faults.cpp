@@ -33,7 +33,7 @@ class HandlerStack {
  public:
   HandlerStack() {
     stack_t found{};
-    if (sigaltstack(nullptr, &found) != 0 || (found.ss_flags & SS_DISABLE) == 0) return;  // somebody has given one
+    if (sigaltstack(nullptr, &found) != 0 || (found.ss_flags & SS_DISABLE) == 0) return;  // another stack is set
     memory_ = std::make_unique<char[]>(size);
     stack_t own{};
     own.ss_sp = memory_.get(), own.ss_size = size;
@@ -113,15 +113,15 @@ void run_guarded(void (*body)(void*), void* data) {
     return;
   }
   thread_local const HandlerStack stack;
-  // The system enters a handler with the processor's own choice of what traps and how numbers are rounded. A whole
-  // environment would take longer to read than most calls take.
+  // The system enters a handler with the processor's default traps and rounding. A whole environment would take longer
+  // to read than most calls take.
   const int rounding = std::fegetround(), traps = fegetexcept();
   try {
     OCC_CATCH_SIGNALS
     body(data);
   } catch (const Standard_Failure&) {
     std::fesetround(rounding);
-    std::feclearexcept(FE_ALL_EXCEPT);  // what is to trap must not be pending
+    std::feclearexcept(FE_ALL_EXCEPT);  // traps must not be pending
     fedisableexcept(FE_ALL_EXCEPT);
     feenableexcept(traps);
     throw;

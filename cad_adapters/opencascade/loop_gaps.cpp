@@ -180,7 +180,7 @@ class GapCloser {
     }
   }
 
-  /// How far curves end beyond the tolerance of their vertex.
+  /// Distance of the ends of curves beyond the tolerance of their vertex.
   [[nodiscard]] double off_vertex(const Joint& joint) const {
     const TopoDS_Vertex vertex = TopoDS::Vertex(loops_.vertices(joint.vertex));
     const gp_Pnt at = BRep_Tool::Pnt(vertex);
@@ -276,7 +276,7 @@ class GapCloser {
     return made;
   }
 
-  /// How far the image is from the curve in space.
+  /// Distance of the image from the curve in space.
   double off(std::size_t f, const Handle(Geom2d_Curve) & made, const Geom_Curve& in_space, double first, double last) {
     double off = 0;
     for (int i = 0; i <= probes; ++i) {

@@ -141,7 +141,7 @@ typedef struct carreau_cad_content {
   int32_t bent_faces;    /* faces that bend inside and could not be cut there */
   int32_t left_out;      /* faces that cannot be meshed */
   int32_t references;    /* largest reference of a face, parts of cut faces included */
-  double match_tolerance; /* how far faces may be from edges and vertices that they share (eps_match): six
+  double match_tolerance; /* largest distance between faces and the edges and vertices that they share (eps_match): six
                              hundredths of the diagonal */
   const char* notes;     /* ignored or repaired entities, without the loss of a face: sentences, one a line */
   const char* file_unit; /* of the lengths in the file ("in", "mm", ...), "" when it has none */

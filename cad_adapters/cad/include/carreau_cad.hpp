@@ -81,7 +81,7 @@ class CadFile {
       return carreau_cad_read_bytes(get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), format.c_str(), &all);
     });
   }
-  /// Makes parts that touch share faces and edges; tolerance: how far apart they may be, 0: as the file has it.
+  /// Makes parts that touch share faces and edges; tolerance: the largest distance between them, 0: as the file has it.
   void imprint(double tolerance = 0, const Progress& progress = {}) {
     listen(progress, detail::sized<carreau_cad_options>(), [&](const carreau_cad_options& all) {
       return carreau_cad_imprint(get(), tolerance, all.progress, all.user);
@@ -135,7 +135,7 @@ class CadFile {
     done(carreau_cad_inspect(get(), tiny, &out));
     return out;
   }
-  /// Kinds of surfaces and how many faces have them; after inspect.
+  /// Kinds of surfaces and the number of their faces; after inspect.
   [[nodiscard]] std::vector<std::pair<std::string, int>> surfaces(const carreau_cad_report& report) const {
     std::vector<std::pair<std::string, int>> out;
     for (std::int64_t i = 0; i < report.kinds; ++i) {

@@ -93,8 +93,8 @@ struct FieldsOptions {
   std::vector<std::string> channels;  ///< names of field_groups(); none: all
 };
 
-/// Meshes, and writes what governed the mesh of `carreau mesh` as EXR or PNG files. 1 when the files are there but not
-/// all faces have triangles.
+/// Meshes, and writes the fields of sizes and metrics behind the mesh of `carreau mesh` as EXR or PNG files. 1 when the
+/// files are written but not all faces have triangles.
 int fields(const FieldsOptions& options);
 
 /// Names of the groups of channels.

@@ -33,7 +33,7 @@ bool is_solution(const std::string& path);
 /// A run of the command.
 class Adaptation {
  public:
-  /// Throws Failure for what does not go together, files that do not exist, and a formula that is wrong.
+  /// Throws Failure for options that contradict each other, missing files, and an invalid formula.
   explicit Adaptation(const AdaptChoice& choice);
 
   /// Files that are read.

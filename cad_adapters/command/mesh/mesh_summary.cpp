@@ -68,7 +68,7 @@ Gluing gluing_of(const CadInput& input, const std::vector<carreau_interface>& in
   return gluing;
 }
 
-/// How many curves were glued, and which are open.
+/// Counts glued curves, and lists open ones.
 std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
   const Gluing gluing = gluing_of(input, interfaces);
   if (gluing.glued == 0) return {};

@@ -19,7 +19,7 @@ namespace command {
 /// The figures of the last run of a session.
 carreau_report report_of(carreau_session* session);
 
-/// A run with its results, besides what session and mesh know.
+/// A run with its results, besides the data of session and mesh.
 struct MeshRun {
   const MeshOptions& options;
   const CadInput& input;

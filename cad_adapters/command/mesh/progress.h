@@ -29,9 +29,9 @@ class Progress {
   void listen_to(carreau_session* session, const CadInput& input);
   /// Sets the share of all work that follows: bars and lines never go back.
   void part(double from, double to);
-  /// How much of all is done, 0 to 1.
+  /// Returns the finished share of all work, 0 to 1.
   [[nodiscard]] double reached() const noexcept { return reached_; }
-  /// How much of a file is read; a log gets a line a second.
+  /// Shows the share of a file that is read; a log gets a line a second.
   void reading(double fraction);
   /// Prints a line about the next phase, or a result.
   void line(const std::string& text);

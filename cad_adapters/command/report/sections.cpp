@@ -134,7 +134,7 @@ std::string delivered_section(const ReportContent& content) {
                   .columns = {"Measure", "Of each", "Mean", "Least", "1 % below", "1 % above", "Largest", "Limit", "Beyond"}};
   const Json measures = member(delivered, "measures");
   for (const auto& [name, m] : measures.items())
-    if (!member(m, "mean").is_null()) table.rows.push_back(measure_row(name, m));  // what was not measured has none
+    if (!member(m, "mean").is_null()) table.rows.push_back(measure_row(name, m));  // measures that were not computed have no mean
   const std::string share = number_text(100 * real(member(delivered, "lengths_in_range")));
   return section("delivered", "What was delivered",
                  "<p>" + share + " % of the edges have metric lengths from 0.7071 to 1.414; 1 is as asked.</p>\n" +

@@ -17,7 +17,7 @@ std::string histograms_section(const ReportContent& content);
 std::string faces_section(const ReportContent& content);
 std::string asked_section(const ReportContent& content);
 std::string delivered_section(const ReportContent& content);
-/// Warnings of the run, what could not be read, defects, triangles that cross.
+/// Warnings of the run, unreadable entities, defects, triangles that cross.
 std::string warnings_section(const ReportContent& content);
 /// Counts, borders, parts, lengths, angles.
 std::string mesh_section(const ReportContent& content);

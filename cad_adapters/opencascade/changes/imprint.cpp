@@ -32,7 +32,7 @@ std::string quoted(double x) {
   return text;
 }
 
-/// The fuse of the parts of a file, and what became of each of its shapes.
+/// The fuse of the parts of a file, and the images of each of its shapes.
 class Fuse {
  public:
   Fuse(const TopTools_ListOfShape& parts, double tolerance) {

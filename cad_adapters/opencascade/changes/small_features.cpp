@@ -222,7 +222,7 @@ class Finder {
     return group;
   }
 
-  /// Adds faces whose neighbours are all in the group: bottoms and caps. Returns how many.
+  /// Adds faces whose neighbours are all in the group: bottoms and caps. Returns their number.
   int close(std::vector<int>& group) {
     std::set<int> inside(group.begin(), group.end());
     int added = 0;
@@ -248,7 +248,7 @@ class Finder {
     found_.push_back({.kind = kind, .size = size, .faces = std::move(group), .place = {p.X(), p.Y(), p.Z()}});
   }
 
-  /// Cylinders and cones that go round an axis, in one face or several, with what closes them.
+  /// Finds cylinders and cones that go round an axis, in one face or several, with their caps.
   void find_round(const char* kind, bool concave) {
     for (int f = 1; f <= faces_.Extent(); ++f) {
       const auto is_round = [&](int g) {

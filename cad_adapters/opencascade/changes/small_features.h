@@ -11,7 +11,7 @@
 
 namespace carreau_occ {
 
-/// A feature of a solid, and what became of it.
+/// A feature of a solid, and the result for it.
 struct SmallFeature {
   std::string kind;             ///< "hole", "boss", "fillet", "chamfer", "step", "small face"
   double size = 0;              ///< a diameter of holes and bosses, a radius of fillets, a width of the others

@@ -15,7 +15,7 @@
 namespace command {
 namespace {
 
-constexpr std::size_t longest = 4096;  // what is longer is no formula that a person has typed
+constexpr std::size_t longest = 4096;  // longer texts are not typed formulas
 
 [[noreturn]] void refuse(const std::string& text, std::size_t position, const std::string& why) {
   throw Failure("The formula '" + text + "' is wrong at position " + std::to_string(position + 1) + ": " + why + ".");
