@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Adaptation in Fortran, without callbacks: a plate with a hole whose "solver" gives a front along a circle. Each round takes values at the
-!> vertices, gets metrics for them, makes the next mesh, and carries the values over, as a solver that restarts would want.
+!> Adaptation in Fortran, without callbacks: a plate with a hole whose "solver" gives a front along a circle. Each round takes values
+!> at the vertices, gets metrics for them, makes the next mesh, and carries the values over for a restart of the solver.
 program plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Meshes of a square that are fine along a Lissajous curve (HDR sec. 1.1.2, fig. 1.9 and 1.10). The size at P is 0.3
- * times the distance of P from the curve, in all directions; or so across the curve and four times as large along it;
- * bounded in both cases. Sizes and metrics come from callbacks. The program measures lengths of edges in the metric,
- * and the numbers of triangles against what the fields ask for. */
+ * times the distance of P from the curve, in all directions. The metric has this size across the curve and four times
+ * as much along it. Both are bounded. Sizes and metrics come from callbacks. The program measures lengths of edges in the
+ * metric, and compares the numbers of triangles with the fields. */
 #include <carreau.h>
 #include <inttypes.h>
 #include <math.h>
@@ -47,7 +47,7 @@ static int32_t metric(int32_t face, double u, double v, int32_t* kind, double* v
   return 0;
 }
 
-/* ---- What is known of the meshes ---- */
+/* ---- Checks of the meshes ---- */
 
 static int wrong = 0;
 static void claim(int holds, const char* sentence) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Paraboloid z = (u^2 + v^2) / 2 over a square (RT-0232 sec. 6.1) by the C interface: geometry, model and mesh stay in
- * memory, no file is touched. All sizes are the defaults. The program checks the mesh itself, and fails if it is wrong.
+/* Paraboloid z = (u^2 + v^2) / 2 over a square (RT-0232 sec. 6.1) by the C interface. Geometry, model and mesh stay in
+ * memory, without files. All sizes are the defaults. The program checks the mesh itself, and fails if it is wrong.
  */
 #include <carreau.h>
 #include <inttypes.h>
@@ -58,7 +58,7 @@ static carreau_status mesh_paraboloid(carreau_session* session) {
   return status == CARREAU_OK ? carreau_mesh_generate(session) : status;
 }
 
-/* ---- What is known of the mesh ---- */
+/* ---- Checks of the mesh ---- */
 
 static int wrong = 0;
 static void claim(int holds, const char* sentence) {

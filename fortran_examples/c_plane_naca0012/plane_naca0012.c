@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The loop around the profile NACA 0012 (RR-2818 sec. 6.4) on a plane domain from arrays: the contour is read from the
- * file that is named, two splines of Catmull and Rom between its leading edge and both ends of its blunt trailing edge;
- * the far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the
+/* The loop around the profile NACA 0012 (RR-2818 sec. 6.4) on a plane domain from arrays. The contour is read from the
+ * file that is named: two splines of Catmull and Rom between its leading edge and both ends of its blunt trailing edge.
+ * The far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the
  * table of the report. */
 #include <carreau_geometry.h>
 #include <inttypes.h>

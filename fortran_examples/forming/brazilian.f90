@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The Brazilian test of HDR sec. 3.4.6: a disc of 50 mm is pressed between two planes, the upper one moving .1 mm an
-!! increment, sizes from 1 to 6 mm. Usage: forming_brazilian [displacement of the tool in mm [name of the files]]
+!> The Brazilian test of HDR sec. 3.4.6: two planes press a disc of 50 mm. The upper plane moves .1 mm an increment.
+!! Sizes are from 1 to 6 mm. Usage: forming_brazilian [displacement of the tool in mm [name of the files]]
 program brazilian
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A cylinder of radius 1 and height 3 under a metric: edges of length 0.3 along helices, of 0.03 across them. The metric
 !> comes from a callback, as two sizes and a direction in the tangent plane. The program checks the mesh itself: on the
-!> unrolled cylinder lengths in the metric are those of a plane.
+!> unrolled cylinder lengths in the metric are lengths in a plane.
 module helix_m
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
   use carreau

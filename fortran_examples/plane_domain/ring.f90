@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A plane domain from arrays, without any callback: the square [-3, 3] x [-2, 2] with two circles of radius 1, splines
-!> through 32 points. The left disc is a hole; the right one is a subdomain of reference 7, with sizes of its own.
+!> through 32 points. The left disc is a hole; the right one is a subdomain of reference 7, with other sizes.
 program ring
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
