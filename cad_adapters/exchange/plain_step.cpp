@@ -478,7 +478,7 @@ std::string PlainStepLibrary::note() const {
   std::string list;
   for (std::size_t i = 0; i < mended_.size() && i < most_listed; ++i) list += (i > 0 ? ", " : "") + mended_[i];
   return "the names or counts of attributes of " + std::to_string(mended_.size()) +
-         (mended_.size() == 1 ? " entity are wrong and were mended: " : " entities are wrong and were mended: ") + list +
+         (mended_.size() == 1 ? " entity are wrong and were repaired: " : " entities are wrong and were repaired: ") + list +
          (mended_.size() > most_listed ? ", ..." : "");
 }
 

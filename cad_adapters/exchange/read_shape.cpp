@@ -118,7 +118,7 @@ void read_brep(std::istream& stream, const std::string& name, const Message_Prog
     else
       BRepTools::Read(file.shape, stream, builder, progress);
   } catch (const std::ios_base::failure&) {
-    refuse(name, "is not a readable BREP file: it is cut off, or a number in it is none");
+    refuse(name, "is not a readable BREP file: it is cut off, or a number in it is unreadable");
   }
   // Here only: other formats give the bounds of each face, and a face with unreadable bounds is not the whole surface.
   if (!file.shape.IsNull()) add_natural_bounds(file.shape);
@@ -145,7 +145,7 @@ ShapeFile read_by(const Read& read, const std::string& name, const ReadingProgre
   } catch (const UnknownUnit& error) {
     refuse(name, error.what());
   }
-  if (indicator->stopped()) refuse(name, "was not read to its end: it was asked to stop");
+  if (indicator->stopped()) refuse(name, "was not read to its end: the host stopped the call");
   return file;
 }
 
@@ -229,9 +229,9 @@ ShapeFile read_shape(const std::string& path, const ReadingProgress& progress, c
   stream.close();
   Format format = format_by_suffix(path);
   if (format == Format::unknown) format = content;
-  if (format == Format::unknown) refuse(path, "is no STEP, IGES or BREP file");
+  if (format == Format::unknown) refuse(path, "is not a STEP, IGES or BREP file");
   if (content != format)
-    refuse(path, std::string("is not what its suffix says: it does not begin like ") + a_format(format) + " file");
+    refuse(path, std::string("does not fit its suffix: it does not begin like ") + a_format(format) + " file");
   ShapeFile file = read_by([&](const Message_ProgressRange& range, ShapeFile& into) { read_as(format, path, range, into); },
                            path, progress, lengths);
   if (!is_empty(file)) return file;
@@ -244,8 +244,8 @@ ShapeFile read_shape(std::string_view bytes, const std::string& format, const st
   const Format content = format_by_content(bytes.substr(0, head_size));
   const Format given = format_by_name(format);
   if (given == Format::unknown && !format.empty())
-    refuse(name, "the format is '" + format + "', which is none of step, iges and brep");
-  if (content == Format::unknown) refuse(name, "the bytes are no STEP, IGES or BREP file");
+    refuse(name, "the format is '" + format + "', which is not step, iges or brep");
+  if (content == Format::unknown) refuse(name, "the bytes are not a STEP, IGES or BREP file");
   if (given != Format::unknown && given != content)
     refuse(name, std::string("the bytes do not begin like ") + a_format(given) + " file");
   ShapeFile file = read_bytes(content, bytes, name, progress, lengths);
@@ -264,7 +264,7 @@ std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const Re
   } catch (const Standard_Failure& failure) {
     file.losses.push_back(std::string("no small feature is removed: OpenCASCADE: ") + failure.GetMessageString());
   }
-  if (indicator->stopped()) throw std::runtime_error("small features are not removed: it was asked to stop");
+  if (indicator->stopped()) throw std::runtime_error("small features are not removed: the host stopped the call");
   return features;
 }
 
@@ -276,7 +276,7 @@ void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& pro
   } catch (const Standard_Failure& failure) {
     file.losses.push_back(std::string("the parts are not imprinted: OpenCASCADE: ") + failure.GetMessageString());
   }
-  if (indicator->stopped()) throw std::runtime_error("the parts are not imprinted: it was asked to stop");
+  if (indicator->stopped()) throw std::runtime_error("the parts are not imprinted: the host stopped the call");
 }
 
 }  // namespace carreau_occ

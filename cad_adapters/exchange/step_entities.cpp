@@ -112,7 +112,7 @@ bool StepEntities::mend_numbers(const Entity& entity) const {
 std::string StepEntities::lost_scale(const Entity& entity) const {
   const auto place = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
   if (place.IsNull() || !place->HasScale() || place->Scale() == 1) return "";
-  return "its scale of " + printed(place->Scale()) + " is not applied: what it places has the size of its part";
+  return "its scale of " + printed(place->Scale()) + " is not applied: the placed part keeps its size";
 }
 
 /// A surface knows the images of edges on it, which belong to the edges. These have sound neighbours: a faulty image is

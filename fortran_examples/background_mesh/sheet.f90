@@ -32,7 +32,7 @@ program sheet
   call make("tetrahedra")
   call carreau_session_background(session, report, status)
   call claim(report%asked > 0 .and. report%outside == 0, "all points lie in the tetrahedra")
-  call claim(abs(mean_ratio() - 1) < 0.05_c_double, "edges are as long as the tetrahedra say")
+  call claim(abs(mean_ratio() - 1) < 0.05_c_double, "edges are as long as the sizes of the tetrahedra")
 
   ! Triangles: the mesh just made, with metrics for edges of .03 across and .15 along x. The order is xx xy xz yy yz zz.
   allocate (metrics(6, size(xyz, 2)))
@@ -41,7 +41,7 @@ program sheet
   call carreau_set_background(session, xyz, triangles, status, metrics=metrics)
   call stop_unless_fine
   call make("triangles")
-  call claim(abs(size(triangles, 2)/expected_by_metric() - 1) < 0.08_c_double, "triangles are as many as the metric asks for")
+  call claim(abs(size(triangles, 2)/expected_by_metric() - 1) < 0.08_c_double, "the metric determines the number of triangles")
 
   ! Edges along the border, sizes from .02 at the first corner to .2 at the third one: inside faces they are interpolated.
   n = 40
@@ -52,7 +52,7 @@ program sheet
   call stop_unless_fine
   call make("edges")
   ! Along y = -1 the size grows by .045 a unit of x, and the curve is z = (x^2 + 1)/2.
-  call claim(abs(on_first_side() - expected_on_side()) < 1, "the first side has as many edges as its sizes ask for")
+  call claim(abs(on_first_side() - expected_on_side()) < 1, "the sizes determine the number of edges of the first side")
   call carreau_session_free(session)
 
 contains

@@ -170,9 +170,9 @@ static void adapt(carreau_session* session, const struct variant* v, const char*
   claim(carreau_mesh_defects(mesh, 0, 10, &defects, &text) == CARREAU_OK && defects == 0, "the mesh is sound");
   const struct measure even = uniform(session, (double)m.triangles);
   print("  uniform", even);
-  printf("  figure: %.0f triangles; error of the uniform mesh / that of this one: %.1f of z, %.1f of the distance\n",
+  printf("  figure: %.0f triangles; error of the uniform mesh / error of this mesh: %.1f of z, %.1f of the distance\n",
          v->paper, even.error_rms / m.error_rms, even.away_rms / m.away_rms);
-  claim(fabs((double)m.triangles / v->paper - 1) <= 0.15, "the number of triangles is that of the figure within 15 %");
+  claim(fabs((double)m.triangles / v->paper - 1) <= 0.15, "the number of triangles agrees with the figure within 15 %");
   claim((v->by_distance ? even.away_rms / m.away_rms : even.error_rms / m.error_rms) >= v->gain,
         "the error is that many times smaller than on a uniform mesh");
 }

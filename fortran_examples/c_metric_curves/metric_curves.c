@@ -294,7 +294,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 3; ++i)
     for (int law = 0; law < 3; ++law) wrong |= run_plane_curve(session, &curves[i], law, argc > 1 ? argv[1] : NULL);
   wrong |= run_helix(session);
-  if (wrong) fprintf(stderr, "an edge or a length is not what it should be\n");
+  if (wrong) fprintf(stderr, "an edge or a length is wrong\n");
   carreau_session_free(session);
   return wrong;
 }

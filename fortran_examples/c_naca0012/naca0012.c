@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
     }
   }
   claim(fabs((double)n / 2223 - 1) <= 0.15, "as many points as in RR-2818 within 15 %");
-  claim(report.stretch_max >= 8.5, "the largest stretching is that of RR-2818 or more");
+  claim(report.stretch_max >= 8.5, "the largest stretching is at least that in RR-2818");
   claim(report.error_rms <= error / 5, "the error is a fifth of that before, or less");
   carreau_session_free(session);
   return wrong;

@@ -104,7 +104,7 @@ static void check(carreau_mesh* mesh, const carreau_quality* q) {
   claim(q->open_edges == 216, "the border has 216 edges");
   claim(fabs((double)m / 4980 - 1) <= 0.06, "there are 4980 triangles, within 6 %");
   claim(n - q->edges + m == 1, "Euler's number of a disc is 1");
-  claim(fabs(q->area / 54.8209336 - 1) <= 5e-4, "the area is that of the paraboloid, 54.8209, within 0.05 %");
+  claim(fabs(q->area / 54.8209336 - 1) <= 5e-4, "the area of the paraboloid is 54.8209, within 0.05 %");
   claim(q->q2_mean >= 0.989 && q->q2_p1 >= 0.92 && q->q2_min >= 0.6, "triangles have good shapes");
 }
 

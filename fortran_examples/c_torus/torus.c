@@ -128,7 +128,7 @@ static double mesh_torus(carreau_session* session, const struct torus* torus, do
   printf("shape quality Q2: mean %.4f, first percentile %.3f, worst %.3f\n", q.q2_mean, q.q2_p1, q.q2_min);
   claim(farthest <= 1e-14 * R, "every vertex is on the torus");
   claim(q.q2_mean >= 0.985 && q.q2_p1 >= 0.9 && q.q2_min >= 0.6, "triangles have good shapes");
-  claim(fabs(error) <= h * h / (4 * r * r), "the area is that of the torus within h^2 / 4 r^2");
+  claim(fabs(error) <= h * h / (4 * r * r), "the area agrees with the torus within h^2 / 4 r^2");
   return error;
 }
 

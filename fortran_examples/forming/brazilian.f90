@@ -79,7 +79,7 @@ program brazilian
     "the disc lies between the tools")
   call claim(worst > 0.1_dp, "triangles have a shape")
   call claim(told%bound_vertices >= 2, "the tools touch it")
-  call claim(sum(disc%mass) < 1.02_dp*area .and. sum(disc%mass) > 0.85_dp*area, "the volume is nearly that of the disc")
+  call claim(sum(disc%mass) < 1.02_dp*area .and. sum(disc%mass) > 0.85_dp*area, "the volume of the disc is nearly kept")
   call carreau_mesh_free(mesh)
 
 contains

@@ -108,7 +108,7 @@ void check(const std::string& path, const std::string& target, const std::vector
   if (std::find(suffixes.begin(), suffixes.end(), suffix_of(path)) == suffixes.end()) {
     std::string known;
     for (const std::string& each : suffixes) known += (known.empty() ? "" : ", ") + each;
-    refuse(path, "its suffix is " + std::string(suffixes.size() > 1 ? "none of " : "not ") + known);
+    refuse(path, "its suffix is not " + std::string(suffixes.size() > 1 ? "one of " : "") + known);
   }
   struct stat status {};
   const bool known = stat(target.c_str(), &status) == 0;
@@ -130,7 +130,7 @@ OutputFiles::OutputFiles(std::vector<std::string> paths, const std::vector<std::
     targets_.push_back(behind_links(path));
     check(path, targets_.back(), suffixes);
     const std::string place = place_of(path);
-    if (read.contains(place)) refuse(path, "it is what is read");
+    if (read.contains(place)) refuse(path, "it is an input");
     if (!places.insert(place).second) refuse(path, "it is named twice");
   }
   unwritten = unwritten + 1;

@@ -99,7 +99,7 @@ carreau_status Ranks::generate_parts(carreau_session* session, Part& part) const
 
 carreau_mesh* Ranks::mesh_of(const Part& part) const {
   carreau_mesh* mesh = nullptr;
-  if (CARREAU_MPI_FUNCTION(carreau_part_mesh)(part.get(), &mesh) != CARREAU_OK) throw Failure("There is no part of a mesh.");
+  if (CARREAU_MPI_FUNCTION(carreau_part_mesh)(part.get(), &mesh) != CARREAU_OK) throw Failure("This process has no part of the mesh.");
   return mesh;
 }
 

@@ -90,7 +90,7 @@ FailedFaces::FailedFaces(std::string folder) : folder_(std::move(folder)) {
   if (stat(folder_.c_str(), &status) != 0) {
     if (mkdir(folder_.c_str(), 0777) != 0) refuse(folder_, std::strerror(errno));
   } else if (!S_ISDIR(status.st_mode)) {
-    refuse(folder_, "it is no folder");
+    refuse(folder_, "it is not a folder");
   }
   if (access(folder_.c_str(), W_OK | X_OK) != 0) refuse(folder_, std::strerror(errno));
 }

@@ -95,7 +95,7 @@ std::int32_t SizeMap::size_at(std::int32_t face, double u, double v, double& siz
   char number[32];
   std::snprintf(number, sizeof number, "%.6g", std::isnan(size) ? NAN : size);  // without a sign
   if (failure_.empty())
-    failure_ = "the size map '" + formula_->text() + "' gives " + number + ", which is no size, on face " +
+    failure_ = "the size map '" + formula_->text() + "' gives " + number + ", which is not a size, on face " +
                std::to_string(input_->whole_face(face)) + " at " + place_text(place);
   carreau_stop(session_);  // a failure would be the face's, and another run without it would begin
   return CARREAU_NO_ANSWER;

@@ -48,7 +48,7 @@ std::string lead_of(const ReportContent& content) {
   std::string text = plural(c.faces, "face", "faces") + ", " + plural(c.vertices, "vertex", "vertices") + ", " +
                      plural(c.triangles, "triangle", "triangles") + ".";
   if (c.cells.triangles6 + c.cells.quads8 > 0)
-    text += " Elements of order 2 are drawn curved, and measured straight between their corners but where this says otherwise.";
+    text += " Elements of order 2 are drawn curved, and measured straight between their corners unless stated otherwise.";
   if (c.cells.quads4 + c.cells.quads8 > 0)
     text += std::string(" A quadrilateral is ") + (c.cells.quads8 > 0 ? "picked" : "drawn") + " as two triangles, and counts once in histograms.";
   if (!c.measured) text += " Indices out of range or numbers that are not finite: the mesh can be neither drawn nor measured.";

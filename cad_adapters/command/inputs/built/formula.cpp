@@ -29,7 +29,7 @@ void check_characters(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if ((c < ' ' && c != '\t') || c > '~') refuse(text.substr(0, i) + "...", i, "a character that is not plain text");
-    if (c == '"') refuse(text, i, "there are no strings");
+    if (c == '"') refuse(text, i, "strings are not allowed");
     if (c != '=') continue;
     if (i + 1 < text.size() && text[i + 1] == '=') {
       ++i;

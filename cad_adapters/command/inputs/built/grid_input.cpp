@@ -107,7 +107,7 @@ bool is_grid(const std::string& path, const GridChoice& choice) {
 
 std::string smoothing_defect(const std::string& text) {
   carreau_grid_options options{};
-  return read_smoothing(text, options) ? "" : "'" + text + "' is no number of rounds, alone or with two weights: 2000,0.06,0.061";
+  return read_smoothing(text, options) ? "" : "'" + text + "' is not a number of rounds, alone or with two weights: 2000,0.06,0.061";
 }
 
 std::unique_ptr<CadInput> open_grid(const std::string& path, const GridChoice& choice) {

@@ -40,7 +40,7 @@ CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const R
   const carreau_status status = cad_library().read(file.get(), path.c_str(), &options);
   if (status == CARREAU_ERR_MEMORY) throw Failure("'" + path + "': out of memory.");
   // Files of CAD are known by suffix or content.
-  if (status != CARREAU_OK && std::string(cad_library().last_error(file.get())).find("is no STEP, IGES or BREP") != std::string::npos)
+  if (status != CARREAU_OK && std::string(cad_library().last_error(file.get())).find("is not a STEP, IGES or BREP") != std::string::npos)
     throw Failure(unknown_geometry(path));
   require(file.get(), status);
   return file;

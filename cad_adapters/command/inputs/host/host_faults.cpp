@@ -67,7 +67,7 @@ const char* meaning(int signal) noexcept {
     case SIGILL:
       return " (SIGILL): it met an instruction that the processor does not know";
     default:
-      return " (SIGABRT): it or what it calls gave up";
+      return " (SIGABRT): it, or a routine that it calls, gave up";
   }
 }
 
