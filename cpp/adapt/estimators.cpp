@@ -167,7 +167,7 @@ struct PlaneMetrics {
   std::vector<char> reliable;
 };
 
-/// Who makes rows by vertex.
+/// Distributes rows by vertex.
 struct Sharing {
   Sharing(const Crew& of, Monitor* told) : crew(of), monitor(told != nullptr ? *told : silent) {}
   Crew crew;
@@ -274,7 +274,7 @@ VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
     const ScalarField field{vertices, triangles, one};
     check_field(field);
     check_options(field, options);
-    derivatives = derivatives_of(field, options, sharing);  // frames are those of the mesh, whatever the field
+    derivatives = derivatives_of(field, options, sharing);  // frames do not depend on the field
     each.push_back(plane_metrics(field, derivatives, options, sharing));
   }
   return prescriptions_of(intersection_of(std::move(each), sharing), derivatives, options.shape);

@@ -25,7 +25,7 @@ std::string rank(std::size_t i) { return std::to_string(i + 1); }
   throw DomainError(Where{.uv = where}, name + rest);
 }
 
-/// Squares and products of coordinates must still be numbers.
+/// Squares and products of coordinates must not overflow.
 constexpr double largest_coordinate = 1e100;
 
 void require_edges(const Polygon& p, const std::string& name) {

@@ -39,7 +39,7 @@ class RingWalk {
   [[nodiscard]] std::int32_t of(std::int32_t v) const { return cluster_[static_cast<std::size_t>(v)]; }
   [[nodiscard]] std::int32_t own() const { return members_.front(); }
 
-  /// Counts them, and looks whether each vertex of the cluster is in a triangle of the pure zone.
+  /// Counts them, and checks whether each vertex of the cluster is in a triangle of the pure zone.
   std::size_t spokes_of_all(std::string& defect) {
     std::size_t count = 0;
     for (const std::int32_t v : members_) {

@@ -30,7 +30,7 @@ void check(const BezierPatch& patch, int face) {
       fail("a coordinate of control point " + std::to_string(i + 1) + " is not a number below 1e100");
 }
 
-/// By the order of corners: (0, 0), (1, 0), (1, 1), (0, 1).
+/// Corners in order: (0, 0), (1, 0), (1, 1), (0, 1).
 Vec3 corner(const BezierPatch& patch, int which) {
   const auto row = static_cast<std::size_t>(patch.n + 1), last = static_cast<std::size_t>(patch.m) * row;
   const std::size_t at[] = {0, last, last + row - 1, row - 1};

@@ -52,7 +52,7 @@ class Joiner {
     return static_cast<std::size_t>(std::ranges::upper_bound(first_, v) - first_.begin()) - 1;
   }
 
-  // Vertices that one surface has several of at a place were kept so: only its first one is joined to others.
+  // One surface may have several vertices at a place: only the first one is joined to other surfaces.
   void join() {
     number_.resize(flat_.vertices.size());
     std::iota(number_.begin(), number_.end(), 0);
@@ -92,7 +92,7 @@ class Joiner {
     }
   }
 
-  /// Of each surface by itself, as vertices of the whole.
+  /// Corners of each surface by itself, as vertices of the whole.
   [[nodiscard]] std::vector<std::int32_t> corners() const {
     std::vector<std::int32_t> found;
     for (std::size_t s = 0; s < given_.size(); ++s)
@@ -122,7 +122,7 @@ class Joiner {
     say(mesh.findings.manifold_breaks - alone, " edges have three triangles or more of several surfaces");
   }
 
-  // What was mended in each by itself was mended in all.
+  // Repairs of each surface are repairs of the whole.
   void add_findings(Findings& all, SharpLines& lines) const {
     for (const PlacedSurface& each : given_) {
       const Findings& own = each.surface->mesh().findings;

@@ -28,7 +28,7 @@ class Subdomains {
   struct Claim {
     bool taken = false, hole = false;
     int ref = 0;
-    std::string by = {};  ///< "the side of curve 2"; empty: by no one
+    std::string by = {};  ///< "the side of curve 2"; empty: no claim
   };
 
   [[nodiscard]] Where where(int line) const {
@@ -48,7 +48,7 @@ class Subdomains {
     old = {.taken = true, .hole = false, .ref = ref, .by = by};
   }
 
-  /// A point where one curve ends alone; -1: there is none.
+  /// A point where one curve ends alone; -1 if all ends are joined.
   [[nodiscard]] int open_end(int curve) const {
     std::map<int, int> ends;
     for (const PlaneArc& arc : arcs_) ++ends[arc.from], ++ends[arc.to];

@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::sample;
 
-/// What the host of this process says at some places, or its error.
+/// The answers of this process's host at some places, or its error.
 struct OwnAnswers {
   LongChecksum sum;
   SharedError error;
