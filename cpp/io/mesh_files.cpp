@@ -38,7 +38,7 @@ const Format& known_format(const std::string& path) {
     if (suffix == format.suffix) return format;
     known.append(known.empty() ? "" : ", ").append(format.suffix);
   }
-  throw InvalidArgument("'" + path + "' has none of the suffixes of a mesh file: " + known);
+  throw InvalidArgument("'" + path + "' does not have a suffix of mesh files: " + known);
 }
 
 void check_length(const char* what, std::size_t found, std::size_t expected) {

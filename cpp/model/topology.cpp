@@ -154,7 +154,7 @@ class TopologyBuilder {
     const bool same = end1 == shape.end1 && end2 == shape.end2, against = end1 == shape.end2 && end2 == shape.end1;
     if (!same && !against)
       throw InvalidModel(where(use),
-                         "its ends are not those of " + name(shape.uses.front()) + ", which has the same reference");
+                         "its ends differ from the ends of " + name(shape.uses.front()) + ", which has the same reference");
     if (!curve.collapsed) check_gap(shape, use);
     if (shape.degenerate != point)
       throw InvalidModel(
@@ -172,7 +172,7 @@ class TopologyBuilder {
     const double swapped = std::max(norm(front - p2), norm(back - p1));
     if (gap > point_share * eps_ && swapped < 0.1 * gap)
       throw InvalidModel(where(use), "refp1 and refp2 are exchanged: its first end is at the point of reference " +
-                                         std::to_string(face_curve(use).end2) + ", its second one at that of " +
+                                         std::to_string(face_curve(use).end2) + ", its second end at the point of reference " +
                                          std::to_string(face_curve(use).end1));
     const bool first = gap1 - slack_of_point_[end1] > apart_;
     if (!first && gap2 - slack_of_point_[end2] <= apart_) {
@@ -227,7 +227,7 @@ class TopologyBuilder {
                                          " apart at equal lengths: do both start at the same point?");
     // A curve that agrees in both directions, there and back on one line, may take any.
     if (gap > std::max(0.5 * std::max(along, back), point_share * eps_))
-      throw InvalidModel(where(use), "the direction of the closed curve cannot be told: it is as near to " +
+      throw InvalidModel(where(use), "the direction of the closed curve is ambiguous: it is as near to " +
                                          name(shape.uses.front()) + " forwards (" + format_number(along) +
                                          ") as backwards (" + format_number(back) + ")");
     return back < along;

@@ -51,7 +51,7 @@ class Loop {
   Loop(Session& session, const FieldFunction& field, const AdaptationOptions& options, Monitor& monitor)
       : session_(session), field_(field), options_(options), monitor_(monitor) {
     if (options.iterations < 1)
-      throw InvalidArgument("an adaptation has one iteration at least, not " + std::to_string(options.iterations));
+      throw InvalidArgument("the number of iterations must be at least 1; it is " + std::to_string(options.iterations));
     if (!(options.convergence >= 0) || !std::isfinite(options.convergence))
       throw InvalidArgument("the threshold of convergence must not be negative; it is " +
                             format_number(options.convergence));
@@ -129,7 +129,7 @@ class Loop {
 void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options) {
   if (crew.team == nullptr) return;
   crew.team->require_same<InvalidModel>("estimate", checksum_of(values, options), [](int rank) {
-    return "the values of the field, or the options, are others on rank " + std::to_string(rank) + " than on rank 0";
+    return "the values of the field, or the options, differ on rank " + std::to_string(rank) + " from rank 0";
   });
 }
 

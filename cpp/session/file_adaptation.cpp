@@ -212,8 +212,8 @@ bool is_metric(const Solution& fields) {
 std::vector<double> scalars_of(const Solution& fields, const std::string& path) {
   for (const ValueType type : fields.fields)
     if (type == ValueType::symmetric || type == ValueType::full)
-      throw FileError({.file = path}, "it has tensors among other fields; what a mesh is adapted to are scalars and "
-                                      "vectors, or one metric");
+      throw FileError({.file = path}, "it has tensors among other fields; a mesh is adapted to scalars and "
+                                      "vectors, or to one metric");
   return fields.values;
 }
 
@@ -241,7 +241,7 @@ std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, 
 VertexValues metrics_of(const std::string& sol_path, int dimension, const std::string& mesh_name, std::int32_t field) {
   const Solution metrics = read_solution(sol_path, {SolutionUse::prescription, field});
   if (metrics.dimension != dimension)
-    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(metrics.dimension) + ", but that of " +
+    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(metrics.dimension) + ", but the dimension of " +
                                             mesh_name + " is " + std::to_string(dimension));
   return values_of(metrics);
 }
@@ -309,7 +309,7 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
   const Solution solution = read_prescription(sol_path, field);
   check_elements(flat, mesh_path);
   if (solution.dimension != flat.dimension)
-    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +
+    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but the dimension of " +
                                             mesh_path + " is " + std::to_string(flat.dimension));
   check_count(solution, sol_path, flat.vertices.size(), mesh_path);
   return field_of(flat, one_plane, values_of(solution));

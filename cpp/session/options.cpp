@@ -82,7 +82,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.proximity = parameters.integer("proximity");
   if (options.proximity > 0 && options.gradation == 0)
     throw InvalidArgument(
-        "parameter proximity needs a gradation greater than 1 (1.3, say): sizes of narrow zones must "
+        "parameter proximity needs a gradation greater than 1 (such as 1.3): sizes of narrow zones must "
         "grow into those around");
   options.eps_ends = parameters.real("eps_ends", diag);
   options.check_close_edges = parameters.integer("CheckCloseEdges");

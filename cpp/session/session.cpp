@@ -33,9 +33,9 @@ void refuse_parts_of(const Model& model, const Parameters& parameters) {
   if (has_discrete(model))
     what = "surfaces given as triangles";
   else if (parameters.integer("measure") != 0)
-    what = "measures of what a mesh delivers (parameter measure)";
+    what = "measures of a mesh (parameter measure)";
   else if (!option.empty() && option != "allsurf3d")
-    what = "an export of other than all of space (parameter option)";
+    what = "an export other than the whole surface in space (parameter option)";
   if (!what.empty()) throw InvalidArgument(needs_whole_mesh(what));
 }
 
@@ -168,7 +168,7 @@ void Session::make_mesh(double from, double to) {
 }
 
 PartMesh Session::make_part() {
-  if (!state_->team) throw InvalidArgument("a mesh is kept in parts by the processes of a team: the session has none");
+  if (!state_->team) throw InvalidArgument("meshes in parts require a team of processes: the session has no team");
   PartMesh part;
   together([&](const Crew&) { make_mesh_alone(0, 1, &part); });
   return part;

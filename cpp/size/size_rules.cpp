@@ -91,7 +91,7 @@ void check_geometric(const SizeParameters& p) {
 }  // namespace
 
 double mean_size(SizeMean kind, std::span<const double> values) {
-  if (values.empty()) throw InvalidArgument("the mean of no sizes was asked for");
+  if (values.empty()) throw InvalidArgument("a mean requires at least one size");
   const double smallest = *std::min_element(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   double sum = 0;
@@ -116,7 +116,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       physical_at_point_(topology.points.size()),
       size_at_point_(topology.points.size()) {
   if (parameters.physical == PhysicalSizes::ignored && parameters.geometric == GeometricSizes::ignored) {
-    throw InvalidArgument("hphy_flag and hgeo_flag are both 0: nothing says how large the elements are to be");
+    throw InvalidArgument("hphy_flag and hgeo_flag are both 0: no sizes are prescribed");
   }
   if (parameters.physical != PhysicalSizes::ignored) {
     check_bounds("hphy", parameters.hphymin, parameters.hphymax);
@@ -128,7 +128,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
   if (parameters.geometric == GeometricSizes::ignored &&
       (parameters.geo_anisotropic || parameters.geo_rule != GeometricCriterion::angle)) {
     throw InvalidArgument(
-        "hgeo_flag is 0, so that geometric sizes are ignored, but geo_metric or geo_rule asks for some: set hgeo_flag "
+        "hgeo_flag is 0, so that geometric sizes are ignored, but geo_metric or geo_rule requires them: set hgeo_flag "
         "to 1");
   }
 }

@@ -109,7 +109,7 @@ void MshReader::format() {
   const std::int32_t type = in_.integer("the type of the file"), size = in_.integer("the size of its numbers");
   if (type != 0 && type != 1)
     in_.fail(at, "the type of the file is " + std::to_string(type) + " instead of 0 (ASCII) or 1 (binary)");
-  if (size != 8) in_.fail(at, "numbers of " + std::to_string(size) + " bytes are not known, but those of 8");
+  if (size != 8) in_.fail(at, "numbers of " + std::to_string(size) + " bytes are not supported; 8 bytes are");
   if (type == 0) return;
   in_.rest_of_line();
   in_.set_binary(false);
@@ -119,7 +119,7 @@ void MshReader::format() {
   if (found == swapped_one)
     in_.set_binary(true);
   else if (found != 1)
-    in_.fail(one, "the number 1, which tells the order of bytes, was expected");
+    in_.fail(one, "the number 1, which gives the order of bytes, was expected");
 }
 
 void MshReader::physical_names() {

@@ -328,7 +328,7 @@ Grid read_plot3d_binary(std::string_view bytes, const std::string& name) {
   }
   throw FileError({.file = name},
                   "the file is binary, but its " + std::to_string(bytes.size()) +
-                      " bytes are no PLOT3D: with no byte order, precision and kind of records do counts and size agree");
+                      " bytes are not PLOT3D: counts and size agree for no byte order, precision and kind of records");
 }
 
 Grid read_plot3d(std::string_view content, const std::string& name) {

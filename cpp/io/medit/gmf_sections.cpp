@@ -63,7 +63,7 @@ void GmfSections::header() {
 
 std::int32_t GmfSections::next() {
   if (section_end_ != 0) {
-    if (pos_ > section_end_) fail(section_start_, "section " + std::to_string(code_) + " is longer than it says");
+    if (pos_ > section_end_) fail(section_start_, "section " + std::to_string(code_) + " is longer than its header states");
     pos_ = section_end_;  // skips the unread rest
   }
   section_start_ = pos_;

@@ -124,7 +124,7 @@ class PlyReader : private Words {
       rest_of_line();
     }
     rest_of_line();
-    if (!form_) fail(position(), "the header does not say the format");
+    if (!form_) fail(position(), "the header does not give the format");
     if (form_ == Form::ascii) return;
     count_bytes();
     swapped_ = (form_ == Form::big) != (std::endian::native == std::endian::big);

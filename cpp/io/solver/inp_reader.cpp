@@ -163,7 +163,7 @@ class InpReader {
       return;
     }
     if (numbers.size() < 2 || numbers.size() > 3 || (numbers.size() == 3 && numbers[2] < 1))
-      in_.fail(at, "GENERATE wants a first number, a last one and perhaps a step");
+      in_.fail(at, "GENERATE requires a first number, a last number and perhaps a step");
     groups_.add_range_to(name, numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1);
   }
 

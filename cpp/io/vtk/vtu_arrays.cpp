@@ -103,12 +103,12 @@ std::string VtuArrays::first(const VtuArray& array, const Stored& stored, std::u
 std::string VtuArrays::behind(const VtuArray& array, const Stored& stored, std::uint64_t header, std::uint64_t length) {
   // Every array has separate bytes: all arrays together need no more than the file holds.
   if (length > content_.size() - taken_)
-    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) +
+    fail(array.tag, array.shown_name() + " should have " + std::to_string(length) +
                         " bytes, more than are left: the file may be truncated");
   taken_ += length;
   const std::string bytes = first(array, stored, header + length);
   if (bytes.size() < header + length)
-    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) + " bytes, but " +
+    fail(array.tag, array.shown_name() + " should have " + std::to_string(length) + " bytes, but " +
                         std::to_string(bytes.size() - header) + " are left: the file may be truncated");
   return bytes.substr(static_cast<std::size_t>(header), static_cast<std::size_t>(length));
 }
@@ -129,7 +129,7 @@ std::string VtuArrays::bytes_of(const VtuArray& array) {
 std::string VtuArrays::inflated_bytes(const VtuArray& array, const Stored& stored, std::uint64_t blocks) {
   if (blocks == 0) return "";
   if (blocks > content_.size() / length_size_)
-    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(blocks) +
+    fail(array.tag, array.shown_name() + " should have " + std::to_string(blocks) +
                         " compressed blocks, more than the file holds");
   const std::uint64_t size = (ZlibBlocks::fixed_numbers + blocks) * length_size_;
   const std::string header = first(array, stored, size);
@@ -139,7 +139,7 @@ std::string VtuArrays::inflated_bytes(const VtuArray& array, const Stored& store
   const ZlibBlocks sizes = ZlibBlocks::of(numbers);
   for (const std::uint64_t each : sizes.compressed)  // before their sum, which could overflow
     if (each > content_.size())
-      fail(array.tag, array.shown_name() + " says that it has a block of " + std::to_string(each) +
+      fail(array.tag, array.shown_name() + " should have a block of " + std::to_string(each) +
                           " bytes, more than are left: the file may be truncated");
   const std::string bytes = behind(array, stored, size, sizes.compressed_size());
   try {
@@ -181,7 +181,7 @@ std::vector<T> VtuArrays::numbers_of_bytes(const VtuArray& array, std::string_vi
     } else {
       if (bytes.size() % sizeof(Stored) != 0)
         fail(array.tag, array.shown_name() + " has " + std::to_string(bytes.size()) +
-                            " bytes, which are no numbers of " + std::to_string(sizeof(Stored)));
+                            " bytes, which are not numbers of " + std::to_string(sizeof(Stored)));
       values.reserve(bytes.size() / sizeof(Stored));
       for (std::size_t i = 0; i < bytes.size(); i += sizeof(Stored))
         values.push_back(static_cast<T>(raw_number<Stored>(bytes.data() + i, swapped_)));

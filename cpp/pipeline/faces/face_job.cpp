@@ -353,7 +353,7 @@ void FaceJob::refuse_jumps(std::size_t most, Monitor& monitor) const {
     if (jumps(*cad_, input_.ref, edge.from, edge.to))
       throw DomainError(Where{.face = input_.ref, .uv = host_uv(0.5 * (edge.from + edge.to))},
                         "the surface jumps: an edge of its mesh is " + format_number(edge.ratio) +
-                            " times as long as the derivatives say; it is not continuous there");
+                            " times as long as by the derivatives; it is not continuous there");
   }
 }
 

@@ -176,7 +176,7 @@ class BoundaryMesher {
     if (side_[u] == -side_[t]) {
       const int a = mesh_.triangles[t].v[next3[i]], b = mesh_.triangles[t].v[prev3[i]], v = a < count_ ? a : b;
       throw_at(v < count_ ? uv(v) : uv(domain_.edges[0].a),
-               "what is inside the domain cannot be told: loops are turned against each other");
+               "the inside of the domain is ambiguous: loops are turned against each other");
     }
     if (side_[u] == 0) queue_.push_back(u);
     side_[u] = side_[t];

@@ -212,7 +212,7 @@ std::optional<FlatMesh> boundary_of_failed(const ExportSource& source, int ref) 
   }
   if (!any) return std::nullopt;
   if (!known)
-    throw InvalidArgument(Where{.face = ref}, "the face was left out of the mesh: nothing is known of its domain");
+    throw InvalidArgument(Where{.face = ref}, "the face was left out of the mesh: its domain is unknown");
   return flat;
 }
 

@@ -108,7 +108,7 @@ void read(std::string_view packet, const std::string& teller, std::vector<Result
   if (const SharedError error{reader.text()}; error.any()) error.raise(teller);
   for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
     const auto i = static_cast<std::uint64_t>(reader.integer());
-    if (i >= results.size()) throw Error(teller + "has sent work that nobody knows");
+    if (i >= results.size()) throw Error(teller + "has sent unknown work");
     results[i].error.bytes = reader.text();
     results[i].bytes = reader.text();
     results[i].known = true;
@@ -129,7 +129,7 @@ std::vector<std::string> deal_out(Team& team, std::string_view step, std::size_t
   bytes.reserve(n);
   for (Result& result : results) {
     if (result.error.any()) result.error.raise();
-    if (!result.known) throw Error("no process has done work that was dealt out");  // a process has stopped
+    if (!result.known) throw Error("no process has done a distributed piece of work");  // a process has stopped
     bytes.push_back(std::move(result.bytes));
   }
   return bytes;
