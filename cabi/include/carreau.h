@@ -80,9 +80,9 @@ extern "C" {
   X(CARREAU_ERR_CALLBACK, 4, "a callback reported a failure or returned a value that is not usable")          \
   X(CARREAU_ERR_DOMAIN, 5, "a parameter domain does not close, crosses itself or is turned the wrong way")    \
   X(CARREAU_ERR_LIMIT, 6, "the mesh would exceed the limit set by max_triangles or by memory")                \
-  X(CARREAU_ERR_CANCELLED, 7, "the host asked to stop")                                                       \
+  X(CARREAU_ERR_CANCELLED, 7, "the host stopped the run")                                                       \
   X(CARREAU_ERR_MEMORY, 8, "an allocation failed")                                                            \
-  X(CARREAU_ERR_SEQUENCE, 9, "the call needs the result of another one that was not made or did not succeed") \
+  X(CARREAU_ERR_SEQUENCE, 9, "the call needs the result of an earlier call that was not made or did not succeed") \
   X(CARREAU_ERR_PARTIAL, 10, "some faces could not be meshed; the mesh holds the others")                     \
   X(CARREAU_ERR_BUSY, 11, "the session is running: only carreau_stop may be called from a callback")          \
   X(CARREAU_ERR_INTERNAL, 99, "a defect of the library; please report it")

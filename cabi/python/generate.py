@@ -149,7 +149,7 @@ def main():
             continue
         with open(path, encoding="utf-8") as file:
             if file.read() != text:
-                sys.exit(f"{os.path.normpath(path)} is not what the headers say. Refresh it: python3 cabi/python/generate.py")
+                sys.exit(f"{os.path.normpath(path)} does not match the headers. Refresh it: python3 cabi/python/generate.py")
 
 
 main()

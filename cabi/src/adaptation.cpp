@@ -217,7 +217,7 @@ carreau_status carreau_estimate(carreau_session* session, const carreau_estimato
     const std::size_t rows = checked_nodes(n, mesh_of(*session), "mesh");
     const EstimatorOptions options = options_of(estimator);
     if (out_sizes == nullptr && out_metrics == nullptr)
-      throw InvalidArgument("neither out_sizes nor out_metrics is given: there is no place for the result");
+      throw InvalidArgument("out_sizes and out_metrics are both NULL: the result has no place");
     if (options.shape != carreau::ErrorShape::isotropic && out_metrics == nullptr)
       throw InvalidArgument("the shape of the estimator gives metrics, but out_metrics is NULL");
     session->monitor.begin_run();

@@ -70,6 +70,6 @@ carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref
       out_degrees[0] = patch.m, out_degrees[1] = patch.n;
       return;
     }
-    throw InvalidArgument("face " + std::to_string(face_ref) + " is no Bezier patch");
+    throw InvalidArgument("face " + std::to_string(face_ref) + " is not a Bezier patch");
   });
 }

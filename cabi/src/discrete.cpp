@@ -122,7 +122,7 @@ void carreau_session::add_triangles(std::shared_ptr<const discrete::DiscreteSurf
   const std::set<std::int32_t> left(refs.begin(), refs.end());
   std::erase_if(built.model.faces,
                 [&](const carreau::Face& face) { return !left.contains(face.ref + all.back().first_face - 1); });
-  if (built.model.faces.empty()) throw InvalidArgument("all triangles are those of surfaces that the session has");
+  if (built.model.faces.empty()) throw InvalidArgument("all triangles belong to surfaces of the session already");
   for (const std::string& sentence : sentences) monitor.message(Level::warning, sentence);
   add_geometry(CARREAU_GEOMETRY_TRIANGLES, together, std::move(built.model));
   surfaces.push_back(std::move(all.back()));

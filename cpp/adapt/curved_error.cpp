@@ -75,7 +75,7 @@ std::vector<Loaded> loaded_elements(const SurfaceMesh& mesh, std::span<const dou
   std::vector<Loaded> elements;
   for (const FaceMesh& face : mesh.faces)
     for (const Cell& cell : cells_of(mesh, face)) {
-      if (!is_quadratic(cell.kind)) throw InvalidArgument("a mesh has elements of first order beside those of second");
+      if (!is_quadratic(cell.kind)) throw InvalidArgument("a mesh has elements of first and second order");
       elements.emplace_back(mesh, values, cell);
     }
   if (elements.empty()) throw InvalidArgument("a field needs a mesh with one element at least");

@@ -76,8 +76,8 @@ void require_same_function(std::span<const Vec3> points, const FieldFunction& ex
   LongChecksum sum;
   sum.add(some), sum.add(values);
   team.require_same<InvalidModel>("field", sum.text(), [](int rank) {
-    return "the field is another one on rank " + std::to_string(rank) +
-           " than on rank 0: its callback differs, or its parameters do";
+    return "the field differs on rank " + std::to_string(rank) +
+           " from rank 0: its callback differs, or its parameters do";
   });
 }
 

@@ -27,7 +27,7 @@ void check_options(const ScalarField& field, const EstimatorOptions& o) {
   if (!(o.ratio >= 1)) throw InvalidArgument("a ratio of sizes is at least 1; it is " + format_number(o.ratio));
   if (!(o.relative_floor > 0)) throw InvalidArgument("the floor of a relative error must be positive");
   if (o.source == ErrorSource::hessian && o.shape == ErrorShape::graph)
-    throw InvalidArgument("the Hessian says nothing about sizes in the tangent planes of the graph");
+    throw InvalidArgument("the Hessian gives no sizes in the tangent planes of the graph");
   if (o.source == ErrorSource::hessian) return;
   for (const Vec3& p : field.vertices)
     if (p.z() != 0) throw InvalidArgument("a graph is estimated over a mesh of the plane z = 0 only");

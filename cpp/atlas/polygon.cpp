@@ -87,7 +87,7 @@ void require_simple(const Polygon& polygon, const std::string& name) {
     for (std::size_t j = i + 2; j < n; ++j)
       if (next_of(j, n) != i && segments_meet(polygon[i], polygon[i + 1], polygon[j], polygon[next_of(j, n)]))
         fail(name,
-             " crosses or touches itself: its edge from vertex " + rank(i) + " meets the one from vertex " + rank(j),
+             " crosses or touches itself: its edge from vertex " + rank(i) + " meets the edge from vertex " + rank(j),
              polygon[i]);
   if (signed_area(polygon) <= 0)
     throw DomainError(name + " runs clockwise; vertex 1 and those after it must run counterclockwise");

@@ -20,7 +20,7 @@ constexpr double trapezoid_tolerance = 0.002;
 
 void check_count(double l) {
   if (l <= most_edges) return;
-  throw LimitError("the metrics along a curve ask for more than " + format_number(most_edges) + " edges");
+  throw LimitError("the metrics along a curve require more than " + format_number(most_edges) + " edges");
 }
 
 void check_breaks(std::span<const double> breaks, double lss) {
@@ -125,7 +125,7 @@ MetricLengthTable measure_curve(const PieceSpeed& speed, std::span<const double>
 }
 
 std::vector<double> split_equally(const MetricLengthTable& gradation, int n) {
-  if (n < 1) throw InvalidArgument("a curve has at least one edge; " + std::to_string(n) + " were asked for");
+  if (n < 1) throw InvalidArgument("a curve has at least one edge, not " + std::to_string(n));
   const auto& [s, l, first, last] = gradation;
   return equal_parts(s, l, n, [&, &first = first, &last = last, &s = s](std::size_t i, double length) {
     return distance_within(first[i], last[i], s[i + 1] - s[i], length);

@@ -171,7 +171,7 @@ class Broken(unittest.TestCase):
             status, error, summary = self.mesh("names.step", broken)
             self.assertEqual((status, len(summary["faces"]), summary["mesh"]["area"]), (ALL_FACES, 7, area), error)
             self.assertEqual(len(summary["warnings"]), 1)
-            self.assertIn("entities are wrong and were mended", summary["warnings"][0])
+            self.assertIn("entities are wrong and were repaired", summary["warnings"][0])
 
     def test_files_of_wires_are_meshed_as_edges(self):
         path, out = os.path.join(SHAPES, "wires.brep"), os.path.join(self.folder, "out.mesh")

@@ -297,10 +297,10 @@ TEST(Bytes, WrongOnesAreRejected) {
     }
     return "";
   };
-  EXPECT_EQ(sentence("", ""), "memory: the bytes are no STEP, IGES or BREP file");
-  EXPECT_EQ(sentence("solid", "brep"), "memory: the bytes are no STEP, IGES or BREP file");
+  EXPECT_EQ(sentence("", ""), "memory: the bytes are not a STEP, IGES or BREP file");
+  EXPECT_EQ(sentence("solid", "brep"), "memory: the bytes are not a STEP, IGES or BREP file");
   EXPECT_EQ(sentence(text.str(), "step"), "memory: the bytes do not begin like a STEP file");
-  EXPECT_EQ(sentence(text.str(), "stl"), "memory: the format is 'stl', which is none of step, iges and brep");
+  EXPECT_EQ(sentence(text.str(), "stl"), "memory: the format is 'stl', which is not step, iges or brep");
   EXPECT_NE(sentence("ISO-10303-21;\nHEADER;\n", "").find("memory: "), std::string::npos);
   for (const std::string& whole : {text.str(), binary.str()})
     for (std::size_t n = whole.size() / 10; n < whole.size() - 10; n += whole.size() / 10)

@@ -290,8 +290,8 @@ class Adapt(WorkFolder):
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--transfer", "short.sol", sentence="short.sol: it has values at 1 vertices")
         self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--use", "sizes", "-o", "a.mesh", "-o", "a.sol",
                    sentence="There are no fields for 'a.sol'")
-        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "0.mesh", sentence="it is what is read")
-        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "u.mesh", sentence="it is what is read")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "0.mesh", sentence="it is an input")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "u.mesh", sentence="it is an input")
 
 
 if __name__ == "__main__":

@@ -148,7 +148,7 @@ class Inputs(Folder):
         self.assertEqual(sorted(os.listdir(self.path("last"))), ["face_2.exr", "face_2.mesh"])
         self.assertRegex(done.stderr, r"(?m)^dumped +last/face_2\.exr$")
         self.write("file", "")
-        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is no folder")
+        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is not a folder")
         self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "no/such", sentence="the folder 'no/such' cannot be used: No such file")
 
     def test_a_file_is_not_written_twice_nor_over_what_is_read(self):
@@ -160,7 +160,7 @@ class Inputs(Folder):
             self.refused(square, "-o", "a.mesh", "-o", name, sentence="'" + name + "' cannot be written: it is named twice")
         self.refused(square, "-o", "d/b.mesh", "-o", "d/../d/b.mesh", sentence="it is named twice")
         self.write("a.sol", "")
-        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is what is read")
+        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is an input")
 
     def test_no_face_with_a_mesh_is_status_2_and_no_file(self):
         self.refused(self.write("bad.pardom", "1\n" + FACE.format(2)), "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3",
@@ -221,9 +221,9 @@ class Formulas(Folder):
 
     def test_what_is_no_surface_is_told(self):
         for given, sentence in ((("z = x + z",), "position"), (("x = u; y = v",), "A surface is"), (("z = x; z = y",), "two equations of z"),
-                                (("z = x", "--domain", "disc:0,0,0"), "is no domain"), (("z = x", "--domain", "box:0,0,1"), "is no domain"),
-                                (("z = x", "--domain", "box:1,0,0,1"), "is no domain"), (("z = 1 / x",), "the formula has no value there"),
-                                (("z = x; w = 2",), "is no equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
+                                (("z = x", "--domain", "disc:0,0,0"), "is not a domain"), (("z = x", "--domain", "box:0,0,1"), "is not a domain"),
+                                (("z = x", "--domain", "box:1,0,0,1"), "is not a domain"), (("z = 1 / x",), "the formula has no value there"),
+                                (("z = x; w = 2",), "is not an equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
             self.refused(*given, "-o", "out.mesh", sentence=sentence)
         self.refused(TEAPOT, "--domain", "disc:0,0,1", "-o", "out.mesh", sentence="--domain goes with a surface by formulas")
 
@@ -365,9 +365,9 @@ class Sizes(Folder):
                                   ('"a"', "strings"), ("0.1 + \u00e9", "'0.1 + ...' is wrong at position 7: a character that is not plain text"), ("x" * 5000, "4096")):
             with self.subTest(formula=formula):
                 self.refused(self.square, "-o", "a.mesh", "--size-map", formula, sentence=sentence)
-        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is no size, on face 1 at x = ")
+        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is not a size, on face 1 at x = ")
         self.assertIn("the size map 'x' gives -", done.stderr)
-        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is no size, on face ")
+        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is not a size, on face ")
         self.assertNotIn("meshing again", done.stderr)
         self.refused(self.square, "-o", "a.mesh", "--size-map", "sqrt(x)", sentence="gives nan")
         self.refused(self.square, "-o", "a.mesh", "--size-map", "1/(x - x)", sentence="gives inf")

@@ -242,7 +242,7 @@ class Triangles(unittest.TestCase):
         lower, upper = (os.path.join(DATA, name) for name in ("lower.off", "upper.off"))
         made = self.path("cube.mesh")
         done = self.run_command("mesh", lower, upper, "-o", made, "--size", "10%")
-        self.assertIn("16 vertices are those of other surfaces of triangles", done.stderr)
+        self.assertIn("16 vertices belong to other surfaces of triangles", done.stderr)
         found = json.loads(self.run_command("check", made, "--json", "--closed").stdout)
         self.assertEqual((found["quality"]["open_edges"], found["defects"]), (0, []))
         self.assertLess(abs(found["quality"]["area"] - 24), 1e-9)
@@ -272,7 +272,7 @@ class Triangles(unittest.TestCase):
         done = self.run_command("mesh", lower, "z = x", "-o", made, code=2)
         self.assertIn("cannot be meshed beside other files", done.stderr)
         done = self.run_command("mesh", lower, lower, "-o", made, code=2)
-        self.assertIn("all triangles are those of surfaces that the session has", done.stderr)
+        self.assertIn("all triangles belong to surfaces of the session already", done.stderr)
         self.run_command("mesh", lower, upper, "-o", upper, code=2)  # an input is not written over
 
     def test_distances_are_bounded(self):

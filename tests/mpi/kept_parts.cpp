@@ -310,7 +310,7 @@ bool run_kept_parts(const std::string& name, const std::string& folder) {
   else if (name == "no_memory")
     fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
   else if (name == "other_inside")
-    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 is another one on rank " + std::to_string(size - 1));
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 differs on rank " + std::to_string(size - 1));
   else if (name == "dies")
     fails(Fault::dies, CARREAU_OK, "nobody comes here");
   else if (name == "files")

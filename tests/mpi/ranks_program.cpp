@@ -206,7 +206,7 @@ void other_values() {
   estimator.struct_size = sizeof estimator;
   estimator.hmin = 0.01, estimator.hmax = 1;
   expect(carreau_estimate(run.session, &estimator, n, values.data(), sizes.data(), nullptr) == CARREAU_ERR_MODEL, run.sentence());
-  expect(run.sentence().find("others on rank " + std::to_string(size - 1)) != std::string::npos, run.sentence());
+  expect(run.sentence().find("differ on rank " + std::to_string(size - 1)) != std::string::npos, run.sentence());
 }
 
 /// Values of all ranks, one behind the other.
@@ -360,7 +360,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "other_curves")
     fails(Fault::other_curves, CARREAU_ERR_MODEL, "on rank " + std::to_string(size - 1));
   else if (name == "other_inside")
-    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 is another one on rank " + std::to_string(size - 1));
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 differs on rank " + std::to_string(size - 1));
   else if (name == "status")
     fails(Fault::status, CARREAU_ERR_CALLBACK, "42");
   else if (name == "stop")
@@ -370,7 +370,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "large_same")
     same_large_faces();
   else if (name == "large_other_inside")
-    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 1 is another one on rank " + std::to_string(size - 1), one_large_face, 1);
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 1 differs on rank " + std::to_string(size - 1), one_large_face, 1);
   else if (name == "large_status_inside")
     fails(Fault::status_inside, CARREAU_ERR_CALLBACK, "43", one_large_face, 1);
   else if (name == "large_stop")
@@ -388,7 +388,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "adapt_no_memory")
     adaptation_fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
   else if (name == "adapt_other_field")
-    adaptation_fails(Fault::other_inside, CARREAU_ERR_MODEL, "another one on rank " + std::to_string(size - 1));
+    adaptation_fails(Fault::other_inside, CARREAU_ERR_MODEL, "differs on rank " + std::to_string(size - 1));
   else if (name == "adapt_other_values")
     other_values();
   else if (name == "adapt_dies")

@@ -49,7 +49,7 @@ def test_the_unit_of_the_file_is_reported(folder):
     assert (file.content.unit, file.content.file_unit) == ("m", "in")
 
 
-@pytest.mark.parametrize("source, said", [(b"", "are no STEP, IGES or BREP file"), (b"solid", "are no STEP, IGES or BREP file")])
+@pytest.mark.parametrize("source, said", [(b"", "are not a STEP, IGES or BREP file"), (b"solid", "are not a STEP, IGES or BREP file")])
 def test_bytes_that_are_no_shape_are_rejected(source, said):
     with pytest.raises(errors.FileError, match=said):
         carreau.mesh(source)

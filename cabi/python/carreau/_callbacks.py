@@ -44,7 +44,7 @@ class Named:
         self.scalar = isinstance(function, Scalar)
         self.function = function.function if isinstance(function, Scalar) else function
         if not callable(self.function):
-            raise ArgumentError(f"{function!r} is no function")
+            raise ArgumentError(f"{function!r} is not a function")
         self.names = _names(self.function, list(offer), list(offer[:usual]), whole)
 
     def __call__(self, values: Mapping[str, Any]) -> Any:

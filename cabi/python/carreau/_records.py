@@ -390,7 +390,7 @@ class CadReport(NamedTuple):
 
 
 class CadDanger(NamedTuple):
-    """A place that a mesher may stumble over."""
+    """A potential meshing problem."""
 
     kind: str
     face: int

@@ -129,7 +129,7 @@ def domain_of(given: Any) -> list[Curve]:
         make, count = SHAPES.get(word, (box, -1))
         values = [float(each) for each in numbers.split(",") if each]
         if len(values) != count:
-            raise ArgumentError(f"'{given}' is no domain: box:u0,v0,u1,v1, disc:u,v,radius or ring:u,v,inner,outer")
+            raise ArgumentError(f"'{given}' is not a domain: box:u0,v0,u1,v1, disc:u,v,radius or ring:u,v,inner,outer")
         return make(*values)
     items = list(given)
     if len(items) == 4 and all(isinstance(each, (int, float, np.number)) for each in items):

@@ -63,7 +63,7 @@ def length(given: Length, name: str, diagonal: float) -> float:
     except (TypeError, ValueError):
         value = 0.0
     if not 0 < value < float("inf"):
-        raise ArgumentError(f"{name} {given!r} is no length: a number above 0, or a share of the model's diagonal such as '1%'")
+        raise ArgumentError(f"{name} {given!r} is not a length: a number above 0, or a share of the model's diagonal such as '1%'")
     return value
 
 

@@ -187,7 +187,7 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
   if (frame.least_cosine < thresholds::steepest_cosine)
     return {thresholds::steep + thresholds::steepest_cosine - frame.least_cosine,
             cluster + " is far from its plane: the normal at vertex " + std::to_string(frame.steepest + 1) +
-                " makes an angle of cosine " + short_number(frame.least_cosine) + " with that of the plane"};
+                " makes an angle of cosine " + short_number(frame.least_cosine) + " with the normal of the plane"};
   const auto projected = [&](const std::vector<std::int32_t>& border) {
     Polygon p;
     for (const std::int32_t v : border) p.push_back(frame.project(surface.vertices[static_cast<std::size_t>(v)]));

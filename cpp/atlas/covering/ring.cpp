@@ -28,7 +28,7 @@ class RingWalk {
     find_triples();
     borders(defect);
     if (defect.empty() && ring_.spokes.size() != all)
-      defect = "the cluster with vertex " + name(own()) + " is no disc: it has a hole";
+      defect = "the cluster with vertex " + name(own()) + " is not a disc: it has a hole";
     if (defect.empty() && ring_.triples.size() < 2)
       defect = "the cluster with vertex " + name(own()) + " has " + std::to_string(ring_.triples.size()) +
                " places where three clusters meet; it needs two";
@@ -93,7 +93,7 @@ class RingWalk {
     const auto twice = std::adjacent_find(border.begin(), border.end());
     if (twice != border.end())
       defect =
-          what + " with vertex " + name(own()) + " is no disc: its border passes vertex " + name(*twice) + " twice";
+          what + " with vertex " + name(own()) + " is not a disc: its border passes vertex " + name(*twice) + " twice";
     else if (border.size() < 3)
       defect = what + " with vertex " + name(own()) + " has a border of fewer than three vertices";
   }

@@ -23,7 +23,7 @@ void check(const BezierPatch& patch, int face) {
            std::to_string(largest_bezier_degree));
   const auto points = static_cast<std::size_t>((patch.m + 1) * (patch.n + 1));
   if (patch.control.size() != points)
-    fail("the Bezier patch has " + std::to_string(patch.control.size()) + " control points where its degrees want " +
+    fail("the Bezier patch has " + std::to_string(patch.control.size()) + " control points, but its degrees require " +
          std::to_string(points));
   for (std::size_t i = 0; i < points; ++i)
     if (!is_finite(patch.control[i]) || patch.control[i].cwiseAbs().maxCoeff() > largest_coordinate)

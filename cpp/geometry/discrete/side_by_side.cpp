@@ -112,12 +112,12 @@ class Joiner {
     const auto say = [&](std::int64_t n, const std::string& what) {
       if (n > 0) sentences.push_back(std::to_string(n) + what);
     };
-    say(joined_, " vertices are those of other surfaces of triangles: the meshes are one there");
+    say(joined_, " vertices belong to other surfaces of triangles, too: the meshes are joined there");
     const std::int32_t first = given_.back().first_face;
     say(static_cast<std::int64_t>(given_.back().surface->triangles()) -
             std::ranges::count_if(mesh.refs, [&](std::int32_t ref) { return ref >= first; }),
-        " triangles are those of surfaces before: dropped");
-    say(mesh.findings.turned_triangles, " triangles ran against those of other surfaces: turned");
+        " triangles belong to earlier surfaces: dropped");
+    say(mesh.findings.turned_triangles, " triangles were oriented against other surfaces: turned");
     const std::int64_t alone = sum([](const DiscreteSurface& s) { return s.mesh().findings.manifold_breaks; });
     say(mesh.findings.manifold_breaks - alone, " edges have three triangles or more of several surfaces");
   }

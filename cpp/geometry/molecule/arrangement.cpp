@@ -202,7 +202,7 @@ Arrangement arrange(std::span<const Ball> balls, int threads, Monitor& monitor) 
     std::set_union(before.begin(), before.end(), doubted.begin(), doubted.end(), std::back_inserter(a.moved));
   }
   throw InvalidArgument("the spheres of atoms " + std::to_string(a.moved.empty() ? 0 : a.moved.front() + 1) +
-                        " and others come too near to meeting in one point to tell how they do");
+                        " and others meet too nearly in one point to decide their order");
 }
 
 }  // namespace carreau::molecule

@@ -118,7 +118,7 @@ class Subdomains {
     if (const int end = open_end(-1); graph_.faces().empty() && end >= 0)
       throw InvalidModel(where(input_.points[end].line),
                          nothing + "its boundary is open, since only one curve ends at " + name_of_point(input_, end));
-    throw InvalidModel(where(0), nothing + "no side or region names what its curves enclose, or holes take all of it");
+    throw InvalidModel(where(0), nothing + "no side or region names a part inside its curves, or holes remove all of it");
   }
 
   [[nodiscard]] std::vector<Subdomain> grouped() const {

@@ -254,7 +254,7 @@ void tell(std::span<const FaceCollapse> faces, CompositeResult& result) {
     FaceMesh& mesh = result.mesh.faces[face.face];
     const std::string what = sentence_of(face, mesh.ref);
     if (mesh.status == FaceStatus::collapsed) {
-      mesh.why = what + " and has vanished: what was on its two sides has become one";
+      mesh.why = what + " and has vanished: its two sides have become one";
     } else if (mesh.status == FaceStatus::meshed || mesh.status == FaceStatus::mended) {
       mesh.status = FaceStatus::mended;
       mesh.why = what + " but stays: without it the mesh would not be sound";

@@ -83,7 +83,7 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
   const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
-  if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);
+  if (!why.empty()) monitor.message(Level::detail, "local instead of parametric remeshing: " + why);
   return why.empty();
 }
 
@@ -99,7 +99,7 @@ void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions&
     };
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
   if (why.empty()) return;
-  monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
+  monitor.message(Level::warning, "no remeshing, the triangles are only divided by the sizes: " + why);
   if (frame.elements)
     make_elements_of_frame(frame, cad, options, result, monitor);
   else

@@ -193,7 +193,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
   const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
   frame.workers = {options, cad};
   std::optional<StartedMesh> placed = mended(cad, tolerances, least_mean, result, frame, monitor);
-  if (!placed) return "it is not made in planes";
+  if (!placed) return "parametric remeshing is not possible";
   std::optional<std::int64_t> crossings_before;
   std::int64_t first = 0, last = 0;
   bool keeps = false;
@@ -217,7 +217,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
       keeps = true, last = first;
       keep_around(found, made, result.mesh, frame);
       placed = mended(cad, tolerances, least_mean, result, frame, monitor);
-      if (!placed) return "it is not made in planes";
+      if (!placed) return "parametric remeshing is not possible";
       continue;
     }
     std::string why = why_worse(made.mesh, result.mesh, options.threads, monitor);
@@ -249,7 +249,7 @@ bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
   RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
   give_makers(model, curves, elements, result, frame);
   const std::string why = remesh_in_frame(frame, model.cad, options, result, monitor);
-  if (!why.empty()) monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
+  if (!why.empty()) monitor.message(Level::warning, "no cross-patch remeshing: " + why);
   return why.empty();
 }
 

@@ -269,8 +269,8 @@ void require_same_surface(Team& team, const SurfaceMesh& mesh, std::span<const d
   sum.add(mesh.vertices);
   for (const double h : size) sum.add(std::bit_cast<std::uint64_t>(h));
   team.require_same<InvalidModel>("surface of charts", sum.text(), [](int rank) {
-    return "the surface, or its sizes, are others on rank " + std::to_string(rank) +
-           " than on rank 0: its callbacks or parameters differ";
+    return "the surface, or its sizes, differ on rank " + std::to_string(rank) +
+           " from rank 0: its callbacks or parameters differ";
   });
 }
 
@@ -281,7 +281,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
                                               const SurfaceTolerances& tolerances, const ProjectedOptions& options,
                                               Cad& cad, Monitor& monitor) {
   const auto refuse = [&](const std::string& why) -> std::optional<PlacedMesh> {
-    monitor.message(Level::detail, "the mesh is not made in planes: " + why);
+    monitor.message(Level::detail, "no parametric remeshing: " + why);
     return {};
   };
   if (options.crew.team != nullptr) require_same_surface(*options.crew.team, before, size);
@@ -299,7 +299,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
     if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles())
-      return refuse("no plane shows the charts");
+      return refuse("charts do not project to planes");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
     if (!worse.empty() && round++ < most_mendings && mend(flat, worse, found, monitor)) continue;
@@ -329,7 +329,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     if (plan->charts[c].kept) placed.kept.insert(placed.kept.end(), charts[c].border.begin(), charts[c].border.end());
   }
   placed.lines = std::move(plan->borders.lines), placed.on_line = std::move(plan->borders.on_line);
-  monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " +
+  monitor.message(Level::detail, "parametric remeshing: " + std::to_string(plan->charts.size()) + " charts, " +
                                      std::to_string(placed.kept.size() / 3) + " triangles kept, " +
                                      std::to_string(placed.seams.size()) + " vertices of cuts, " +
                                      std::to_string(placed.triangles.size()) + " triangles");

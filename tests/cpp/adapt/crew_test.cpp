@@ -99,7 +99,7 @@ TEST(SharedEstimates, NameTheProcessWhoseFunctionDiffers) {
     std::vector<double> values(mesh.vertices.size());
     shared_function(own, {&team, 1}, silent)(mesh.vertices, values);
   });
-  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("the field is another one on rank 2"), std::string::npos) << sentence;
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("the field differs on rank 2"), std::string::npos) << sentence;
 }
 
 TEST(SharedEstimates, TheFailureOfOneFunctionReachesAll) {

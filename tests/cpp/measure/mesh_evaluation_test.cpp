@@ -174,7 +174,7 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   bool said = false;
   for (const std::string& sentence : describe(d).not_met)
     said = said || sentence.find(
-                       "20 of 41 edges (48.78 %) have a gradation of sizes of more than the 1.25 asked; the "
+                       "20 of 41 edges (48.78 %) have a gradation of sizes of more than the 1.25 prescribed; the "
                        "worst has 1.297") == 0;
   EXPECT_TRUE(said);
 }
@@ -425,7 +425,7 @@ TEST(DeliveredSphere, TrianglesTurnedAgainstTheSurfaceAreCounted) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     EXPECT_EQ(d[Kind::angle].values[t] > 90, t % 7 == 0 && t < 35) << t;
   EXPECT_EQ(describe(d).not_met.back(),
-            "5 of 128 triangles (3.91 %) have a normal turned by more than 90 degrees against that of the surface");
+            "5 of 128 triangles (3.91 %) have a normal turned by more than 90 degrees against the surface");
 }
 
 TEST(DeliveredCylinder, AnglesAndDeviationsAreThoseOfTheChord) {

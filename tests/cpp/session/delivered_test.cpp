@@ -198,7 +198,7 @@ TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndSaid) {
   EXPECT_EQ(monitor.count(Level::warning,
                           std::to_string(above) + " of " + std::to_string(d.edges.vertices.size()) + " edges ("),
             1);
-  EXPECT_EQ(monitor.count(Level::warning, "an angle with a tangent plane at their ends of more than the 8 asked"), 1);
+  EXPECT_EQ(monitor.count(Level::warning, "an angle with a tangent plane at their ends of more than the 8 prescribed"), 1);
   const Json json = Json::parse(delivered_json(session.mesh(), session.report(), d));
   EXPECT_EQ(json["measures"]["edge_angle"]["limit"].get<double>(), 8);
   EXPECT_EQ(json["measures"]["edge_angle"]["beyond"].get<std::int64_t>(), above);

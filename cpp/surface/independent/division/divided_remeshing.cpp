@@ -98,7 +98,7 @@ class DividedRemeshing {
     sum.add(places), sum.add(sizes);
     workers_.team->require_same("free mesh", sum.text(), [](int rank) {
       return "the mesh of rank " + std::to_string(rank) +
-             " is another one than that of rank 0 before it is made free of its patches: its callbacks or parameters differ";
+             " differs from the mesh of rank 0 before cross-patch remeshing: its callbacks or parameters differ";
     });
   }
 

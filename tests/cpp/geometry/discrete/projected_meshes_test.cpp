@@ -35,8 +35,8 @@ using namespace carreau::thresholds::projected;
 class Listener final : public Monitor {
  public:
   void message(Level, std::string_view text) override {
-    if (text.starts_with("made in planes")) in_planes = true, ++times;
-    if (text.starts_with("the mesh is made by edits")) in_planes = false;
+    if (text.starts_with("parametric remeshing: ")) in_planes = true, ++times;
+    if (text.starts_with("local instead of parametric remeshing")) in_planes = false;
     crossed = crossed || text.ends_with("pairs of triangles cross");
   }
   bool in_planes = false, crossed = false;
@@ -135,7 +135,7 @@ TEST(ProjectedMeshes, TheSameForAnyNumberOfProcesses) {
 
 TEST(ProjectedMeshes, NameTheProcessWithOtherSizes) {
   for (const auto& [made, sentence] : made_by_processes(3, [](int rank) { return rank == 2 ? 0.081 : 0.08; }))
-    EXPECT_NE(sentence.find("others on rank 2"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("differ on rank 2"), std::string::npos) << sentence;
 }
 
 // Three triangles at an edge: edits make the mesh.

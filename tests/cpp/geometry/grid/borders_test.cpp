@@ -142,7 +142,7 @@ TEST(Cells, AHoleIsALoopAndAStripOfHolesCutsTheBlockInTwo) {
   ASSERT_EQ(cut.built.model.faces.size(), 2U);
   EXPECT_EQ(cut.built.model.faces[0].ref, 1);
   EXPECT_EQ(cut.built.model.faces[1].part_of, 1);
-  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a face of its own");
+  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a separate face");
 }
 
 TEST(Holes, AreFilledByAMembraneThatIsExactForLinearGrids) {

@@ -177,7 +177,7 @@ TEST(GridFiles, WrongPlot3dIsRefusedWithBlockAndLine) {
   EXPECT_NE(refusal(read_plot3d, "30000 30000 1\n1").find("more than the file can hold"), std::string::npos);
   std::string cut = Binary(true, false, true).of(false);
   cut.pop_back();
-  EXPECT_NE(refusal(read_plot3d, cut).find("bytes are no PLOT3D"), std::string::npos);
+  EXPECT_NE(refusal(read_plot3d, cut).find("bytes are not PLOT3D"), std::string::npos);
 }
 
 TEST(GridFiles, EsriGridsStartInTheNorthAndHaveCells) {

@@ -64,7 +64,7 @@ TEST(SharedAnswers, AHostThatDiffersIsNamedWithTheFace) {
       (void)shared_answers(team, 7, {"answers", 1, 1, ask}, uv, monitor);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const InvalidModel& error) {
-      EXPECT_EQ(std::string(error.what()).find("face 7 is another one on rank 2 than on rank 0"), 0U) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("face 7 differs on rank 2 from rank 0"), 0U) << error.what();
     }
   });
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
