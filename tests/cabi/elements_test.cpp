@@ -190,7 +190,7 @@ TEST_F(SessionTest, SurfacesOfTrianglesHaveAllElements) {
   }
 }
 
-TEST_F(SessionTest, WhatElementsCannotDoIsTold) {
+TEST_F(SessionTest, LimitsOfElementsAreReported) {
   use_paraboloid();
   ASSERT_EQ(carreau_set_text(session, "element", "p2"), CARREAU_OK) << error();
   EXPECT_EQ(carreau_set_text(session, "element", "p3"), CARREAU_ERR_ARGUMENT);

@@ -13,7 +13,7 @@ namespace carreau::thresholds::lift {
 /// [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
 inline constexpr double too_long = 1.3;
 /// True length over promised length. Limit for a mesh that is much too fine.
-/// [Verification.WhatTheSamplesKnowCostsNothing]
+/// [Verification.SampledDetailsCostNothing]
 inline constexpr double too_short = 0.65;
 /// True length over promised length. Such edges are examined for jumps; a surface that is continuous between their ends
 /// has none. [surface: BadModels.SurfaceThatJumpsByAFewEdges]

@@ -59,7 +59,7 @@ TEST(CurveAccuracy, ChordsOfACircleHaveTheirClosedForms) {
   }
 }
 
-TEST(CurveAccuracy, FourEdgesOfADiscAreToldWhenFewerDegreesAreAsked) {
+TEST(CurveAccuracy, FourEdgesOfADiscAreReportedForASmallAngle) {
   const auto asked = [](double angle, int guarantee) {
     return Meshed(disc(), 1, [=](Parameters& p) {
       p.set("hphy_flag", 0), p.set("hgeo_flag", 1), p.set("angle_mesh", angle), p.set("geo_guarantee", guarantee);
