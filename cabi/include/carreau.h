@@ -238,7 +238,7 @@ typedef struct carreau_cad {
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
-/* ---- Wanted sizes and metrics ---- */
+/* ---- Prescribed sizes and metrics ---- */
 
 /* *kind is the kind of the answer of a metric callback. Before the call it is NONE, and every value is NaN.
  *   NONE      nothing; the status CARREAU_NO_ANSWER means the same
@@ -418,7 +418,7 @@ typedef struct carreau_parameter {
   const char* set_by;       /* "effort" of a synonym, whose value follows that parameter until it is set itself; "" otherwise */
 } carreau_parameter;
 
-/* Tell the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
+/* Give the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
 CARREAU_API int32_t carreau_parameter_count(void);
 CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_parameter);
 
@@ -494,9 +494,9 @@ CARREAU_API carreau_status carreau_set_message_callback(carreau_session* session
 CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback,
                                                          void* user);
 
-/* Asks the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the callback
- * that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does nothing.
- * NULL is allowed. */
+/* Requests the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the
+ * callback that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does
+ * nothing. NULL is allowed. */
 CARREAU_API void carreau_stop(carreau_session* session);
 
 /* ---- Many processes ---- */
@@ -583,7 +583,7 @@ typedef struct carreau_interface {
                  it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
 } carreau_interface;
 
-/* Tell the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
+/* Give the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
  * mesh yet). */
 CARREAU_API carreau_status carreau_session_interface_count(carreau_session* session, int64_t* out_count);
 CARREAU_API carreau_status carreau_session_interface(carreau_session* session, int64_t index,
@@ -647,7 +647,7 @@ typedef struct carreau_background_report {
   int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest element */
   double farthest; /* distance of the farthest one; model length, or parameter length */
 } carreau_background_report;
-/* Tells how. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
@@ -826,7 +826,7 @@ typedef struct carreau_part_counts {
   int64_t all_edges;                      /* on curves */
   int64_t crossings;                      /* pairs of triangles of the whole mesh that cross; -1: they were not looked for */
 } carreau_part_counts;
-/* Tells them. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
+/* Gives the counts of a part. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
 CARREAU_API carreau_status carreau_mesh_part_count(carreau_mesh* part, carreau_part_counts* out_counts);
 /* Copy results into arrays with room for `capacity` rows, one for each vertex or triangle of the part (carreau_mesh_count). Any array may
  * be NULL. Errors: ARGUMENT (capacity), SEQUENCE (the mesh is no part).
@@ -842,7 +842,7 @@ CARREAU_API carreau_status carreau_mesh_part_triangles(carreau_mesh* part, int64
  * ARGUMENT, SEQUENCE (no mesh). */
 CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
                                               int64_t* out_edges, int64_t* out_faces);
-/* Tells the dimension: 3, or 2 when the mesh was read from a plane one. Errors as above. */
+/* Gives the dimension: 3, or 2 when the mesh was read from a plane mesh. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
 
 /* Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
@@ -964,8 +964,8 @@ typedef struct carreau_quality {
 
 /* Measures the triangles. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
-/* The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded otherwise than in one
- * process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
+/* Gives the quality of the whole mesh to which a part belongs, as all processes have measured it together: sums are rounded otherwise
+ * than in one process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
 CARREAU_API carreau_status carreau_mesh_part_quality(carreau_mesh* part, carreau_quality* out_quality);
 
 /* Looks for defects that make a mesh unusable: indices out of range, numbers that are not finite, triangles without

@@ -90,11 +90,11 @@ typedef struct carreau_bezier {
  * patch), SEQUENCE (see carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_bezier(carreau_session* session, const carreau_bezier* bezier);
 
-/* The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are found
- * when a mesh is made. Errors: those above, FILE (with the line). */
+/* Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides that
+ * meet are found when a mesh is made. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_bezier(carreau_session* session, const char* path);
 
-/* Tells the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
+/* Gives the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref, int32_t out_degrees[2]);
 
 /* ---- Molecules ---- */
@@ -123,11 +123,11 @@ typedef struct carreau_molecule_options {
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
-/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are Bondi's, for
- * elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h);
+/* Adds the surface of the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are Bondi's,
+ * for elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h);
  * waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
  * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
- * Errors: those above, FILE. */
+ * Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                  const char* path);
 
@@ -150,7 +150,7 @@ typedef struct carreau_molecule_measures {
 /* Measures the molecule that the session was given last. Errors: SEQUENCE (none was). */
 CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecule_measures* out_measures);
 
-/* Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+/* Gives reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
  * Errors: SEQUENCE, ARGUMENT (capacity).
  */
 CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
@@ -163,7 +163,7 @@ CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int6
 CARREAU_API carreau_status carreau_molecule_atom_areas(carreau_session* session, int64_t capacity, double out_convex[],
                                                        double out_torus[], double out_concave[]);
 
-/* Tells the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
+/* Gives the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
  * no such atom. */
 CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom);
 
@@ -221,20 +221,18 @@ typedef struct carreau_plane_domain {
  * unbounded; two references for one subdomain; nothing enclosed). */
 CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
 
-/* The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
- * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
- * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
- * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between
- * vertices without one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of
- * the file; NULL or "": none. When the file has triangles they are a background mesh: see carreau_set_background_mesh.
- * One that is set later replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE
- * (with the line).
- */
+/* Adds the plane domain of a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of
+ * dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle
+ * above 0 (degrees), polygons become splines that end where they turn by more, where other curves end, and where references change. With 0
+ * they stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between vertices without
+ * one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of the file; NULL or "": none. When the
+ * file has triangles they are a background mesh: see carreau_set_background_mesh. One that is set later replaces the sizes at points; all
+ * subdomains lie in its one plane. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
                                                      double corner_angle);
 
-/* Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was. Errors:
- * ARGUMENT. */
+/* Gives 1 if the plane domain that the session got last has sizes or metrics at its points; 0 without such a domain.
+ * Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
 
 /* ---- Structured grids ---- */
@@ -281,9 +279,9 @@ typedef struct carreau_grid_options {
 CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
                                             const int32_t counts[], const double nodes[]);
 
-/* The same from a file: PLOT3D (text or binary, any byte order and precision, with or without IBLANK), heights (ASCII grids
- * of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes; docs/how-to/grid.md has the
- * layouts. Errors: those above, FILE (with the line or byte, and the block). */
+/* Adds a surface through the grids of a file: PLOT3D (text or binary, any byte order and precision, with or without
+ * IBLANK), heights (ASCII grids of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes;
+ * docs/how-to/grid.md has the layouts. Errors: as above, FILE (with the line or byte, and the block). */
 CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
                                              const char* path, int32_t format);
 
@@ -331,7 +329,7 @@ typedef struct carreau_triangles {
 CARREAU_API carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                  const carreau_triangles* triangles);
 
-/* The same of a file that carreau_mesh_read reads. Errors: those above, FILE. */
+/* Adds the triangles of a file that carreau_mesh_read reads. Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                   const char* path);
 
@@ -357,7 +355,7 @@ typedef struct carreau_triangles_report {
   double sharp_angle;      /* degrees: the angle given, or found */
 } carreau_triangles_report;
 
-/* Tells of the triangles that the session was given. Errors: SEQUENCE (none were), ARGUMENT. */
+/* Gives the report on the triangles of the session. Errors: SEQUENCE (none were), ARGUMENT. */
 CARREAU_API carreau_status carreau_triangles_measure(carreau_session* session, carreau_triangles_report* out_report);
 
 /* Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it by

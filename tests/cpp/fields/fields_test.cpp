@@ -579,7 +579,7 @@ TEST(Fields, AreExportedUnderTheNameThatIsGiven) {
   run.session->parameters().set("refs", 5);
   run.session->write(run.file("x.exr"));
   EXPECT_EQ(read_exr(run.file("x.exr")).at(0).integer_attribute("face"), 5);
-  // That of the mesh, whatever happened later.
+  // The image shows the mesh, whatever happened later.
   run.session->parameters().set("hphymin", 2.0);
   run.session->parameters().set("hphymax", 1.0);
   EXPECT_THROW(run.session->make_mesh(), InvalidArgument);

@@ -26,7 +26,7 @@ TEST(SegmentedArray, AppendsDefaultValues) {
   for (std::size_t k = 0; k < array.size(); ++k) EXPECT_EQ(array[k].number, 7);
 }
 
-// Those who hold a reference may append.
+// A holder of a reference may append.
 TEST(SegmentedArray, NeverMovesItsValues) {
   SegmentedArray<double, 4> array;
   std::vector<const double*> places;

@@ -154,7 +154,7 @@ TEST(Division, LeavesStripsAlone) {
   expect_same(mesh, uncut(c.domain, space));
 }
 
-/// Asks for a stop at the checkpoint of that rank.
+/// Requests a stop at the checkpoint of that rank.
 class StopsAt : public Monitor {
  public:
   explicit StopsAt(int rank) : rank_(rank) {}

@@ -102,7 +102,7 @@ TEST(CurvedElements, AQuadraticFieldIsExactOnAPlaneMesh) {
 }
 
 TEST(CurvedElements, HaveNoSearchForCrossings) {
-  // Those of the straight triangles before are known where crossing_rounds is positive.
+  // Crossings of the preceding straight triangles are known if crossing_rounds is positive.
   const auto crossings = [](const char* element) {
     Monitor monitor;
     const AnalyticCad cad = square();
