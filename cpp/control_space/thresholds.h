@@ -121,7 +121,7 @@ inline constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 /// Share of a size. Smaller changes are rounding. [BoundSlopes.GentleSizesStay]
 inline constexpr double size_rounding = 1e-6;
 /// Smaller changes by direction are rounding: far below the change by polynomials between the samples.
-/// [BoundSlopesByDirection.WhatObeys...]
+/// [BoundSlopesByDirection.GentleSizesStay]
 inline constexpr double directed_rounding = 1e-4;
 
 // Normals at samples (sampled_normals)
