@@ -48,7 +48,7 @@ std::string choice_sentence(const std::string& name, const std::string& word, co
 
 }  // namespace
 
-std::string listed_commands(const CLI::App& app) {
+std::string command_names(const CLI::App& app) {
   std::string names;
   for (const std::string& name : names_of_commands(app)) names += (names.empty() ? "" : ", ") + name;
   return names;
@@ -56,7 +56,7 @@ std::string listed_commands(const CLI::App& app) {
 
 std::string unknown_command(const std::string& word, const CLI::App& app) {
   return "There is no command '" + word + "'" + did_you_mean(word, names_of_commands(app)) + " There are " +
-         listed_commands(app) + ".";
+         command_names(app) + ".";
 }
 
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& sub, const std::vector<std::string>& words) {
