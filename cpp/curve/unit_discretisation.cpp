@@ -15,12 +15,12 @@ namespace carreau {
 namespace {
 
 /// More edges than this on one curve are a wrong size, not a mesh.
-constexpr double max_edges = 20e6;
+constexpr double max_edges_of_curve = 20e6;
 
 void check_edge_count(double l) {
-  if (l <= max_edges) return;
+  if (l <= max_edges_of_curve) return;
   throw LimitError("the sizes along a curve require " + format_number(std::ceil(l)) + " edges; the limit is " +
-                   format_number(max_edges));
+                   format_number(max_edges_of_curve));
 }
 
 /// log1p(x) / x, continuous at 0.
