@@ -50,7 +50,7 @@ const SurfaceMesh& mesh_of(const carreau_session& handle) {
   return handle.session.mesh();
 }
 
-/// Throws unless `n` is the number of nodes of the mesh, or that of its corners.
+/// Throws unless `n` is the number of nodes or the number of corners of the mesh.
 std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
   const std::size_t nodes = carreau::node_count(mesh), corners = mesh.vertices.size();
   if (n >= 0 && (std::uint64_t(n) == nodes || std::uint64_t(n) == corners)) return static_cast<std::size_t>(n);

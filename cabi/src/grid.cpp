@@ -18,7 +18,7 @@ using namespace carreau::abi;
 
 namespace {
 
-/// What the caller knows of carreau_grid_options; without them, the values of carreau_grid_options_init.
+/// The options that the caller set in carreau_grid_options; without them, the values of carreau_grid_options_init.
 struct Asked {
   carreau::grid::Options options;
   std::int32_t measured = CARREAU_MEASURED_POINTS;

@@ -30,7 +30,7 @@ constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".me
                               {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply},
                               {".vtk", MeshFormat::vtk, read_mesh_vtk},    {".tri", MeshFormat::tri, read_mesh_tri}};
 
-/// That the suffix of a name tells. Throws InvalidArgument.
+/// The format of a name's suffix. Throws InvalidArgument.
 const Format& known_format(const std::string& path) {
   const std::string suffix = suffix_of(path);
   std::string known;

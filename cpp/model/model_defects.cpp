@@ -32,7 +32,7 @@ class ModelChecker {
       const bool gluing = gluing_[static_cast<std::size_t>(model_.faces[f].geometry)];
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
         check_type(f, c);
-        // The very first curve decides (RT-0232 sec. 3.2): what others have is not looked at.
+        // The very first curve decides (RT-0232 sec. 3.2); the references of other curves are ignored.
         if (!gluing && check_positive(f, c)) check_uses(f, c);
       }
       if (!gluing) check_loops(f);
@@ -50,7 +50,7 @@ class ModelChecker {
     return where;
   }
   [[nodiscard]] Where face_place(std::size_t f) const { return place(f, model_.faces[f].line); }
-  // As in "face number 3": ranks tell faces apart whose references do not.
+  // As in "face number 3": ranks distinguish faces with equal references.
   static std::string rank(std::size_t index) { return std::to_string(index + 1); }
 
   void check_face(std::size_t f) {

@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-// The integer codes of RT-0232 sec. 3.3; the table of parameters has refused others.
+// The integer codes of RT-0232 sec. 3.3; the table of parameters has rejected others.
 PhysicalSizes physical_sizes_of(int hphy_flag) {
   return hphy_flag == 0 ? PhysicalSizes::ignored : hphy_flag == 1 ? PhysicalSizes::uniform : PhysicalSizes::asked;
 }

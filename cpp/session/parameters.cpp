@@ -38,9 +38,10 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, effort, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
-// sol_field, stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
-// metric_combination). effort sets the rows by_effort().
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, effort, measure, measure_bounds,
+// measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials, sol_field, stagger_strips, patches, sharp_angle, and the
+// parameters of metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination). effort sets the rows
+// by_effort().
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
     integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),

@@ -220,8 +220,8 @@ double BackgroundField::change(std::int32_t a, std::int32_t b) const {
   return std::max(r.largest, 1 / r.smallest);
 }
 
-// Values at vertices come from estimates, and their interpolation has a kink on every edge: what is finer than this
-// would be sampled for nothing.
+// Values at vertices come from estimates, and their interpolation has a kink on every edge: finer samples would be
+// wasted.
 double BackgroundField::accuracy() const noexcept { return 0.05; }
 
 void BackgroundField::begin_run(MetricLaw law) {
@@ -243,7 +243,7 @@ std::vector<Vec2> BackgroundField::steep_places(int face) const {
   return found == planes_.end() ? std::vector<Vec2>{} : found->second.steep;
 }
 
-// Where edges are shorter than sizes, what counts is the change within a unit edge.
+// If edges are shorter than sizes, the change within a unit edge counts.
 void BackgroundField::find_steep_in_space() {
   const auto length_at = [&](std::size_t v, Vec3 e) {
     return values_.sizes.empty() ? length(values_.space[v], e) : norm(e) / values_.sizes[v];

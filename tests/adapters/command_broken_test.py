@@ -50,7 +50,7 @@ class Broken(unittest.TestCase):
             self.assertIn(sentence, error)
 
     def lost(self, name, text, *sentences, faces=7):
-        """The plate but for some faces, which are told; those left have the area that they have in the whole plate."""
+        """The plate without some faces, which are reported; the others have their area in the whole plate."""
         status, error, summary = self.mesh(name, text)
         self.assertEqual(status, SOME_FACES, error)
         for sentence in sentences:

@@ -111,7 +111,8 @@ TEST(Imprint, BoxesShareTheFaceOfTheirContact) {
   EXPECT_TRUE(file.losses.empty());
   const carreau_occ::Solids solids = carreau_occ::solids_of(file);
   EXPECT_EQ(solids.names.size(), 2U);
-  EXPECT_EQ(solids.of_face.size(), 12U);  // 6 + 6, the contact is one of both, and what is around it
+  EXPECT_EQ(solids.of_face.size(), 12U);  // 6 + 6: the contact is one face of both, and the rest of the large face is
+                                          // another
   EXPECT_EQ(faces_between(solids), 1);
   const adapters::MeasuredMesh m = meshed(file, 0.3);
   EXPECT_NEAR(m.quality.area, 2 * 16 + 16 + 2 * 3.5 + 3, 1e-9);  // the contact is counted once, as a piece of the 16 below

@@ -94,7 +94,7 @@ class Inputs(Folder):
                 self.assertAlmostEqual(z, (x * x + y * y) / 2, delta=1e-12)
             self.assertEqual(mesh.triangles, meshes[0].triangles)
         self.assertAlmostEqual(mean(meshes[0].lengths()) / 0.2, 1, delta=0.03)
-        # No file of references beside the input: the command does not change what it reads.
+        # No file of references beside the input: the command does not change its input.
         self.assertEqual(sorted(os.listdir(self.folder)), ["out.mesh", "x.pardom"])
 
     def test_a_face_that_fails_leaves_the_other_one_and_the_status_is_1(self):
@@ -129,7 +129,7 @@ class Inputs(Folder):
         self.assertGreater(min(rows[50][50]), 240)  # nothing inside
         with open(self.path("dump/face_2.exr"), "rb") as file:
             self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
-        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh tells of it.
+        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh reports it.
         turned = self.write("turned.pardom", "2\n" + FACE.format(1) + FACE.format(3).replace("3 1 4", "3 -1 4"))
         done = self.run_mesh(turned, "--host", HOSTS[0], "-o", "turned.vtu", "--size", "0.5", "--dump-failed", "turned", code=1)
         self.assertEqual(sorted(os.listdir(self.path("turned"))), ["face_3.exr", "face_3.mesh"])
@@ -345,7 +345,7 @@ class Sizes(Folder):
         for formula in ("0.05 + u / 10", "0.05 + (x + 1) / 20", "0.05+min(u,2)/10+0*pi*sin(v)"):
             self.assertEqual(self.mesh(self.square, "--size-map", formula).triangles,
                              self.mesh(self.square, "--size-map", "0.05 + u / 10").triangles, formula)
-        # A size beside it is an upper bound, as is that of a face.
+        # A size beside it is an upper bound, as is the size of a face.
         bounded = self.mesh(self.square, "--size-map", "x < 0 ? 0.05 : 1", "--size", "0.1")
         self.assertAlmostEqual(mean(lengths_near(bounded, lambda x, y, z: x > 0.3)) / 0.1, 1, delta=0.05)
         both = self.mesh(self.two, "--size-map", "0.2", "--face-size", "2=0.05")
@@ -422,7 +422,7 @@ class Sizes(Folder):
         self.assertGreater(counts[0] / counts[1], 1.4)
         self.assertGreater(counts[1] / counts[2], 1.5)
         self.assertGreaterEqual(counts[2], counts[3])
-        # Around a sharp bend stretched sizes grow gently unless nobody wants it.
+        # Around a sharp bend stretched sizes grow gently unless this is switched off.
         rows = "".join(f"{x} {y} {z}\n" for x, y in ((4, 0), (0.2, 0), (0, 0.2), (0, 4)) for z in (0, 4))
         sharp = self.write("sharp.bpt", "1\n3 1\n" + rows)
         usual, graded, free, by_set = (self.mesh(sharp, "--angle", "6", "--anisotropic", *options).triangles for options in
@@ -450,7 +450,8 @@ class Sizes(Folder):
             self.assertEqual(found["invalid"], 0)
             self.assertGreater(found[kind], 0)
             self.assertLess(found["triangle_share"] if element != "p2" else 0, 0.05 if element.endswith("0") else 1e-12)
-            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it, that of a parabola far less.
+            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it; for a parabola it is far
+            # less.
             error = abs(found["area"] / exact - 1)
             self.assertLess(error, 1e-3 if element.endswith(("2", "2.0", "2.1")) and element[:2] != "q1" else 3e-3)
             subprocess.run([PROGRAM, "picture", self.path("a.vtu"), "-o", self.path("a.png")], check=True, capture_output=True)

@@ -248,7 +248,7 @@ class Triangles(unittest.TestCase):
         self.assertLess(abs(found["quality"]["area"] - 24), 1e-9)
         lines = self.info(made, "--given-edges")
         self.assertEqual((lines["regions"], lines["lines"], lines["euler_number"]), (10, 20, 2))
-        # Quadrilaterals beside the flat line between the halves: the places of its vertices are those of either side.
+        # Quadrilaterals beside the flat line between the halves: the places of its vertices agree on both sides.
         for size in ("0.2", "5%"):
             for element in ("q1.1", "q2.1"):
                 self.run_command("mesh", lower, upper, "-o", made, "--size", size, "--element", element, "-q")

@@ -9,7 +9,7 @@
 
 namespace carreau {
 
-/// Sizes at the vertices of a mesh, and metrics unless only sizes were asked for.
+/// Sizes at the vertices of a mesh, and metrics unless only sizes were requested.
 struct Estimate {
   std::vector<double> sizes; ///< the smallest of each metric
   std::vector<Tensor3> metrics;
@@ -31,7 +31,7 @@ struct Adaptation {
   double convergence = 0;   ///< ends when the number of triangles changes by a smaller share
 };
 
-/// What a loop of adaptation came to.
+/// The result of a loop of adaptation.
 struct Adapted {
   Outcome outcome = Outcome::complete;
   carreau_adaptation_report report{};

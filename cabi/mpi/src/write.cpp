@@ -26,7 +26,7 @@ std::string suffix_of(const std::string& path) {
   return suffix;
 }
 
-/// As carreau_mesh_write names what is not complete.
+/// The name that carreau_mesh_write gives to an incomplete file.
 std::string temporary_of(const std::string& path) { return path + ".0.tmp"; }
 
 /// The text of rank 0 on all ranks.
@@ -95,7 +95,7 @@ ListedPart part_of_mesh(const Communicator& comm, carreau_mesh* mesh) {
   return all;
 }
 
-/// `file_of_piece`: that of this rank.
+/// `file_of_piece`: the file of this rank's piece.
 void write_pvtu(const Communicator& comm, const std::string& path, const std::function<std::vector<std::string>()>& file_of_piece) {
   const std::string piece = name_of_piece(path, comm.rank());
   try {
@@ -109,12 +109,12 @@ void write_pvtu(const Communicator& comm, const std::string& path, const std::fu
     throw;
   }
   together(comm, [&] { give_name(piece); });
-  together(comm, [&] {  // what names the pieces appears when they are all there
+  together(comm, [&] {  // the file that names the pieces appears when they are all there
     if (comm.rank() == 0) give_name(path);
   });
 }
 
-/// The bytes of a file that are one rank's: what all encode is the same.
+/// The bytes of a file that belong to one rank: all ranks encode equal bytes.
 struct Slice {
   std::int64_t begin = 0, end = 0;
   std::int64_t total = 0;
@@ -189,7 +189,7 @@ void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string
   });
 }
 
-/// What a part has of a file, which is written as it comes.
+/// The bytes of a part in a file, which are written as they come.
 struct PartRequest {
   MPI_File file;
   std::int64_t end = 0;

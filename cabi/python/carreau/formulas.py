@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Formulas as text, evaluated with NumPy: those of the command (muParser), and nothing that could do harm."""
+"""Formulas as text, evaluated with NumPy: the formulas of the command (muParser), and nothing that could do harm."""
 from __future__ import annotations
 
 import re
@@ -139,7 +139,7 @@ def compiled(text: str, names: str = "xyzuv") -> Node:
 
 
 def is_formula(text: str) -> bool:
-    """Whether a source is "z = ...", or "x = ...; y = ...; z = ..."."""
+    """True if a source is "z = ...", or "x = ...; y = ...; z = ..."."""
     return re.match(r"\s*[xyz]\s*=(?!=)", text) is not None
 
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t most_fields = 64;  // a file of more is no solution, but a mistake
 
-/// Empty when values of the type can be a size, a field or a metric, else what is wrong with it.
+/// Empty if values of the type can be a size, a field or a metric, else the reason.
 std::string refusal_of(std::int32_t type) {
   switch (static_cast<ValueType>(type)) {
     case ValueType::scalar:

@@ -94,7 +94,7 @@ class MeshDomain {
   PlaneDomainInput input_;
 };
 
-/// Whether a chain goes on at a point (its index) from an edge `d` to an edge `e`.
+/// Returns true if a chain continues at a point (its index) from an edge `d` to an edge `e`.
 using GoesOn = std::function<bool(int point, const Vec2& d, const Vec2& e)>;
 
 /// Joins the segments of a domain that run on into chains: splines, or straight curves from end to end.

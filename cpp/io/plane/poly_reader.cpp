@@ -117,7 +117,8 @@ class PolyReader {
     }
   }
 
-  /// By their attributes if all can be references: those of some and numbers of others might be the same.
+  /// Numbers the regions by their attributes if all can be references: attributes of some and numbers of others might
+  /// be equal.
   void number_regions() {
     constexpr double most = 1e9;
     const bool by_attribute = std::all_of(attributes_.begin(), attributes_.end(), [](double attribute) {

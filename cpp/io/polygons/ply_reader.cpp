@@ -78,7 +78,7 @@ double raw_value(Number type, const char* at, bool swapped) noexcept {
   return 0;
 }
 
-/// The header's words by lines, then numbers as the header says.
+/// The header's words by lines, then numbers as the header declares.
 class PlyReader : private Words {
  public:
   PlyReader(std::string_view text, const std::string& name) : Words(text, name), cutter_(mesh_) {}

@@ -67,7 +67,7 @@ std::int32_t SolverNodes::vertex(std::int64_t number, const char* at) const {
   return found->second;
 }
 
-/// Elements that name no set themselves have that of the first list which has them.
+/// Elements that name no set belong to the set of the first list that has them.
 void SolverGroups::take_ranges() {
   std::map<std::int64_t, std::size_t> free;
   for (std::size_t i = 0; i < elements_.size(); ++i)

@@ -15,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-/// Value of a digit of base64; -1: it is none.
+/// Value of a digit of base64; -1: no digit.
 int base64_digit(char c) noexcept {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -61,8 +61,8 @@ void VtuArrays::set_appended(const XmlTag& tag) {
   has_appended_ = true;
 }
 
-/// Up to the first character that is no digit of base64, or until there are as many bytes as wanted. A length may be
-/// encoded apart from what follows it: groups of four that end with '=' are passed.
+/// Decodes up to the first character that is no digit of base64, or until there are enough bytes. A length may be
+/// encoded apart from the data behind it: groups of four that end with '=' are skipped.
 std::string VtuArrays::decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const {
   std::string bytes;
   std::uint32_t group = 0;
@@ -101,7 +101,7 @@ std::string VtuArrays::first(const VtuArray& array, const Stored& stored, std::u
 
 /// `length` bytes behind a header.
 std::string VtuArrays::behind(const VtuArray& array, const Stored& stored, std::uint64_t header, std::uint64_t length) {
-  // Every array has its own bytes: what is asked for in all is no more than the file holds.
+  // Every array has separate bytes: all arrays together need no more than the file holds.
   if (length > content_.size() - taken_)
     fail(array.tag, array.shown_name() + " should have " + std::to_string(length) +
                         " bytes, more than are left: the file may be truncated");

@@ -9,7 +9,7 @@
 namespace carreau {
 
 namespace {
-// No zlib stream holds more than this for each of its bytes: what claims more is not believed.
+// No zlib stream holds more than this for each of its bytes: larger claims are rejected.
 constexpr std::uint64_t best_ratio = 1032;
 }  // namespace
 

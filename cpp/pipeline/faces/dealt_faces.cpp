@@ -101,7 +101,7 @@ class Sent {
   int rank_;
   std::mutex mutex_;
   std::vector<std::string> faces_;
-  std::map<std::size_t, PatchMesh> kept_;  // by job; where patches stay
+  std::map<std::size_t, PatchMesh> kept_;  // by job; if patches stay
   std::vector<std::int32_t> aside_;
   std::atomic<std::size_t> first_failed_{static_cast<std::size_t>(-1)};
 };

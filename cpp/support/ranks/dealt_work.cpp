@@ -19,7 +19,7 @@ namespace {
 
 using Work = std::function<std::string(std::size_t, Monitor&)>;
 
-/// What this process has done. Used by several threads.
+/// The completed work of this process. Used by several threads.
 class Done {
  public:
   void add(std::size_t i, std::string result, SharedError error) {
@@ -49,7 +49,7 @@ class Done {
   std::vector<Piece> pieces_;
 };
 
-/// Takes work until there is none left. Where only the calling thread may take, others do what it has taken.
+/// Takes work until none is left. If only the calling thread may take, other threads do the work that it took.
 class Taker final : public SteppedTask {
  public:
   Taker(Team& team, std::size_t n, const Work& work, Done& all) : team_(team), n_(n), work_(work), all_(all) {}
@@ -83,7 +83,7 @@ class Taker final : public SteppedTask {
   bool finished_ = false;
 };
 
-// The error that is nobody's but this process's; none when all went on to the end.
+// An error that only this process has; empty if all work has ended.
 SharedError do_own_share(Team& team, std::size_t n, int threads, const Work& work, Done& done, Monitor& monitor) {
   try {
     std::vector<std::unique_ptr<SteppedTask>> takers;

@@ -86,7 +86,8 @@ TEST(MeshReaders, VtuGivesEverythingBack) {
   }
 }
 
-/// Triangles and edges of ascending positive references, and corners of references of their own: what Gmsh holds.
+/// Triangles and edges of ascending positive references, and corners with separate references: the content that Gmsh
+/// holds.
 FlatMesh random_gmsh_mesh(std::mt19937_64& random) {
   FlatMesh mesh = in_space(random_mesh(random));
   const auto ascending = [&](std::vector<std::int32_t>& refs) {

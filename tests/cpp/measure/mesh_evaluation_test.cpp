@@ -349,8 +349,8 @@ void keep_ends_of_apex(FaceMesh& face, std::int32_t first, std::int32_t columns)
   face.flattened.push_back({first, last, first == 0 ? last + 1 : first - 1});
 }
 
-// The normal is undefined at an apex: those of a triangle's own sector count, whichever end of the degenerate side
-// stands for the apex in (u, v).
+// The normal is undefined at an apex: the normals of a triangle's own sector count, whichever end of the degenerate
+// side stands for the apex in (u, v).
 TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
   const double height = 2;
   Case run{one_face([=](Vec2 p) {

@@ -129,8 +129,8 @@ TEST(BuildTopology, TellsASmallHoleFromAPoint) {
   EXPECT_FALSE(topology.curves[4].degenerate);
 }
 
-// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points, with it they are not, nor for the face
-// beside it; a pole of its own stays one.
+// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points. With it they are not, nor for the face
+// beside it; a real pole stays one.
 TEST(BuildTopology, KeepsFacesWhoseSidesAreAllTiny) {
   const double a = 8e-6;
   AnalyticCad cad;

@@ -185,7 +185,7 @@ TEST(BackgroundField, EachFaceHasTheTrianglesThatNameIt) {
 }
 
 TEST(BackgroundField, OfASessionsMeshIsLookedUpInEachParameterPlane) {
-  // Two faces that lie on each other in space, and are told apart by their parameters.
+  // Two faces that lie on each other in space, and differ by their parameters.
   SurfaceMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.vertex_ref.resize(6);

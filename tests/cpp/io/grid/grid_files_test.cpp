@@ -50,7 +50,7 @@ void expect_blocks(const Grid& grid, bool missing = false) {
   }
 }
 
-/// All x, all y, all z of a block, then its IBLANK if asked.
+/// All x, all y, all z of a block, then its IBLANK if requested.
 std::vector<double> numbers_of(int b, bool blanks) {
   const int columns = b == 0 ? 3 : 2, rows = b == 0 ? 2 : 4;
   std::vector<double> numbers;
