@@ -29,11 +29,11 @@ BoxTree::Box box_around(const Vec2& a, const Vec2& b) {
   return box;
 }
 
-void join_ends(std::vector<BoundaryCurve>& boundary, double tolerance) {
+void join_ends(std::vector<BoundaryCurve>& boundary, double gap) {
   std::vector<Vec2> known;
   for (BoundaryCurve& curve : boundary)
     for (Vec2* end : {&curve.uv.front(), &curve.uv.back()}) {
-      const auto same = std::find_if(known.begin(), known.end(), [&](const Vec2& p) { return norm(p - *end) <= tolerance; });
+      const auto same = std::find_if(known.begin(), known.end(), [&](const Vec2& p) { return norm(p - *end) <= gap; });
       if (same == known.end())
         known.push_back(*end);
       else
