@@ -19,10 +19,6 @@ namespace carreau {
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Parameters of vertices on curves. Sides of narrow faces that have become one curve have none: their vertices have moved.
 void place_on_curves(CompositeRun& run) {
   const SurfaceMesh& mesh = run.result.mesh;

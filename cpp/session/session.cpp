@@ -214,7 +214,7 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
   if (has_discrete(known)) supports.diag = diagonal_with(supports, *s.triangles);
-  set_parameter_boxes(model, supports, whole_cad);
+  set_parameter_domains(model, supports, whole_cad);
   std::vector<std::string> remarks;
   s.glue_model(model, supports, whole_cad, remarks);
   PartCad cad(whole_cad, parts_of(model));

@@ -5,6 +5,7 @@
 #include <carreau.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,6 +16,18 @@
 namespace command {
 
 using Point = std::array<double, 3>;
+
+/// Vectors of the space of a mesh.
+inline Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// A vector of length 1; (0, 0, 1) for the zero vector.
+inline Point unit(const Point& a) {
+  const double length = std::sqrt(dot(a, a));
+  return length > 0 ? Point{a[0] / length, a[1] / length, a[2] / length} : Point{0, 0, 1};
+}
 
 struct FreeMesh {
   void operator()(carreau_mesh* mesh) const noexcept { carreau_mesh_free(mesh); }

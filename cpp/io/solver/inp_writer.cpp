@@ -8,7 +8,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 80, number_width = 20, a_line = 16;
+constexpr std::size_t max_set_name = 80, number_width = 20, a_line = 16;
 
 /// Shells of three to eight nodes, which have the order of the format, with the names of CalculiX: S6 is STRI65 in
 /// Abaqus.
@@ -76,7 +76,7 @@ void add_curve(const CurveSet& curve, std::string& text) {
 }  // namespace
 
 std::string inp_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_set_name);
   std::string text = "*HEADING\nmesh by Carreau\n";
   add_nodes(mesh, text);
   for (const FaceSet& face : sets.faces) add_face(face, text);
