@@ -12,8 +12,7 @@
 #include "support/infinity.h"
 #include "support/segment.h"
 #include "surface/independent/base/thresholds.h"
-#include "surface/independent/edits/collapse_price.h"
-#include "surface/independent/edits/edge_edits.h"
+#include "surface/independent/edits/judgement.h"
 
 namespace carreau {
 
@@ -120,28 +119,16 @@ class LineRemesher {
 
   // None where it may not be. Shapes refuse most, so agreement is judged last.
   [[nodiscard]] std::optional<double> cost_of(std::int32_t gone, std::int32_t kept) const {
-    TriangleShapes before, after;
-    judge_collapse(gone, kept, &FreeMesh::judge_shape, before, after);
-    if (after.worst < least_of(before)) return {};
-    const std::optional<double> cost = cost_of_collapse(mesh_, gone, kept, before, after);
+    Change change;
+    judge_collapse(mesh_, gone, kept, &FreeMesh::judge_shape, change);
+    if (!change.keeps_shapes(least_shape())) return {};
+    const std::optional<double> cost = cost_of_collapse(mesh_, gone, kept, change);
     if (!cost) return {};
-    judge_collapse(gone, kept, &FreeMesh::judge_agreement, before, after);
-    return FreeMesh::agrees(before, after) ? cost : std::nullopt;
-  }
-  using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
-  void judge_collapse(std::int32_t gone, std::int32_t kept, Judge judge, TriangleShapes& before, TriangleShapes& after) const {
-    for (const FreeMesh::Place p : mesh_.mesh().fan(gone)) {
-      const auto& t = mesh_.mesh().at(p);
-      if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
-      (mesh_.*judge)(t[0], t[1], t[2], before);
-      const int i = mesh_.mesh().rank_in(p, gone);
-      (mesh_.*judge)(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
-    }
+    judge_collapse(mesh_, gone, kept, &FreeMesh::judge_agreement, change);
+    return change.keeps_surface() ? cost : std::nullopt;
   }
 
-  [[nodiscard]] double least_of(const TriangleShapes& before) const {
-    return std::min(before.worst, std::max(least_line_shape, mesh_.budget.floor));
-  }
+  [[nodiscard]] double least_shape() const { return std::max(least_line_shape, mesh_.budget.floor); }
 
   // Where shapes of before are kept.
   [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }
@@ -155,8 +142,6 @@ class LineRemesher {
     if (std::abs(p - q) < least_move * mean) return false;
     const double to = p > mean ? previous.arc + mean / p * (here.arc - previous.arc)
                                : next.arc - mean / q * (next.arc - here.arc);
-    const KeptPlaces from(mesh_.places(here.vertex).begin(), mesh_.places(here.vertex).end());
-    const WantedSize size = mesh_.wanted(here.vertex);
     const double arc = here.arc;
     const TriangleShapes before = mesh_.judge_shapes_around(here.vertex), agreed = mesh_.judge_agreement_around(here.vertex);
     const int out = out_of_range(mesh_, here.vertex);
@@ -164,16 +149,17 @@ class LineRemesher {
       here.arc = arc + share * (to - arc);
       const KeptPlaces places = places_.at(here.arc);
       if (places.empty()) break;
+      Trial trial(mesh_);
       mesh_.put_kept(here.vertex, places, mesh_.wanted_at(places));
-      const TriangleShapes after = mesh_.judge_shapes_around(here.vertex);
-      const double cost = before.sum - after.sum;
-      if (is_worth(cost, out - out_of_range(mesh_, here.vertex)) && after.worst >= least_of(before) &&
-          FreeMesh::agrees(agreed, mesh_.judge_agreement_around(here.vertex))) {
-        mesh_.budget.pay(cost);
-        changed_.push_back(here.vertex);
-        return true;
-      }
-      mesh_.put_kept(here.vertex, from, size);
+      const Change change{before, mesh_.judge_shapes_around(here.vertex)};
+      const double cost = before.sum - change.after.sum;
+      if (!is_worth(cost, out - out_of_range(mesh_, here.vertex)) || !change.keeps_shapes(least_shape()) ||
+          !Change{agreed, mesh_.judge_agreement_around(here.vertex)}.keeps_surface())
+        continue;
+      trial.accept();
+      mesh_.budget.pay(cost);
+      changed_.push_back(here.vertex);
+      return true;
     }
     here.arc = arc;
     return false;

@@ -215,10 +215,6 @@ TriangleShapes FreeMesh::judge_fan(std::int32_t v, Judge how) const {
   return shapes;
 }
 
-bool FreeMesh::agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept {
-  return after.share < infinity && after.share <= std::max(1.0, before.share);
-}
-
 std::optional<SurfacePlace> FreeMesh::near(std::int32_t v, const Vec3& normal, const Vec3& target) {
   const SurfacePlace* from = &place_[v];
   if (several_[v] >= 0)
@@ -246,9 +242,16 @@ std::int32_t FreeMesh::split(const Quad& q, const SurfacePlace& at) {
   return mesh_->split(q, at.foot.uv, at.xyz).local;
 }
 
-void FreeMesh::undo(std::size_t edits) {
-  mesh_->undo(edits);
+bool FreeMesh::undo(const std::array<std::size_t, 2>& state) {
+  const bool any = this->state() != state;
+  for (; moved_.size() > state[1]; moved_.pop_back()) {
+    Moved& last = moved_.back();
+    set_place(last.vertex, last.place, last.wanted);
+    if (!is_free(last.vertex)) kept_places_[several_[last.vertex]] = std::move(last.kept);
+  }
+  mesh_->undo(state[0]);
   while (place_.size() > xyz_.size()) forget_vertex();
+  return any;
 }
 
 void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted) {
@@ -257,6 +260,11 @@ void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, const 
 }
 
 void FreeMesh::put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted) {
+  if (trials_ > 0) moved_.push_back({v, place_[v], is_free(v) ? std::vector<SurfacePlace>{} : kept_places_[several_[v]], this->wanted(v)});
+  set_place(v, at, wanted);
+}
+
+void FreeMesh::set_place(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted) {
   place_[v] = at;
   size_[v] = wanted.h;
   if (by_direction()) metric_[v] = wanted.metric;

@@ -109,8 +109,6 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] TriangleShapes judge_agreement_around(std::int32_t v) const {
     return judge_fan(v, &FreeMesh::judge_agreement);
   }
-  /// Whether edits may leave `after` where there was `before`.
-  [[nodiscard]] static bool agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept;
 
   /// The surface near `target`, sought from the vertex v; `normal`: on which side, where v is kept.
   [[nodiscard]] std::optional<SurfacePlace> near(std::int32_t v, const Vec3& normal, const Vec3& target);
@@ -140,14 +138,11 @@ class FreeMesh final : public PlacedVertices {
   bool collapse(std::int32_t gone, std::int32_t kept) { return !joins_frozen(gone, kept) && mesh_->collapse(gone, kept); }
   bool swap(const Quad& q) { return !(is_frozen(q.c) && is_frozen(q.d)) && mesh_->swap(q); }
   std::int32_t split(const Quad& q, const SurfacePlace& at);
-  /// Puts a free vertex there, and gives what it was; tests nothing.
+  /// Puts a vertex there; tests nothing.
   void put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
   /// The same of a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
 
-  /// Edits so far, but for put(); and back to so many: the vertices that they made are gone.
-  [[nodiscard]] std::size_t edits() const noexcept { return mesh_->edits(); }
-  void undo(std::size_t edits);
 
   /// What has become of all parts of a division. Triangles get other numbers, old vertices keep theirs.
   void take(const Division& division, std::vector<EditedPart>&& edited);
@@ -155,7 +150,40 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] const Charts& charts() const noexcept { return charts_; }
   [[nodiscard]] Cad& cad() const noexcept { return cad_; }
 
+  /// The transaction of edits and moves: undoes everything since its construction, or since the last accept(). Trials nest, and an
+  /// inner trial ends before the outer one.
+  class Trial {
+   public:
+    explicit Trial(FreeMesh& mesh) : mesh_(mesh), start_(mesh.state()) { ++mesh.trials_; }
+    ~Trial() {
+      (void)undo();
+      if (--mesh_.trials_ == 0) mesh_.moved_.clear();
+    }
+    Trial(const Trial&) = delete;
+    Trial& operator=(const Trial&) = delete;
+
+    void accept() noexcept { start_ = mesh_.state(); }
+    /// Returns false if nothing had changed.
+    bool undo() { return mesh_.undo(start_); }
+
+   private:
+    FreeMesh& mesh_;
+    std::array<std::size_t, 2> start_;
+  };
+
  private:
+  /// A vertex with its values before a move.
+  struct Moved {
+    std::int32_t vertex;
+    SurfacePlace place;
+    std::vector<SurfacePlace> kept;  // of a vertex that is not free
+    WantedSize wanted;
+  };
+  /// Numbers of edits, and of moves in trials.
+  [[nodiscard]] std::array<std::size_t, 2> state() const noexcept { return {mesh_->edits(), moved_.size()}; }
+  bool undo(const std::array<std::size_t, 2>& state);
+  void set_place(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
+
   using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
   [[nodiscard]] TriangleShapes judge_fan(std::int32_t v, Judge how) const;
   void begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners);
@@ -184,6 +212,10 @@ class FreeMesh final : public PlacedVertices {
   const Charts& charts_;
   Cad& cad_;
   std::optional<EditableMesh> mesh_;
+  int trials_ = 0;            // open ones
+  std::vector<Moved> moved_;  // in them
 };
+
+using Trial = FreeMesh::Trial;
 
 }  // namespace carreau

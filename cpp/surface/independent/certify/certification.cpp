@@ -16,7 +16,7 @@
 #include "support/stepped_tasks.h"
 #include "surface/independent/certify/free_bounds.h"
 #include "surface/independent/certify/thresholds.h"
-#include "surface/independent/edits/edge_edits.h"
+#include "surface/independent/edits/judgement.h"
 #include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
@@ -31,7 +31,7 @@ class Certifier::Work {
         workers_(workers),
         monitor_(monitor),
         bounds_(mesh, mesh.cad()),
-        edits_before_(mesh.edits()),
+        trial_(mesh),
         upright_(1 / (1 - std::cos(mesh.tolerances().angle_deg * std::numbers::pi / 180))) {}
 
   Certification run() {
@@ -73,9 +73,11 @@ class Certifier::Work {
   }
 
   void undo() {
-    undo({edits_before_, 0, {}});
+    (void)trial_.undo();
+    report_ = {};
     share_.clear(), failed_.clear();
   }
+  void accept() { trial_.accept(); }
 
  private:
   using Corners = EditableMesh::Triangle;
@@ -86,37 +88,15 @@ class Certifier::Work {
     Corners corners;
     std::int32_t index;
   };
-  /// What an edit leaves.
-  struct Outcome {
-    double share = infinity;
-    TriangleShapes shapes;
-  };
-  /// A vertex where it was.
-  struct Moved {
-    std::int32_t vertex;
-    SurfacePlace from;
-    WantedSize size;
-  };
-  struct State {
-    std::size_t edits, moves;
-    Certification report;
-  };
 
-  [[nodiscard]] State state() const { return {mesh_.edits(), moved_.size(), report_}; }
-  void undo(const State& to) {
-    while (moved_.size() > to.moves) {
-      const Moved& last = moved_.back();
-      mesh_.put(last.vertex, last.from, last.size);
-      for (const Place p : mesh_.mesh().fan(last.vertex)) forget(p);
-      moved_.pop_back();
-    }
-    // Of triangles that come back nothing is known.
+  // Undoes edits of a group. Nothing is known of triangles that come back.
+  void undo(Trial& trial, const Certification& report) {
+    if (!trial.undo()) return;
     for (const std::int32_t t : touched_) share_[t] = unknown;
-    mesh_.undo(to.edits);
     share_.resize(mesh_.triangles().size(), unknown);
     std::erase_if(touched_, [&](std::int32_t t) { return t >= static_cast<std::int32_t>(mesh_.triangles().size()); });
     std::erase_if(changed_, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
-    report_ = to.report;
+    report_ = report;
   }
 
   [[nodiscard]] bool costs_too_much(double mean_before) const {
@@ -162,8 +142,9 @@ class Certifier::Work {
     std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
     if (touched_.empty()) return true;
     const double most = std::max(1.0, excess().most * most_growth);
-    const State start = state();
-    State best = start;
+    Trial whole(mesh_), best(mesh_);
+    const Certification before_group = report_;
+    Certification report_of_best = report_;
     const double first = excess().sum;
     double least = first;
     // A round halves edges once. What splits help is nearer after two rounds.
@@ -177,12 +158,15 @@ class Certifier::Work {
       }
       for (int pass = 0; pass < tidy_passes; ++pass) tidy();
       if (edits() == before) break;
-      if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best = state();
+      if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best.accept(), report_of_best = report_;
       if (round + 1 >= rounds_without_success && least == first) break;
     }
+    undo(best, report_of_best);
     // Edges out of range for little are not worth it.
-    if (least > least_success * first) best = start, least = first;
-    if (mesh_.edits() > best.edits || moved_.size() > best.moves) undo(best);
+    if (least > least_success * first)
+      undo(whole, before_group), least = first;
+    else
+      whole.accept();
     return least == 0;
   }
 
@@ -247,42 +231,39 @@ class Certifier::Work {
   }
 
   // Shapes and the agreement of corners cost nothing: most edits fail by them.
-  [[nodiscard]] bool is_fair(const TriangleShapes& before, const TriangleShapes& after, double least) const {
-    return after.worst >= std::min(before.worst, least) && after.share < infinity && after.share <= std::max(before.share, upright_);
+  [[nodiscard]] bool is_fair(const Change& change, double least) const {
+    return change.keeps_shapes(least) && change.keeps_surface(upright_);
   }
 
   void mend(std::int32_t triangle) {
     const Corners corners = mesh_.triangles()[triangle];
     std::array<std::optional<Quad>, 3> quads;
     for (int i = 0; i < 3; ++i) quads[i] = mesh_.mesh().quad_between({0, corners[i]}, corners[(i + 1) % 3]);
-    std::array<Outcome, 3> swapped;
+    std::array<double, 3> swapped{infinity, infinity, infinity};
     for (int i = 0; i < 3; ++i)
       if (quads[i]) swapped[i] = when_swapped(*quads[i]);
-    const auto best = std::ranges::min_element(swapped, {}, &Outcome::share) - swapped.begin();
-    if (swapped[best].share <= 1 && swap(*quads[best])) return;
+    const auto best = std::ranges::min_element(swapped) - swapped.begin();
+    if (swapped[best] <= 1 && swap(*quads[best])) return;
     for (const std::int32_t v : corners)
       if (share_of(triangle) < most_moved && mesh_.is_free(v) && move(v)) return;
     if (split(quads)) return;
-    if (swapped[best].share < infinity && swapped[best].share < before(*quads[best]) - least_gain) swap(*quads[best]);
+    if (swapped[best] < infinity && swapped[best] < before(*quads[best]) - least_gain) swap(*quads[best]);
   }
 
   double before(const Quad& q) { return std::max(share_of(q.t), share_of(q.u)); }
 
-  [[nodiscard]] TriangleShapes judge_pair(const Quad& q) const {
-    TriangleShapes shapes;
-    mesh_.judge(q.a, q.b, q.c, shapes), mesh_.judge(q.b, q.a, q.d, shapes);
-    return shapes;
+  /// The share after a swap; infinity: the swap is not fair.
+  double when_swapped(const Quad& q) {
+    if (is_guarded({q.a, q.b, q.c, q.d}) || is_too_long(q)) return infinity;
+    Change change;
+    judge_swap(mesh_, q, &FreeMesh::judge, change);
+    if (!is_fair(change, least_shape) || !mesh_.mesh().can_swap(q)) return infinity;
+    const auto [first, second] = EditableMesh::swapped(q);
+    return std::max(bounds_.share_roughly(first), bounds_.share_roughly(second));
   }
-
-  Outcome when_swapped(const Quad& q) {
-    if (is_guarded({q.a, q.b, q.c, q.d})) return {};
+  [[nodiscard]] bool is_too_long(const Quad& q) const {
     const double length = mesh_.length(q.c, q.d);
-    if (length > longest_swapped && length > mesh_.length(q.a, q.b)) return {};
-    Outcome outcome;
-    mesh_.judge(q.a, q.d, q.c, outcome.shapes), mesh_.judge(q.d, q.b, q.c, outcome.shapes);
-    if (!is_fair(judge_pair(q), outcome.shapes, least_shape) || !mesh_.mesh().can_swap(q)) return {};
-    outcome.share = std::max(bounds_.share_roughly({q.a, q.d, q.c}), bounds_.share_roughly({q.d, q.b, q.c}));
-    return outcome;
+    return length > longest_swapped && length > mesh_.length(q.a, q.b);
   }
 
   bool swap(const Quad& q) {
@@ -298,28 +279,23 @@ class Certifier::Work {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
     const double h = mesh_.size(v);
-    const Vec3 least = std::abs(from.normal[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 across = cross(from.normal, least), p = (1 / norm(across)) * across, q = cross(from.normal, p);
     const double fair = std::min(mesh_.judge_shapes_around(v).worst, least_shape_of_move);
     for (const double step : steps)
-      for (int k = 0; k < directions; ++k) {
-        const double angle = 2 * std::numbers::pi * k / directions;
-        if (put(v, from.xyz + (step * h) * (std::cos(angle) * p + std::sin(angle) * q), 1, fair)) return true;
-      }
+      for (int k = 0; k < directions; ++k)
+        if (put(v, beside(from, step * h, k, directions), 1, fair)) return true;
     return false;
   }
 
   /// Where no share around exceeds `most`, nor is a shape below `least`.
   bool put(std::int32_t v, const Vec3& target, double most, double least) {
-    const SurfacePlace from = mesh_.place(v);
-    const WantedSize size = mesh_.wanted(v);
     const TriangleShapes before = mesh_.judge_around(v);
     const int out = out_of_range(mesh_, v);
-    const auto to = is_guarded({v}) ? std::nullopt : mesh_.near(v, from.normal, target);
+    const auto to = is_guarded({v}) ? std::nullopt : mesh_.near(v, mesh_.place(v).normal, target);
     if (!to) return false;
+    Trial trial(mesh_);
     mesh_.put(v, *to, mesh_.wanted_at(*to));
-    const TriangleShapes after = mesh_.judge_around(v);
-    bool good = after.worst >= least && is_fair(before, after, 0) && out_of_range(mesh_, v) <= out;
+    const Change change{before, mesh_.judge_around(v)};
+    bool good = change.after.worst >= least && is_fair(change, 0) && out_of_range(mesh_, v) <= out;
     // What was beyond is asked first: most moves fail there.
     std::vector<Place> fan(mesh_.mesh().fan(v).begin(), mesh_.mesh().fan(v).end());
     share_.resize(mesh_.triangles().size(), unknown);
@@ -330,37 +306,24 @@ class Certifier::Work {
       shares.push_back(bounds_.share_roughly(mesh_.mesh().at(p)));
       good = shares.back() <= most;
     }
-    if (!good) {
-      mesh_.put(v, from, size);
-      return false;
-    }
-    moved_.push_back({v, from, size});
+    if (!good) return false;
+    trial.accept();
     for (std::size_t k = 0; k < fan.size(); ++k) forget(fan[k]), share_[fan[k].triangle] = shares[k];
     ++report_.moves;
     return true;
   }
 
-  [[nodiscard]] std::optional<SurfacePlace> middle(const Quad& q) {
-    const Vec3 at = 0.5 * (mesh_.position(q.a) + mesh_.position(q.b)), normal = mesh_.mesh().mean_normal(q.places());
-    auto found = mesh_.near(q.a, normal, at);
-    return found ? found : mesh_.near(q.b, normal, at);
-  }
-
-  static std::array<Corners, 4> parts(const Quad& q, std::int32_t m) {
-    return {Corners{q.a, m, q.c}, {m, q.b, q.c}, {m, q.a, q.d}, {q.b, m, q.d}};
-  }
-
-  Outcome when_split(const Quad& q, const SurfacePlace& at) {
-    Outcome outcome;
+  /// The share after a split; infinity: the split is not fair.
+  double when_split(const Quad& q, const SurfacePlace& at) {
     const std::int32_t m = mesh_.try_vertex(at);
-    for (const Corners& t : parts(q, m)) mesh_.judge(t[0], t[1], t[2], outcome.shapes);
-    if (is_fair(judge_pair(q), outcome.shapes, least_shape)) {
-      outcome.share = 1;
+    double share = infinity;
+    if (is_fair(judge_split(mesh_, q, m), least_shape)) {
+      share = 1;
       if (!boldly_)
-        for (const Corners& t : parts(q, m)) outcome.share = std::max(outcome.share, bounds_.share_roughly(t));
+        for (const Corners& t : split_parts(q, m)) share = std::max(share, bounds_.share_roughly(t));
     }
     mesh_.forget_vertex();
-    return outcome;
+    return share;
   }
 
   // The edge whose parts come nearest; where none does the longest one, as long as nothing is worse.
@@ -373,9 +336,9 @@ class Certifier::Work {
       const Quad& q = *quads[i];
       const double length = mesh_.length(q.a, q.b);
       if (length < shortest_split || is_guarded({q.a, q.b, q.c, q.d})) continue;
-      at[i] = middle(q);
+      at[i] = middle_of(mesh_, q);
       if (!at[i]) continue;
-      const double share = when_split(q, *at[i]).share;
+      const double share = when_split(q, *at[i]);
       if (share > before(q) && !boldly_) continue;
       if (share < infinity && std::pair(boldly_ ? 1.0 : std::max(share, 1.0), -length) < least)
         least = {boldly_ ? 1.0 : std::max(share, 1.0), -length}, best = i;
@@ -417,13 +380,10 @@ class Certifier::Work {
   void tidy_edge(std::int32_t v, std::int32_t w) {
     const auto q = mesh_.mesh().quad_between({0, v}, w);
     if (!q) return;
-    const TriangleShapes shapes = judge_pair(*q);
-    if (shapes.worst >= good_) return;
-    const double length = mesh_.length(q->c, q->d);
-    TriangleShapes after;
-    mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
-    if (after.worst < shapes.worst + least_shape_gain || (length > longest_swapped && length > mesh_.length(q->a, q->b))) return;
-    if (when_swapped(*q).share <= std::max(1.0, before(*q))) swap(*q);
+    Change change;
+    judge_swap(mesh_, *q, &FreeMesh::judge_shape, change);
+    if (change.before.worst >= good_ || change.after.worst < change.before.worst + least_shape_gain) return;
+    if (when_swapped(*q) <= std::max(1.0, before(*q))) swap(*q);
   }
 
   void tidy_vertex(std::int32_t v) {
@@ -446,11 +406,10 @@ class Certifier::Work {
   const RemeshingWorkers workers_;
   Monitor& monitor_;
   FreeBounds bounds_;
-  const std::size_t edits_before_;  // the mesh was made by them
+  Trial trial_;                     // all edits
   const double upright_;       // FreeMesh's share of what stands upright
   std::vector<double> share_;  // by triangle
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
-  std::vector<Moved> moved_;
   bool boldly_ = false;
   double good_ = good_shape;  // shapes that are as good stay
   std::int64_t end_ = 0;  // evaluations after which the group at work is given up
@@ -466,5 +425,7 @@ Certifier::~Certifier() = default;
 Certification Certifier::run() { return work_->run(); }
 
 void Certifier::undo() { work_->undo(); }
+
+void Certifier::accept() { work_->accept(); }
 
 }  // namespace carreau

@@ -33,6 +33,8 @@ class Certifier {
   Certification run();
   /// Undoes all of it: run() may follow, where other places are guarded.
   void undo();
+  /// Keeps all of it; otherwise the destructor undoes it.
+  void accept();
 
  private:
   class Work;

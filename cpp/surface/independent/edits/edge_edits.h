@@ -5,12 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "surface/independent/base/free_mesh.h"
+#include "surface/independent/edits/judgement.h"
 
 namespace carreau {
-
-/// Edges at v whose lengths are out of range.
-[[nodiscard]] int out_of_range(const FreeMesh& mesh, std::int32_t v);
 
 /// Towards six edges at each vertex: whether the edge from a to b had better lead from c to d.
 [[nodiscard]] bool evens_degrees(const FreeMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d);
@@ -30,10 +27,8 @@ struct CollapseShapes {
   double worst = -1;  ///< shape; negative: it may not be
   double cost = 0;    ///< ShapeBudget
 };
-/// Of a short edge.
-[[nodiscard]] CollapseShapes shapes_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
-/// The same where triangles are small, though the edge is not short.
-[[nodiscard]] CollapseShapes shapes_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
+/// Of a short edge; `dense`: triangles are small, though the edge is not short.
+[[nodiscard]] CollapseShapes shapes_after_collapse(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, bool dense);
 /// Whether triangles around an edge stay no larger than wanted, in the mean, without two of them.
 [[nodiscard]] bool is_dense(const FreeMesh& mesh, std::int32_t v, std::int32_t w);
 /// Collapses where the surface agrees; else false, and nothing is changed.

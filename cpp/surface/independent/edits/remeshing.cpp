@@ -43,11 +43,9 @@ class Remesher {
         if (v >= old || mesh_.length(m, v) < longest_of_halves) continue;
         const auto q = quad_between(m, v);
         if (!q || q->c < old || q->d < old) continue;
-        TriangleShapes before, after;
-        mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
-        mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
-        if (after.worst >= std::min(before.worst, least_shape_of_degrees) && FreeMesh::agrees(before, after) && mesh_.swap(*q))
-          ++report_.swaps;
+        Change change;
+        judge_swap(mesh_, *q, &FreeMesh::judge, change);
+        if (change.keeps_shapes(least_shape_of_degrees) && change.keeps_surface() && mesh_.swap(*q)) ++report_.swaps;
       }
     }
     return report_;
@@ -68,11 +66,11 @@ class Remesher {
     around.empty() ? activate_all() : activate_around(around);
     for (report_.rounds = 0; report_.rounds < most_rounds; ++report_.rounds) {
       const std::int64_t before = report_.collapses + report_.splits;
-      collapse_short();
+      collapse_edges(false);
       split_long();
       swap_all();
       move_all();
-      thin_out();
+      collapse_edges(true);
       swap_all();
       move_all();
       swap_all();
@@ -202,26 +200,15 @@ class Remesher {
     });
   }
 
-  void collapse_short() {
-    for (const LongEdge& e : edges([](double l) { return l < shortest; }, std::less<>())) {
+  // `dense`: where triangles are smaller than equilateral triangles of unit length, though no edge is short, as long as triangles stay
+  // no larger in the mean.
+  void collapse_edges(bool dense) {
+    const double below = dense ? short_when_dense : shortest;
+    for (const LongEdge& e : edges([&](double l) { return l < below; }, std::less<>())) {
       monitor_.checkpoint();
-      if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < shortest)) continue;
-      if (mesh_.mesh().is_imposed(e.v, e.w)) continue;  // line_remeshing
-      const auto forth = shapes_when_short(mesh_, e.v, e.w), back = shapes_when_short(mesh_, e.w, e.v);
-      const bool turned = back.worst > forth.worst;
-      (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
-          (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));
-    }
-  }
-
-  // Where triangles are smaller than equilateral ones of unit length, though no edge is short: while triangles stay no
-  // larger in the mean.
-  void thin_out() {
-    for (const LongEdge& e : edges([](double l) { return l < short_when_dense; }, std::less<>())) {
-      monitor_.checkpoint();
-      if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < short_when_dense)) continue;
-      if (mesh_.mesh().is_imposed(e.v, e.w) || !is_dense(mesh_, e.v, e.w)) continue;
-      const auto forth = shapes_when_dense(mesh_, e.v, e.w), back = shapes_when_dense(mesh_, e.w, e.v);
+      if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < below)) continue;
+      if (mesh_.mesh().is_imposed(e.v, e.w) || (dense && !is_dense(mesh_, e.v, e.w))) continue;  // line_remeshing
+      const auto forth = shapes_after_collapse(mesh_, e.v, e.w, dense), back = shapes_after_collapse(mesh_, e.w, e.v, dense);
       const bool turned = back.worst > forth.worst;
       (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
           (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));

@@ -7,7 +7,7 @@
 #include "mesh/quality.h"
 #include "metric/metric2.h"
 #include "surface/independent/base/thresholds.h"
-#include "surface/independent/edits/edge_edits.h"
+#include "surface/independent/edits/judgement.h"
 
 namespace carreau {
 
@@ -17,9 +17,9 @@ using namespace thresholds::independent;
 
 using Place = FreeMesh::Place;
 
-bool gains(const TriangleShapes& before, const TriangleShapes& after, const ShapeBudget& budget) noexcept {
-  return after.inverses < before.inverses - least_gain &&
-         after.worst >= std::min(before.worst, std::max(good_enough, budget.floor)) && budget.affords(before.sum - after.sum);
+bool gains(const Change& change, const ShapeBudget& budget) noexcept {
+  return change.after.inverses < change.before.inverses - least_gain && change.keeps_shapes(std::max(good_enough, budget.floor)) &&
+         budget.affords(change.before.sum - change.after.sum);
 }
 
 }  // namespace
@@ -99,36 +99,34 @@ int VertexMover::out_of_range(const Vec3& at, double h) const {
 }
 
 bool VertexMover::put_if_agrees(std::int32_t v, const SurfacePlace& to, const WantedSize& there) {
-  const SurfacePlace from = mesh_.place(v);
-  const WantedSize size = mesh_.wanted(v);
+  Trial trial(mesh_);
   mesh_.put(v, to, there);
-  const TriangleShapes after = mesh_.judge_agreement_around(v);
-  if (after.share <= 1) return true;
-  mesh_.put(v, from, size);
-  if (!FreeMesh::agrees(mesh_.judge_agreement_around(v), after)) return false;
-  mesh_.put(v, to, there);
+  Change change{.before = {}, .after = mesh_.judge_agreement_around(v)};
+  if (change.after.share > 1) {
+    (void)trial.undo();
+    change.before = mesh_.judge_agreement_around(v);
+    if (!change.keeps_surface()) return false;
+    mesh_.put(v, to, there);
+  }
+  trial.accept();
   return true;
 }
 
 bool VertexMover::try_place(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before, int out) {
-  const TriangleShapes after = shapes(to.xyz);
-  if (!gains(before, after, mesh_.budget)) return false;
+  const bool by_direction = mesh_.by_direction();
+  Change change{before, {}};
+  if (!by_direction && !gains(change = {before, shapes(to.xyz)}, mesh_.budget)) return false;
   const WantedSize there = mesh_.wanted_at(to);
-  if (out_of_range(to.xyz, there.h) > out || !put_if_agrees(v, to, there)) return false;
-  mesh_.budget.pay(before.sum - after.sum);
-  return true;
-}
-
-bool VertexMover::try_place_by_direction(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before,
-                                         int out) {
-  const SurfacePlace from = mesh_.place(v);
-  const WantedSize size = mesh_.wanted(v), there = mesh_.wanted_at(to);
-  mesh_.put(v, to, there);
-  const TriangleShapes after = mesh_.judge_shapes_around(v);
-  const bool better = gains(before, after, mesh_.budget) && carreau::out_of_range(mesh_, v) <= out;
-  mesh_.put(v, from, size);
-  if (!better || !put_if_agrees(v, to, there)) return false;
-  mesh_.budget.pay(before.sum - after.sum);
+  if (by_direction) {
+    const Trial trial(mesh_);
+    mesh_.put(v, to, there);
+    change.after = mesh_.judge_shapes_around(v);
+    if (!gains(change, mesh_.budget) || carreau::out_of_range(mesh_, v) > out) return false;
+  } else if (out_of_range(to.xyz, there.h) > out) {
+    return false;
+  }
+  if (!put_if_agrees(v, to, there)) return false;
+  mesh_.budget.pay(before.sum - change.after.sum);
   return true;
 }
 
@@ -143,10 +141,9 @@ bool VertexMover::move(std::int32_t v) {
   for (const double share : {1.0, 0.4}) {
     const Vec3 target = lerp(from, ideal, share);
     // What does not gain beside the surface is not worth an evaluation.
-    if (!by_direction && !gains(before, shapes(target), mesh_.budget)) continue;
+    if (!by_direction && !gains({before, shapes(target)}, mesh_.budget)) continue;
     const auto to = mesh_.near(v, normal, target);
-    if (!to) continue;
-    if (by_direction ? try_place_by_direction(v, *to, before, out) : try_place(v, *to, before, out)) return true;
+    if (to && try_place(v, *to, before, out)) return true;
   }
   return false;
 }

@@ -30,7 +30,6 @@ class VertexMover {
   [[nodiscard]] TriangleShapes shapes(const Vec3& at) const;
   [[nodiscard]] int out_of_range(const Vec3& at, double h) const;
   bool try_place(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before, int out);
-  bool try_place_by_direction(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before, int out);
   bool put_if_agrees(std::int32_t v, const SurfacePlace& to, const WantedSize& there);
 
   FreeMesh& mesh_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -94,27 +93,22 @@ class WorstFirst {
   bool step_uphill(std::int32_t v, double step) {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
-    const WantedSize size = mesh_.wanted(v);
+    const double h = mesh_.size(v);
     const TriangleShapes before = mesh_.judge_shapes_around(v);
     if (before.worst >= floor_) return false;
     const TriangleShapes agreed = mesh_.judge_agreement_around(v);
     const int out = out_of_range(mesh_, v);
-    const Vec3 least = std::abs(from.normal[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 across = cross(from.normal, least);
-    const Vec3 p = (1 / norm(across)) * across, q = cross(from.normal, p);
     SurfacePlace best = from;
     double worst = before.worst + least_gain, cost = 0;
     for (int k = 0; k < worst_directions; ++k) {
-      const double angle = 2 * std::numbers::pi * k / worst_directions;
-      const auto to =
-          mesh_.near(v, from.normal, from.xyz + (step * size.h) * (std::cos(angle) * p + std::sin(angle) * q));
+      const auto to = mesh_.near(v, from.normal, beside(from, step * h, k, worst_directions));
       if (!to) continue;
+      const Trial trial(mesh_);
       mesh_.put(v, *to, mesh_.wanted_at(*to));
       const TriangleShapes after = mesh_.judge_shapes_around(v);
       if (after.worst > worst && out_of_range(mesh_, v) <= out && mesh_.budget.affords(before.sum - after.sum) &&
-          FreeMesh::agrees(agreed, mesh_.judge_agreement_around(v)))
+          Change{agreed, mesh_.judge_agreement_around(v)}.keeps_surface())
         worst = after.worst, cost = before.sum - after.sum, best = *to;
-      mesh_.put(v, from, size);
     }
     if (worst <= before.worst + least_gain) return false;
     mesh_.put(v, best, mesh_.wanted_at(best));
