@@ -35,7 +35,7 @@ void judge_pair(const FreeMesh& mesh, const FreeMesh::Quad& q, Judge judge, Tria
 void judge_swap(const FreeMesh& mesh, const FreeMesh::Quad& q, Judge judge, Change& change);
 /// The four triangles of a split edge.
 [[nodiscard]] inline std::array<EditableMesh::Triangle, 4> split_parts(const FreeMesh::Quad& q, std::int32_t m) noexcept {
-  return {{{q.c, q.a, m}, {q.b, q.c, m}, {q.d, q.b, m}, {q.a, q.d, m}}};
+  return {{{q.a, m, q.c}, {m, q.b, q.c}, {m, q.a, q.d}, {q.b, m, q.d}}};
 }
 /// Judges a split of the edge at vertex `m` (FreeMesh::try_vertex).
 Change judge_split(const FreeMesh& mesh, const FreeMesh::Quad& q, std::int32_t m);
