@@ -20,7 +20,7 @@
 #include "surface/free_elements/free_elements.h"
 #include "surface/free_elements/invalid_elements.h"
 #include "surface/free_elements/thresholds.h"
-#include "surface/independent/independent.h"
+#include "surface/independent/cross_patch.h"
 #include "surface/quads/quadrilaterals.h"
 
 namespace carreau {
@@ -121,9 +121,9 @@ class FreeMeshInspector final : public Inspector {
     bool is_free = true;
     if (from_ == From::remeshing && options.element == Element::p1) raise_sizes(run);
     if (from_ == From::remeshing)
-      is_free = free_from_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
+      is_free = remesh_across_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
     else
-      free_elements_from_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
+      make_elements_across_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
     messages_ = monitor.held();
     if (!is_free) return false;
     const ElementWork work{run.curve_model, run.curves, run.rules, options, run.result, run.monitor};

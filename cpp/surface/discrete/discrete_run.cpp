@@ -7,6 +7,7 @@
 
 #include "surface/discrete/start_mesh.h"
 #include "surface/free_elements/free_elements.h"
+#include "surface/independent/strategies.h"
 #include "surface/projected/projected_mesh.h"
 #include "surface/quads/quadrilaterals.h"
 
@@ -81,7 +82,7 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
-  const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
+  const std::string why = remesh_from_planes(frame, least_mean_shape, cad, options, start.result, monitor);
   if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);
   return why.empty();
 }
@@ -96,7 +97,7 @@ void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions&
     frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) {
       make_free_elements(before, frame, options, cad, made, monitor);
     };
-  const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
+  const std::string why = remesh_by_strategies(frame, cad, options, result, monitor);
   if (why.empty()) return;
   monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
   if (frame.elements)

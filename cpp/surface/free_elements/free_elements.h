@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "surface/free_elements/crossing_places.h"
-#include "surface/independent/independent.h"
+#include "surface/independent/frame.h"
 #include "surface/independent/reassembly.h"
 #include "surface/options.h"
 

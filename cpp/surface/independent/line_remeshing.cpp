@@ -22,12 +22,11 @@ using namespace thresholds::independent;
 
 class LineRemesher {
  public:
-  LineRemesher(FreeMesh& mesh, WorkedLine& line, const LineTolerance& tolerance, Monitor& monitor)
+  LineRemesher(FreeMesh& mesh, WorkedLine& line, Monitor& monitor)
       : mesh_(mesh),
         places_(*line.places),
         left_(line.left),
         closed_(line.closed),
-        tolerance_(tolerance),
         monitor_(monitor) {}
 
   std::vector<std::int32_t> run() {
@@ -81,7 +80,8 @@ class LineRemesher {
     return most;
   }
   [[nodiscard]] double tolerated(std::int32_t v, std::int32_t next) const {
-    return tolerance_.deviation > 0 ? tolerance_.deviation : tolerance_.share_of_size * mesh_.size_along(v, next);
+    const SurfaceTolerances& tolerances = mesh_.tolerances();
+    return tolerances.deviation > 0 ? tolerances.deviation : tolerances.share_of_size * mesh_.size_along(v, next);
   }
 
   /// A vertex inside the line that may be left out: beside the shortest edges, the shorter ones first.
@@ -174,7 +174,6 @@ class LineRemesher {
   LineGeometry& places_;
   std::vector<LineNode>& left_;
   bool closed_;
-  const LineTolerance& tolerance_;
   Monitor& monitor_;
   std::vector<std::int32_t> changed_;
   std::vector<std::optional<double>> failed_;               // by rank in left_: what was left to spend when a move failed
@@ -189,12 +188,11 @@ WorkedLine::WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geom
     for (std::size_t k = 0; k < line.vertices.size(); ++k) left.push_back({line.vertices[k], places->arcs()[k]});
 }
 
-std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,
-                                       Monitor& monitor) {
+std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, Monitor& monitor) {
   std::vector<std::int32_t> changed;
   for (WorkedLine& line : lines) {
     if (line.left.size() < 3) continue;
-    const auto more = LineRemesher(mesh, line, tolerance, monitor).run();
+    const auto more = LineRemesher(mesh, line, monitor).run();
     changed.insert(changed.end(), more.begin(), more.end());
   }
   return changed;

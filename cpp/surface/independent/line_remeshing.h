@@ -13,12 +13,6 @@
 
 namespace carreau {
 
-/// How far edges may be from the line that they stand for.
-struct LineTolerance {
-  double deviation = 0;      ///< model length; 0: `share_of_size` counts
-  double share_of_size = 0;  ///< of the size
-};
-
 /// A vertex that is left of a line, and where it is on it.
 struct LineNode {
   std::int32_t vertex;
@@ -37,7 +31,6 @@ struct WorkedLine {
 /// Collapses edges of lines until there are as many as their length in the prescribed metric wants (RR-2818 sec. 4.5),
 /// and moves their vertices until edges are of equal length in it, where triangles beside agree with the surface.
 /// Vertices changed. Throws what the host throws, and Cancelled.
-std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,
-                                       Monitor& monitor);
+std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, Monitor& monitor);
 
 }  // namespace carreau

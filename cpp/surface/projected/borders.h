@@ -36,7 +36,7 @@ struct BorderInput {
   std::span<const double> size;        ///< by vertex of the mesh of before
   std::span<const char> exact;         ///< by chart: see ProjectedCharts
   std::span<const char> kept;          ///< by vertex of the mesh of before: of a chart that stays as it is
-  LineTolerance tolerance;
+  SurfaceTolerances tolerance;
   Cad& cad;
 };
 

@@ -95,7 +95,7 @@ struct BorderSource {
   std::span<const SharpLine> lines;
   std::span<const WorkedLine> worked;
   std::span<const double> size;
-  LineTolerance tolerance;
+  SurfaceTolerances tolerance;
   int threads;
   Cad& cad;
 };
@@ -291,7 +291,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     return refuse("a face is turned");
   const FlatAtlas flat(atlas, before, frame.jets);
   const BorderSource source{
-      flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.crew.threads, cad};
+      flat, frame.lines, worked, size, tolerances, options.crew.threads, cad};
   ProjectedCharts found = find_charts(flat, monitor);
   if (!frame.kept.empty()) keep_triangles(flat, frame.kept, found);
   std::optional<Plan> plan;

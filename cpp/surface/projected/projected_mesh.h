@@ -6,8 +6,7 @@
 #include <span>
 
 #include "support/ranks/crew.h"
-#include "surface/independent/independent.h"
-#include "surface/independent/placed_mesh.h"
+#include "surface/independent/frame.h"
 
 namespace carreau {
 

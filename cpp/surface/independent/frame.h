@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface that is remeshed: atlas, sharp lines and tolerances.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "surface/independent/base/charts.h"
+#include "surface/independent/base/free_mesh.h"
+#include "surface/independent/base/sharp_edges.h"
+#include "surface/independent/division/divided_remeshing.h"
+#include "surface/independent/line_places.h"
+#include "surface/independent/line_remeshing.h"
+#include "surface/options.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// Vertices of lines have the numbers of vertices of those lines in the mesh of before, as many as are needed; others
+/// follow.
+struct PlacedMesh {
+  std::vector<SurfacePlace> added;                ///< the vertices that follow
+  std::vector<EditableMesh::Triangle> triangles;  ///< as the atlas is turned
+  std::vector<std::vector<LineNode>> lines;       ///< by line
+  std::vector<std::vector<KeptPlaces>> on_line;   ///< by line and node; none where a vertex stays where it was
+  std::vector<std::int32_t> seams;                ///< vertices that nothing but the making has put in line
+  std::vector<std::int32_t> kept;                 ///< corners of triangles that are those of the mesh of before
+};
+
+struct FreedMesh;
+
+/// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
+struct RemeshingFrame {
+  VertexJets jets;
+  std::vector<MeshEdge> sharp;  ///< ascending
+  std::shared_ptr<Charts> charts;
+  std::vector<std::int32_t> corners;  ///< ascending
+  std::vector<SharpLine> lines;
+  std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
+  bool everywhere = false;  ///< see remesh()
+  /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
+  std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
+  /// Makes the mesh at once, for remesh_from_planes(); none: it does not.
+  std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
+  std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
+  double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
+  RemeshingWorkers workers = {};
+};
+
+/// How far triangles of meshes that are made so may leave the surface: by the geometric rule, else by the size. `by_direction`: sizes differ by
+/// direction; `angle_slack`: see RemeshingFrame.
+SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack);
+
+}  // namespace carreau
