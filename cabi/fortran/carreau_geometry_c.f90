@@ -30,7 +30,7 @@ module carreau_geometry_c
     type(c_ptr) :: radii = c_null_ptr
   end type c_molecule_options
 
-  !> Of the surface, exactly: no mesh is needed.
+  !> Exact measures of the surface: no mesh is needed.
   type, bind(c) :: c_molecule_measures
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: area = 0, volume = 0
@@ -59,7 +59,7 @@ module carreau_geometry_c
     integer(c_int32_t) :: fill = 0, reserved = 0
   end type c_grid_options
 
-  !> What of a surface given as triangles is a line.
+  !> The lines of a surface given as triangles.
   type, bind(c) :: c_triangles_options
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: sharp_angle = 0, corner_angle = 0
@@ -73,7 +73,7 @@ module carreau_geometry_c
     type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, triangle_refs = c_null_ptr, edges = c_null_ptr
   end type c_triangles
 
-  !> What was found in the triangles of a session.
+  !> Findings in the triangles of a session.
   type, bind(c) :: c_triangles_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, shells = 0, euler_number = 0, border_edges = 0, &
@@ -84,7 +84,7 @@ module carreau_geometry_c
   end type c_triangles_report
 
   interface
-    !> Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
+    !> Count the geometries that were added, and describe geometry `index`, from 0, in the order of adding.
     function c_geometry_count(session, count) result(status) bind(c, name="carreau_geometry_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -102,7 +102,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_geometry_info
 
-    !> Begins a geometry of callbacks beside what the session has.
+    !> Begins a geometry of callbacks beside the geometries of the session.
     function c_geometry_begin(session, callbacks) result(status) bind(c, name="carreau_geometry_begin")
       import :: c_int32_t, c_ptr
       implicit none
@@ -194,8 +194,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_atoms
 
-    !> Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on
-    !! its side of the plane in which the probe's centre moves; a third of each concave part that touches it.
+    !> Gives the full area of each atom: of its convex parts, as above; its share of the torus parts beside it; a third
+    !! of each concave part that touches it.
     function c_molecule_atom_areas(session, capacity, convex, torus, concave) result(status) &
         bind(c, name="carreau_molecule_atom_areas")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
@@ -321,9 +321,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_triangles_distances
 
-    !> The same over all points of both: the largest distance from the mesh to the triangles lies between out_bounds[0]
-    !! and out_bounds[1], rounding included, that from the triangles to the mesh between out_bounds[2] and
-    !! out_bounds[3].
+    !> Bounds the distances over all points of both.
     function c_triangles_bounds(session, share, bounds) result(status) bind(c, name="carreau_triangles_bounds")
       import :: c_double, c_int32_t, c_ptr
       implicit none

@@ -7,7 +7,7 @@
  *   carreau_add_atlas(session, atlas);                            // a geometry like any other: carreau_mesh_generate
  *
  * The rules of carreau.h hold for every function. Vertices, triangles, clusters and charts count from 0 in arrays; sentences count
- * vertices from 1. A handle is used by one thread at a time; carreau_..._last_error tells what went wrong in the last call on it.
+ * vertices from 1. A handle is used by one thread at a time; carreau_..._last_error returns the sentence of its last failed call.
  */
 #ifndef CARREAU_ATLAS_H
 #define CARREAU_ATLAS_H
@@ -46,7 +46,8 @@ CARREAU_API carreau_status carreau_loop_points(carreau_loop* loop, int64_t n, co
 /* phi, from 0 to 2 pi, of n points of the loop. Errors: ARGUMENT (one is further from the loop than `tolerance`), SEQUENCE. */
 CARREAU_API carreau_status carreau_loop_invert(carreau_loop* loop, int64_t n, const double xy[], double tolerance, double out_phi[]);
 
-/* The pivots (x y), inside and outside by turns, and their number; capacity 0 asks for the number alone. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The pivots (x y), inside and outside by turns, and their number; capacity 0 requests the number alone. Errors: ARGUMENT (capacity),
+ * SEQUENCE. */
 CARREAU_API carreau_status carreau_loop_pivots(carreau_loop* loop, int64_t capacity, double out_xy[], int64_t* out_count);
 
 /* ---- Annuli ---- */
@@ -74,9 +75,9 @@ CARREAU_API void carreau_annulus_free(carreau_annulus* annulus); /* Frees it. NU
 /* Returns the sentence of the last call on the annulus, "" after success. It lives until the next call on it. */
 CARREAU_API const char* carreau_annulus_last_error(const carreau_annulus* annulus);
 
-/* Describes the annulus between two polygons, both counterclockwise (n x 2, m x 2). Where no pivots see all of it, its outer border
- * comes nearer. `star`: 1 lets one pivot do where it sees the whole inner border. Errors: ARGUMENT, DOMAIN (as carreau_loop_build; an annulus without
- * width). */
+/* Describes the annulus between two polygons, both counterclockwise (n x 2, m x 2). If no pivots see all of it, its outer border comes
+ * nearer. `star`: 1 allows a single pivot if it sees the whole inner border. Errors: ARGUMENT, DOMAIN (as carreau_loop_build; an annulus
+ * without width). */
 CARREAU_API carreau_status carreau_annulus_build(carreau_annulus* annulus, int64_t n, const double inner_xy[], int64_t m,
                                                  const double outer_xy[], int32_t border, int32_t star);
 
@@ -114,7 +115,7 @@ typedef struct carreau_atlas_options {
   int32_t reach;  /* of clusters that the library makes, in edges: 1 (0 is the same) for the smallest, 2, 3 for larger ones */
 } carreau_atlas_options;
 
-/* What an atlas consists of. */
+/* The numbers of the charts and other entities of an atlas. */
 typedef struct carreau_atlas_counts {
   size_t struct_size;
   int64_t vertices, triangles; /* of the triangulation covered: the one given, or its division */
@@ -144,7 +145,7 @@ CARREAU_API const char* carreau_atlas_last_error(const carreau_atlas* atlas);
 CARREAU_API carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_options* options, int64_t n, const double xyz[], int64_t m,
                                                const int32_t triangles[], const int32_t clusters[]);
 
-/* Count what the atlas consists of, and tell of chart `chart`. Errors: ARGUMENT, SEQUENCE (nothing was built). */
+/* Count the entities of the atlas, and describe chart `chart`. Errors: ARGUMENT, SEQUENCE (nothing was built). */
 CARREAU_API carreau_status carreau_atlas_count(carreau_atlas* atlas, carreau_atlas_counts* out_counts);
 CARREAU_API carreau_status carreau_atlas_chart_info(carreau_atlas* atlas, int64_t chart, carreau_atlas_chart* out_chart);
 
@@ -166,8 +167,9 @@ CARREAU_API carreau_status carreau_atlas_transition(carreau_atlas* atlas, int64_
 CARREAU_API carreau_status carreau_atlas_points(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[], double out_xyz[],
                                                 double out_derivatives[]);
 
-/* Adds the blended surface to a session: chart k is face k + 1. The session keeps what it needs: the atlas may be freed or built anew.
- * The sentence of an error is the session's. Errors: ARGUMENT, SEQUENCE (nothing was built; see carreau_geometry_begin). */
+/* Adds the blended surface to a session: chart k is face k + 1. The session copies the data that it needs: the atlas may be freed or
+ * built anew. The sentence of an error is the session's. Errors: ARGUMENT, SEQUENCE (nothing was built; see
+ * carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_atlas(carreau_session* session, const carreau_atlas* atlas);
 
 #ifdef __cplusplus

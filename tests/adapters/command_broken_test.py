@@ -50,7 +50,7 @@ class Broken(unittest.TestCase):
             self.assertIn(sentence, error)
 
     def lost(self, name, text, *sentences, faces=7):
-        """The plate but for some faces, which are told; those left have the area that they have in the whole plate."""
+        """The plate without some faces, which are reported; the others have their area in the whole plate."""
         status, error, summary = self.mesh(name, text)
         self.assertEqual(status, SOME_FACES, error)
         for sentence in sentences:
@@ -171,7 +171,7 @@ class Broken(unittest.TestCase):
             status, error, summary = self.mesh("names.step", broken)
             self.assertEqual((status, len(summary["faces"]), summary["mesh"]["area"]), (ALL_FACES, 7, area), error)
             self.assertEqual(len(summary["warnings"]), 1)
-            self.assertIn("entities are wrong and were mended", summary["warnings"][0])
+            self.assertIn("entities are wrong and were repaired", summary["warnings"][0])
 
     def test_files_of_wires_are_meshed_as_edges(self):
         path, out = os.path.join(SHAPES, "wires.brep"), os.path.join(self.folder, "out.mesh")

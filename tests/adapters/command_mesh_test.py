@@ -318,7 +318,7 @@ class Mesh(unittest.TestCase):
         self.assertAlmostEqual(fine / (24 / (math.sqrt(3) / 4 * 0.1**2)), 1, delta=0.05)
 
     def test_narrow_faces_that_are_asked_for_have_the_ratio_of_the_library(self):
-        # 9e-4 of the size: more than what vanishes unasked, less than a tenth.
+        # 9e-4 of the size: more than the width that always vanishes, less than a tenth.
         sliver = os.path.join(SHAPES, "sliver.step")
         env = self.out("narrow.env")
         with open(env, "w", encoding="utf-8") as file:
@@ -391,7 +391,7 @@ class Mesh(unittest.TestCase):
         self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % of the run: meshing faces, face 1")
 
     def interrupt(self, *options, after="", delay=0.05, number=signal.SIGINT):
-        """Exit code, and what was told after the line with `after` ("": at once)."""
+        """Exit code, and the output after the line with `after` ("": at once)."""
         process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "-o", self.out("a.msh"), *options],
                                    stderr=subprocess.PIPE, text=True)
         for line in process.stderr if after else ():

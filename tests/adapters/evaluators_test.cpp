@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adaptors of OpenCASCADE remember what they evaluated last; Evaluators must not show it.
+// Adaptors of OpenCASCADE remember their last evaluation; Evaluators must not show it.
 #include <evaluators.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(Breaks, MoveOnlyWhatIsARoundingErrorBelowOne) {
   EXPECT_EQ(Breaks({0, 1}, true, 1).settle(5.5), 5.5);
 }
 
-// Parameters on, just before and just behind every knot, after a visit of the span before and of the one behind.
+// Parameters on, just before and just behind every knot, after a visit of the span before and of the span behind.
 TEST(Evaluators, DoNotRememberWhatWasAskedBefore) {
   const TopoDS_Face face = face_of("nurbs_torus");
   const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));

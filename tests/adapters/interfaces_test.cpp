@@ -44,7 +44,7 @@ double widest_gap(const adapters::MeasuredMesh& m) {
   return gap;
 }
 
-/// The faces of a shape, none of which knows another one; the first is moved by `gap` along x, and every edge has the
+/// The faces of a shape, without shared edges; the first is moved by `gap` along x, and every edge has the
 /// tolerance `tolerance`.
 TopoDS_Shape taken_apart(const TopoDS_Shape& shape, double gap, double tolerance) {
   TopoDS_Compound all;
@@ -108,7 +108,7 @@ TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndTold) {
   }
 }
 
-// A short edge elsewhere in the file says nothing of what its coarse edges need.
+// A short edge elsewhere in the file does not change the tolerance that its coarse edges need.
 TEST(Unsewn, ShortEdgesElsewhereLeaveNoGapOpen) {
   TopoDS_Compound all;
   const BRep_Builder builder;
@@ -123,7 +123,7 @@ TEST(Unsewn, ShortEdgesElsewhereLeaveNoGapOpen) {
   EXPECT_EQ(m.trouble(true), "");
   EXPECT_EQ(euler(m), 4);
   EXPECT_EQ(count(m, is_open), 0);
-  // The edges of both boxes; what the face that is moved inwards cuts off its neighbours' edges is a point.
+  // The edges of both boxes; the pieces that the face moved inwards cuts off its neighbours' edges are points.
   const auto is_glued_curve = [](const carreau_interface& i) { return i.glued != 0 && i.degenerate == 0; };
   EXPECT_EQ(count(m, is_glued_curve), 24);
   EXPECT_NEAR(widest_gap(m), gap, 1e-9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
+// CAD shapes through the adapter and the C interface, against OpenCASCADE's measures.
 #include <extent.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -69,7 +69,7 @@ TEST(BrepHost, EvaluatesTheSurfaceAboutOnceAVertexBesideTheSampling) {
   }
 }
 
-// Every shape whose surfaces are of several polynomials or of one; bit for bit.
+// Every shape whose surfaces are of several polynomials or of one; the results are identical.
 TEST(BrepHost, ThreadsDoNotChangeTheMesh) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   for (const char* name : {"nurbs_torus", "across_a_seam", "two_cylinders"}) {

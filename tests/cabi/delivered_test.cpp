@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was delivered, through the C interface.
+// Measures of the delivered mesh, through the C interface.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -119,7 +119,7 @@ TEST_F(SessionTest, EveryKindHasItsSpreadAndHistogram) {
 
 TEST_F(SessionTest, BoundsAreToldWhereTheyAreAskedFor) {
   use_paraboloid(0.3);
-  for (const std::int32_t asked : {1, 2}) {  // of meshes free of patches alone; of all
+  for (const std::int32_t asked : {1, 2}) {  // of cross-patch meshes alone; of all
     ASSERT_EQ(carreau_set_integer(session, "measure_bounds", asked), CARREAU_OK);
     ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
     const std::vector<double> seen[] = {values_of(session, CARREAU_MEASURE_A0), values_of(session, CARREAU_MEASURE_A1)};

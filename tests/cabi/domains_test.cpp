@@ -87,7 +87,7 @@ TEST_F(PolygonTest, AFaceThatFailsLeavesTheOthers) {
   ASSERT_EQ(carreau_mesh_quality(mesh(), &quality), CARREAU_OK);
   EXPECT_NEAR(quality.area, 2, 1e-12);
 
-  // Its owner can look at its domain, and at what the host says in it.
+  // Its owner can look at its domain, and at the answers of the host in it.
   const std::string path = testing::TempDir() + "carreau_failed_domain.mesh";
   ASSERT_EQ(carreau_set_text(session, "option", "onesurf2d"), CARREAU_OK);
   ASSERT_EQ(carreau_set_integer(session, "refs", 2), CARREAU_OK);

@@ -127,7 +127,7 @@ TEST_F(FieldsTest, NeedAGeometryAndAModel) {
   EXPECT_EQ(error(), "the model has no face yet");
 }
 
-// What the owner of a patch that failed has: a host that goes wrong from some call on.
+// The case of the owner of a failed patch: a host that goes wrong from some call on.
 TEST_F(FieldsTest, OfAFailedRunShowWhatTheHostAnswers) {
   use_paraboloid(0.5);
   host.misbehaviour = HOST_NAN;
@@ -139,7 +139,7 @@ TEST_F(FieldsTest, OfAFailedRunShowWhatTheHostAnswers) {
   EXPECT_TRUE(std::isnan(broken.at("position.x", 5, 5)));
   EXPECT_EQ(broken.at("mask", 5, 5), 1);
   EXPECT_EQ(broken.text_attribute("face.status"), "not meshed");
-  // The same patch, mended, without a run.
+  // The same patch, repaired, without a run.
   host.misbehaviour = HOST_FINE;
   ASSERT_EQ(carreau_write_exr(session, file("x.exr").c_str(), &small), CARREAU_OK) << error();
   const ExrImage mended = read_exr(file("x.face.1.exr")).at(0);

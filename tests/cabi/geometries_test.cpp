@@ -250,7 +250,7 @@ TEST(Geometries, StandBesideTheHostsOwnFaces) {
   add_saddle(session, 2, 2, 0), add_plate(session, other);
   EXPECT_EQ(geometry(session, 0).first_face, 8);
   EXPECT_EQ(geometry(session, 0).first_curve, 15);
-  EXPECT_EQ(geometry(session, 0).last_curve, 18);  // room for what gluing will find
+  EXPECT_EQ(geometry(session, 0).last_curve, 18);  // room for the interfaces that gluing will find
   EXPECT_EQ(geometry(session, 1).first_face, 9);
   EXPECT_EQ(geometry(session, 1).first_curve, 19);
   mesh(session);

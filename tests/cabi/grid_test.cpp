@@ -88,7 +88,7 @@ TEST_F(Grids, MistakesAreToldAndLeaveTheSessionAsItWas) {
   EXPECT_EQ(add(thin.data(), cylinder.nodes.data()), "block 2 has 17 x 1 nodes; a surface needs two rows and two columns");
   EXPECT_EQ(add(negative.data(), cylinder.nodes.data()), "block 1 has -1 x 9 nodes");
   options.measured = 3;
-  EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()), "what a grid has measured is 3; it must be 0, 1 or 2");
+  EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()), "the kind of measured values of a grid is 3; it must be 0, 1 or 2");
   options.measured = 0, options.join_angle = -1;
   EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()), "the join_angle of a grid must lie between 0 and 180 degrees");
   options.join_angle = 0, options.smoothing_rounds = -1;

@@ -120,7 +120,7 @@ TEST_F(SessionTest, StructsWithoutASizeAreRefused) {
 
 TEST_F(SessionTest, AStructOfAnOlderHeaderIsReadAsFarAsItGoes) {
   carreau_cad_m cad = paraboloid_cad_m();
-  // An older header ended before the sizes: what lies behind is not the library's to read.
+  // An older header ended before the sizes: the library must not read the bytes behind.
   cad.struct_size = offsetof(carreau_cad_m, cad_hphys);
   cad.cad_hphys = reinterpret_cast<void (*)(const std::int32_t*, const double*, double*)>(0x1);
   ASSERT_EQ(carreau_set_cad_m(session, &cad), CARREAU_OK) << error();

@@ -392,7 +392,7 @@ TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
   EXPECT_NE(error().find("(the knots of the spline descend)"), std::string::npos) << error();
 }
 
-// A second face that the host knows nothing of.
+// A second face that the host does not know.
 TEST_F(MeshFileTest, FacesThatAreLeftOutAreInTheMeshAndInFiles) {
   use_paraboloid(0.8);
   EXPECT_EQ(carreau_model_leave_out_face(session, 2, "why"), CARREAU_ERR_ARGUMENT);
@@ -584,7 +584,7 @@ TEST_F(SessionTest, RunsABlsurfEnv) {
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   EXPECT_EQ(carreau_run_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
-  EXPECT_LT(hphydef, 0.16);  // the default again (diag / 50), not what line 1 says
+  EXPECT_LT(hphydef, 0.16);  // the default again (diag / 50), not the value of line 1
   ASSERT_EQ(carreau_set_real(session, "hphydef", 0.25), CARREAU_OK);
   EXPECT_EQ(carreau_run_env(session, "/nonexistent/blsurf.env"), CARREAU_ERR_FILE);
   EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Algebra of metrics through the interface: closed forms in the plane and in space, and what is refused.
+// Algebra of metrics through the interface: closed forms in the plane and in space, and rejected input.
 #include <cmath>
 #include <numbers>
 

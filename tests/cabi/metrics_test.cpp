@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Metric callbacks of a host: what they may answer, and what they may not.
+// Metric callbacks of a host: valid and invalid answers.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -110,7 +110,7 @@ TEST_F(MetricCallbacks, AnIsotropicMetricIsASize) {
 // The plane metric of sizes 0.25 along x and 0.025 along y, seen from above: the mesh has unit edges in it.
 TEST_F(MetricCallbacks, AMetricOfSpaceGovernsTheMesh) {
   metric.kind = CARREAU_METRIC_SPACE;
-  // z counts for little, so that lengths are those of the projection on the plane.
+  // z counts for little, so that lengths are lengths of the projection on the plane.
   metric.value = {16, 0, 0, 1600, 0, 1e-4};
   ASSERT_EQ(carreau_set_real(session, "hphymin", 0.01), CARREAU_OK);
   ASSERT_EQ(carreau_set_real(session, "hphymax", 100), CARREAU_OK);

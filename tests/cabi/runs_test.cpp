@@ -256,7 +256,7 @@ TEST_F(SessionTest, CanBeStoppedFromAnotherThread) {
     std::thread thread;
     carreau_session* session;
   } waiting{{}, session};
-  // The thread starts when the patches do, and asks for the stop some time later.
+  // The thread starts when the patches do, and requests the stop some time later.
   const auto start = [](std::int32_t phase, std::int32_t, double, void* user) -> std::int32_t {
     auto* w = static_cast<Waiting*>(user);
     if (phase == CARREAU_PHASE_PATCHES && !w->thread.joinable())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// carreau_set_team without MPI: ranks are threads of this process, each with a session of its own.
+// carreau_set_team without MPI: ranks are threads of this process, each with its own session.
 #include <algorithm>
 #include <array>
 #include <barrier>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// What threads share that stand for ranks.
+/// The data shared by threads that stand for ranks.
 struct Office {
   explicit Office(int ranks) : barrier(ranks), given(static_cast<std::size_t>(ranks)) {}
 
@@ -101,7 +101,7 @@ TEST(Team, RanksMakeTheMeshOfOneProcess) {
   for (const abi_tests::MeshData& mesh : found) EXPECT_EQ(mesh, expected);
 }
 
-/// What one rank keeps.
+/// The results that one rank keeps.
 struct Kept {
   std::string bytes;
   carreau_part_counts counts{};

@@ -258,7 +258,7 @@ TEST_F(Triangles, ASurfaceThatIsThereAlreadyIsRefused) {
   const Octahedron octahedron;
   ASSERT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_OK);
   EXPECT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_ERR_ARGUMENT);
-  EXPECT_STREQ(carreau_last_error(session), "all triangles are those of surfaces that the session has");
+  EXPECT_STREQ(carreau_last_error(session), "all triangles belong to surfaces of the session already");
   EXPECT_EQ(report().triangles, 8);
   std::int64_t count = 0;
   ASSERT_EQ(carreau_geometry_count(session, &count), CARREAU_OK);

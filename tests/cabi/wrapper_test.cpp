@@ -63,7 +63,7 @@ std::string thrown_by(carreau::Session& session) {
   try {
     session.generate();
   } catch (const carreau::Error& error) {
-    // Slicing loses what is nested: look at the object that was thrown.
+    // Slicing loses the nested exception: look at the object that was thrown.
     return nested_in(error);
   } catch (const std::out_of_range& late) { // a message at the very end
     return late.what();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""cad_library_test.py CARREAU SONAME STEP IGES TEAPOT.bpt PART.brep SHAPES: libcarreau_cad is loaded for CAD files, and for nothing else; so are
-those of its libraries that read STEP and IGES files. SHAPES holds files of both."""
+"""cad_library_test.py CARREAU SONAME STEP IGES TEAPOT.bpt PART.brep SHAPES: libcarreau_cad is loaded for CAD files, and for nothing else;
+likewise its libraries that read STEP and IGES files. SHAPES holds files of both."""
 import os
 import shutil
 import subprocess

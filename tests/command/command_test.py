@@ -262,7 +262,7 @@ class Command(unittest.TestCase):
                 self.assertIn(path, result.stderr)
         result = run("check", os.path.join(self.folder, "part.step"))
         self.assertEqual(result.returncode, 2)
-        self.assertIn("has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply", result.stderr)
+        self.assertIn("does not have a suffix of mesh files: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply", result.stderr)
 
     def test_defects_give_exit_code_1(self):
         line = self.write("line.mesh", SQUARE.replace("1 1 1 0", "2 0 1 0"))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""first_hour_test.py CARREAU TEAPOT.BPT: what a person meets first: wrong options, help, JSON, faces that are looked for, pictures."""
+"""first_hour_test.py CARREAU TEAPOT.BPT: the first hour of a user: wrong options, help, JSON, faces that are looked for, pictures."""
 import json
 import math
 import os
@@ -82,7 +82,7 @@ class FirstHour(unittest.TestCase):
         self.refused("params", "qqqqqqqq", sentence="There is no parameter 'qqqqqqqq'. `carreau params` lists them all.")
 
     def test_settings_are_judged_before_a_file_is_read(self):
-        # The file is not there: what is told first is what was looked at first.
+        # The file is not there: the first message is about the first check.
         self.refused("mesh", "none.step", "-o", "a.vtu", "--set", "hphydf=1",
                      sentence="--set 'hphydf=1': there is no parameter 'hphydf'; did you mean 'hphydef'? `carreau params` lists them all.")
         for setting, sentence in (("hphydef=x", "number"), ("frontal=7", "frontal"), ("geo_rule=cord", "geo_rule")):

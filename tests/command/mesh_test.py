@@ -94,7 +94,7 @@ class Inputs(Folder):
                 self.assertAlmostEqual(z, (x * x + y * y) / 2, delta=1e-12)
             self.assertEqual(mesh.triangles, meshes[0].triangles)
         self.assertAlmostEqual(mean(meshes[0].lengths()) / 0.2, 1, delta=0.03)
-        # No file of references beside the input: the command does not change what it reads.
+        # No file of references beside the input: the command does not change its input.
         self.assertEqual(sorted(os.listdir(self.folder)), ["out.mesh", "x.pardom"])
 
     def test_a_face_that_fails_leaves_the_other_one_and_the_status_is_1(self):
@@ -129,7 +129,7 @@ class Inputs(Folder):
         self.assertGreater(min(rows[50][50]), 240)  # nothing inside
         with open(self.path("dump/face_2.exr"), "rb") as file:
             self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
-        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh tells of it.
+        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh reports it.
         turned = self.write("turned.pardom", "2\n" + FACE.format(1) + FACE.format(3).replace("3 1 4", "3 -1 4"))
         done = self.run_mesh(turned, "--host", HOSTS[0], "-o", "turned.vtu", "--size", "0.5", "--dump-failed", "turned", code=1)
         self.assertEqual(sorted(os.listdir(self.path("turned"))), ["face_3.exr", "face_3.mesh"])
@@ -148,7 +148,7 @@ class Inputs(Folder):
         self.assertEqual(sorted(os.listdir(self.path("last"))), ["face_2.exr", "face_2.mesh"])
         self.assertRegex(done.stderr, r"(?m)^dumped +last/face_2\.exr$")
         self.write("file", "")
-        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is no folder")
+        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is not a folder")
         self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "no/such", sentence="the folder 'no/such' cannot be used: No such file")
 
     def test_a_file_is_not_written_twice_nor_over_what_is_read(self):
@@ -160,7 +160,7 @@ class Inputs(Folder):
             self.refused(square, "-o", "a.mesh", "-o", name, sentence="'" + name + "' cannot be written: it is named twice")
         self.refused(square, "-o", "d/b.mesh", "-o", "d/../d/b.mesh", sentence="it is named twice")
         self.write("a.sol", "")
-        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is what is read")
+        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is an input")
 
     def test_no_face_with_a_mesh_is_status_2_and_no_file(self):
         self.refused(self.write("bad.pardom", "1\n" + FACE.format(2)), "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3",
@@ -221,9 +221,9 @@ class Formulas(Folder):
 
     def test_what_is_no_surface_is_told(self):
         for given, sentence in ((("z = x + z",), "position"), (("x = u; y = v",), "A surface is"), (("z = x; z = y",), "two equations of z"),
-                                (("z = x", "--domain", "disc:0,0,0"), "is no domain"), (("z = x", "--domain", "box:0,0,1"), "is no domain"),
-                                (("z = x", "--domain", "box:1,0,0,1"), "is no domain"), (("z = 1 / x",), "the formula has no value there"),
-                                (("z = x; w = 2",), "is no equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
+                                (("z = x", "--domain", "disc:0,0,0"), "is not a domain"), (("z = x", "--domain", "box:0,0,1"), "is not a domain"),
+                                (("z = x", "--domain", "box:1,0,0,1"), "is not a domain"), (("z = 1 / x",), "the formula has no value there"),
+                                (("z = x; w = 2",), "is not an equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
             self.refused(*given, "-o", "out.mesh", sentence=sentence)
         self.refused(TEAPOT, "--domain", "disc:0,0,1", "-o", "out.mesh", sentence="--domain goes with a surface by formulas")
 
@@ -345,7 +345,7 @@ class Sizes(Folder):
         for formula in ("0.05 + u / 10", "0.05 + (x + 1) / 20", "0.05+min(u,2)/10+0*pi*sin(v)"):
             self.assertEqual(self.mesh(self.square, "--size-map", formula).triangles,
                              self.mesh(self.square, "--size-map", "0.05 + u / 10").triangles, formula)
-        # A size beside it is an upper bound, as is that of a face.
+        # A size beside it is an upper bound, as is the size of a face.
         bounded = self.mesh(self.square, "--size-map", "x < 0 ? 0.05 : 1", "--size", "0.1")
         self.assertAlmostEqual(mean(lengths_near(bounded, lambda x, y, z: x > 0.3)) / 0.1, 1, delta=0.05)
         both = self.mesh(self.two, "--size-map", "0.2", "--face-size", "2=0.05")
@@ -365,9 +365,9 @@ class Sizes(Folder):
                                   ('"a"', "strings"), ("0.1 + \u00e9", "'0.1 + ...' is wrong at position 7: a character that is not plain text"), ("x" * 5000, "4096")):
             with self.subTest(formula=formula):
                 self.refused(self.square, "-o", "a.mesh", "--size-map", formula, sentence=sentence)
-        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is no size, on face 1 at x = ")
+        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is not a size, on face 1 at x = ")
         self.assertIn("the size map 'x' gives -", done.stderr)
-        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is no size, on face ")
+        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is not a size, on face ")
         self.assertNotIn("meshing again", done.stderr)
         self.refused(self.square, "-o", "a.mesh", "--size-map", "sqrt(x)", sentence="gives nan")
         self.refused(self.square, "-o", "a.mesh", "--size-map", "1/(x - x)", sentence="gives inf")
@@ -422,7 +422,7 @@ class Sizes(Folder):
         self.assertGreater(counts[0] / counts[1], 1.4)
         self.assertGreater(counts[1] / counts[2], 1.5)
         self.assertGreaterEqual(counts[2], counts[3])
-        # Around a sharp bend stretched sizes grow gently unless nobody wants it.
+        # Around a sharp bend stretched sizes grow gently unless this is switched off.
         rows = "".join(f"{x} {y} {z}\n" for x, y in ((4, 0), (0.2, 0), (0, 0.2), (0, 4)) for z in (0, 4))
         sharp = self.write("sharp.bpt", "1\n3 1\n" + rows)
         usual, graded, free, by_set = (self.mesh(sharp, "--angle", "6", "--anisotropic", *options).triangles for options in
@@ -450,7 +450,8 @@ class Sizes(Folder):
             self.assertEqual(found["invalid"], 0)
             self.assertGreater(found[kind], 0)
             self.assertLess(found["triangle_share"] if element != "p2" else 0, 0.05 if element.endswith("0") else 1e-12)
-            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it, that of a parabola far less.
+            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it; for a parabola it is far
+            # less.
             error = abs(found["area"] / exact - 1)
             self.assertLess(error, 1e-3 if element.endswith(("2", "2.0", "2.1")) and element[:2] != "q1" else 3e-3)
             subprocess.run([PROGRAM, "picture", self.path("a.vtu"), "-o", self.path("a.png")], check=True, capture_output=True)

@@ -91,7 +91,7 @@ class Molecules(unittest.TestCase):
 
     def test_mistakes_are_told_with_the_line(self):
         for name, text, sentence in (("a.xyzr", "0 0 0 1\n0 0 0\n", "line 2: the radius is missing"),
-                                     ("b.xyz", "1\n\nQq 0 0 0\n", "line 3: 'Qq' is no element of the periodic table"),
+                                     ("b.xyz", "1\n\nQq 0 0 0\n", "line 3: 'Qq' is not an element of the periodic table"),
                                      ("c.pdb", "", "the file holds no atom")):
             for command in (["areas"], ["mesh", "-o", "x.mesh"]):
                 done = self.run_command(command[0], self.write(name, text), *command[1:], code=2)

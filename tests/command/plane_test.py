@@ -241,7 +241,7 @@ class Plane(unittest.TestCase):
         self.write("five.node", "5 2 0 1\n1 0 0 1\n2 2 0 1\n3 2 1 1\n4 0 1 1\n5 1 0 0\n6 .5 .5 0\n".replace("5 2 0 1", "6 2 0 1"))
         self.assertEqual(self.run_program(PROGRAM, "plane", "five.node", "-o", "five.mesh", "--size", "0.4").returncode, 0)
         self.assertAlmostEqual(self.area("five.mesh"), 2, delta=1e-12)
-        # A .poly without points has those of the .node beside it.
+        # A .poly without points takes the points of the .node beside it.
         self.write("five.poly", "0 2 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n")
         self.assertEqual(self.run_program(PROGRAM, "plane", "five.poly", "-o", "five.mesh", "--size", "0.4").returncode, 0)
         self.assertAlmostEqual(self.area("five.mesh"), 1, delta=1e-12)
@@ -281,7 +281,7 @@ class Plane(unittest.TestCase):
                    "L A B C D ;\nR NULL C Z B NULL ;\n;\n;\n;\nL -1 1 ;\nisotrope\n;\n")
         self.fails("loop.data", sentence="line 7: curve 'L' makes a loop between point 'B' and point 'C': it passes (0.5, 0.")
         self.fails("none.poly", sentence="none.poly")
-        self.fails("x.step", sentence="has none of the suffixes of a plane domain")
+        self.fails("x.step", sentence="does not have a suffix of plane domains")
 
     # ---- bl2d ----
 

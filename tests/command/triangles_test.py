@@ -242,13 +242,13 @@ class Triangles(unittest.TestCase):
         lower, upper = (os.path.join(DATA, name) for name in ("lower.off", "upper.off"))
         made = self.path("cube.mesh")
         done = self.run_command("mesh", lower, upper, "-o", made, "--size", "10%")
-        self.assertIn("16 vertices are those of other surfaces of triangles", done.stderr)
+        self.assertIn("16 vertices belong to other surfaces of triangles", done.stderr)
         found = json.loads(self.run_command("check", made, "--json", "--closed").stdout)
         self.assertEqual((found["quality"]["open_edges"], found["defects"]), (0, []))
         self.assertLess(abs(found["quality"]["area"] - 24), 1e-9)
         lines = self.info(made, "--given-edges")
         self.assertEqual((lines["regions"], lines["lines"], lines["euler_number"]), (10, 20, 2))
-        # Quadrilaterals beside the flat line between the halves: the places of its vertices are those of either side.
+        # Quadrilaterals beside the flat line between the halves: the places of its vertices agree on both sides.
         for size in ("0.2", "5%"):
             for element in ("q1.1", "q2.1"):
                 self.run_command("mesh", lower, upper, "-o", made, "--size", size, "--element", element, "-q")
@@ -272,7 +272,7 @@ class Triangles(unittest.TestCase):
         done = self.run_command("mesh", lower, "z = x", "-o", made, code=2)
         self.assertIn("cannot be meshed beside other files", done.stderr)
         done = self.run_command("mesh", lower, lower, "-o", made, code=2)
-        self.assertIn("all triangles are those of surfaces that the session has", done.stderr)
+        self.assertIn("all triangles belong to surfaces of the session already", done.stderr)
         self.run_command("mesh", lower, upper, "-o", upper, code=2)  # an input is not written over
 
     def test_distances_are_bounded(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of meshes: what is drawn is where it is, and nearest to the eye."""
+"""Pictures of meshes: things are drawn at their places, and the nearest to the eye in front."""
 import struct
 import zlib
 

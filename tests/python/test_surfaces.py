@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Callbacks in Python are asked for what C is asked for, one by one or many at a time."""
+"""Callbacks in Python get the calls that C gets, one by one or many at a time."""
 import math
 
 import numpy as np

@@ -14,7 +14,7 @@ namespace {
 
 using namespace thresholds::independent;
 
-// What the patches were meshed with, at their vertices; none where it is of no direction.
+// The metrics that patches were meshed with, at their vertices; none if they have no direction.
 PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
   PlaneMetrics metrics(result.mesh.faces.size());
   double most = 1;
@@ -66,7 +66,7 @@ bool remesh_across_patches(const CurveModel& model, std::span<const DiscreteCurv
                            bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
   const auto frame = frame_of(model, curves, options, by_direction, elements, result, monitor);
   const std::string why = remesh_by_strategies(*frame, model.cad, options, result, monitor);
-  if (!why.empty()) monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
+  if (!why.empty()) monitor.message(Level::warning, "no cross-patch remeshing: " + why);
   return why.empty();
 }
 

@@ -12,7 +12,7 @@ using namespace thresholds::independent;
 
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack) {
   const GeometricLimits limits = geometric_limits(options.size);
-  // What is folded by less than the sharp angle may be flattened.
+  // Folds of less than the sharp angle may be flattened.
   const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
   SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg * angle_slack;

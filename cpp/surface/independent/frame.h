@@ -19,20 +19,20 @@
 
 namespace carreau {
 
-/// Vertices of lines have the numbers of vertices of those lines in the mesh of before, as many as are needed; others
-/// follow.
+/// A mesh over an atlas, from parametric remeshing. Vertices of lines reuse as many numbers of these lines' vertices in the input mesh as
+/// necessary; others follow.
 struct PlacedMesh {
   std::vector<SurfacePlace> added;                ///< the vertices that follow
   std::vector<EditableMesh::Triangle> triangles;  ///< as the atlas is turned
   std::vector<std::vector<LineNode>> lines;       ///< by line
   std::vector<std::vector<KeptPlaces>> on_line;   ///< by line and node; none where a vertex stays where it was
   std::vector<std::int32_t> seams;                ///< vertices that nothing but the making has put in line
-  std::vector<std::int32_t> kept;                 ///< corners of triangles that are those of the mesh of before
+  std::vector<std::int32_t> kept;                 ///< corners of triangles that were in the input mesh
 };
 
 struct FreedMesh;
 
-/// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
+/// The input of remeshing in space: the atlas, the remaining lines, and other possible places of their vertices.
 struct RemeshingFrame {
   VertexJets jets;
   std::vector<MeshEdge> sharp;  ///< ascending
@@ -41,16 +41,16 @@ struct RemeshingFrame {
   std::vector<SharpLine> lines;
   std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
   bool everywhere = false;  ///< see remesh()
-  /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
+  /// Makes other elements of the triangles that replace the mesh `before`; empty: the triangles stay.
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
-  /// Makes the mesh at once, for remesh_from_planes(); none: it does not.
+  /// Makes the whole mesh, for remesh_from_planes(); returns nothing if it cannot.
   std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
   RemeshingWorkers workers = {};
 };
 
-/// How far triangles of meshes that are made so may leave the surface: by the geometric rule, else by the size. `by_direction`: sizes differ by
+/// Tolerances on the distance of triangles from the surface: by the geometric rule, otherwise by the size. `by_direction`: sizes differ by
 /// direction; `angle_slack`: see RemeshingFrame.
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sharp lines are cut anew, whatever curves they are of.
+// Remeshing of sharp lines, across the ends of their curves.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct LineNode {
   double arc;
 };
 
-/// A line that is worked at.
+/// A line during remeshing.
 struct WorkedLine {
   std::unique_ptr<LineGeometry> places;
   std::vector<LineNode> left;

@@ -93,12 +93,12 @@ class FrameRemesher {
         untangle(*mesh->free, candidate);
         continue;
       }
-      // Edits do not help: there the triangles of the atlas stay.
+      // Edits do not help: the triangles of the atlas stay there.
       keeps = true, last = first;
       keep_around(candidate);
       mesh = made_in_planes(least_mean);
     }
-    return "it is not made in planes";
+    return "parametric remeshing is not possible";
   }
 
   void keep_triangles() { replacement_.accept_as_it_is(replacement_.start()); }
@@ -113,9 +113,9 @@ class FrameRemesher {
   };
 
   Candidate try_all() {
-    // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
+    // Coarse triangles cannot keep a geometric rule; after crossings the strategy starts without them.
     bool coarsely = !geometric_limits(options_.size).any();
-    KeptShapes least = keep_none;  // what has to be kept
+    KeptShapes least = keep_none;  // the shapes that must be kept
     std::optional<Try> spare;      // the first one whose shapes are worse
     Candidate candidate;
     for (const Strategy& strategy : strategies(frame_.everywhere || frame_.elements, options_.sharp_angle)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates and transfers are the same whoever makes them, and each process asks its own function for its share only.
+// Estimates and transfers do not depend on the process that makes them, and each process calls its own function for its
+// share only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ void expect_same(const VertexPrescriptions& a, const VertexPrescriptions& b) {
       ASSERT_EQ(a.metrics[v].*entry, b.metrics[v].*entry) << v;
 }
 
-/// make(crew) of three processes with two threads each, and of one with three, is that of one thread.
+/// make(crew) of three processes with two threads each, and of one with three, equals the result of one thread.
 template <typename Make, typename Same>
 void expect_same_of_all(const Make& make, const Same& same) {
   const auto one = make(Crew{});
@@ -98,7 +99,7 @@ TEST(SharedEstimates, NameTheProcessWhoseFunctionDiffers) {
     std::vector<double> values(mesh.vertices.size());
     shared_function(own, {&team, 1}, silent)(mesh.vertices, values);
   });
-  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("the field is another one on rank 2"), std::string::npos) << sentence;
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("the field differs on rank 2"), std::string::npos) << sentence;
 }
 
 TEST(SharedEstimates, TheFailureOfOneFunctionReachesAll) {

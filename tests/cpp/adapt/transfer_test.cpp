@@ -75,8 +75,8 @@ TEST(TransferField, TellsSheetsApartByTheirFaces) {
 }
 
 /// Half of the cap of the unit sphere within `angle` of its pole; u = longitude and v = latitude, so that the side
-/// v = pi / 2 is one vertex in space: n x n cells, of which those of the last row are cut into a triangle and one that
-/// is flat in space.
+/// v = pi / 2 is one vertex in space: n x n cells. The cells of the last row are cut into a triangle and a triangle
+/// that is flat in space.
 SurfaceMesh half_cap(int n, double angle) {
   const double pi = 3.141592653589793;
   SurfaceMesh result;
@@ -120,7 +120,7 @@ TEST(TransferField, IsOfSecondOrderAroundPoles) {
     double largest = 0;
     for (std::size_t v = 0; v < fine.vertices.size(); ++v) {
       const Vec3 p = fine.vertices[v];
-      // Inside of the chords of the rim, and of those of the first meridian.
+      // Inside of the chords of the rim and of the first meridian.
       if (std::hypot(p.x(), p.y()) > 0.8 * angle || p.y() < 0.1 * angle) continue;
       largest = std::max(largest, std::abs(moved.values[v] - linear(p)));
     }

@@ -251,7 +251,7 @@ TEST(Annulus, BadBordersAreToldWithTheVertex) {
   const Polygon square = test::two_squares().inner;
   EXPECT_NE(sentence_of([] {
               Loop({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
-            }).find("from vertex 1 meets the one from vertex 3"),
+            }).find("from vertex 1 meets the edge from vertex 3"),
             std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {0, 2}, {2, 2}, {2, 0}}); }).find("clockwise"), std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, 0}}); }).find("2 vertices"), std::string::npos);

@@ -34,7 +34,7 @@ TEST(CheckedCad, NamesTheRoutineThatReturnsWhatIsNotFinite) {
   const auto sentence = [&](unsigned want) { return callback_error([&] { surface_at(cad, 4, want, {0.5, 2}); }); };
   broken.s.y() = nan;
   EXPECT_EQ(sentence(want_position), "face 4, u = 0.5, v = 2: surf0 returned a value that is not finite");
-  EXPECT_EQ(sentence(want_first), "");  // what is not wanted is not looked at
+  EXPECT_EQ(sentence(want_first), "");  // it ignores derivatives that are not requested
   broken = enneper_jet({1, 2});
   broken.sv.x() = infinity;
   EXPECT_EQ(sentence(want_first | want_position), "face 4, u = 0.5, v = 2: surf1 returned a value that is not finite");

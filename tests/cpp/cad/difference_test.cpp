@@ -134,7 +134,7 @@ TEST(DifferenceCad, StaysInsideTheBox) {
 }
 
 TEST(DifferenceCad, TakesOtherSidesWhereTheHostIsNotDefined) {
-  // A disc that its box does not tell.
+  // A disc, which its box does not reveal.
   for (const unsigned gives : {unsigned{want_position}, want_position | want_first}) {
     Source* source = nullptr;
     DifferenceCad cad = differenced(gives, &source);

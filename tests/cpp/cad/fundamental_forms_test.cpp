@@ -14,7 +14,7 @@ using namespace testing;
 
 void expect_near(Vec3 p, Vec3 q, double tolerance) { EXPECT_LE(norm(p - q), tolerance); }
 
-// What every frame must satisfy, whatever the surface (RR-2928 eq. 33-38).
+// The equations that every frame must satisfy, whatever the surface (RR-2928 eq. 33-38).
 void expect_consistent(const SurfaceJet& jet) {
   const auto frame = principal_frame(jet);
   const auto second = second_form(jet);

@@ -54,7 +54,7 @@ CadMTable cad_m() {
   return table;
 }
 
-/// What the callbacks of a C host see of the test.
+/// The data of the test that the callbacks of a C host see.
 struct User {
   std::int32_t status = 0;
   std::int64_t calls = 0, largest_batch = 0;

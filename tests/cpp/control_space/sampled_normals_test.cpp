@@ -62,7 +62,7 @@ TEST(SampledNormals, DoNotDependOnTheScaleOfParameters) {
 }
 
 TEST(SampledNormals, AreExactAtSamples) {
-  // Along a line nothing is known across it: the mean of what is around.
+  // A sampled line has no data across it: the mean of the values around.
   Monitor monitor;
   const SampledDomain square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
   const MetricSampler ten = [](std::span<const Vec2> uv, std::span<Metric2> m) {

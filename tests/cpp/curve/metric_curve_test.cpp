@@ -82,8 +82,8 @@ TEST(MetricCurve, Figures25To27HaveEqualEdges) {
   }
 }
 
-/// A curve of the plane that turns, closes and is sampled unevenly, like that of figures 28-32 (whose data the report
-/// does not give), with triplets at eight abscissae.
+/// A curve of the plane that turns, closes and is sampled unevenly, with triplets at eight abscissae. It is like the
+/// curve of figures 28-32, whose data the report does not give.
 Measured<PlaneMetricCurve> closed_curve(MetricLaw law) {
   std::vector<Vec2> points;
   const int n = 400;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges told in place of sizes: closed forms, exact lengths, one discretisation for all uses (HDR sec. 2.1, 2.3).
+// Edges prescribed in place of sizes: closed forms, exact lengths, one discretisation for all uses (HDR sec. 2.1, 2.3).
 #include "curve/prescribed_edges.h"
 
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ TEST(ProgressionShares, RefuseWhatHasNoEdges) {
   EXPECT_THROW(progression_shares(progression(Progression::geometric, 500, 1e-3)), InvalidArgument);  // underflows
 }
 
-// On z = 0: lengths in space are those of the plane. The pace along the line is uneven.
+// On z = 0: lengths in space are lengths in the plane. The pace along the line is uneven.
 TEST(PrescribedEdges, OfALineAndACircleHaveTheLengthsOfTheirProgression) {
   for (const PrescribedEdges& told : progressions()) {
     Scene line;
@@ -157,7 +157,8 @@ TEST(ExactArc, IsTheInverseOfItself) {
   }
 }
 
-// The second use says it, in its own direction, and has its own parameters; the first one holds the same vertices.
+// The second use prescribes the edges, in its own direction, and has its own parameters; the first use holds the same
+// vertices.
 TEST(PrescribedEdges, OfOneUseHoldInAll) {
   for (const bool same_pace : {true, false}) {
     Scene s = interface_between_two_faces(same_pace);

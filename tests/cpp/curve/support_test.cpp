@@ -51,7 +51,7 @@ double ellipse_length(double a, double b) {
 
 double parabola_length(double x) { return (x * std::sqrt(1 + x * x) + std::asinh(x)) / 2; }  // from 0, z = x^2 / 2
 
-/// Largest deviation from linear interpolation in t, in space and in the plane (PL), over what is allowed: an arc that
+/// Largest deviation from linear interpolation in t, in space and in the plane (PL), over the tolerance: an arc that
 /// makes `degrees` with its chord at both ends, or the fraction of the whole length at which refinement ends.
 struct Linearity {
   double space = 0, plane = 0;

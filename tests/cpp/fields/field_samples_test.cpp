@@ -14,7 +14,7 @@
 namespace carreau {
 namespace {
 
-/// A paraboloid that is there in a part of its domain only. Counts the points that it is asked for.
+/// A paraboloid that is there in a part of its domain only. Counts the points that it evaluates.
 class PartlyThere : public testing::AnalyticCad {
  public:
   explicit PartlyThere(std::function<bool(Vec2)> there)

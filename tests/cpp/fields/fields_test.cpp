@@ -107,7 +107,7 @@ int for_each_inside(const ExrImage& image, const Body& body) {
   return inside;
 }
 
-constexpr double single = 1e-6;  // rounding of 32-bit reals, and of what is computed before
+constexpr double single = 1e-6;  // rounding of 32-bit reals, and of preceding computations
 
 TEST(TangentSizes, AreThoseOfTheMetric) {
   std::mt19937 random(11);
@@ -309,7 +309,7 @@ TEST(Fields, TellWhichSizeGoverns) {
   EXPECT_EQ(image.number("governs", 0, 0), no_triangle) << "outside of the disc";
 }
 
-// What bounds a size is its own bound: a geometric one its own, and the smaller size counts.
+// Each size has its own bounds, also the geometric size, and the smaller size counts.
 TEST(Fields, TellWhatBoundsAndGradationGovern) {
   FieldCase run(testing::hemisphere());
   run.by_angle();
@@ -340,7 +340,7 @@ TEST(Fields, TellWhatBoundsAndGradationGovern) {
   EXPECT_GT(count[0], 700);
 }
 
-// By direction: the least of two sizes counts, and a size that is ignored is not a number.
+// In each direction the smaller of two sizes counts, and a size that is ignored is NaN.
 TEST(Fields, OfAnAnisotropicMeshTellBothMetrics) {
   FieldCase run(testing::torus_patch());
   run.by_angle();
@@ -659,7 +659,7 @@ TEST(Fields, OfAHostThatFailsShowWhere) {
   const int inside = for_each_inside(image, [&](int i, int j, Vec2 p) {
     ASSERT_EQ(std::isnan(image.at("position.x", i, j)), norm(p) < 1);
     failing += norm(p) < 1;
-    // What the host does give is there.
+    // The values that the host does give are there.
     ASSERT_NEAR(image.at("induced.f", i, j), p.x() * p.y(), 5 * single);
     ASSERT_TRUE(std::isnan(image.at("target.m11", i, j)));
     ASSERT_EQ(image.integer.at("triangle")[static_cast<std::size_t>(100 * j + i)], no_triangle);
@@ -673,7 +673,7 @@ TEST(Fields, OfAHostThatFailsShowWhere) {
             0U)
       << run.monitor.warnings[0];
 
-  // Mended: the fields are those of the mesh again.
+  // Without the fault the fields belong to the mesh again.
   cad->broken = false;
   run.session->make_mesh();
   EXPECT_EQ(run.image(10, 10).text_attribute("face.status"), "meshed");
@@ -733,7 +733,7 @@ TEST(Fields, NeedNoMesh) {
   run.session->parameters().set("hphydef", 0.25);
   EXPECT_EQ(run.image(20, 20).at("size.h", 10, 10), 0.25F);
   EXPECT_FALSE(run.session->has_mesh());
-  // Of a host that answers in one half only nothing is made up.
+  // For a host that answers in one half only, no values are invented in the other half.
   run.cad->size_on_surface = [](int, Vec2 p) { return p.x() < 0 ? std::optional<double>(0.1) : std::nullopt; };
   run.session->parameters().set("hphy_flag", 2);
   const ExrImage raw = run.image(40, 40);

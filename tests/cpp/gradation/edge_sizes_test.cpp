@@ -49,7 +49,7 @@ TEST(EdgeSizes, OfEqualEdgesAreTheirs) {
   EXPECT_EQ(sizes.at({3, 0, 0}), 4.5);
 }
 
-// Area over that of triangles, ring by ring.
+// Area over the area of triangles, ring by ring.
 TEST(EdgeSizes, TrianglesOfGrowthAreTheIntegral) {
   const double h = 0.01, slope = 0.4, extent = 30, length = 0.02;
   double sum = 0;

@@ -80,7 +80,7 @@ class Builder {
   std::map<std::tuple<long long, long long, long long>, int> vertex_at_;
 };
 
-/// What grade_fronts says at a vertex.
+/// The result of grade_fronts at a vertex.
 struct GradedSize {
   double h;
   Vec3 slope;  // derivative of h in the tangent plane of the vertex's first place
@@ -275,7 +275,7 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
       }
     EXPECT_LE(steepest, 1.01 * slope);
     // Grading again changes nothing but ridges: the field that is linear in triangles is lower between two slopes than
-    // they are, by at most 1 - sqrt(3) / 2 = 0.134 of what it climbs along an equilateral edge.
+    // they are. The difference is at most 1 - sqrt(3) / 2 = 0.134 of its rise along an equilateral edge.
     std::vector<double> once(h.size());
     for (std::size_t v = 0; v < h.size(); ++v) once[v] = graded[v].h;
     const auto twice = grade_sizes(b.graph, once, slope, monitor);
@@ -286,7 +286,8 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
   }
 }
 
-// Sizes along edges, from both ends: what is lowered by next to nothing while it waits goes on to its neighbours too.
+// Sizes along edges, from both ends: a size that is lowered by next to nothing while it waits also passes to its
+// neighbours.
 TEST(Gradation, ByDirectionNoEdgeIsSteeper) {
   Builder b;
   b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x(), p.y(), 0.3 * std::sin(4 * p.x()) * p.y()}; });
@@ -319,8 +320,8 @@ TEST(Gradation, ByDirectionNoEdgeIsSteeper) {
   }
 }
 
-// A strip whose lower side has one vertex of a small size: amid the edge above it, whose ends are far, sizes are those
-// that the gradation allows from there.
+// A strip whose lower side has one vertex of a small size. Amid the edge above it, whose ends are far, sizes are
+// bounded by the gradation from that vertex.
 TEST(Gradation, ByDirectionItHoldsAcrossAStrip) {
   constexpr double width = 0.1, slope = 0.25;
   Builder b;

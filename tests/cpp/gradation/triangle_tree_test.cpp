@@ -18,7 +18,7 @@ struct Triangles {
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
-/// A ring of n x n squares, each cut in two, whose inner vertices are moved at random; as wide and high as asked.
+/// A ring of n x n squares, each cut in two, whose inner vertices are moved at random; as wide and high as given.
 Triangles ring(int n, Vec2 extent, std::mt19937& random) {
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
   Triangles mesh;

@@ -174,7 +174,7 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   bool said = false;
   for (const std::string& sentence : describe(d).not_met)
     said = said || sentence.find(
-                       "20 of 41 edges (48.78 %) have a gradation of sizes of more than the 1.25 asked; the "
+                       "20 of 41 edges (48.78 %) have a gradation of sizes of more than the 1.25 prescribed; the "
                        "worst has 1.297") == 0;
   EXPECT_TRUE(said);
 }
@@ -349,8 +349,8 @@ void keep_ends_of_apex(FaceMesh& face, std::int32_t first, std::int32_t columns)
   face.flattened.push_back({first, last, first == 0 ? last + 1 : first - 1});
 }
 
-// The normal is undefined at an apex: those of a triangle's own sector count, whichever end of the degenerate side
-// stands for the apex in (u, v).
+// The normal is undefined at an apex: the normals of a triangle's own sector count, whichever end of the degenerate
+// side stands for the apex in (u, v).
 TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
   const double height = 2;
   Case run{one_face([=](Vec2 p) {
@@ -425,7 +425,7 @@ TEST(DeliveredSphere, TrianglesTurnedAgainstTheSurfaceAreCounted) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     EXPECT_EQ(d[Kind::angle].values[t] > 90, t % 7 == 0 && t < 35) << t;
   EXPECT_EQ(describe(d).not_met.back(),
-            "5 of 128 triangles (3.91 %) have a normal turned by more than 90 degrees against that of the surface");
+            "5 of 128 triangles (3.91 %) have a normal turned by more than 90 degrees against the surface");
 }
 
 TEST(DeliveredCylinder, AnglesAndDeviationsAreThoseOfTheChord) {

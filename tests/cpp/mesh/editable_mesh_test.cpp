@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edits keep the topology, the imposed edges and the adjacency, and can be undone bit for bit.
+// Edits keep the topology, the imposed edges and the adjacency, and can be undone exactly.
 #include "mesh/editable_mesh.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using Triangle = EditableMesh::Triangle;
 using Place = EditableMesh::Place;
 using Edge = std::array<std::int32_t, 2>;
 
-/// [0, 2] x [0, 1] as two faces of n x n cells of two triangles each; curves: the border, of two corners, and what is
+/// [0, 2] x [0, 1] as two faces of n x n cells of two triangles each; curves: the border, of two corners, and the side
 /// between the faces.
 SurfaceMesh two_faces(int n) {
   SurfaceMesh mesh;
@@ -64,7 +64,7 @@ std::vector<std::int32_t> all_vertices(const SurfaceMesh& mesh) {
   return all;
 }
 
-/// Vertices - edges + triangles of what collapses have left.
+/// Vertices - edges + triangles after collapses.
 int euler_number(const SurfaceMesh& mesh) {
   std::set<std::int32_t> vertices;
   std::set<Edge> edges;
@@ -94,7 +94,7 @@ bool has_edge(const SurfaceMesh& mesh, std::int32_t v, std::int32_t w) {
   return false;
 }
 
-/// What is known around vertices is what the triangles say.
+/// The adjacency of vertices agrees with the triangles.
 void expect_adjacency(const EditableMesh& editable, const SurfaceMesh& mesh) {
   std::vector<std::vector<std::array<std::int32_t, 2>>> fans(mesh.vertices.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets of triangles that cannot cross: what they promise, where they are found, and that crossings are found beside
-// them.
+// Sets of triangles that cannot cross: their guarantee, their detection, and the detection of crossings beside them.
 #include "mesh/crossings/graphs.h"
 
 #include <gtest/gtest.h>

@@ -112,7 +112,7 @@ TEST(CellQuality, SquaresAndEquilateralTrianglesAreTheBest) {
 }
 
 TEST(CellQuality, ARhombusAndARectangleHaveTheirClosedForms) {
-  // Sides 1, angles 60 and 120 degrees: h = sqrt 3, rho that of the flat halves, area / (half the perimeter).
+  // Sides 1, angles 60 and 120 degrees: h = sqrt 3, rho as in the flat halves, area / (half the perimeter).
   const double c = std::sqrt(3.0) / 2;
   const CellQuality rhombus = cell_quality(CellKind::quad4, std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1.5, c, 0}, {0.5, c, 0}});
   const double rho = c / (2 + std::sqrt(3.0));

@@ -77,7 +77,7 @@ TEST(QualitySummary, OfAnyNumberOfThreadsIsThatOfEachTriangle) {
   EXPECT_NEAR(summarise_shapes(mesh, 2).angle_max_deg, 180, 1e-12);
 }
 
-// Faces number their vertices themselves; what is read where it is must be what a flat copy has.
+// Faces number their vertices themselves; values read in place must agree with a flat copy.
 TEST(QualitySummary, OfFacesIsThatOfTheirFlatCopy) {
   SurfaceMesh mesh;
   for (int i = 0; i < 3000; ++i) mesh.vertices.push_back({i % 60 + 0.3 * std::sin(i), i / 60 + 0.3 * std::cos(3 * i), 0.1 * (i % 7)});

@@ -84,7 +84,7 @@ DistanceBounds bounds(const Soup& from, const Soup& to, double share = 0.01, int
   return bound_distance(from.view(), to.view(), {.share = share}, threads, silent);
 }
 
-/// The distance lies between, and the bounds are as near as asked.
+/// The distance lies between, and the bounds are as near as requested.
 void expect_distance(const Soup& from, const Soup& to, double distance, double diagonal) {
   for (const double share : {0.01, 1e-4}) {
     const DistanceBounds found = bounds(from, to, share);
@@ -208,7 +208,7 @@ Soup joined(const Soup& soup) {
   return all;
 }
 
-// Heights over a piece bound it where the mesh below hangs together: distances are the same as those to single triangles.
+// Heights over a piece bound it where the mesh below is connected: distances equal the distances to single triangles.
 TEST(SurfaceDistance, OfMeshesThatHangTogetherIsThatOfTheirTriangles) {
   const Soup floor = joined(sheet(1, 1, 0, 3, 200)), high = sheet(1, 1, 0.25, 7, 2), wide = sheet(1.5, 1, 0.25, 4, 3);
   expect_distance(high, floor, 0.25, std::sqrt(2));
@@ -234,7 +234,7 @@ TEST(SurfaceDistance, OfMeshesThatHangTogetherIsThatOfTheirTriangles) {
   EXPECT_EQ(bounds(coarse, fine).upper, bounds(coarse, fine, 0.01, 3).upper);
 }
 
-// The same triangles with and without common vertices, at random: no bound is below what samples see.
+// The same triangles with and without common vertices, at random: no bound is below the distances of samples.
 TEST(SurfaceDistance, HeightsHoldOverRandomRelief) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> height(-0.1, 0.1), way(-0.03, 0.03);

@@ -39,7 +39,7 @@ TEST(LargestEllipsoid, OfTwoItIsTheIntersection) {
 }
 
 TEST(LargestEllipsoid, OfEllipsesTurnedEvenlyItIsACircle) {
-  // By symmetry; its radius is their small half axis. One after another they leave less.
+  // A ball, by symmetry; its radius is their small half axis. Pairwise intersections in turn leave less.
   for (const int n : {3, 4, 7}) {
     std::vector<Metric2> metrics;
     for (int k = 0; k < n; ++k) metrics.push_back(ellipse(0.2, 1, 0.1 + k * pi / n));

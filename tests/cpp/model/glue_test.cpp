@@ -118,7 +118,7 @@ TEST(Glue, OpenCurvesStayApartAcrossAShortCurveAndASlit) {
   AnalyticCad cad;
   cad.faces[1] = flat(rectangle({0, 0}, {1, 1}));
   cad.faces[2] = flat(rectangle({1.009, 0}, {2, 1}));
-  cad.faces[3] = flat(rectangle({1, -1}, {1.009, 0}));  // its upper side is what lies between
+  cad.faces[3] = flat(rectangle({1, -1}, {1.009, 0}));  // its upper side lies between
   const Model model = glued_where_open(cad, 0.001, 0.01);
   EXPECT_NE(model.faces[0].curves[1].ref, model.faces[1].curves[3].ref);
   EXPECT_NE(model.faces[2].curves[2].end1, model.faces[2].curves[2].end2);

@@ -61,7 +61,7 @@ TEST(FindModelDefects, WantsFacesWithPositiveAndDistinctReferences) {
   EXPECT_EQ(defects_after([](Model& m) { m.faces[1].ref = 1; }),
             Sentences{"x.pardom, line 9, face 1: face number 2 has the same reference as face number 1 (line 2)"});
   EXPECT_EQ(defects_after([](Model& m) { m.faces[1].ref = 0; }),
-            Sentences{"x.pardom, line 9: the reference of a face must be positive; that of face number 2 is 0"});
+            Sentences{"x.pardom, line 9: the reference of a face must be positive; face number 2 has 0"});
 }
 
 TEST(FindModelDefects, WantsAnOrientationThatNamesABoundaryCurve) {
@@ -114,7 +114,7 @@ TEST(FindModelDefects, WantsAllReferencesUnlessTheFirstIsZero) {
   EXPECT_EQ(
       defects_after([](Model& m) { m.faces[1].curves[0].ref = 0; }),
       Sentences{"x.pardom, line 10, face 2, curve 1: zero references are mixed with others (refc 0, refp1 2, refp2 "
-                "5): to have references found, those of all curves must be 0"});
+                "5): to find references, the references of all curves must be 0"});
   Model model = unglued(paraboloid());
   model.source = "x.pardom";
   model.faces[0].curves[0].line = 5;
@@ -139,7 +139,7 @@ TEST(FindModelDefects, WantsTheSameEndsForAllCurvesOfAReference) {
     m.faces[1].curves[2].end2 = 8;
   });
   EXPECT_EQ(found,
-            Sentences{"x.pardom, line 13, face 2, curve 4 (reference 2): its ends 8 and 2 are not those of the first "
+            Sentences{"x.pardom, line 13, face 2, curve 4 (reference 2): its ends 8 and 2 differ from the ends of the first "
                       "curve of this reference, 2 and 3 (line 4)"});
 }
 
@@ -153,14 +153,14 @@ TEST(FindModelDefects, AllowsABoundaryReferenceTwiceInAFaceAndNoMore) {
   EXPECT_EQ(with_sides(2), Sentences{});
   EXPECT_EQ(
       with_sides(4).front(),
-      "x.pardom, line 12, face 1, curve 3 (reference 2): the reference is that of boundary curves 1 (line 10) and 2 "
+      "x.pardom, line 12, face 1, curve 3 (reference 2): the reference belongs to boundary curves 1 (line 10) and 2 "
       "(line 11) of the face already; twice is a seam, more is not possible");
   const Sentences twice = defects_after([](Model& m) {
     m.faces[0].curves.push_back({CurveType::internal, 20, 21, 22, 30});
     m.faces[0].curves.push_back({CurveType::internal, 20, 21, 22, 31});
   });
   EXPECT_EQ(twice,
-            Sentences{"x.pardom, line 31, face 1, curve 6 (reference 20): the reference is that of internal curve 5 "
+            Sentences{"x.pardom, line 31, face 1, curve 6 (reference 20): the reference belongs to internal curve 5 "
                       "(line 30) of the face already"});
 }
 

@@ -87,7 +87,7 @@ TEST(BuildTopology, RefusesClosedCurvesWithoutADirection) {
   cad.faces[1] = flat({arc({0, 0}, 0.01, 0, 2 * pi)});
   cad.faces[2] = flat({arc({0, 0}, 0.01, pi / 2, 2.5 * pi)});
   const std::string text = refusal(cad, referenced(cad, {{{5, 1, 1}}, {{5, 1, 1}}}), 0.05);
-  EXPECT_TRUE(contains(text, "face 2, curve 1 (reference 5): the direction of the closed curve cannot be told"))
+  EXPECT_TRUE(contains(text, "face 2, curve 1 (reference 5): the direction of the closed curve is ambiguous"))
       << text;
 }
 
@@ -129,8 +129,8 @@ TEST(BuildTopology, TellsASmallHoleFromAPoint) {
   EXPECT_FALSE(topology.curves[4].degenerate);
 }
 
-// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points, with it they are not, nor for the face
-// beside it; a pole of its own stays one.
+// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points. With it they are not, nor for the face
+// beside it; a real pole stays one.
 TEST(BuildTopology, KeepsFacesWhoseSidesAreAllTiny) {
   const double a = 8e-6;
   AnalyticCad cad;
@@ -181,7 +181,7 @@ TEST(BuildTopology, RefusesExchangedReferences) {
   EXPECT_EQ(refusal(cad, referenced(cad, refs), 0.02),
             "face 2, curve 4 (reference 20): refp1 and refp2 are exchanged: its first end is at the point of reference "
             "4, its "
-            "second one at that of 2");
+            "second end at the point of reference 2");
 }
 
 TEST(BuildTopology, RefusesExchangedReferencesOfCurvesShorterThanItsTolerance) {

@@ -76,9 +76,8 @@ TEST(Turning, EighteenToOne) { expect_in_space(swirl(0.009, 4), 0.994); }
 // Straight edges of the parameter plane are arcs of space whose sagitta is nearly their length.
 TEST(Turning, FiftyOneToOne) { expect_in_space(swirl(0.0089, 7), 0.97); }
 
-// Where borders that meet at a corner part from each other, the width asks for one edge, then for two: each triangle
-// is as good as three in the place of one can be. From 4 sin(a / 2) = sqrt(2) on the second edge is long enough to
-// halve.
+// Between borders that part from each other at a corner, the width needs one edge, then two: each triangle is as good
+// as three in the place of one can be. From 4 sin(a / 2) = sqrt(2) on the second edge is long enough to halve.
 TEST(Quality, OfTrianglesInCorners) {
   for (double degrees = 42; degrees <= 75; degrees += 1) {
     SCOPED_TRACE(degrees);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges prescribed on curves, through a whole run: all faces keep them, the mesh conforms, what disagrees is told.
+// Edges prescribed on curves, through a whole run: all faces keep them, the mesh conforms, contradictions are reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -191,7 +191,7 @@ TEST(PrescribedCurves, OfNarrowFacesKeepThemFromCollapsing) {
   }
 }
 
-// A ring whose outer circle is told to be a triangle that crosses the inner one.
+// A ring whose outer circle is prescribed as a triangle that crosses the inner circle.
 TEST(PrescribedCurves, ThatCrossFailTheirFaceWithASentence) {
   AnalyticCad cad;
   AnalyticFace ring{flat_jet, {testing::arc({0, 0}, 1, 0, 2 * pi), testing::arc({0, 0}, 0.8, 0, -2 * pi)}};
@@ -281,7 +281,7 @@ TEST(Wires, AreEdgesOfTheMeshAndShareItsVertices) {
   EXPECT_EQ(run.lengths(18).size(), 30U);
   EXPECT_EQ(run.curve(18).vertices.front(), run.curve(2).vertices.back());  // point 3
   EXPECT_EQ(mesh.loose_edge_count(), 93U);
-  // Whether other edges are exported or not.
+  // With and without the export of other edges.
   for (const int flag : {0, 1}) {
     run.session.parameters().set("flag", flag);
     const FlatMesh flat = run.session.exported();

@@ -185,7 +185,7 @@ TEST(BackgroundField, EachFaceHasTheTrianglesThatNameIt) {
 }
 
 TEST(BackgroundField, OfASessionsMeshIsLookedUpInEachParameterPlane) {
-  // Two faces that lie on each other in space, and are told apart by their parameters.
+  // Two faces that lie on each other in space, and differ by their parameters.
   SurfaceMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.vertex_ref.resize(6);
@@ -341,7 +341,7 @@ TEST(BackgroundField, RefusesWhatItCannotUse) {
   EXPECT_EQ(sentence_of(mesh), "the background mesh: vertex 1 (from 0) has a metric that is not positive definite");
   mesh.values.space.clear();
   mesh.values.parameter.resize(4);
-  EXPECT_EQ(sentence_of(mesh), "the background mesh is a surface in space, but its metrics are those of a plane");
+  EXPECT_EQ(sentence_of(mesh), "the background mesh is a surface in space, but its metrics belong to a plane");
   mesh.dimension = 2;
   mesh.values.parameter[0].c = -1;
   EXPECT_EQ(sentence_of(mesh), "the background mesh: vertex 0 (from 0) has a metric that is not positive definite");

@@ -20,7 +20,7 @@ struct Boxes {
   std::vector<Vec3> centres;
 };
 
-/// Every third one is where the one before it is.
+/// Every third box equals its predecessor.
 Boxes random_boxes(int n) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0, 1), side(0, 0.1);

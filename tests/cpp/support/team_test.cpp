@@ -19,7 +19,7 @@ namespace {
 
 using testing::in_processes;
 
-// Each process is heard by all, in the order of ranks, and what it gives is its own.
+// All processes receive the data of each process, in the order of ranks.
 TEST(Team, ProcessesGiveInTurn) {
   constexpr int n = 4;
   std::vector<std::vector<std::string>> heard(n);
@@ -34,7 +34,7 @@ TEST(Team, ProcessesGiveInTurn) {
   for (const auto& all : heard) EXPECT_EQ(all, (std::vector<std::string>{"", "x", "xx", "xxx"}));
 }
 
-// One that cannot read what comes leaves, and the others do not wait for it.
+// A process that cannot read its input leaves, and the others do not wait for it.
 TEST(Team, OneThatLeavesInItsTurnIsNotWaitedFor) {
   const auto thrown = in_processes(3, [&](Team& team) {
     team.exchange_in_turn("turn", "bytes", [&](int rank, const std::string&) {
@@ -268,7 +268,7 @@ TEST(Packet, RefusesBytesThatEndEarly) {
 }
 
 TEST(Checksum, IsFnv1a) {
-  // Of the authors' test vectors.
+  // From the authors' test vectors.
   EXPECT_EQ(checksum(""), "cbf29ce484222325");
   EXPECT_EQ(checksum("a"), "af63dc4c8601ec8c");
   EXPECT_EQ(checksum("foobar"), "85944171f73967e8");

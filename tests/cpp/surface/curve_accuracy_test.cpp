@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges of curves against their curves (HDR sec. 2.6): A0 and A1 in closed form, limits, and what geo_guarantee keeps.
+// Edges of curves against their curves (HDR sec. 2.6): A0 and A1 in closed form, limits, and the guarantee of
+// geo_guarantee.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ struct Meshed {
     session->make_mesh();
   }
   [[nodiscard]] const MeshEvaluation& delivered() const { return session->delivered(); }
-  /// Of edges of curves.
+  /// Values of edges of curves.
   [[nodiscard]] std::vector<double> values(Kind kind) const {
     std::vector<double> known = delivered()[kind].values;
     std::erase_if(known, [](double x) { return std::isnan(x); });
@@ -36,7 +37,7 @@ struct Meshed {
   }
   [[nodiscard]] std::int64_t curve_edges() const {
     std::int64_t count = 0;
-    for (const CurveMesh& curve : session->mesh().curves)  // those that vanish have no vertices
+    for (const CurveMesh& curve : session->mesh().curves)  // curves that vanish have no vertices
       count += std::max<std::int64_t>(static_cast<std::int64_t>(curve.vertices.size()), 1) - 1;
     return count;
   }

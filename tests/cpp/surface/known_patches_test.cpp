@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A face that is asked the same again gets its patch of the round before; one that is asked anything else does not.
+// A face with an unchanged request gets its patch of the previous round; a face with a different request does not.
 #include "pipeline/base/known_patches.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace carreau {
 namespace {
 
-/// What two faces are asked: a triangle with one short edge to grow from.
+/// The requests for two faces: a triangle with one short edge to grow from.
 struct Asked {
   Asked() {
     domain.plane.vertices = {{0, 0}, {1, 0}, {0, 1}};
@@ -89,7 +89,7 @@ TEST(KnownPatches, OfLargeModelsAreNotKept) {
   const Asked asked;
   EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::most_known)).find(0, asked.input, asked.grow_from));
   EXPECT_FALSE(knowing(asked, outcome_of(thresholds::crossings::most_known + 1)).find(0, asked.input, asked.grow_from));
-  // A patch that takes the place of another one needs no more than its own room.
+  // A patch that replaces another patch needs no more than its own room.
   KnownPatches known = knowing(asked, outcome_of(thresholds::crossings::most_known));
   known.keep(0, asked.input, asked.grow_from);
   known.keep(0, outcome_of(thresholds::crossings::most_known));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes that would have too many triangles: what is refused, and what is bounded.
+// Meshes that would have too many triangles: rejected and bounded sizes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,7 +103,7 @@ Model model_of_cone() {
   return {{side, disc}, {}};
 }
 
-// Of growth by 1.5 from edges of 8e-7 the samples of a square grid in (u, v) see nothing but the first one: the control
+// If sizes grow by 1.5 from edges of 8e-7, the samples of a square grid in (u, v) see only the first edge: the control
 // space promised 860 000 triangles. A ring of growth has 6 to 10, and there are 20 from one e-fold to the next.
 TEST(Limits, GrowthFromTinyEdgesIsBoundedByWhatAControlSpaceCanFollow) {
   for (const double top : {1.6e-5, 1.6e-6, 4.8e-7}) {

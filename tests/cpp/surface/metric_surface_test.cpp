@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole surfaces under metrics: unit edges, deviations that were asked for, fewer triangles.
+// Whole surfaces under metrics: unit edges, prescribed deviations, fewer triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, UnitMesh,
                                            UnitCase{"angle", ellipsoid, {.name = "angle", .angle = 4}, 4}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-// ---- what was asked is kept ----
+// ---- prescribed deviations hold ----
 
 class MetricGuarantee : public ::testing::TestWithParam<UnitCase> {};
 
@@ -154,8 +154,8 @@ TEST_P(MetricGuarantee, OfTheDistance) {
   }
 }
 
-// By both principal radii too, with a gradation that keeps the long edges where a curvature vanishes (on top of the
-// torus) from reaching away from there.
+// Sizes by both principal radii too. A gradation keeps the long edges near places where a curvature vanishes (on top of
+// the torus).
 TEST_P(MetricGuarantee, OfTheDistanceByDirection) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.chord = eps, .guarantee = true, .gradation = 2});
@@ -299,7 +299,7 @@ TEST(Source, TheTeapotUnderOneMetricOfSpace) {
   EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.mean, 0.93);
 }
 
-// Half of the surface has a metric, the rest takes hphydef (hphy_flag 1) or what the curves around have (2).
+// Half of the surface has a metric, the rest takes hphydef (hphy_flag 1) or the sizes of the curves around (2).
 TEST(Source, AnswersInOnePlaceAndNotInAnother) {
   const auto field = [](Vec3 p) { return metric_of_sizes({-p.y(), p.x(), 0.1}, 0.05, 0.2); };
   const auto source = testing::field_of_space(
@@ -407,7 +407,7 @@ TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
   }
 }
 
-// What no sample hit, a vertex does.
+// A vertex hits the dip that no sample hit.
 TEST(Source, DipsThatNoSampleHitsAreMeshed) {
   AnalyticCad square;
   square.faces[1] = {[](Vec2 p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh does not depend on the number of threads, and a host that is not re-entrant never sees another one.
+// The mesh does not depend on the number of threads, and a host that is not re-entrant never sees a second thread.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

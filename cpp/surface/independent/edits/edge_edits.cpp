@@ -25,7 +25,7 @@ bool evens_degrees(const FreeMesh& mesh, std::int32_t a, std::int32_t b, std::in
   const auto excess = [&](std::int32_t v) {
     return mesh.is_free(v) ? static_cast<int>(mesh.mesh().fan(v).size()) - 6 : 0;
   };
-  // Moving one edge from a and b to c and d.
+  // The effect of moving one edge from a and b to c and d.
   int gain = 0;
   for (const std::int32_t v : {a, b}) gain += 2 * excess(v) - 1;
   for (const std::int32_t v : {c, d}) gain -= mesh.is_free(v) ? 2 * excess(v) + 1 : 1;

@@ -77,7 +77,7 @@ TEST(BlendedSurface, FoldsAreMendedAndChartsStillAgree) {
     const Chart& chart = covering.charts()[i];
     const Primitive fitted = primitive_of(fit_heights(covering.surface(), chart), chart.frame);
     changed += surface.primitive(i).coefficient != fitted.coefficient;
-    // At places that are not those of the mend's grid.
+    // At places that are not on the repair's grid.
     for (int k = 0; k < 200; ++k) {
       const SurfaceJet jet =
           surface.at(i, value_of(chart.annulus.at(unit(random), chart.annulus.period() * unit(random))));

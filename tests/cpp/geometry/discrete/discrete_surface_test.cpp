@@ -37,7 +37,7 @@ TEST(WaltonMeek, TangentsAreOrthogonalToAnyNormals) {
   }
 }
 
-/// Largest difference of unit normals, and of points, over edges that are not sharp; of points over those that are.
+/// Largest difference of unit normals, and of points, over edges that are not sharp; of points over sharp edges.
 std::array<double, 3> jumps(const DiscreteSurface& s) {
   std::array<double, 3> most{0, 0, 0};
   const Triangulation& m = s.mesh();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is glued, what is left out, and what is refused.
+// Glued borders, omitted cells, and rejected grids.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -142,7 +142,7 @@ TEST(Cells, AHoleIsALoopAndAStripOfHolesCutsTheBlockInTwo) {
   ASSERT_EQ(cut.built.model.faces.size(), 2U);
   EXPECT_EQ(cut.built.model.faces[0].ref, 1);
   EXPECT_EQ(cut.built.model.faces[1].part_of, 1);
-  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a face of its own");
+  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a separate face");
 }
 
 TEST(Holes, AreFilledByAMembraneThatIsExactForLinearGrids) {
@@ -161,7 +161,7 @@ TEST(Holes, AreFilledByAMembraneThatIsExactForLinearGrids) {
 
 TEST(Cells, CellsThatTouchByACornerKeepTheirLoops) {
   Block block = flat(5, 5);
-  // What is left are cells (1, 1) and (2, 2), counted from 0, beside one missing corner each way.
+  // The remaining cells are (1, 1) and (2, 2), counted from 0, beside one missing corner each way.
   for (const auto& [i, j] : {std::pair{0, 0}, {4, 4}, {0, 4}, {4, 0}, {3, 1}, {1, 3}, {0, 1}, {0, 2}, {0, 3}, {4, 1}, {4, 2}, {4, 3},
                              {1, 0}, {2, 0}, {3, 0}, {1, 4}, {2, 4}, {3, 4}})
     block.nodes[block.index(i, j)].x() = missing;

@@ -218,7 +218,7 @@ TEST(PlaneGeometry, TwoClaimsOnOneSubdomainContradict) {
 }
 
 // Random segments of a triangulated grid, whatever is left out: faces and their curves satisfy Euler's relation, and
-// points are in the face that the grid says.
+// points are in the face that the grid gives.
 TEST(PlaneGeometry, FacesOfACheckerboardAreItsSquares) {
   PlaneDomainInput input;
   input.rest = PlaneRest::inside;

@@ -45,7 +45,7 @@ void read_names(const std::string& text, Content& content) {
   }
 }
 
-/// What the manual of Gmsh says of version 2.2.
+/// Reads version 2.2 by the manual of Gmsh.
 Content read_2(const std::string& text) {
   Content content;
   read_names(text, content);

@@ -50,7 +50,7 @@ void expect_blocks(const Grid& grid, bool missing = false) {
   }
 }
 
-/// All x, all y, all z of a block, then its IBLANK if asked.
+/// All x, all y, all z of a block, then its IBLANK if requested.
 std::vector<double> numbers_of(int b, bool blanks) {
   const int columns = b == 0 ? 3 : 2, rows = b == 0 ? 2 : 4;
   std::vector<double> numbers;
@@ -177,7 +177,7 @@ TEST(GridFiles, WrongPlot3dIsRefusedWithBlockAndLine) {
   EXPECT_NE(refusal(read_plot3d, "30000 30000 1\n1").find("more than the file can hold"), std::string::npos);
   std::string cut = Binary(true, false, true).of(false);
   cut.pop_back();
-  EXPECT_NE(refusal(read_plot3d, cut).find("bytes are no PLOT3D"), std::string::npos);
+  EXPECT_NE(refusal(read_plot3d, cut).find("bytes are not PLOT3D"), std::string::npos);
 }
 
 TEST(GridFiles, EsriGridsStartInTheNorthAndHaveCells) {

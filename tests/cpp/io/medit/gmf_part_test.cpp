@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that several processes write: what parts have of them.
+// Files that several processes write: the bytes of parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

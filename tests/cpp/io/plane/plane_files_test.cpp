@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of plane domains: what they say, and a sentence with the line for each mistake.
+// Files of plane domains: their content, and a sentence with the line for each mistake.
 #include "io/plane/plane_files.h"
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@ namespace {
 
 using Read = FlatMesh (*)(std::string_view, const std::string&);
 
-/// Elements with their references, whatever their order: those of one face and kind stay together.
+/// Elements with their references, whatever their order: elements of one face and kind stay together.
 std::multiset<std::pair<std::int32_t, std::vector<std::int32_t>>> elements_of(const FlatMesh& mesh) {
   std::multiset<std::pair<std::int32_t, std::vector<std::int32_t>>> elements;
   for (const FaceSet& face : sets_of(mesh, 80).faces)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large domains are meshed in pieces: no measure tells where these have met.
+// Large domains are meshed in pieces: no measure shows where these have met.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -64,7 +64,7 @@ PlaneCase two_squares(double h) {
 
 class Divided : public ::testing::TestWithParam<Large> {};
 
-// A fifth of a percent of degrees, a thousandth of mean shape and length: what another seed of the boundary does.
+// A fifth of a percent of degrees, a thousandth of mean shape and length: the effect of another seed of the boundary.
 TEST_P(Divided, IsAsGoodAsInOnePiece) {
   const PlaneCase c = GetParam().make(GetParam().size);
   const ControlSpace space = control_space(c);

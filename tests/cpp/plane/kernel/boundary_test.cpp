@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulation of imposed vertices and edges alone: what it is, and what it refuses.
+// Triangulation of imposed vertices and edges alone: its properties, and rejected input.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -159,7 +159,7 @@ TEST(FindCrossings, ReportsTouchesOverlapsAndTwins) {
 }
 
 TEST(FindCrossings, SeesTheSmallestGap) {
-  // A vertex one ulp off an edge is no touch; on it, it is. No epsilon can tell.
+  // A vertex one ulp off an edge is no touch; on it, it is. No epsilon can decide this.
   const double y = 0.1, above = std::nextafter(y, 1), below = std::nextafter(y, 0);
   for (const double tip : {above, y, below}) {
     const PlaneDomain domain = polygon({{0, y}, {1, y}, {1, 1}, {0.5, tip}, {0, 1}});
@@ -268,7 +268,7 @@ TEST(OrientLoops, RefusesWhatIsNoDomain) {
 }
 
 TEST(OrientLoops, FollowsTheLargerPartOfABoundaryThatCrossesItself) {
-  // A disc with a small reversed curl next to the seed: turned as the disc is, so that refinement can mend it.
+  // A disc with a small reversed curl next to the seed: turned as the disc is, so that refinement can repair it.
   std::vector<Vec2> loop = circle(40, {0, 0}, 10);
   std::swap(loop[0], loop[1]);
   PlaneDomain domain = polygon(loop);

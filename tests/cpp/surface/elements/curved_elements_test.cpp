@@ -65,7 +65,7 @@ struct Curved {
 };
 
 /// Largest difference between a function of space and its interpolation, over all elements; exact points of the surface
-/// are those of (u, v) interpolated in the same way.
+/// are at (u, v) interpolated in the same way.
 double interpolation_error(const Curved& run, const std::function<double(const Vec3&)>& field) {
   double worst = 0;
   for (const FaceMesh& face : run.mesh().faces)
@@ -136,7 +136,7 @@ TEST(CurvedElements, NodesLieOnTheSurfaceAndFacesShareThem) {
       for (std::size_t m = 0; m < face.mid_uv.size(); ++m)
         off = std::max(off, norm(cad.faces.at(face.ref).at(face.mid_uv[m]).s -
                                  run.mesh().mid_vertices[face.mid_vertex[m]]));
-    EXPECT_LT(off, 2e-3 * 0.25);  // curves of two faces: what carrying them tolerates
+    EXPECT_LT(off, 2e-3 * 0.25);  // curves of two faces: the tolerance of carrying them
     for (const CurveMesh& curve : run.mesh().curves)
       EXPECT_EQ(curve.mid.size() + 1, std::max<std::size_t>(curve.vertices.size(), 1));
   }

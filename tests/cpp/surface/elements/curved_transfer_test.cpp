@@ -54,7 +54,7 @@ double largest_difference(const std::vector<double>& p, const std::vector<double
   return largest;
 }
 
-/// The mesh with faces that another one does not know: fields are looked up in space.
+/// The mesh with faces that another mesh does not know: fields are looked up in space.
 SurfaceMesh renamed(SurfaceMesh mesh) {
   for (FaceMesh& face : mesh.faces) face.ref += 100;
   return mesh;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large meshes made anew in parts: the same whoever makes them, and no measure tells where parts have met.
+// Large meshes made anew in parts: they do not depend on the process that makes them, and no measure shows where parts
+// have met.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -77,7 +78,7 @@ class Stopping final : public Monitor {
   std::atomic<int> left_;
 };
 
-/// Each process meshes; `size` and `monitor` by rank. What each has thrown, or "".
+/// Each process meshes; `size` and `monitor` by rank. The exception of each, or "".
 template <typename Size, typename MonitorOf>
 std::vector<std::string> mesh_in_processes(int n, const Size& size, const MonitorOf& monitor, std::vector<SurfaceMesh>& meshes) {
   CommonOfThreads common(n);
@@ -184,7 +185,7 @@ class FailingCad final : public Cad {
 
 struct Outcome {
   std::string sentence;
-  bool kept = false;  // the mesh of before
+  bool kept = false;  // the previous mesh
   std::int64_t calls = 0;
 };
 

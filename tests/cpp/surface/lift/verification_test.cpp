@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sampling of the metric misses, the lifted vertices find: the patch is then sampled there and meshed again.
+// The lifted vertices find details that the sampling of the metric misses: the patch is then sampled there and meshed
+// again.
 #include <gtest/gtest.h>
 
 #include <algorithm>

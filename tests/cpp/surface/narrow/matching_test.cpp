@@ -134,7 +134,7 @@ class Sentences final : public Monitor {
   bool disagree = false;
 };
 
-// A strip that is left out is meshed as if nobody had looked for narrow faces.
+// A strip that is left out is meshed like other faces.
 TEST(Matching, StripsThatCannotBeMatchedAreMeshedAsOtherFacesAre) {
   const auto meshed = [](const char* mode, Sentences& sentences) {
     AnalyticCad cad;

@@ -35,7 +35,7 @@ TEST(QuadShape, SquareIsOneHoweverItLies) {
   EXPECT_NEAR(scaled_jacobian(q), 1, 1e-14);
 }
 
-// Diameter: the long diagonal 2 cos 30; the least circle is that of the triangle with the angle of 120 degrees.
+// Diameter: the long diagonal 2 cos 30; the triangle with the angle of 120 degrees has the least circle.
 TEST(QuadShape, RhombusOfSixtyDegrees) {
   const double root3 = std::numbers::sqrt3, rho = (root3 / 2) / (2 + root3), sigma = root3 / rho;
   EXPECT_NEAR(quad_quality(rhombus(60)), (2 + 2 * std::numbers::sqrt2) / sigma, 1e-14);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is prescribed inside a face, where its parametrisation is degenerate.
+// Prescribed sizes inside a face, where its parametrisation is degenerate.
 #include "surface/sample/face_metric.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ struct Ellipsoid {
   }
 };
 
-// Of a pole and of the places beside it: alone, among others, last and first.
+// Metrics of a pole and of the places beside it: alone, among others, last and first.
 TEST(FaceMetric, OfAPoleDoesNotDependOnTheOthersOfItsBatch) {
   Ellipsoid e;
   const SizeRules rules = e.rules();
