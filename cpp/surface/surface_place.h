@@ -52,21 +52,4 @@ class SurfaceAround {
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;
 };
 
-/// Vertices with their places, for algorithms that distribute cells among faces.
-class PlacedVertices {
- public:
-  virtual ~PlacedVertices() = default;
-  [[nodiscard]] virtual std::size_t vertices() const = 0;
-  /// Returns whether the vertex is neither on a sharp edge nor a corner.
-  [[nodiscard]] virtual bool is_free(std::int32_t v) const = 0;
-  /// The places of a vertex: several if it is kept, one for each vertex of a face that it was.
-  [[nodiscard]] virtual std::span<const SurfacePlace> places(std::int32_t v) const = 0;
-  [[nodiscard]] virtual Vec3 position(std::int32_t v) const = 0;
-  [[nodiscard]] virtual double size(std::int32_t v) const = 0;
-  /// The size at v along the way to w.
-  [[nodiscard]] virtual double size_along(std::int32_t v, std::int32_t w) const = 0;
-  /// Returns whether sizes differ by direction.
-  [[nodiscard]] virtual bool by_direction() const noexcept = 0;
-};
-
 }  // namespace carreau

@@ -40,34 +40,4 @@ class FreeSurface final : public SurfaceAround {
   double factor_ = 1;
 };
 
-/// The vertices of a free mesh, under the same numbers; new ones follow.
-class ElementVertices final : public PlacedVertices {
- public:
-  explicit ElementVertices(const FreeMesh& mesh);
-
-  [[nodiscard]] std::size_t vertices() const override { return place_.size(); }
-  [[nodiscard]] bool is_free(std::int32_t v) const override { return several_[v] < 0; }
-  [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const override;
-  [[nodiscard]] Vec3 position(std::int32_t v) const override { return place_[v].xyz; }
-  [[nodiscard]] double size(std::int32_t v) const override { return wanted_[v].h; }
-  [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
-  [[nodiscard]] bool by_direction() const noexcept override { return by_direction_; }
-  [[nodiscard]] const WantedSize& wanted(std::int32_t v) const { return wanted_[v]; }
-  /// The place of a vertex on the side of a normal.
-  [[nodiscard]] const SurfacePlace& place_towards(std::int32_t v, const Vec3& normal) const;
-
-  std::int32_t add(const SurfacePlace& place, const WantedSize& wanted);
-  std::int32_t add_kept(KeptPlaces places, const WantedSize& wanted);
-  /// Sets the place of a free vertex.
-  void put(std::int32_t v, const SurfacePlace& place, const WantedSize& wanted) { place_[v] = place, wanted_[v] = wanted; }
-  void scale_sizes(double factor);
-
- private:
-  bool by_direction_;
-  std::vector<SurfacePlace> place_;
-  std::vector<WantedSize> wanted_;
-  std::vector<std::int32_t> several_;  // by vertex: index in kept_, -1: free
-  std::vector<KeptPlaces> kept_;
-};
-
 }  // namespace carreau

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "model/union_find.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
@@ -22,27 +22,9 @@ struct Side {
   friend auto operator<=>(const Side&, const Side&) = default;
 };
 
-/// Corners of triangles that are one vertex of a smooth side.
-class Corners {
- public:
-  explicit Corners(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
-  std::int32_t root(std::int32_t c) {
-    while (above_[c] != c) c = above_[c] = above_[above_[c]];
-    return c;
-  }
-  // The smaller one stands for both.
-  void join(std::int32_t c, std::int32_t d) {
-    const std::int32_t one = root(c), other = root(d);
-    above_[std::max(one, other)] = std::min(one, other);
-  }
-
- private:
-  std::vector<std::int32_t> above_;
-};
-
 class CellMaker {
  public:
-  CellMaker(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
+  CellMaker(const FreeSurface& surface, const PlacedVertices& vertices, const LineMiddles& lines,
             const std::vector<FreeCell>& triangles)
       : vertices_(vertices), lines_(lines), triangles_(triangles), corners_(3 * triangles.size()), made_{SpaceQuads(surface), {}} {}
 
@@ -72,8 +54,8 @@ class CellMaker {
   void join(const Side& s, const Side& t) {
     const auto at = [&](const Side& side, int k) { return triangles_[side.triangle][(side.rank + k) % 3]; };
     if (at(s, 0) != at(t, 1)) return;  // a Moebius strip
-    corners_.join(3 * s.triangle + s.rank, 3 * t.triangle + (t.rank + 1) % 3);
-    corners_.join(3 * s.triangle + (s.rank + 1) % 3, 3 * t.triangle + t.rank);
+    corners_.merge(3 * s.triangle + s.rank, 3 * t.triangle + (t.rank + 1) % 3);
+    corners_.merge(3 * s.triangle + (s.rank + 1) % 3, 3 * t.triangle + t.rank);
   }
 
   void add_vertices() {
@@ -82,13 +64,14 @@ class CellMaker {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto at = [&](int k) { return vertices_.position(triangles_[t][k]); };
       const Vec3 own = cross(at(1) - at(0), at(2) - at(0));
-      for (std::size_t i = 0; i < 3; ++i) normal[corners_.root(static_cast<std::int32_t>(3 * t + i))] += own;
+      for (std::size_t i = 0; i < 3; ++i) normal[corners_.find(3 * t + i)] += own;
     }
     std::vector<std::int32_t> local(n, -1);  // by root
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       MixedCell& cell = made_.quads.cells().emplace_back(MixedCell{-1, -1, -1, -1});
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t root = corners_.root(static_cast<std::int32_t>(3 * t + i)), v = triangles_[t][i];
+        const std::size_t root = corners_.find(3 * t + i);
+        const std::int32_t v = triangles_[t][i];
         if (local[root] < 0) {
           local[root] = made_.quads.add_vertex(vertices_.place_towards(v, normal[root]), vertices_.wanted(v),
                                                !vertices_.is_free(v));
@@ -129,16 +112,16 @@ class CellMaker {
     return dot(d, e) < std::cos(least * std::numbers::pi / 180) * norm(d) * norm(e);
   }
 
-  const ElementVertices& vertices_;
+  const PlacedVertices& vertices_;
   const LineMiddles& lines_;
   const std::vector<FreeCell>& triangles_;
-  Corners corners_;
+  UnionFind corners_;  // corners of triangles that are one vertex of a smooth side
   FreeCells made_;
 };
 
 }  // namespace
 
-FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
+FreeCells free_cells(const FreeSurface& surface, const PlacedVertices& vertices, const LineMiddles& lines,
                      const std::vector<FreeCell>& triangles, Monitor& monitor) {
   return CellMaker(surface, vertices, lines, triangles).run(monitor);
 }
@@ -165,7 +148,7 @@ std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQu
   return best;
 }
 
-void put_vertices(const FreeCells& cells, ElementVertices& vertices, std::vector<std::int32_t>& vertex) {
+void put_vertices(const FreeCells& cells, PlacedVertices& vertices, std::vector<std::int32_t>& vertex) {
   vertex = cells.vertex;
   std::vector<char> used(vertex.size(), 0);
   for (const MixedCell& cell : cells.quads.cells())
@@ -176,7 +159,7 @@ void put_vertices(const FreeCells& cells, ElementVertices& vertices, std::vector
     if (vertex[v] < 0)
       vertex[v] = vertices.add(cells.quads.place(v), cells.quads.wanted(local));
     else if (!cells.quads.is_fixed(v))
-      vertices.put(vertex[v], cells.quads.place(v), cells.quads.wanted(local));
+      vertices.move(vertex[v], cells.quads.place(v), cells.quads.wanted(local));
   }
 }
 

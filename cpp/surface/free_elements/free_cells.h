@@ -18,12 +18,12 @@ namespace carreau {
 /// around it that are connected over edges which are not imposed.
 struct FreeCells {
   SpaceQuads quads;
-  std::vector<std::int32_t> vertex;  ///< local -> ElementVertices; -1: new, and free
+  std::vector<std::int32_t> vertex;  ///< local -> PlacedVertices; -1: new, and free
 };
 
 /// `triangles`: by vertices of space, as the atlas is turned. Imposed edges are edges of lines, and edges without exactly two triangles
 /// that run along them in opposite ways.
-FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
+FreeCells free_cells(const FreeSurface& surface, const PlacedVertices& vertices, const LineMiddles& lines,
                      const std::vector<FreeCell>& triangles, Monitor& monitor);
 
 /// An edge that is imposed, between local vertices.
@@ -35,9 +35,9 @@ std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQu
                                        std::span<const std::int32_t> starts, const Vec3& target);
 
 /// Cuts edges in two, quadrilaterals in four, triangles in three, lines too, and halves the sizes.
-void halve(FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor);
+void halve(FreeSurface& surface, PlacedVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor);
 
 /// Free vertices go where the cells have them, and new ones are added.
-void put_vertices(const FreeCells& cells, ElementVertices& vertices, std::vector<std::int32_t>& vertex);
+void put_vertices(const FreeCells& cells, PlacedVertices& vertices, std::vector<std::int32_t>& vertex);
 
 }  // namespace carreau

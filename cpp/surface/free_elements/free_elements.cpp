@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -14,13 +13,8 @@
 #include "surface/free_elements/invalid_elements.h"
 #include "surface/free_elements/line_middles.h"
 #include "surface/free_elements/thresholds.h"
-#include "surface/quads/cleanup.h"
-#include "surface/quads/pairing.h"
-#include "surface/quads/quad_shape.h"
-#include "surface/quads/quadrilaterals.h"
-#include "surface/quads/smoothing.h"
+#include "surface/quads/passes.h"
 #include "surface/quads/thresholds.h"
-#include "surface/quads/walks.h"
 
 namespace carreau {
 
@@ -56,13 +50,13 @@ class FreeElements {
   /// Makes straight elements. `gently`: joins triangles without other changes.
   void make_straight(const HeldPlaces& held, bool gently) {
     held_ = held, gently_ = gently;
-    turn_ears(cells_.quads, [&](std::int32_t a, std::int32_t b) { return stays(a, b); });
+    turn_ears(cells_.quads, imposed());
     if (has_quads(options_.element)) {
       pair();
       if (has_quads_only(options_.element))
         cut();
       else
-        release(), split_poor();
+        release(), split_poor(cells_.quads.cells(), surface_.by_direction() ? 0 : thresholds::quads::least_jacobian, positions(), convexity());
     }
     FreeNodes none;
     if (has_quads(options_.element)) reassemble_with(none);
@@ -104,36 +98,29 @@ class FreeElements {
     return (is_of_triangles(a) && is_of_triangles(b)) || is_imposed(cells_, lines_, a, b);
   }
 
-  [[nodiscard]] double least_in_space() const {
-    return surface_.by_direction() ? 0 : thresholds::quads::least_jacobian;
+  [[nodiscard]] ImposedEdges imposed() const {
+    return [this](std::int32_t a, std::int32_t b) { return stays(a, b); };
+  }
+  [[nodiscard]] auto positions() const {
+    return [this](std::int32_t v) -> const Vec3& { return cells_.quads.place(v).xyz; };
+  }
+  [[nodiscard]] auto convexity() const {
+    return [this](const MixedCell& cell) { return cells_.quads.is_convex(cell); };
   }
 
   void pair() {
-    using namespace thresholds::quads;
-    SpaceQuads& quads = cells_.quads;
-    const ImposedEdges imposed = [&](std::int32_t a, std::int32_t b) { return stays(a, b); };
-    const double turn = turns_per_edge * options_.size.angle_mesh * std::numbers::pi / 180;
-    const PairRules rules{imposed, [&](std::int32_t v) { return quads.place(v).xyz; },
-                          turn * enlargement_for(options_.element), least_in_space()};
-    pair_triangles(quads, rules, monitor_);
+    const PairRules rules = pair_rules(options_, !surface_.by_direction(), imposed(), positions());
+    pair_triangles(cells_.quads, rules, monitor_);
     if (gently_) return;
     hold();
-    clean_up(quads, imposed, monitor_);
-    join_triangles(quads, imposed, monitor_);
-    clean_up(quads, imposed, monitor_);
-    smooth();
-  }
-
-  void smooth() {
-    smooth_quads(cells_.quads, {}, monitor_);
-    improve_worst_quads(cells_.quads, thresholds::quads::poor, monitor_);
+    improve_quads(cells_.quads, rules.is_imposed, monitor_);
   }
 
   void cut() {
     release();
     halve(surface_, vertices_, lines_, cells_, monitor_);
     hold();
-    if (!gently_) smooth();
+    if (!gently_) smooth_all(cells_.quads, monitor_);
     release();
     mend_straight(surface_, vertices_, lines_, cells_, monitor_);
   }
@@ -150,42 +137,13 @@ class FreeElements {
     stay_.clear();
   }
 
-  [[nodiscard]] double jacobian_of(const MixedCell& q) const {
-    const auto at = [&](int k) { return cells_.quads.place(q[k]).xyz; };
-    return cells_.quads.is_convex(q) ? scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) : -1;
-  }
-
-  void split_poor() {
-    std::vector<MixedCell>& cells = cells_.quads.cells();
-    for (std::size_t c = 0, n = cells.size(); c < n; ++c)
-      if (corners_of(cells[c]) == 4 && !(jacobian_of(cells[c]) > least_in_space())) part(c);
-  }
-  // Along the shorter diagonal, unless a half would be turned over.
-  void part(std::size_t c) {
-    std::vector<MixedCell>& cells = cells_.quads.cells();
-    const MixedCell q = cells[c];
-    const auto at = [&](int k) { return cells_.quads.place(q[k]).xyz; };
-    bool other = norm(at(3) - at(1)) < norm(at(2) - at(0));
-    const auto halves = [&](bool second) {
-      return second ? std::pair<MixedCell, MixedCell>{{q[0], q[1], q[3], -1}, {q[1], q[2], q[3], -1}}
-                    : std::pair<MixedCell, MixedCell>{{q[0], q[1], q[2], -1}, {q[0], q[2], q[3], -1}};
-    };
-    const auto fit = [&](bool second) {
-      const auto [one, two] = halves(second);
-      return cells_.quads.is_convex(one) && cells_.quads.is_convex(two);
-    };
-    if (!fit(other) && fit(!other)) other = !other;
-    std::tie(cells[c], std::ignore) = halves(other);
-    cells.push_back(halves(other).second);
-  }
-
   // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
   FreeNodes with_nodes() {
     FreeNodes nodes = make_nodes(surface_, vertices_, lines_, cells_, monitor_);
     for (int round = 0; round < thresholds::elements::most_partings && options_.element == Element::q2_0; ++round) {
       bool any = false;
       for (const std::int32_t c : nodes.invalid)
-        if (corners_of(cells_.quads.cells()[c]) == 4) part(static_cast<std::size_t>(c)), any = true;
+        if (corners_of(cells_.quads.cells()[c]) == 4) split_quad(cells_.quads.cells(), static_cast<std::size_t>(c), positions(), convexity()), any = true;
       if (!any) break;
       nodes = make_nodes(surface_, vertices_, lines_, cells_, monitor_);
     }
@@ -212,7 +170,7 @@ class FreeElements {
   FreedMesh& made_;
   Monitor& monitor_;
   FreeSurface surface_;
-  ElementVertices vertices_;
+  PlacedVertices vertices_;
   LineMiddles lines_;
   FreeCells cells_;
   HeldPlaces held_;

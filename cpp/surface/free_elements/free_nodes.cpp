@@ -18,13 +18,13 @@ namespace {
 /// A node between two local vertices.
 struct Node {
   SurfacePlace place;
-  std::int32_t vertex = -1;  ///< of ElementVertices, on a line; -1: new, and free
+  std::int32_t vertex = -1;  ///< of PlacedVertices, on a line; -1: new, and free
 };
 
 /// Nodes of all edges, by local vertices.
 class NodeMaker {
  public:
-  NodeMaker(const FreeSurface& surface, const ElementVertices& vertices, LineMiddles& lines, const FreeCells& cells,
+  NodeMaker(const FreeSurface& surface, const PlacedVertices& vertices, LineMiddles& lines, const FreeCells& cells,
             Monitor& monitor)
       : surface_(surface), vertices_(vertices), lines_(lines), cells_(cells), monitor_(monitor) {}
 
@@ -73,7 +73,7 @@ class NodeMaker {
   }
 
   const FreeSurface& surface_;
-  const ElementVertices& vertices_;
+  const PlacedVertices& vertices_;
   LineMiddles& lines_;
   const FreeCells& cells_;
   Monitor& monitor_;
@@ -202,7 +202,7 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
 
 }  // namespace
 
-void mend_straight(const FreeSurface& surface, const ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
+void mend_straight(const FreeSurface& surface, const PlacedVertices& vertices, LineMiddles& lines, FreeCells& cells,
                    Monitor& monitor) {
   NodeMaker none(surface, vertices, lines, cells, monitor);
   SpaceMender mender(surface, cells, none, monitor);
@@ -210,7 +210,7 @@ void mend_straight(const FreeSurface& surface, const ElementVertices& vertices, 
   mender.mend();
 }
 
-FreeNodes make_nodes(const FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
+FreeNodes make_nodes(const FreeSurface& surface, PlacedVertices& vertices, LineMiddles& lines, FreeCells& cells,
                      Monitor& monitor) {
   NodeMaker maker(surface, vertices, lines, cells, monitor);
   maker.run();

@@ -19,11 +19,11 @@ struct FreeNodes {
 /// Gives each edge a node: on a line its middle, else the surface over the metric middle of its chord, once for both cells. Then repairs
 /// elements whose Jacobian is not positive: nodes move along the surface, then vertices. The Jacobian has Bernstein coefficients along the
 /// mean normal of the element, which is on the side of the surface. Adds nodes to `vertices`.
-FreeNodes make_nodes(const FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
+FreeNodes make_nodes(const FreeSurface& surface, PlacedVertices& vertices, LineMiddles& lines, FreeCells& cells,
                      Monitor& monitor);
 
 /// Improves straight elements with a bad Jacobian in the same way: vertices move.
-void mend_straight(const FreeSurface& surface, const ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
+void mend_straight(const FreeSurface& surface, const PlacedVertices& vertices, LineMiddles& lines, FreeCells& cells,
                    Monitor& monitor);
 
 }  // namespace carreau

@@ -2,9 +2,11 @@
 // Cells of a free mesh are cut: quadrilaterals in four, triangles in three.
 #include <array>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "surface/free_elements/free_cells.h"
+#include "surface/quads/passes.h"
 
 namespace carreau {
 
@@ -12,23 +14,18 @@ namespace {
 
 class Halving {
  public:
-  Halving(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
+  Halving(const FreeSurface& surface, const PlacedVertices& vertices, const LineMiddles& lines,
           const std::map<MeshEdge, std::int32_t>& on_lines, FreeCells& cells, Monitor& monitor)
       : surface_(surface), vertices_(vertices), lines_(lines), on_lines_(on_lines), cells_(cells), monitor_(monitor) {}
 
   void run() {
-    const std::vector<MixedCell> whole = std::exchange(cells_.quads.cells(), {});
-    std::vector<MixedCell> parts;
-    for (std::size_t c = 0; c < whole.size(); ++c) {
-      if (c % 64 == 0) monitor_.checkpoint();
-      const MixedCell& cell = whole[c];
-      const int n = corners_of(cell);
-      std::array<std::int32_t, 4> middle{};
-      for (int k = 0; k < n; ++k) middle[k] = middle_of(cell[k], cell[(k + 1) % n]);
-      const std::int32_t centre = centre_of(cell);
-      for (int k = 0; k < n; ++k) parts.push_back({cell[k], middle[k], centre, middle[(k + n - 1) % n]});
-    }
-    cells_.quads.cells() = std::move(parts);
+    std::size_t done = 0;
+    cells_.quads.cells() = halved_cells(
+        std::exchange(cells_.quads.cells(), {}), [&](std::int32_t a, std::int32_t b) { return middle_of(a, b); },
+        [&](const MixedCell& cell) {
+          if (done++ % 64 == 0) monitor_.checkpoint();
+          return centre_of(cell);
+        });
   }
 
  private:
@@ -41,9 +38,11 @@ class Halving {
     const auto n = static_cast<std::size_t>(corners_of(cell));
     Vec3 sum{0, 0, 0};
     for (std::size_t k = 0; k < n; ++k) sum += cells_.quads.place(cell[k]).xyz;
-    const Vec3 target = (1.0 / static_cast<double>(n)) * sum;
-    if (const auto found = place_from(surface_, cells_.quads, {cell.data(), n}, target)) return add(*found);
-    SurfacePlace place = cells_.quads.place(cell[0]);
+    return add_near({cell.data(), n}, (1.0 / static_cast<double>(n)) * sum);
+  }
+  std::int32_t add_near(std::span<const std::int32_t> starts, const Vec3& target) {
+    if (const auto found = place_from(surface_, cells_.quads, starts, target)) return add(*found);
+    SurfacePlace place = cells_.quads.place(starts[0]);
     place.xyz = target;
     return add(place);
   }
@@ -61,15 +60,11 @@ class Halving {
     return cells_.quads.add_vertex(vertices_.place_towards(m, normal), vertices_.wanted(m), true);
   }
   std::int32_t add_inside(std::int32_t a, std::int32_t b) {
-    const Vec3 target = 0.5 * (cells_.quads.place(a).xyz + cells_.quads.place(b).xyz);
-    if (const auto found = place_from(surface_, cells_.quads, std::array{a, b}, target)) return add(*found);
-    SurfacePlace place = cells_.quads.place(a);
-    place.xyz = target;
-    return add(place);
+    return add_near(std::array{a, b}, 0.5 * (cells_.quads.place(a).xyz + cells_.quads.place(b).xyz));
   }
 
   const FreeSurface& surface_;
-  const ElementVertices& vertices_;
+  const PlacedVertices& vertices_;
   const LineMiddles& lines_;
   const std::map<MeshEdge, std::int32_t>& on_lines_;
   FreeCells& cells_;
@@ -79,7 +74,7 @@ class Halving {
 
 }  // namespace
 
-void halve(FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor) {
+void halve(FreeSurface& surface, PlacedVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor) {
   std::map<MeshEdge, std::int32_t> on_lines;
   for (const SharpLine& line : lines.lines())
     for (std::size_t k = 0; k + 1 < line.vertices.size(); ++k) {

@@ -8,7 +8,7 @@
 
 namespace carreau {
 
-LineMiddles::LineMiddles(const FreeSurface& surface, ElementVertices& vertices, std::vector<SharpLine> left,
+LineMiddles::LineMiddles(const FreeSurface& surface, PlacedVertices& vertices, std::vector<SharpLine> left,
                          std::span<WorkedLine> worked, Monitor& monitor)
     : surface_(surface), vertices_(vertices), lines_(std::move(left)), worked_(worked), monitor_(monitor) {
   list_edges();

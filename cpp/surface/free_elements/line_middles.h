@@ -16,7 +16,7 @@ namespace carreau {
 class LineMiddles {
  public:
   /// `worked`: by line, with the places of its vertices.
-  LineMiddles(const FreeSurface& surface, ElementVertices& vertices, std::vector<SharpLine> left,
+  LineMiddles(const FreeSurface& surface, PlacedVertices& vertices, std::vector<SharpLine> left,
               std::span<WorkedLine> worked, Monitor& monitor);
 
   [[nodiscard]] const std::vector<SharpLine>& lines() const noexcept { return lines_; }
@@ -42,7 +42,7 @@ class LineMiddles {
   [[nodiscard]] KeptPlaces places_beside(std::int32_t v, std::int32_t w) const;
 
   const FreeSurface& surface_;
-  ElementVertices& vertices_;
+  PlacedVertices& vertices_;
   std::vector<SharpLine> lines_;
   std::span<WorkedLine> worked_;
   Monitor& monitor_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/quads/cleanup.h"
+#include "surface/quads/passes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 
 #include "support/incidence.h"
 #include "surface/quads/quad_shape.h"
-#include "surface/quads/smoothing.h"
 #include "surface/quads/space_quads.h"
 #include "surface/quads/thresholds.h"
 
@@ -26,7 +25,7 @@ template <typename Quads>
 class Pass {
  public:
   /// `active`: by vertex: only cells with an active vertex are considered; empty: all.
-  Pass(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
+  Pass(Quads& quads, const ImposedEdges& is_imposed,
        const std::vector<std::int8_t>& ideal, const std::vector<char>& active, Monitor& monitor)
       : quads_(quads),
         cells_(quads.cells()),
@@ -235,7 +234,7 @@ class Pass {
 
   Quads& quads_;
   Cells& cells_;
-  const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
+  const ImposedEdges& is_imposed_;
   const std::vector<std::int8_t>& ideal_;
   const std::vector<char>& active_;
   Monitor& monitor_;
@@ -278,9 +277,10 @@ std::vector<char> with_neighbours(const Cells& cells, const std::vector<char>& s
   return all;
 }
 
-template <typename Quads, typename Smooth>
-void clean(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor,
-           const Smooth& smooth) {
+}  // namespace
+
+template <typename Quads>
+void clean_up(Quads& quads, const ImposedEdges& is_imposed, Monitor& monitor) {
   const std::vector<std::int8_t> ideal = ideal_degrees(quads);
   // The result of a pass for a cell depends on the cells at its corners. If nothing there has changed or moved since
   // the previous pass, the pass skips the cell.
@@ -291,21 +291,11 @@ void clean(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& 
     if (pass.run() == 0) break;
     std::vector<char> moving;  // all, the first time
     if (round > 0) moving = with_neighbours(quads.cells(), pass.take_touched());
-    smooth({.passes = passes_after_changes, .momentum = 0, .moving = moving});
+    smooth_quads(quads, {.passes = passes_after_changes, .momentum = 0, .moving = moving}, monitor);
     if (round > 0) active = with_neighbours(quads.cells(), moving);
   }
 }
-
-}  // namespace
-
-void clean_up(QuadPatch& patch, const FaceCharts& charts,
-              const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
-  PlaneQuads quads(patch, charts);
-  clean(quads, is_imposed, monitor, [&](const QuadSmoothing& how) { smooth_quads(patch, charts, how, monitor); });
-}
-
-void clean_up(SpaceQuads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
-  clean(quads, is_imposed, monitor, [&](const QuadSmoothing& how) { smooth_quads(quads, how, monitor); });
-}
+template void clean_up<PlaneQuads>(PlaneQuads&, const ImposedEdges&, Monitor&);
+template void clean_up<SpaceQuads>(SpaceQuads&, const ImposedEdges&, Monitor&);
 
 }  // namespace carreau

@@ -116,21 +116,6 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
   quads.lifted = quads.patch.uv;
 }
 
-std::size_t split_poor(FaceQuads& quads, double least) {
-  std::size_t count = 0;
-  for (std::size_t c = 0, n = quads.patch.cells.size(); c < n; ++c) {
-    const MixedCell q = quads.patch.cells[c];
-    if (corners_of(q) == 3) continue;
-    const auto at = [&](int k) -> const Vec3& { return quads.xyz[q[k]]; };
-    if (scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > least) continue;
-    const bool other = norm(at(3) - at(1)) < norm(at(2) - at(0));
-    quads.patch.cells[c] = other ? MixedCell{q[0], q[1], q[3], -1} : MixedCell{q[0], q[1], q[2], -1};
-    quads.patch.cells.push_back(other ? MixedCell{q[1], q[2], q[3], -1} : MixedCell{q[0], q[2], q[3], -1});
-    ++count;
-  }
-  return count;
-}
-
 namespace {
 
 /// Drops unused local vertices, and marks their vertices of the mesh.

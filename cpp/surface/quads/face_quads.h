@@ -31,10 +31,6 @@ FaceQuads face_quads(const ElementWork& work, std::size_t face);
 /// if it is null). One evaluation a vertex.
 void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor);
 
-/// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each, and returns their
-/// number.
-std::size_t split_poor(FaceQuads& quads, double least);
-
 /// Puts the cells of faces into the mesh, all at once. Vertices without a cell are removed, new vertices are appended
 /// face by face. Order stays.
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);

@@ -7,6 +7,7 @@
 
 #include "curve/discrete_curve.h"
 #include "surface/elements/curve_middles.h"
+#include "surface/quads/passes.h"
 
 namespace carreau {
 
@@ -72,21 +73,15 @@ class Halving {
   void run() {
     quads_.middles.assign(quads_.sides.size(), -1);
     join_flattened();
-    std::vector<MixedCell> cut;
-    cut.reserve(4 * quads_.patch.cells.size());
     number_edges();
-    for (const MixedCell& cell : quads_.patch.cells) {
-      const int n = corners_of(cell);
-      Vec2 sum{0, 0};
-      std::array<std::int32_t, 4> middle{};
-      for (int k = 0; k < n; ++k) {
-        sum += quads_.patch.uv[cell[k]];
-        middle[k] = middle_of(cell[k], cell[(k + 1) % n]);
-      }
-      const std::int32_t centre = add((1.0 / n) * sum, -1, 0);
-      for (int k = 0; k < n; ++k) cut.push_back({cell[k], middle[k], centre, middle[(k + n - 1) % n]});
-    }
-    quads_.patch.cells = std::move(cut);
+    quads_.patch.cells = halved_cells(
+        quads_.patch.cells, [&](std::int32_t a, std::int32_t b) { return middle_of(a, b); },
+        [&](const MixedCell& cell) {
+          const int n = corners_of(cell);
+          Vec2 sum{0, 0};
+          for (int k = 0; k < n; ++k) sum += quads_.patch.uv[cell[k]];
+          return add((1.0 / n) * sum, -1, 0);
+        });
   }
 
  private:

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/quads/pairing.h"
+#include "surface/quads/passes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "support/incidence.h"
 #include "surface/quads/matching.h"
@@ -129,52 +131,35 @@ bool turn_ear(Quads& quads, const ImposedEdges& is_imposed, MixedCell& ear, int 
   return false;
 }
 
+}  // namespace
+
+PairRules pair_rules(const CompositeOptions& options, bool isotropic, ImposedEdges is_imposed, std::function<Vec3(std::int32_t)> position) {
+  const double turn = turns_per_edge * options.size.angle_mesh * std::numbers::pi / 180;
+  return {std::move(is_imposed), std::move(position), turn * (has_quads_only(options.element) ? 2 : 1), isotropic ? least_jacobian : 0};
+}
+
 template <typename Quads>
-std::size_t turn_all_ears(Quads& quads, const ImposedEdges& is_imposed) {
+void pair_triangles(Quads& quads, const PairRules& rules, Monitor& monitor) {
+  const auto quality = [&](const MixedCell& quad) -> double {
+    if (!quads.is_convex(quad) || quads.has_flat_corner(quad)) return 0;
+    if (quads.has_metric()) return quads.quality(quad);
+    return quad_quality(std::array<Vec3, 4>{rules.position(quad[0]), rules.position(quad[1]), rules.position(quad[2]),
+                                            rules.position(quad[3])});
+  };
+  Pairing(quads.cells(), quads.vertices(), quality, rules, monitor).run();
+}
+template void pair_triangles<PlaneQuads>(PlaneQuads&, const PairRules&, Monitor&);
+template void pair_triangles<SpaceQuads>(SpaceQuads&, const PairRules&, Monitor&);
+
+template <typename Quads>
+std::size_t turn_ears(Quads& quads, const ImposedEdges& is_imposed) {
   std::size_t count = 0;
   if (quads.flat().empty()) return count;
   for (MixedCell& cell : quads.cells())
     if (const int k = flat_corner(quads, cell); k >= 0 && turn_ear(quads, is_imposed, cell, k)) ++count;
   return count;
 }
-
-/// Cells with the data for ears, without a metric.
-class FlatCells {
- public:
-  explicit FlatCells(QuadPatch& patch) : patch_(patch) {}
-  [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return patch_.fixed[v] != 0; }
-  [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return patch_.cells; }
-  [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return patch_.flat; }
-  [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept { return carreau::is_convex(patch_, cell); }
-
- private:
-  QuadPatch& patch_;
-};
-
-}  // namespace
-
-void pair_triangles(QuadPatch& patch, const FaceCharts* charts, const PairRules& rules, Monitor& monitor) {
-  const auto quality = [&](const MixedCell& quad) -> double {
-    if (!is_convex(patch, quad) || has_flat_corner(patch, quad)) return 0;
-    if (charts != nullptr) return cell_quality(patch, *charts, quad);
-    return quad_quality(std::array<Vec3, 4>{rules.position(quad[0]), rules.position(quad[1]), rules.position(quad[2]),
-                                            rules.position(quad[3])});
-  };
-  Pairing(patch.cells, patch.uv.size(), quality, rules, monitor).run();
-}
-
-void pair_triangles(SpaceQuads& quads, const PairRules& rules, Monitor& monitor) {
-  const auto quality = [&](const MixedCell& quad) -> double {
-    return quads.is_convex(quad) && !quads.has_flat_corner(quad) ? quads.quality(quad) : 0;
-  };
-  Pairing(quads.cells(), quads.vertices(), quality, rules, monitor).run();
-}
-
-std::size_t turn_ears(QuadPatch& patch, const ImposedEdges& is_imposed) {
-  FlatCells cells(patch);
-  return turn_all_ears(cells, is_imposed);
-}
-
-std::size_t turn_ears(SpaceQuads& quads, const ImposedEdges& is_imposed) { return turn_all_ears(quads, is_imposed); }
+template std::size_t turn_ears<PlaneQuads>(PlaneQuads&, const ImposedEdges&);
+template std::size_t turn_ears<SpaceQuads>(SpaceQuads&, const ImposedEdges&);
 
 }  // namespace carreau

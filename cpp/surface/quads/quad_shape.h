@@ -59,7 +59,10 @@ class PlaneQuads {
   using Frame = Chart;
   static constexpr bool on_surface = true;  ///< wherever vertices go
 
-  PlaneQuads(QuadPatch& patch, const FaceCharts& charts) : patch_(patch), charts_(charts) {}
+  PlaneQuads(QuadPatch& patch, const FaceCharts& charts) : patch_(patch), charts_(&charts) {}
+  /// Without a metric, for pair_triangles() and turn_ears().
+  explicit PlaneQuads(QuadPatch& patch) : patch_(patch) {}
+  [[nodiscard]] bool has_metric() const noexcept { return charts_ != nullptr; }
 
   [[nodiscard]] std::size_t vertices() const noexcept { return patch_.uv.size(); }
   [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return patch_.cells; }
@@ -71,16 +74,16 @@ class PlaneQuads {
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept {
     return carreau::has_flat_corner(patch_.fixed, patch_.flat, cell);
   }
-  [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return cell_quality(patch_, charts_, cell); }
+  [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return cell_quality(patch_, *charts_, cell); }
   [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept {
     return carreau::untangling_quality(patch_, frame, cell);
   }
   [[nodiscard]] double length(std::int32_t a, std::int32_t b) const noexcept {
-    return length_in(charts_, patch_.uv[a], patch_.uv[b]);
+    return length_in(*charts_, patch_.uv[a], patch_.uv[b]);
   }
 
-  [[nodiscard]] Frame about(const MixedCell& cell) const noexcept { return charts_.about(patch_, cell); }
-  [[nodiscard]] Frame about(std::int32_t v) const noexcept { return charts_.about(patch_.uv[v]); }
+  [[nodiscard]] Frame about(const MixedCell& cell) const noexcept { return charts_->about(patch_, cell); }
+  [[nodiscard]] Frame about(std::int32_t v) const noexcept { return charts_->about(patch_.uv[v]); }
   [[nodiscard]] Vec2 at(const Frame& frame, std::int32_t v) const noexcept { return frame.at(patch_.uv[v]); }
   static Way no_way() noexcept { return {0, 0}; }
   static Way way(const Frame& frame, const Vec2& y) noexcept { return frame.offset(y); }
@@ -91,12 +94,12 @@ class PlaneQuads {
     explicit KeptFrames(const PlaneQuads& quads) : quads_(quads) {}
     void reserve(std::size_t cells) {
       linear_.reserve(cells);
-      if (quads_.charts_.bends()) charts_.reserve(cells);
+      if (quads_.charts_->bends()) charts_.reserve(cells);
     }
     void add(const MixedCell& cell) {
       const Chart chart = quads_.about(cell);
       linear_.emplace_back(chart);
-      if (quads_.charts_.bends()) charts_.push_back(chart);
+      if (quads_.charts_->bends()) charts_.push_back(chart);
     }
     /// Corner k of added cell number c.
     [[nodiscard]] Vec2 at(std::size_t c, const MixedCell& cell, int k) const noexcept {
@@ -146,7 +149,7 @@ class PlaneQuads {
 
  private:
   QuadPatch& patch_;
-  const FaceCharts& charts_;
+  const FaceCharts* charts_ = nullptr;
 };
 
 }  // namespace carreau

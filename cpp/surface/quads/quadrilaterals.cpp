@@ -3,20 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "support/stepped_tasks.h"
-#include "surface/quads/cleanup.h"
 #include "surface/quads/face_quads.h"
 #include "surface/quads/halving.h"
-#include "surface/quads/pairing.h"
-#include "surface/quads/quad_shape.h"
-#include "surface/quads/smoothing.h"
+#include "surface/quads/passes.h"
 #include "surface/quads/space_search.h"
 #include "surface/quads/thresholds.h"
-#include "surface/quads/walks.h"
 
 namespace carreau {
 
@@ -37,7 +32,6 @@ class Quadrilaterals {
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       quads = face_quads(work_, quads.face);
-      turn_ears(quads.patch, [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; });
       pair(quads, monitor);
     });
     if (has_quads_only(work_.options.element)) cut();
@@ -46,7 +40,9 @@ class Quadrilaterals {
         [&](FaceQuads& quads, Monitor& monitor) {
           lift(work_, space(quads), quads, monitor);
           if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
-          if (!has_quads_only(work_.options.element)) split_poor(quads, least_in_space());
+          if (!has_quads_only(work_.options.element)) split_poor(
+                quads.patch.cells, work_.isotropic() ? least_jacobian : 0, [&](std::int32_t v) -> const Vec3& { return quads.xyz[v]; },
+                [](const MixedCell&) { return true; });
         },
         bound);
     QuadraticReport report;
@@ -71,32 +67,20 @@ class Quadrilaterals {
     return space ? &*space : nullptr;
   }
 
-  // If sizes differ by direction, good quadrilaterals may have any angles in space.
-  [[nodiscard]] double least_in_space() const { return work_.isotropic() ? least_jacobian : 0; }
-
   void pair(FaceQuads& quads, Monitor& monitor) const {
-    const double edge = turns_per_edge * work_.options.size.angle_mesh * std::numbers::pi / 180;
-    const PairRules rules{
-        [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
-        [&](std::int32_t v) { return quads.xyz[v]; },
-        edge * enlargement_for(work_.options.element),
-        least_in_space()};
+    const PairRules rules = pair_rules(
+        work_.options, work_.isotropic(), [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
+        [&](std::int32_t v) { return quads.xyz[v]; });
+    PlaneQuads plain(quads.patch);
+    turn_ears(plain, rules.is_imposed);
     if (space(quads) == nullptr) {
-      pair_triangles(quads.patch, nullptr, rules, monitor);
+      pair_triangles(plain, rules, monitor);
       return;
     }
     const FaceCharts charts(*space(quads));
-    pair_triangles(quads.patch, &charts, rules, monitor);
-    improve(quads, charts, monitor);
-  }
-
-  static void improve(FaceQuads& quads, const FaceCharts& charts, Monitor& monitor) {
-    const auto is_imposed = [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; };
-    clean_up(quads.patch, charts, is_imposed, monitor);
-    join_triangles(quads.patch, charts, is_imposed, monitor);
-    clean_up(quads.patch, charts, is_imposed, monitor);
-    smooth_quads(quads.patch, charts, {}, monitor);
-    improve_worst_quads(quads.patch, charts, poor, monitor);
+    PlaneQuads in_metric(quads.patch, charts);
+    pair_triangles(in_metric, rules, monitor);
+    improve_quads(in_metric, rules.is_imposed, monitor);
   }
 
   void cut() {
@@ -108,8 +92,8 @@ class Quadrilaterals {
       halve_cells(work_, middles, quads);
       if (space(quads) == nullptr) return;
       const FaceCharts charts(*space(quads));
-      smooth_quads(quads.patch, charts, {}, monitor);
-      improve_worst_quads(quads.patch, charts, poor, monitor);
+      PlaneQuads in_metric(quads.patch, charts);
+      smooth_all(in_metric, monitor);
     });
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/quads/smoothing.h"
+#include "surface/quads/passes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -246,20 +246,26 @@ class Worst {
 
 }  // namespace
 
-void smooth_quads(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor) {
-  PlaneQuads quads(patch, charts);
-  Smoothing<PlaneQuads>(quads, how, monitor).run();
+template <typename Quads>
+void smooth_quads(Quads& quads, const QuadSmoothing& how, Monitor& monitor) {
+  Smoothing<Quads>(quads, how, monitor).run();
 }
-void smooth_quads(SpaceQuads& quads, const QuadSmoothing& how, Monitor& monitor) {
-  Smoothing<SpaceQuads>(quads, how, monitor).run();
-}
+template void smooth_quads<PlaneQuads>(PlaneQuads&, const QuadSmoothing&, Monitor&);
+template void smooth_quads<SpaceQuads>(SpaceQuads&, const QuadSmoothing&, Monitor&);
 
-void improve_worst_quads(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor) {
-  PlaneQuads quads(patch, charts);
-  Worst<PlaneQuads>(quads, good, monitor).run();
+template <typename Quads>
+void improve_worst_quads(Quads& quads, double good, Monitor& monitor) {
+  Worst<Quads>(quads, good, monitor).run();
 }
-void improve_worst_quads(SpaceQuads& quads, double good, Monitor& monitor) {
-  Worst<SpaceQuads>(quads, good, monitor).run();
+template void improve_worst_quads<PlaneQuads>(PlaneQuads&, double, Monitor&);
+template void improve_worst_quads<SpaceQuads>(SpaceQuads&, double, Monitor&);
+
+template <typename Quads>
+void smooth_all(Quads& quads, Monitor& monitor) {
+  smooth_quads(quads, {}, monitor);
+  improve_worst_quads(quads, poor, monitor);
 }
+template void smooth_all<PlaneQuads>(PlaneQuads&, Monitor&);
+template void smooth_all<SpaceQuads>(SpaceQuads&, Monitor&);
 
 }  // namespace carreau

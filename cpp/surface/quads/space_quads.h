@@ -49,6 +49,7 @@ class SpaceQuads {
 
   /// Convexity about the cell's own normal, which is on the side of the surface's normals.
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
+  static constexpr bool has_metric() noexcept { return true; }
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
   [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
   /// The quality, or the least sine of an angle below 0 for cells that are turned over somewhere.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/quads/walks.h"
+#include "surface/quads/passes.h"
 
 #include <algorithm>
 #include <optional>
@@ -21,7 +21,7 @@ constexpr MixedCell none{-1, -1, -1, -1};
 template <typename Quads>
 class Walks {
  public:
-  Walks(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor)
+  Walks(Quads& quads, const ImposedEdges& is_imposed, Monitor& monitor)
       : quads_(quads),
         cells_(quads.cells()),
         is_imposed_(is_imposed),
@@ -144,32 +144,23 @@ class Walks {
 
   Quads& quads_;
   std::vector<MixedCell>& cells_;
-  const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
+  const ImposedEdges& is_imposed_;
   Monitor& monitor_;
   Incidence around_;
   std::vector<std::int32_t> met_, from_;  // by cell: of the search from a triangle
   std::vector<char> touched_;             // by cell
 };
 
+}  // namespace
+
 template <typename Quads>
-void join(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
+void join_triangles(Quads& quads, const ImposedEdges& is_imposed, Monitor& monitor) {
   const auto is_triangle = [](const MixedCell& cell) { return corners_of(cell) == 3; };
   constexpr int passes = 3;
   for (int pass = 0; pass < passes; ++pass)
     if (std::count_if(quads.cells().begin(), quads.cells().end(), is_triangle) < 2 || Walks<Quads>(quads, is_imposed, monitor).run() == 0) break;
 }
-
-}  // namespace
-
-void join_triangles(QuadPatch& patch, const FaceCharts& charts,
-                    const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
-  PlaneQuads quads(patch, charts);
-  join(quads, is_imposed, monitor);
-}
-
-void join_triangles(SpaceQuads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
-                    Monitor& monitor) {
-  join(quads, is_imposed, monitor);
-}
+template void join_triangles<PlaneQuads>(PlaneQuads&, const ImposedEdges&, Monitor&);
+template void join_triangles<SpaceQuads>(SpaceQuads&, const ImposedEdges&, Monitor&);
 
 }  // namespace carreau

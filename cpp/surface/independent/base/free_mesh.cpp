@@ -13,50 +13,39 @@ namespace carreau {
 
 using namespace thresholds::independent;
 
+namespace {
+
+std::vector<EditableMesh::Triangle> triangles_of(const Charts& charts) {
+  std::vector<EditableMesh::Triangle> triangles;
+  for (const Charts::Triangle& t : charts.triangles()) {
+    const auto& [a, b, c] = t.vertex;
+    triangles.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
+  }
+  return triangles;
+}
+
+}  // namespace
+
 FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
                    std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners,
                    const SurfaceTolerances& tolerances, const Charts& charts, Cad& cad)
-    : xyz_(mesh.vertices),
-      size_(size.begin(), size.end()),
-      several_(mesh.vertices.size(), -1),
-      asked_(tolerances),
-      tolerances_(tolerances),
-      cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
-      charts_(charts),
-      cad_(cad) {
-  begin(mesh, jets, sharp, corners);
-  for (const Charts::Triangle& t : charts.triangles()) {
-    const auto& [a, b, c] = t.vertex;
-    triangles_.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
-  }
-  mixed_.assign(triangles_.size(), 1);
-  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
-}
+    : FreeMesh(mesh, jets, size, sharp, corners, tolerances, charts, cad, {}, triangles_of(charts)) {}
 
 FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
                    std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners,
                    const SurfaceTolerances& tolerances, const Charts& charts, Cad& cad,
                    std::span<const SurfacePlace> added, std::vector<EditableMesh::Triangle> triangles)
-    : xyz_(mesh.vertices),
+    : PlacedVertices(charts.by_direction()),
+      xyz_(mesh.vertices),
       triangles_(std::move(triangles)),
       mixed_(triangles_.size(), 1),
-      size_(size.begin(), size.end()),
-      several_(mesh.vertices.size(), -1),
       asked_(tolerances),
       tolerances_(tolerances),
       cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
       charts_(charts),
       cad_(cad) {
-  begin(mesh, jets, sharp, corners);
-  for (const SurfacePlace& p : added) {
-    (void)try_vertex(p);
-    xyz_.push_back(p.xyz), uv_.push_back(p.foot.uv);
-  }
-  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
-}
-
-void FreeMesh::begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const MeshEdge> sharp,
-                     std::span<const std::int32_t> corners) {
+  size_.assign(size.begin(), size.end());
+  several_.assign(xyz_.size(), -1);
   std::int32_t kept = 0;
   const auto keep = [&](std::int32_t v) {
     if (several_[v] < 0) several_[v] = kept++;
@@ -67,6 +56,11 @@ void FreeMesh::begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<
   place_vertices(mesh, jets);
   if (by_direction()) place_metrics();
   update_guards();
+  for (const SurfacePlace& p : added) {
+    (void)try_vertex(p);
+    xyz_.push_back(p.xyz), uv_.push_back(p.foot.uv);
+  }
+  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
 }
 
 void FreeMesh::update_guards() {
@@ -126,18 +120,6 @@ void FreeMesh::tighten(double factor) {
   cosine_ = std::cos(tolerances_.angle_deg * std::numbers::pi / 180);
 }
 
-double FreeMesh::size_along(std::int32_t v, std::int32_t w) const {
-  if (!by_direction()) return size_[v];
-  const Vec3 d = position(w) - position(v);
-  const double l = carreau::length(metric_[v], d);
-  return l > 0 ? norm(d) / l : size_[v];
-}
-
-std::span<const SurfacePlace> FreeMesh::places(std::int32_t v) const {
-  if (several_[v] < 0) return {&place_[v], 1};
-  return kept_places_[several_[v]];
-}
-
 double FreeMesh::length(std::int32_t v, std::int32_t w) const {
   if (by_direction()) {
     const Vec3 way = position(w) - position(v);
@@ -157,17 +139,6 @@ double FreeMesh::double_area(const EditableMesh::Triangle& t) const {
   return norm(mesh_->normal(0, t)) / (h * h);
 }
 
-// Returns the normal nearest to the normal of a triangle.
-const Vec3& FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
-  static const Vec3 none{0, 0, 0};
-  if (several_[v] < 0) return place_[v].normal;
-  const Vec3* best = &none;
-  double most = -infinity;
-  for (const SurfacePlace& p : kept_places_[several_[v]])
-    if (const double here = dot(p.normal, of_triangle); p.regular && here > most) most = here, best = &p.normal;
-  return *best;
-}
-
 void FreeMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
   const double quality =
       by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(place_[a].xyz, place_[b].xyz, place_[c].xyz);
@@ -185,7 +156,7 @@ void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, T
   bool regular = false;
   double least = infinity;  // cosine, times the area
   for (int i = 0; i < 3; ++i) {
-    normal[i] = &normal_at(v[i], n);
+    normal[i] = &place_towards(v[i], n).normal;
     if (dot(*normal[i], *normal[i]) == 0) continue;  // singular
     regular = true;
     least = std::min(least, dot(*normal[i], n));
@@ -216,25 +187,7 @@ TriangleShapes FreeMesh::judge_fan(std::int32_t v, Judge how) const {
 }
 
 std::optional<SurfacePlace> FreeMesh::near(std::int32_t v, const Vec3& normal, const Vec3& target) {
-  const SurfacePlace* from = &place_[v];
-  if (several_[v] >= 0)
-    for (const SurfacePlace& p : kept_places_[several_[v]])
-      if (p.regular && (!from->regular || dot(p.normal, normal) > dot(from->normal, normal))) from = &p;
-  return charts_.towards(cad_, *from, target);
-}
-
-std::int32_t FreeMesh::try_vertex(const SurfacePlace& at) {
-  const WantedSize wanted = wanted_at(at);
-  place_.push_back(at);
-  size_.push_back(wanted.h);
-  if (by_direction()) metric_.push_back(wanted.metric);
-  several_.push_back(-1);
-  return static_cast<std::int32_t>(place_.size()) - 1;
-}
-
-void FreeMesh::forget_vertex() {
-  place_.pop_back(), size_.pop_back(), several_.pop_back();
-  if (by_direction()) metric_.pop_back();
+  return charts_.towards(cad_, place_towards(v, normal), target);
 }
 
 std::int32_t FreeMesh::split(const Quad& q, const SurfacePlace& at) {
@@ -265,9 +218,7 @@ void FreeMesh::put(std::int32_t v, const SurfacePlace& at, const WantedSize& wan
 }
 
 void FreeMesh::set_place(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted) {
-  place_[v] = at;
-  size_[v] = wanted.h;
-  if (by_direction()) metric_[v] = wanted.metric;
+  move(v, at, wanted);
   xyz_[v] = at.xyz;
   uv_[v] = at.foot.uv;
 }

@@ -12,6 +12,7 @@
 #include "mesh/editable_mesh.h"
 #include "support/infinity.h"
 #include "surface/independent/base/charts.h"
+#include "surface/independent/base/placed_vertices.h"
 #include "surface/independent/base/sharp_edges.h"
 
 namespace carreau {
@@ -60,7 +61,7 @@ inline double length_between_sizes(double distance, double p, double q) noexcept
 
 /// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`
 /// and `cad`.
-class FreeMesh final : public PlacedVertices {
+class FreeMesh : public PlacedVertices {
  public:
   using Place = EditableMesh::Place;
   using Quad = EditableMesh::Quad;
@@ -79,19 +80,10 @@ class FreeMesh final : public PlacedVertices {
   FreeMesh& operator=(const FreeMesh&) = delete;
 
   [[nodiscard]] const EditableMesh& mesh() const noexcept { return *mesh_; }
-  [[nodiscard]] std::size_t vertices() const noexcept override { return place_.size(); }
   [[nodiscard]] const std::vector<EditableMesh::Triangle>& triangles() const noexcept { return triangles_; }
-  [[nodiscard]] bool is_free(std::int32_t v) const override { return several_[v] < 0; }
   [[nodiscard]] bool is_alive(std::int32_t v) const { return !mesh_->fan(v).empty(); }
-  [[nodiscard]] const SurfacePlace& place(std::int32_t v) const { return place_[v]; }
-  [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const override;
-  [[nodiscard]] double size(std::int32_t v) const override { return size_[v]; }
-  [[nodiscard]] bool by_direction() const noexcept override { return charts_.by_direction(); }
   /// The metric at a vertex, if sizes differ by direction.
   [[nodiscard]] const Metric3& metric(std::int32_t v) const { return metric_[v]; }
-  [[nodiscard]] WantedSize wanted(std::int32_t v) const { return {size_[v], by_direction() ? metric_[v] : Metric3{}}; }
-  [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
-  [[nodiscard]] Vec3 position(std::int32_t v) const override { return place_[v].xyz; }
 
   /// Length in the prescribed metric (HDR eq. 4.83).
   [[nodiscard]] double length(std::int32_t v, std::int32_t w) const;
@@ -131,8 +123,8 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] const SurfaceTolerances& tolerances() const noexcept { return asked_; }
 
   /// Adds a vertex beside the mesh, to judge edits with it, until forget_vertex().
-  std::int32_t try_vertex(const SurfacePlace& at);
-  void forget_vertex();
+  std::int32_t try_vertex(const SurfacePlace& at) { return add(at, wanted_at(at)); }
+  void forget_vertex() { remove_last(); }
 
   ShapeBudget budget;
 
@@ -188,24 +180,17 @@ class FreeMesh final : public PlacedVertices {
 
   using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
   [[nodiscard]] TriangleShapes judge_fan(std::int32_t v, Judge how) const;
-  void begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners);
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
   void place_metrics();
   void take(const EditedPart& part, std::int32_t old);
   [[nodiscard]] bool is_frozen(std::int32_t v) const { return static_cast<std::size_t>(v) < frozen_.size() && frozen_[v] != 0; }
   [[nodiscard]] bool joins_frozen(std::int32_t gone, std::int32_t kept) const;
   [[nodiscard]] Metric2 gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const;
-  [[nodiscard]] const Vec3& normal_at(std::int32_t v, const Vec3& of_triangle) const;
 
   std::vector<Vec3> xyz_;
   std::vector<Vec2> uv_;
   std::vector<EditableMesh::Triangle> triangles_;
   std::vector<char> mixed_;
-  std::vector<SurfacePlace> place_;
-  std::vector<double> size_;
-  std::vector<Metric3> metric_;  // by vertex; empty: sizes do not differ by direction
-  std::vector<std::int32_t> several_;  // by vertex: index in kept_places_, -1: free
-  std::vector<std::vector<SurfacePlace>> kept_places_;
   std::vector<char> frozen_;  // of a part, by vertex; empty: none
   const SurfaceTolerances asked_;
   SurfaceTolerances tolerances_;

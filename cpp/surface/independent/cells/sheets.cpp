@@ -5,8 +5,9 @@
 #include <compare>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "model/union_find.h"
 
 namespace carreau {
 
@@ -35,9 +36,7 @@ std::vector<CellSide> sides_of(const std::vector<PlacedCell>& cells, const std::
 class SheetFinder {
  public:
   SheetFinder(std::vector<PlacedCell>& cells, std::vector<PlacedCorner> ends)
-      : cells_(cells), ends_(std::move(ends)), above_(4 * cells.size()) {
-    std::iota(above_.begin(), above_.end(), std::size_t{0});
-  }
+      : cells_(cells), ends_(std::move(ends)), sheets_(4 * cells.size()) {}
 
   void run() {
     join();
@@ -45,15 +44,6 @@ class SheetFinder {
   }
 
  private:
-  std::size_t root(std::size_t corner) {
-    while (above_[corner] != corner) corner = above_[corner] = above_[above_[corner]];
-    return corner;
-  }
-  void join(std::size_t one, std::size_t other) {
-    const std::size_t a = root(one), b = root(other);
-    above_[std::max(a, b)] = std::min(a, b);
-  }
-
   // Over edges of two cells that run along them in opposite ways.
   void join() {
     const std::vector<CellSide> sides = sides_of(cells_, [](const CellSide&) { return true; });
@@ -65,8 +55,8 @@ class SheetFinder {
     for (const CellSide& side : sides) {
       const CellSide *here = only(side.from, side.to), *beyond = only(side.to, side.from);
       if (here == nullptr || beyond == nullptr) continue;
-      join(corner(*here, 0), corner(*beyond, 1));
-      join(corner(*here, 1), corner(*beyond, 0));
+      sheets_.merge(corner(*here, 0), corner(*beyond, 1));
+      sheets_.merge(corner(*here, 1), corner(*beyond, 0));
     }
   }
   [[nodiscard]] std::size_t corner(const CellSide& side, int end) const {
@@ -81,13 +71,13 @@ class SheetFinder {
         if (!std::ranges::binary_search(ends_, placed)) continue;
         auto& there = sheets[placed];
         const auto next = static_cast<std::int32_t>(there.size());
-        placed.sheet = there.try_emplace(root(4 * c + static_cast<std::size_t>(i)), next).first->second;
+        placed.sheet = there.try_emplace(sheets_.find(4 * c + static_cast<std::size_t>(i)), next).first->second;
       }
   }
 
   std::vector<PlacedCell>& cells_;
   std::vector<PlacedCorner> ends_;  // of edges that cells run along the same way, ascending
-  std::vector<std::size_t> above_;
+  UnionFind sheets_;  // of corners of cells
 };
 
 }  // namespace

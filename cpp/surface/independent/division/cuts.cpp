@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "model/union_find.h"
 
 namespace carreau {
 
@@ -66,20 +67,6 @@ class Cutter {
   std::span<const float> weight_;
 };
 
-/// Sets of vertices (Tarjan).
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t root(std::int32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::int32_t v, std::int32_t w) { parent_[root(v)] = root(w); }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
-
 }  // namespace
 
 Parts cut_across(const FreeMesh& mesh, std::vector<std::int32_t> triangles, std::span<const float> weight, double most) {
@@ -93,13 +80,13 @@ Parts cut_across(const FreeMesh& mesh, std::vector<std::int32_t> triangles, std:
 }
 
 Parts connected(const FreeMesh& mesh, std::span<const std::int32_t> triangles) {
-  Sets sets(mesh.vertices());
+  UnionFind sets(mesh.vertices());
   for (const std::int32_t t : triangles)
-    for (int i = 1; i < 3; ++i) sets.join(mesh.triangles()[t][0], mesh.triangles()[t][i]);
+    for (int i = 1; i < 3; ++i) sets.merge(static_cast<std::size_t>(mesh.triangles()[t][0]), static_cast<std::size_t>(mesh.triangles()[t][i]));
   Parts parts;
   std::vector<std::int32_t> number(mesh.vertices(), -1);
   for (const std::int32_t t : triangles) {
-    std::int32_t& of_set = number[sets.root(mesh.triangles()[t][0])];
+    std::int32_t& of_set = number[sets.find(static_cast<std::size_t>(mesh.triangles()[t][0]))];
     if (of_set < 0) of_set = static_cast<std::int32_t>(parts.size()), parts.emplace_back();
     parts[of_set].push_back(t);
   }

@@ -10,7 +10,7 @@
 
 #include "metric/metric2.h"
 #include "support/error.h"
-#include "support/ranks/dealt_work.h"
+#include "support/ranks/crew.h"
 #include "support/stepped_tasks.h"
 #include "surface/independent/base/thresholds.h"
 #include "surface/independent/division/cuts.h"
@@ -136,28 +136,10 @@ class DividedRemeshing {
   }
 
   std::vector<EditedPart> edit(const Division& division, const Vertices& around) {
-    const std::size_t n = division.parts.size();
-    std::vector<EditedPart> edited(n);
-    if (workers_.team == nullptr) {
-      run_each(
-          n, !workers_.hosts_threads, workers_.threads,
-          [&](std::size_t p, Monitor& of_part) { edited[p] = edit_part(division, p, around, of_part); }, monitor_);
-      return edited;
-    }
-    const auto packed = [&](std::size_t p, Monitor& of_part) {
-      PacketWriter packet;
-      edit_part(division, p, around, of_part).put(packet);
-      return packet.take();
-    };
-    std::vector<std::string> all =
-        deal_out(*workers_.team, "parts of a free mesh", n, workers_.hosts_threads ? workers_.threads : 1, packed, monitor_);
-    for (std::size_t p = 0; p < n; ++p) {
-      monitor_.checkpoint();
-      PacketReader packet(all[p]);
-      edited[p] = EditedPart::from(packet);
-      all[p] = {};
-    }
-    return edited;
+    return shared_work<EditedPart>(
+        {workers_.team, workers_.threads}, "parts of a free mesh", division.parts.size(), !workers_.hosts_threads,
+        [&](std::size_t p, Monitor& of_part) { return edit_part(division, p, around, of_part); },
+        [](PacketWriter& packet, const EditedPart& part) { part.put(packet); }, &EditedPart::from, monitor_);
   }
 
   FreeMesh& mesh_;

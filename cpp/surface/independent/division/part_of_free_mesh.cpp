@@ -9,7 +9,8 @@
 namespace carreau {
 
 FreeMesh::FreeMesh(const FreeMesh& whole, const MeshPart& part)
-    : budget(whole.budget),
+    : PlacedVertices(whole.by_direction()),
+      budget(whole.budget),
       frozen_(part.frozen),
       asked_(whole.asked_),
       tolerances_(whole.tolerances_),
