@@ -391,7 +391,7 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_surface_metric_fn
 
-    !> The same at n points; xyz are the points in space.
+    !> Metrics at n points; xyz are the points in space.
     function carreau_surface_metric_batch_fn(face, n, uv, xyz, kind, value, user) result(status) bind(c)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none

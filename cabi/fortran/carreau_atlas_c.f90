@@ -145,7 +145,7 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_annulus_points
 
-    !> Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of those in the annulus; of others 0.
+    !> Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of points in the annulus, 0 for others.
     function c_annulus_invert(annulus, n, xy, tau_phi, zones) result(status) bind(c, name="carreau_annulus_invert")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none

@@ -508,7 +508,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_points
 
-    !> Tell the number of parameters, and parameter `index` (from 0) in alphabetical order.
+    !> Give the number of parameters, and parameter `index` (from 0) in alphabetical order.
     function c_parameter_count() result(count) bind(c, name="carreau_parameter_count")
       import :: c_int32_t
       implicit none
@@ -633,7 +633,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_progress_callback
 
-    !> Asks the run under way to stop.
+    !> Requests the run under way to stop.
     subroutine c_stop(session) bind(c, name="carreau_stop")
       import :: c_ptr
       implicit none
@@ -677,7 +677,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_report
 
-    !> Tell the number of interfaces, and interface `index`, from 0, by first appearance.
+    !> Give the number of interfaces, and interface `index`, from 0, by first appearance.
     function c_session_interface_count(session, count) result(status) bind(c, name="carreau_session_interface_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -756,7 +756,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_read_metrics
 
-    !> Tells how.
+    !> Gives the report on the background of the last mesh.
     function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
       import :: c_background_report, c_int32_t, c_ptr
       implicit none
@@ -903,7 +903,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_generate_part
 
-    !> Tells them.
+    !> Gives the counts of a part.
     function c_mesh_part_count(part, counts) result(status) bind(c, name="carreau_mesh_part_count")
       import :: c_int32_t, c_part_counts, c_ptr
       implicit none
@@ -946,7 +946,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_count
 
-    !> Tells the dimension: 3, or 2 when the mesh was read from a plane one.
+    !> Gives the dimension: 3, or 2 when the mesh was read from a plane mesh.
     function c_mesh_dimension(mesh, dimension) result(status) bind(c, name="carreau_mesh_dimension")
       import :: c_int32_t, c_ptr
       implicit none
@@ -1140,8 +1140,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_quality
 
-    !> The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded
-    !! otherwise than in one process.
+    !> Gives the quality of the whole mesh to which a part belongs, as all processes have measured it together: sums are
+    !! rounded otherwise than in one process.
     function c_mesh_part_quality(part, quality) result(status) bind(c, name="carreau_mesh_part_quality")
       import :: c_int32_t, c_ptr, c_quality
       implicit none

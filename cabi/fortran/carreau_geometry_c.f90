@@ -133,8 +133,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_bezier
 
-    !> The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are
-    !! found when a mesh is made.
+    !> Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides
+    !! that meet are found when a mesh is made.
     function c_load_bezier(session, path) result(status) bind(c, name="carreau_load_bezier")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -143,7 +143,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_bezier
 
-    !> Tells the degrees m and n of a face that is a Bezier patch.
+    !> Gives the degrees m and n of a face that is a Bezier patch.
     function c_bezier_degrees(session, face_ref, degrees) result(status) bind(c, name="carreau_bezier_degrees")
       import :: c_int32_t, c_ptr
       implicit none
@@ -164,7 +164,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_molecule
 
-    !> The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif.
+    !> Adds the surface of the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif.
     function c_load_molecule(session, options, path) result(status) bind(c, name="carreau_load_molecule")
       import :: c_char, c_int32_t, c_molecule_options, c_ptr
       implicit none
@@ -183,7 +183,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_measure
 
-    !> Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+    !> Gives reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
     function c_molecule_atoms(session, capacity, refs, areas) result(status) bind(c, name="carreau_molecule_atoms")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -206,7 +206,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_atom_areas
 
-    !> Tells the residue of an atom, from 0; "" when it has none.
+    !> Gives the residue of an atom, from 0; "" when it has none.
     function c_molecule_atom_name(session, atom) result(name) bind(c, name="carreau_molecule_atom_name")
       import :: c_int64_t, c_ptr
       implicit none
@@ -224,9 +224,9 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_plane_domain
 
-    !> The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb
-    !! or .bl2d of dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with the sizes of a
-    !! .hg beside it).
+    !> Adds the plane domain of a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils),
+    !! .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with
+    !! the sizes of a .hg beside it).
     function c_load_plane_domain(session, path, sizes, corner_angle) result(status) &
         bind(c, name="carreau_load_plane_domain")
       import :: c_char, c_double, c_int32_t, c_ptr
@@ -237,7 +237,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_plane_domain
 
-    !> Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was.
+    !> Gives 1 if the plane domain that the session got last has sizes or metrics at its points; 0 without such a
+    !! domain.
     function c_plane_has_sizes(session, answer) result(status) bind(c, name="carreau_plane_has_sizes")
       import :: c_int32_t, c_ptr
       implicit none
@@ -258,7 +259,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_grid
 
-    !> The same from a file.
+    !> Adds a surface through the grids of a file.
     function c_load_grid(session, options, path, format) result(status) bind(c, name="carreau_load_grid")
       import :: c_char, c_grid_options, c_int32_t, c_ptr
       implicit none
@@ -280,7 +281,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_triangles
 
-    !> The same of a file that carreau_mesh_read reads.
+    !> Adds the triangles of a file that carreau_mesh_read reads.
     function c_load_triangles(session, options, path) result(status) bind(c, name="carreau_load_triangles")
       import :: c_char, c_int32_t, c_ptr, c_triangles_options
       implicit none
@@ -290,7 +291,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_triangles
 
-    !> Tells of the triangles that the session was given.
+    !> Gives the report on the triangles of the session.
     function c_triangles_measure(session, report) result(status) bind(c, name="carreau_triangles_measure")
       import :: c_int32_t, c_ptr, c_triangles_report
       implicit none

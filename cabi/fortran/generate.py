@@ -89,7 +89,7 @@ class Writer:
         return "type(c_ptr), value", ""
 
     def result(self, name, c_type):
-        """(attributes, name) of a function's result; None of a subroutine."""
+        """(attributes, name) of a function's result; None for a subroutine."""
         if c_type == "void":
             return None
         if c_type == "carreau_status":

@@ -168,10 +168,10 @@ typedef struct carreau_cad_m {
   void (*curv0)(const int32_t* refs, const int32_t* ic, const double* t, double* C);     /* C[2] */
   void (*curv1)(const int32_t* refs, const int32_t* ic, const double* t, double* Ct);    /* [2] */
   void (*curv2)(const int32_t* refs, const int32_t* ic, const double* t, double* Ctt);   /* [2] */
-  void (*cad_hphys)(const int32_t* refs, const double* uv, double* h);                   /* asked when hphy_flag = 2 */
-  void (*cad_hphyc)(const int32_t* refs, const int32_t* ic, const double* t, double* h); /* asked when hphy_flag = 2 */
-  void (*cad_hphyp)(const int32_t* refp, double* h);                                     /* asked when hphy_flag = 2 */
-  void (*cad_rads)(const int32_t* refs, const double* uv, double* rhos);                 /* asked when hgeo_flag = 2 */
+  void (*cad_hphys)(const int32_t* refs, const double* uv, double* h);                   /* called if hphy_flag = 2 */
+  void (*cad_hphyc)(const int32_t* refs, const int32_t* ic, const double* t, double* h); /* called if hphy_flag = 2 */
+  void (*cad_hphyp)(const int32_t* refp, double* h);                                     /* called if hphy_flag = 2 */
+  void (*cad_rads)(const int32_t* refs, const double* uv, double* rhos);                 /* called if hgeo_flag = 2 */
   void (*cad_radc)(const int32_t* refs, const int32_t* ic, const double* t, double* rhoc); /* when hgeo_flag = 2 */
 } carreau_cad_m;
 
@@ -215,8 +215,8 @@ typedef const char* (*carreau_failure_fn)(int32_t face, void* user);
 typedef struct carreau_cad {
   size_t struct_size;
   void* user;            /* handed to every callback; never looked at */
-  int32_t surface_order; /* what `surface` can give: 0, 1 or 2; the rest is found by finite differences */
-  int32_t curve_order;   /* what `curve` can give: 0, 1 or 2 */
+  int32_t surface_order; /* order that `surface` can give: 0, 1 or 2; the rest is found by finite differences */
+  int32_t curve_order;   /* order that `curve` can give: 0, 1 or 2 */
   int32_t reentrant;     /* 1: callbacks may come from several threads at a time; 0: from the caller's thread only */
   int32_t reserved;      /* 0 */
   carreau_surface_fn surface;             /* needed, unless surface_batch is given */
@@ -238,7 +238,7 @@ typedef struct carreau_cad {
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
-/* ---- Wanted sizes and metrics ---- */
+/* ---- Prescribed sizes and metrics ---- */
 
 /* *kind is the kind of the answer of a metric callback. Before the call it is NONE, and every value is NaN.
  *   NONE      nothing; the status CARREAU_NO_ANSWER means the same
@@ -418,7 +418,7 @@ typedef struct carreau_parameter {
   const char* set_by;       /* "effort" of a synonym, whose value follows that parameter until it is set itself; "" otherwise */
 } carreau_parameter;
 
-/* Tell the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
+/* Give the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
 CARREAU_API int32_t carreau_parameter_count(void);
 CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_parameter);
 
@@ -476,7 +476,7 @@ enum {
   CARREAU_PHASE_PATCHES = 3,
   CARREAU_PHASE_ASSEMBLY = 4,
   CARREAU_PHASE_WRITING = 5,
-  CARREAU_PHASE_MEASURE = 6,  /* measures what was delivered; `fraction` is of the measure */
+  CARREAU_PHASE_MEASURE = 6,  /* measures the delivered mesh; `fraction` is of the measure */
   CARREAU_PHASE_GRADATION = 7 /* before curves and patches, when the parameter gradation is not 0 */
 };
 
@@ -494,9 +494,9 @@ CARREAU_API carreau_status carreau_set_message_callback(carreau_session* session
 CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback,
                                                          void* user);
 
-/* Asks the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the callback
- * that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does nothing.
- * NULL is allowed. */
+/* Requests the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the
+ * callback that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does
+ * nothing. NULL is allowed. */
 CARREAU_API void carreau_stop(carreau_session* session);
 
 /* ---- Many processes ---- */
@@ -569,7 +569,7 @@ CARREAU_API carreau_status carreau_session_report(carreau_session* session, carr
  * glued, need not agree. */
 typedef struct carreau_interface {
   size_t struct_size;
-  int32_t curve;      /* its reference; after gluing that of its first place */
+  int32_t curve;      /* its reference; after gluing the reference of its first place */
   int32_t uses;       /* number of places. 1 on a boundary: open. Two in one face: a seam */
   int32_t face;       /* the first place */
   int32_t ic;         /* of the host's curve there, also where it was cut */
@@ -583,7 +583,7 @@ typedef struct carreau_interface {
                  it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
 } carreau_interface;
 
-/* Tell the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
+/* Give the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
  * mesh yet). */
 CARREAU_API carreau_status carreau_session_interface_count(carreau_session* session, int64_t* out_count);
 CARREAU_API carreau_status carreau_session_interface(carreau_session* session, int64_t index,
@@ -647,7 +647,7 @@ typedef struct carreau_background_report {
   int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest element */
   double farthest; /* distance of the farthest one; model length, or parameter length */
 } carreau_background_report;
-/* Tells how. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
@@ -826,7 +826,7 @@ typedef struct carreau_part_counts {
   int64_t all_edges;                      /* on curves */
   int64_t crossings;                      /* pairs of triangles of the whole mesh that cross; -1: they were not looked for */
 } carreau_part_counts;
-/* Tells them. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
+/* Gives the counts of a part. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
 CARREAU_API carreau_status carreau_mesh_part_count(carreau_mesh* part, carreau_part_counts* out_counts);
 /* Copy results into arrays with room for `capacity` rows, one for each vertex or triangle of the part (carreau_mesh_count). Any array may
  * be NULL. Errors: ARGUMENT (capacity), SEQUENCE (the mesh is no part).
@@ -842,7 +842,7 @@ CARREAU_API carreau_status carreau_mesh_part_triangles(carreau_mesh* part, int64
  * ARGUMENT, SEQUENCE (no mesh). */
 CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
                                               int64_t* out_edges, int64_t* out_faces);
-/* Tells the dimension: 3, or 2 when the mesh was read from a plane one. Errors as above. */
+/* Gives the dimension: 3, or 2 when the mesh was read from a plane mesh. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
 
 /* Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
@@ -908,7 +908,7 @@ typedef struct carreau_cell_quality {
   double least_jacobian_mean, least_jacobian_min;
   double angle_min, angle_max; /* degrees, between tangents of curved sides */
   double area;                 /* of the curved elements */
-  double triangle_share;       /* of the area, that of triangles */
+  double triangle_share;       /* share of the area of triangles */
 } carreau_cell_quality;
 
 /* Measures the elements. Errors: ARGUMENT, SEQUENCE. */
@@ -931,8 +931,8 @@ typedef struct carreau_face {
   size_t struct_size;
   int32_t ref;       /* reference of the face */
   int32_t status;    /* CARREAU_FACE_... */
-  int64_t triangles; /* their number; they follow those of the faces before. Of parts (carreau_model_part_of_face) all;
-                        the face has failed when one of them has */
+  int64_t triangles; /* their number; they follow the triangles of the previous face. For a face of parts
+                        (carreau_model_part_of_face) the sum; the face has failed when one part has */
   const char* why; /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
   const char* name; /* given by carreau_model_name_face, else ""; lives as `why` does */
   int32_t rgb;      /* given by carreau_model_color_face, 0xRRGGBB, or -1 */
@@ -964,8 +964,8 @@ typedef struct carreau_quality {
 
 /* Measures the triangles. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
-/* The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded otherwise than in one
- * process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
+/* Gives the quality of the whole mesh to which a part belongs, as all processes have measured it together: sums are rounded otherwise
+ * than in one process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
 CARREAU_API carreau_status carreau_mesh_part_quality(carreau_mesh* part, carreau_quality* out_quality);
 
 /* Looks for defects that make a mesh unusable: indices out of range, numbers that are not finite, triangles without
@@ -1082,7 +1082,7 @@ typedef struct carreau_curve {
   int64_t point_count;     /* 2 or more */
   int64_t metric_count;    /* 2 or more */
   const double* points;    /* point_count x dimension */
-  const double* abscissae; /* metric_count: usual lengths from the first point, ascending from 0 to that of the curve */
+  const double* abscissae; /* metric_count: usual lengths from the first point, ascending from 0 to the length of the curve */
   const double* metrics;   /* metric_count x 3 (xx xy yy) or x 6 (xx xy xz yy yz zz), positive definite */
   double lss;              /* largest length of a trapezoid in the metric, as parameter LSS; 0: 0.5 */
 } carreau_curve;
@@ -1099,7 +1099,8 @@ CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const c
 
 /* For n metrics of one dimension, 2 or 3, at once: rows of 3 numbers (xx xy yy) or of 6 (xx xy xz yy yz zz), in 1 / model
  * length^2, positive definite. A vector d has the length sqrt(d^T M d), and a size h along it is d / length for |d| = 1.
- * The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT (also a metric that is not positive definite, with its rank from 0). */
+ * The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT (also a
+ * metric that is not positive definite, with its rank from 0). */
 
 /* Gives sizes along the axes of each metric, the smallest first, n x dimension; and unit axes, n x dimension x dimension,
  * one after another, or nothing when out_axes is NULL. */

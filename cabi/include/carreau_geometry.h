@@ -82,7 +82,7 @@ typedef struct carreau_bezier {
   const int32_t* degrees;  /* patch_count x 2: m, n, from 1 to CARREAU_BEZIER_DEGREE */
   const double* controls;  /* for each patch (m + 1)(n + 1) control points x y z, model length; v runs fastest */
   const int32_t* side_refs; /* patch_count x 4, of the sides v = 0, u = 1, v = 1, u = 0: positive, and the same for
-                               sides that are one curve; NULL: what meets within eps_glue is found when a mesh is made */
+                               sides that are one curve; NULL: sides that meet within eps_glue are found when a mesh is made */
 } carreau_bezier;
 
 /* Adds Bezier patches to a session: patch k is face k + 1, and its normal is along Su x Sv. Evaluation, derivatives and
@@ -90,11 +90,11 @@ typedef struct carreau_bezier {
  * patch), SEQUENCE (see carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_bezier(carreau_session* session, const carreau_bezier* bezier);
 
-/* The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are found
- * when a mesh is made. Errors: those above, FILE (with the line). */
+/* Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides that
+ * meet are found when a mesh is made. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_bezier(carreau_session* session, const char* path);
 
-/* Tells the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
+/* Gives the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref, int32_t out_degrees[2]);
 
 /* ---- Molecules ---- */
@@ -103,7 +103,7 @@ CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int3
 enum {
   CARREAU_VWS = 1, /* van der Waals: the boundary of the union of the atoms' balls */
   CARREAU_SAS = 2, /* solvent accessible: the same with the radius of a probe added to all radii */
-  CARREAU_SES = 3  /* solvent excluded: the boundary of what no probe outside the balls reaches */
+  CARREAU_SES = 3  /* solvent excluded: the boundary of the space that no probe outside the balls reaches */
 };
 
 /* Which surface of a molecule, and by which probe. */
@@ -115,19 +115,20 @@ typedef struct carreau_molecule_options {
   const char* radii;     /* file of lines "symbol radius", in place of the table's radii; NULL: none */
 } carreau_molecule_options;
 
-/* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
- * the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are separate faces, with
- * references behind the references of all balls. A ball that equals another ball, or lies inside it, has no face; spheres that only touch
- * do not meet. If rounding hides how spheres meet (four of them in one point), radii change by some 1e-9 of themselves, and a message
- * reports it. Errors: ARGUMENT (a radius that is not positive, n below 1), SEQUENCE (see carreau_geometry_begin). */
+/* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball,
+ * from 1; other parts of the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
+ * separate faces, with references behind the references of all balls. A ball that equals another ball, or lies inside it, has no face;
+ * spheres that only touch do not meet. If rounding hides how spheres meet (four of them in one point), radii change by some 1e-9 of
+ * themselves, and a message reports it. Errors: ARGUMENT (a radius that is not positive, n below 1), SEQUENCE (see
+ * carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
-/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are Bondi's, for
- * elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h);
+/* Adds the surface of the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are Bondi's,
+ * for elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h);
  * waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
  * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
- * Errors: those above, FILE. */
+ * Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                  const char* path);
 
@@ -138,19 +139,19 @@ typedef struct carreau_molecule_measures {
   double volume; /* inside the surface, without cavities */
   int64_t atoms;
   int64_t exposed_atoms; /* with an area */
-  int64_t shells;        /* connected parts of the surface; of CARREAU_SES those of CARREAU_SAS */
-  int64_t cavities;      /* those of them that bound a hole */
+  int64_t shells;        /* connected parts of the surface; for CARREAU_SES the parts of CARREAU_SAS */
+  int64_t cavities;      /* shells that bound a hole */
   int64_t euler_number;  /* of the surface: of a closed mesh, vertices - triangles / 2 */
   int64_t moved_radii;   /* see carreau_add_molecule */
   double convex_area;    /* of parts of balls; of CARREAU_VWS and CARREAU_SAS, the area */
-  double torus_area;     /* of what a probe sweeps that touches two balls; CARREAU_SES */
+  double torus_area;     /* swept by a probe that touches two balls; CARREAU_SES */
   double concave_area;   /* of parts of probes that touch three balls; CARREAU_SES */
 } carreau_molecule_measures;
 
 /* Measures the molecule that the session was given last. Errors: SEQUENCE (none was). */
 CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecule_measures* out_measures);
 
-/* Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+/* Gives reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
  * Errors: SEQUENCE, ARGUMENT (capacity).
  */
 CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
@@ -163,7 +164,7 @@ CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int6
 CARREAU_API carreau_status carreau_molecule_atom_areas(carreau_session* session, int64_t capacity, double out_convex[],
                                                        double out_torus[], double out_concave[]);
 
-/* Tells the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
+/* Gives the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
  * no such atom. */
 CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom);
 
@@ -172,7 +173,7 @@ CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int
 /* The extent of the domain if neither a side nor a seed determines it. */
 enum {
   CARREAU_REST_PARITY =
-      0, /* what curves enclose; inside of it a loop that nothing joins to it bounds a hole, and so on */
+      0, /* the inside of curves; inside of it a loop that nothing joins to it bounds a hole, and so on */
   CARREAU_REST_INSIDE = 1, /* all that curves enclose, but for holes */
   CARREAU_REST_OUTSIDE = 2 /* nothing else */
 };
@@ -196,7 +197,7 @@ typedef struct carreau_plane_domain {
   const double* points;      /* point_count x 2 */
   const int32_t* point_refs; /* point_count; NULL: none */
   const int32_t* imposed;    /* point_count: 1 makes a point a vertex wherever it lies; NULL: ends of curves only */
-  const double* sizes;       /* point_count, wanted at points and along curves between them; 0: none; NULL: none */
+  const double* sizes;       /* point_count, prescribed at points and along curves between them; 0: none; NULL: none */
   const double* metrics;     /* point_count x 3 (xx xy yy), in place of sizes; 0 0 0: none; NULL: none */
   const int64_t*
       curve_starts; /* curve_count + 1: curve c passes curve_points[curve_starts[c] .. curve_starts[c + 1] - 1] */
@@ -221,20 +222,18 @@ typedef struct carreau_plane_domain {
  * unbounded; two references for one subdomain; nothing enclosed). */
 CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
 
-/* The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
- * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
- * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
- * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between
- * vertices without one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of
- * the file; NULL or "": none. When the file has triangles they are a background mesh: see carreau_set_background_mesh.
- * One that is set later replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE
- * (with the line).
- */
+/* Adds the plane domain of a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of
+ * dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle
+ * above 0 (degrees), polygons become splines that end where they turn by more, where other curves end, and where references change. With 0
+ * they stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between vertices without
+ * one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of the file; NULL or "": none. When the
+ * file has triangles they are a background mesh: see carreau_set_background_mesh. One that is set later replaces the sizes at points; all
+ * subdomains lie in its one plane. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
                                                      double corner_angle);
 
-/* Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was. Errors:
- * ARGUMENT. */
+/* Gives 1 if the plane domain that the session got last has sizes or metrics at its points; 0 without such a domain.
+ * Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
 
 /* ---- Structured grids ---- */
@@ -263,11 +262,11 @@ typedef struct carreau_grid_options {
   double smoothing_inward, smoothing_outward; /* its weights, both between 0 and 1; both 0: .06 and .061 */
   int32_t lengths;  /* 1: parameters are cumulated lengths of edges, for abrupt steps of a grid; 0: the integers */
   int32_t orient;   /* 1: blocks are turned over, their columns running backwards, so that normals agree across common
-                       borders: those of the first block count, and point outwards where blocks enclose a volume */
+                       borders: normals of the first block count, and point outwards where blocks enclose a volume */
   double join_angle; /* degrees: blocks get one tangent plane along borders where their normals differ by less; 0: none */
   double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
-  double step; /* of heights and scans whose file does not tell it; 0: 1 */
-  int32_t fill; /* 1: holes that no side of a block touches are filled, and a message tells it; 0: they stay */
+  double step; /* of heights and scans whose file does not give it; 0: 1 */
+  int32_t fill; /* 1: holes that no side of a block touches are filled, and a message reports it; 0: they stay */
   int32_t reserved; /* 0 */
 } carreau_grid_options;
 
@@ -281,9 +280,9 @@ typedef struct carreau_grid_options {
 CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
                                             const int32_t counts[], const double nodes[]);
 
-/* The same from a file: PLOT3D (text or binary, any byte order and precision, with or without IBLANK), heights (ASCII grids
- * of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes; docs/how-to/grid.md has the
- * layouts. Errors: those above, FILE (with the line or byte, and the block). */
+/* Adds a surface through the grids of a file: PLOT3D (text or binary, any byte order and precision, with or without
+ * IBLANK), heights (ASCII grids of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes;
+ * docs/how-to/grid.md has the layouts. Errors: as above, FILE (with the line or byte, and the block). */
 CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
                                              const char* path, int32_t format);
 
@@ -313,15 +312,15 @@ typedef struct carreau_triangles {
   const int32_t* edges;         /* edge_count x 2 vertices, from 0, that are of lines; NULL when edge_count is 0 */
 } carreau_triangles;
 
-/* Adds triangles to a session: they are a geometry like others (see carreau_geometry_begin), whose faces have no curves of a parameter plane. A smooth surface goes
- * through their vertices, with tangent planes that agree except on lines. Lines are borders, edges with three triangles or more, edges of
- * triangles that differ by more than the sharp angle, and edges that continue such a line. Its faces are the regions between lines, or the
- * references of the triangles where they have several (moved up when one is not positive). Curves are the lines, corners points where lines
- * end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and triangles without area (a corner on a longest side
- * divides that side in the neighbours), and turns triangles that run against their neighbours; messages report it. carreau_mesh_generate
- * makes their mesh in space by all parameters of sizes; sizes that differ by direction count as their least; parameter element works as on
- * other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate that is not finite, an angle, triangles that are all
- * of surfaces before), SEQUENCE, LIMIT.
+/* Adds triangles to a session: they are a geometry like others (see carreau_geometry_begin), whose faces have no curves of a parameter
+ * plane. A smooth surface goes through their vertices, with tangent planes that agree except on lines. Lines are borders, edges with three
+ * triangles or more, edges of triangles that differ by more than the sharp angle, and edges that continue such a line. Its faces are the
+ * regions between lines, or the references of the triangles where they have several (moved up when one is not positive). Curves are the
+ * lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and triangles without
+ * area (a corner on a longest side divides that side in the neighbours), and turns triangles that run against their neighbours; messages
+ * report it. carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as their
+ * least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate that is not
+ * finite, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
  *
  * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are one
  * line, and the mesh conforms there. A triangle of two surfaces belongs to the first. Each surface has its own faces, lines and angles, and
@@ -331,7 +330,7 @@ typedef struct carreau_triangles {
 CARREAU_API carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                  const carreau_triangles* triangles);
 
-/* The same of a file that carreau_mesh_read reads. Errors: those above, FILE. */
+/* Adds the triangles of a file that carreau_mesh_read reads. Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                   const char* path);
 
@@ -349,15 +348,15 @@ typedef struct carreau_triangles_report {
   int64_t sharp_edges, lines, corners, regions;
   int64_t dropped_edges;   /* sharper than the angle, but of no line */
   int64_t prolonged_edges; /* flatter, but lines go on over them */
-  int64_t faded_ends;      /* of lines, on no other one */
+  int64_t faded_ends;      /* ends of lines on no other line */
   int64_t unfolded;        /* tangents that turned back around a vertex, and were turned */
-  int64_t folded;          /* those that still do */
+  int64_t folded;          /* tangents that still turn back */
   double diagonal;         /* of the box of the vertices */
   double deviation;        /* no point of the smooth surface is farther from the triangles, nor the other way round */
   double sharp_angle;      /* degrees: the angle given, or found */
 } carreau_triangles_report;
 
-/* Tells of the triangles that the session was given. Errors: SEQUENCE (none were), ARGUMENT. */
+/* Gives the report on the triangles of the session. Errors: SEQUENCE (none were), ARGUMENT. */
 CARREAU_API carreau_status carreau_triangles_measure(carreau_session* session, carreau_triangles_report* out_report);
 
 /* Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it by

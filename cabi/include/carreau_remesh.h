@@ -70,7 +70,7 @@ typedef struct carreau_remesh_input {
   const int32_t* element_kinds; /* element_components: CARREAU_ELEMENT_...; NULL: means */
 
   double h_min, h_max;         /* bounds of sizes */
-  double step;                 /* delta of HDR eq. 3.1: what is as near to a tool is bound; at most h_min */
+  double step;                 /* delta of HDR eq. 3.1: vertices as near to a tool are bound; at most h_min */
   double damage_limit;         /* elements of this damage are removed; 0: 1 */
   double gradation;            /* largest ratio of sizes one edge apart, above 1; 0: 1.3 */
   double corner_angle;         /* the boundary has a corner where it turns by more, degrees; 0: 45 */

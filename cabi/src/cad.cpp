@@ -107,7 +107,7 @@ class StoppableCad : public HostCad {
   const Monitor& monitor_;
 };
 
-/// Says to the host when his callbacks are no longer of use.
+/// Notifies the host when its callbacks are no longer of use.
 class ReleasedCad final : public StoppableCad {
  public:
   ReleasedCad(const carreau_cad& callbacks, const Monitor& monitor)

@@ -11,7 +11,7 @@ namespace carreau::thresholds::adapt {
 
 // Recovery of derivatives
 /// Ratio of the smallest to the largest diagonal entry of the triangular factor, below which a fit is not determined.
-/// [Recovery.SaysWhereNeighboursAreTooFew]
+/// [Recovery.NamesThePlaceOfTooFewNeighbours]
 inline constexpr double least_pivot = 0.02;
 /// Rings of neighbours that a fit may take. [Recovery.IsExactOnQuadraticsUpToTheBorder]
 inline constexpr int most_rings = 3;

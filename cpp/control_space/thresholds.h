@@ -118,16 +118,16 @@ inline constexpr double eigenvalue_rounding = 1e-6;
 inline constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 
 // Gradation of samples (sample_gradation)
-/// Share of a size. Smaller changes are rounding. [BoundSlopes.WhatObeysIsLeftAsItIs]
+/// Share of a size. Smaller changes are rounding. [BoundSlopes.GentleSizesStay]
 inline constexpr double size_rounding = 1e-6;
 /// Smaller changes by direction are rounding: far below the change by polynomials between the samples.
-/// [BoundSlopesByDirection.WhatObeys...]
+/// [BoundSlopesByDirection.GentleSizesStay]
 inline constexpr double directed_rounding = 1e-4;
 
 // Normals at samples (sampled_normals)
 /// Samples. More do not extend the reach. [SampledNormals.ConvergeAtSecondOrder, as all below]
 inline constexpr std::size_t most_normals = 16'384;
-/// Sine. Largest angle between normals of a plane, from rounding. [SampledNormals.ThoseOfAPlaneDoNotDiffer]
+/// Sine. Largest angle between normals of a plane, from rounding. [SampledNormals.DoNotDifferOnAPlane]
 inline constexpr double flat_angle = 1e-6;
 /// Samples. Number in a bucket of the grid. [time only]
 inline constexpr double samples_per_bucket = 2;

@@ -26,15 +26,15 @@ inline constexpr double least_unfolded = -0.999;
 
 // Metrics (metric_grading)
 /// Ratio. Paths run along edges and from the middles of edges, every 30 degrees. So they are up to 1 / cos(15 degrees)
-/// = 1.035 times too long. Half of that is taken from the slope. [Gradation.ByDirectionNoEdgeIsSteeper]
+/// = 1.035 times too long. Half of that is taken from the slope. [Gradation.NoEdgeIsSteeperByDirection]
 inline constexpr double detour = 1.0175;
-/// Share of a size. Smaller changes are not followed. [Gradation.ByDirectionNoEdgeIsSteeper; far below the
+/// Share of a size. Smaller changes are not followed. [Gradation.NoEdgeIsSteeperByDirection; far below the
 /// roughness of surface/grade]
 inline constexpr double negligible = 1e-3;
 
 // Narrow zones and faces that face each other (boundary_sides, proximity, facing)
 /// Cosine. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
-/// polygons. [Proximity.NarrowZonesHoldTheLayersAskedFor]
+/// polygons. [Proximity.NarrowZonesHoldTheRequestedLayers]
 inline constexpr double straight_on = std::numbers::sqrt2 / 2;
 /// Cosine. Fronts, or normals of faces, that meet within this angle of head on. [as above]
 inline constexpr double head_on = 0.8;
@@ -58,13 +58,13 @@ inline constexpr double edge_rounding = 1e-9;
 /// Share of the extent. Rounding may move a triangle's point by so much, and it is still the same point.
 /// [TriangleTreePlaces.AtVerticesAndOnSides...]
 inline constexpr double point_rounding = 1e-14;
-/// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.AreThoseOfTheNearestTriangle]
+/// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.MatchTheNearestTriangle]
 inline constexpr double clearly_inside = 1e5;
 /// Triangles. Longer walks are left to the search. [time only]
 inline constexpr int longest_walk = 32;
 
 // Stops
-/// Vertices, places or triangles between two looks at the monitor. [GradedModel.TellsItsProgressAndStops]
+/// Vertices, places or triangles between two looks at the monitor. [GradedModel.ReportsItsProgressAndStops]
 inline constexpr std::size_t places_between_checks = 1 << 12;
 
 }  // namespace carreau::thresholds::gradation

@@ -182,7 +182,7 @@ TEST(BentFaces, OffsetsOfBentSurfacesAreNotCut) {
 }
 
 // On the ridge itself each side has its own derivatives.
-TEST(BentFaces, DerivativesOnABendAreThoseOfTheirSide) {
+TEST(BentFaces, DerivativesOnABendMatchTheirSide) {
   const double slope = std::tan(std::acos(-1.0) / 6);
   carreau_occ::Evaluators evaluators;
   evaluators.resize(2);

@@ -123,7 +123,7 @@ TEST(CadLibrary, SetsTheToleranceOfSharedEdges) {
   EXPECT_EQ(match, 0.5);
 }
 
-TEST(CadLibrary, TellsWhatAFileHolds) {
+TEST(CadLibrary, ListsTheContentOfAFile) {
   Session session;
   File file;
   EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/named_faces.step").c_str(), nullptr, &file.handle));
@@ -325,7 +325,7 @@ TEST(CadLibrary, LeavesTheSessionAloneWhenAFileCannotBeRead) {
   EXPECT_EQ(mesh(session, 10).open_edges, 0);
 }
 
-TEST(CadLibrary, StopsWhenAsked) {
+TEST(CadLibrary, StopsOnRequest) {
   Session session;
   auto options = empty<carreau_cad_options>();
   int calls = 0;

@@ -128,7 +128,7 @@ class Broken(unittest.TestCase):
             self.assertEqual(status, SOME_FACES)
             self.assertIn(f"#{points[0].group(1)} CARTESIAN_POINT: ", error)
 
-    def test_faces_that_step_loses_are_told(self):
+    def test_faces_that_step_loses_are_reported(self):
         text = content("plate.step")
         face = list(re.finditer(r"#(\d+) = ADVANCED_FACE\('',\((.*?)\),(#\d+),\.[TF]\.\);", text, re.S))[2]
         name = f"#{face.group(1)} ADVANCED_FACE: "
@@ -144,7 +144,7 @@ class Broken(unittest.TestCase):
         info = subprocess.run([PROGRAM, "info", os.path.join(self.folder, "face.step")], capture_output=True, text=True)
         self.assertIn("not read: 1\n  " + name, info.stdout)
 
-    def test_what_is_no_geometry_may_be_wrong(self):
+    def test_faults_outside_of_geometry_lose_no_face(self):
         text = content("plate.step")
         broken = re.sub(r"(#\d+ = PRODUCT_DEFINITION_CONTEXT\()'[^']*'", r"\g<1>$", text)
         self.assertNotEqual(broken, text)
@@ -324,7 +324,7 @@ END-ISO-10303-21;
                                    ("(5.,0.,0.)", "(1.E999,0.,0.)", "#51: a coordinate is not finite")):
             self.refused("two.stp", self.assembly(old, new), sentence)
 
-    def test_brep_files_without_a_table_say_so_on_standard_error_only(self):
+    def test_brep_files_without_a_table_are_reported_on_standard_error_only(self):
         for table in ("Surfaces", "Curves ", "TShapes"):
             status, error, summary = self.mesh("table.brep", content("plate.brep").replace(table, "x" + table))
             self.assertEqual(status, NONE, error)

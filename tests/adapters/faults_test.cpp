@@ -91,7 +91,7 @@ TEST(Faults, OnTheBoundaryLeaveTheFaceOutAtOnce) {
   }
 }
 
-TEST(Faults, OfAnyThreadAreItsOwn) {
+TEST(Faults, BelongToTheirThread) {
   const carreau_occ::FaultTrap trap;
   for (int i = 0; i < 3; ++i) {
     std::array<int, 4> caught{};
@@ -125,7 +125,7 @@ TEST(Faults, LeaveTheProcessorsModesAsTheyWere) {
 
 void own_handler(int) { _exit(42); }
 
-TEST(Faults, SignalsStayThoseOfTheProgram) {
+TEST(Faults, SignalHandlersOfTheProgramStay) {
   struct sigaction own {
   }, found{};
   own.sa_handler = own_handler;

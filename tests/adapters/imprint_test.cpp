@@ -212,7 +212,7 @@ TEST(Imprint, NamesAndColoursFollow) {
   EXPECT_GE(red, 6);
 }
 
-TEST(Imprint, StopsWhenItIsAskedTo) {
+TEST(Imprint, StopsOnRequest) {
   ShapeFile file = file_of_parts({box(0, 0, 0, 1, 1, 1), box(0, 0, 1, 1, 1, 1), box(0, 0, 2, 1, 1, 1)});
   EXPECT_THROW(carreau_occ::imprint_parts(file, 0, [](double) { return false; }), std::runtime_error);
   EXPECT_EQ(faces_between(carreau_occ::solids_of(file)), 0);

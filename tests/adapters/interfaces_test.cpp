@@ -68,7 +68,7 @@ TopoDS_Shape taken_apart(const TopoDS_Shape& shape, double gap, double tolerance
 
 class Unsewn : public testing::TestWithParam<std::string> {};
 
-TEST_P(Unsewn, FacesMeetAsThoseOfTheSolidDo) {
+TEST_P(Unsewn, FacesMeetAsInTheSolid) {
   const TopoDS_Shape solid = shapes::make(GetParam());
   carreau_occ::BrepHost whole(file_of(solid));
   const double size = whole.diagonal() / 30;
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Unsewn,
                          testing::Values("cylinder", "box_with_hole", "cone", "across_a_seam", "two_cylinders"),
                          [](const auto& info) { return info.param; });
 
-TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndTold) {
+TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndReported) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
   for (const double gap : {1e-3, 1e-5}) {
     carreau_occ::BrepHost host(file_of(taken_apart(box, gap, gap)));
@@ -129,7 +129,7 @@ TEST(Unsewn, ShortEdgesElsewhereLeaveNoGapOpen) {
   EXPECT_NEAR(widest_gap(m), gap, 1e-9);
 }
 
-TEST(Unsewn, WiderGapsStayOpenAndAreTold) {
+TEST(Unsewn, WiderGapsStayOpenAndAreReported) {
   carreau_occ::BrepHost host(file_of(taken_apart(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), -0.01, 1e-4)));
   const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.25);
   EXPECT_EQ(m.trouble(false), "");

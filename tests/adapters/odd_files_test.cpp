@@ -124,7 +124,7 @@ TEST(Returns, AreCurvesInside) {
 }
 
 // A gap is the distance between two curves, not between points of equal parameters.
-TEST(Gaps, AreNotThoseOfTheParameters) {
+TEST(Gaps, DoNotDependOnTheParameters) {
   const TopoDS_Shape shape = BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), Standard_True).Shape();
   const BRep_Builder builder;
   for_each_edge_of_faces(shape, [&](const TopoDS_Edge& edge, const TopoDS_Face& face) {
@@ -363,7 +363,7 @@ TEST(TornLoops, CloseWhereTheirEndsAreOnePlace) {
 }
 
 // BREP files may describe a whole sphere or torus by its surface alone, placed and turned or not.
-TEST(NaturalBounds, AreThoseOfClosedSurfaces) {
+TEST(NaturalBounds, BoundClosedSurfaces) {
   const double pi = std::numbers::pi;
   const BRep_Builder builder;
   TopoDS_Compound shape;

@@ -130,7 +130,7 @@ TEST(BrepHost, SizesOfFacesHoldOnTheirEdges) {
   EXPECT_NEAR(static_cast<double>(fine), 1 / (std::sqrt(3.0) / 4 * 0.05 * 0.05), 100);
 }
 
-TEST(ShapeReport, FindsWhatIsDangerous) {
+TEST(ShapeReport, FindsPotentialMeshingProblems) {
   const carreau_occ::ShapeReport sliver = carreau_occ::inspect(file_of(shapes::make("sliver")));
   int narrow = 0, tiny = 0;
   for (const carreau_occ::Danger& danger : sliver.dangers) {
@@ -187,7 +187,7 @@ TEST(ShapeReport, FindsFreeEdges) {
 }
 
 // Splines are no quadrics: their boxes are found on the surface.
-TEST(Diagonal, OfFreeFormFacesIsExact) {
+TEST(Diagonal, IsExactForFreeFormFaces) {
   const auto diagonal = [](const TopoDS_Shape& shape) {
     return carreau_occ::diagonal_of(BRepBuilderAPI_NurbsConvert(shape, Standard_True).Shape());
   };

@@ -109,7 +109,7 @@ void expect_assembly(const std::string& path) {
   std::filesystem::remove(path);
 }
 
-TEST(Placements, OfSeveralLevelsAreThoseOfStep) {
+TEST(Placements, SeveralLevelsMatchStep) {
   const std::string path = path_of("rig.step");
   STEPControl_Writer writer;
   ASSERT_EQ(writer.Transfer(assembly(false), STEPControl_AsIs), IFSelect_RetDone);
@@ -117,7 +117,7 @@ TEST(Placements, OfSeveralLevelsAreThoseOfStep) {
   expect_assembly(path);
 }
 
-TEST(Placements, OfSeveralLevelsAndMirroredAreThoseOfBrep) {
+TEST(Placements, SeveralLevelsAndMirroredMatchBrep) {
   const std::string path = path_of("rig.brep");
   ASSERT_TRUE(BRepTools::Write(assembly(true), path.c_str()));
   expect_assembly(path);
@@ -225,7 +225,7 @@ Read read_and_mesh(const std::string& path, double size) {
 }
 
 // A pair of blocks, twice: entities 308 and 408 on two levels.
-TEST(Placements, OfSubfiguresAreThoseOfIges) {
+TEST(Placements, SubfiguresMatchIges) {
   const std::string path = iges_file("subfigures.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
     const auto block = subfigure(0, "BLOCK", {tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape())});
     const auto pair = subfigure(1, "PAIR", {instance(block, 0), instance(block, 5)});
@@ -241,7 +241,7 @@ TEST(Placements, OfSubfiguresAreThoseOfIges) {
   EXPECT_NEAR(far, 26, 1e-9);
 }
 
-TEST(Placements, OfSubfiguresThatScaleAreTold) {
+TEST(Placements, SubfiguresThatScaleAreReported) {
   const std::string path = iges_file("scaled.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
     const auto block = subfigure(0, "BLOCK", {tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape())});
     writer.AddEntity(instance(block, 0));
@@ -268,7 +268,7 @@ TEST(Placements, GroupsOfIgesAreWhole) {
   EXPECT_NEAR(read.mesh.quality.area, 22 + 6, 1e-9);
 }
 
-TEST(Placements, ThatScaleAreThoseOfBrep) {
+TEST(Placements, ThatScaleMatchBrep) {
   gp_Trsf twice;
   twice.SetScale(gp_Pnt(1, 0, 0), 2);
   const TopoDS_Shape post = placed(BRepPrimAPI_MakeCylinder(1, 4).Shape(), twice);
@@ -283,7 +283,7 @@ TEST(Placements, ThatScaleAreThoseOfBrep) {
 }
 
 // OpenCASCADE's writer has no placement that scales: the test edits a placement that it wrote.
-TEST(Placements, ThatScaleAreToldOfStep) {
+TEST(Placements, ThatScaleAreReportedInStep) {
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
   gp_Trsf move;
   move.SetTranslation(gp_Vec(10, 0, 0));

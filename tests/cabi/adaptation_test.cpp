@@ -598,7 +598,7 @@ TEST_F(Adaptation, FailuresOfTheFieldEndTheLoop) {
   EXPECT_NE(error().find("hphy_flag is 0"), std::string::npos) << error();
 }
 
-TEST_F(Adaptation, WrongBackgroundMeshesAreRefused) {
+TEST_F(Adaptation, WrongBackgroundMeshesAreRejected) {
   const double sizes[4] = {0.1, 0.1, 0.1, 0.1};
   const auto refused = [&](const carreau_background& b) {
     EXPECT_EQ(carreau_set_background(session, &b), CARREAU_ERR_ARGUMENT);

@@ -174,7 +174,7 @@ TEST(CAtlas, SphereIsCoveredBlendedAndMeshed) {
   carreau_session_free(session);
 }
 
-TEST(CAtlas, BadTriangulationsAreToldWithTheVertex) {
+TEST(CAtlas, BadTriangulationsAreReportedWithTheVertex) {
   Sphere sphere(2);
   carreau_atlas* atlas = nullptr;
   ASSERT_EQ(carreau_atlas_create(&atlas), CARREAU_OK);

@@ -55,7 +55,7 @@ TEST_F(Grids, TwoBlocksMakeACylinder) {
   for (const std::int32_t ref : data.triangle_refs) EXPECT_TRUE(ref == 1 || ref == 2);
 }
 
-TEST_F(Grids, OptionsMayBeNullAndPointsCanBeAskedFor) {
+TEST_F(Grids, OptionsMayBeNullAndPointsCanBeRequested) {
   const Cylinder cylinder;
   ASSERT_EQ(carreau_add_grid(session, nullptr, 2, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_OK);
   const std::array<double, 2> uv{8, 4};
@@ -77,7 +77,7 @@ TEST_F(Grids, AFileIsSmoothedOnRequest) {
   EXPECT_NEAR(x[1], 600, 1e-9);
 }
 
-TEST_F(Grids, MistakesAreToldAndLeaveTheSessionAsItWas) {
+TEST_F(Grids, MistakesAreReportedAndLeaveTheSessionAsItWas) {
   const Cylinder cylinder;
   carreau_grid_options options = sized<carreau_grid_options>();
   const auto add = [&](const std::int32_t* counts, const double* nodes) -> std::string {

@@ -170,7 +170,7 @@ TEST_F(InjectionTest, AnExceptionAtAnyCallBecomesAStatusWithItsText) {
 }
 
 // A value that is finite but absurd may pass for a size, whose limits it obeys; it must not make a mesh with holes.
-TEST_F(InjectionTest, AHugeValueAtAnyCallIsRefusedOrLeavesASoundMesh) {
+TEST_F(InjectionTest, AHugeValueAtAnyCallIsRejectedOrLeavesASoundMesh) {
   const auto check = [&](carreau_status status) {
     if (status != CARREAU_OK && status != CARREAU_ERR_PARTIAL) return;
     EXPECT_EQ(defects_of(mesh(), status == CARREAU_OK), "");

@@ -112,7 +112,7 @@ TEST_F(SessionTest, GivesQualityFacesAndDefects) {
   EXPECT_EQ(carreau_mesh_vertices(mesh(), n, nullptr), CARREAU_ERR_ARGUMENT);
 }
 
-TEST_F(SessionTest, TellsTrianglesThatCross) {
+TEST_F(SessionTest, ReportsTrianglesThatCross) {
   use_paraboloid(0.3);
   std::int64_t count = -1;
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -184,7 +184,7 @@ TEST_F(SessionTest, MeshesATorusWithItsSeams) {
   }
 }
 
-TEST_F(SessionTest, TellsTheInterfacesOfATorusAndOfASheet) {
+TEST_F(SessionTest, ListsTheInterfacesOfATorusAndOfASheet) {
   std::int64_t n = -1;
   auto each = sized<carreau_interface>();
   EXPECT_EQ(carreau_session_interface_count(session, &n), CARREAU_ERR_SEQUENCE);
@@ -372,7 +372,7 @@ TEST_F(SessionTest, SizesThatAreNotPositiveAreErrorsOfTheCallback) {
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
 }
 
-TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
+TEST_F(SessionTest, AHostExplainsTheFailureOfItsCallback) {
   carreau_cad cad = paraboloid_cad(&host);
   cad.failure = [](std::int32_t face, void* user) {
     return face == 1 && user != nullptr ? "the knots of the spline descend" : "";
@@ -488,7 +488,7 @@ TEST_F(MeshFileTest, ColoursOfFacesAreInTheMeshAndInVtu) {
   EXPECT_EQ(face.status, CARREAU_FACE_MESHED);
 }
 
-TEST_F(MeshFileTest, ExportsWhatTheParametersSay) {
+TEST_F(MeshFileTest, ExportsByTheParameters) {
   use_paraboloid(0.4);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const std::string file = path + ".mesh";

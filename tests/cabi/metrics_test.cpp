@@ -134,7 +134,7 @@ TEST_F(MetricCallbacks, AMetricOfSpaceGovernsTheMesh) {
   EXPECT_EQ(defects_of(mesh()), "");
 }
 
-TEST_F(MetricCallbacks, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {
+TEST_F(MetricCallbacks, UnusableMetricsHaveASentenceWithThePlaceAndTheMatrix) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(sentence_of(CARREAU_METRIC_SPACE, {1, 2, 0, 1, 0, 1}),
             "face 1, curve 1 (reference 1), t = 0: the metric callback returned the metric (xx, xy, xz, yy, yz, zz) = "
@@ -206,7 +206,7 @@ TEST_F(MetricCallbacks, BatchesMakeTheMeshOfSinglePoints) {
   EXPECT_NE(error().find("surface_metric_batch returned the status 9"), std::string::npos) << error();
 }
 
-TEST_F(MetricCallbacks, AreNotAskedWhenPhysicalSizesAreIgnored) {
+TEST_F(MetricCallbacks, AreNotCalledWhenPhysicalSizesAreIgnored) {
   ASSERT_EQ(carreau_set_integer(session, "hphy_flag", 0), CARREAU_OK);
   ASSERT_EQ(carreau_set_integer(session, "hgeo_flag", 1), CARREAU_OK);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();

@@ -48,7 +48,7 @@ class PlaneDomain : public ::testing::Test {
   carreau_plane_domain domain{};
 };
 
-TEST_F(PlaneDomain, ParityAndInsideAndSidesSayWhatIsMeshed) {
+TEST_F(PlaneDomain, ParityInsideAndSidesDetermineTheDomain) {
   expect(carreau_add_plane_domain(session, &domain));
   EXPECT_NEAR(area(mesh(0.2)), 12, 1e-12);
   expect(carreau_model_clear(session));

@@ -81,7 +81,7 @@ TEST_F(FailingHostTest, AWrongDerivativeIsFoundBeforeMeshing) {
   expect_old_mesh_and_a_usable_session();
 }
 
-TEST_F(FailingHostTest, CallsFromInsideACallbackAreRefused) {
+TEST_F(FailingHostTest, CallsFromInsideACallbackAreRejected) {
   host.probe_busy = 1;
   host.busy_status = CARREAU_OK;
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -274,7 +274,7 @@ TEST_F(SessionTest, CanBeStoppedFromAnotherThread) {
   EXPECT_EQ(carreau_session_mesh(session, &mesh), CARREAU_ERR_SEQUENCE);
 }
 
-TEST_F(SessionTest, AMeshAboveTheLimitIsRefused) {
+TEST_F(SessionTest, AMeshAboveTheLimitIsRejected) {
   use_paraboloid(0.1);
   ASSERT_EQ(carreau_set_integer(session, "max_triangles", 1000), CARREAU_OK);
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_LIMIT);

@@ -173,7 +173,7 @@ carreau::Session close_bowls(int rounds) {
   return session;
 }
 
-TEST(Team, PartsTellWhichTrianglesCrossAndPartThem) {
+TEST(Team, PartsFindTrianglesThatCrossAndSeparateThem) {
   carreau::Session coarse = close_bowls(0), alone = close_bowls(5);
   coarse.generate(), alone.generate();
   ASSERT_GT(alone.mesh().quality().triangles, coarse.mesh().quality().triangles);
@@ -184,7 +184,7 @@ TEST(Team, PartsTellWhichTrianglesCrossAndPartThem) {
   }
 }
 
-TEST(Team, PartsRefuseFacesThatVanish) {
+TEST(Team, PartsRejectFacesThatVanish) {
   const auto narrow = [] {
     carreau::Session session;
     std::vector<carreau::BezierPatch> squares;
@@ -229,7 +229,7 @@ TEST(Team, PartsOfTheTeapotCrossWhereItDoes) {
   EXPECT_EQ(file_of(kept), alone.mesh().encode(".meshb"));
 }
 
-TEST(Team, RefusesARankThatIsNone) {
+TEST(Team, RejectsInvalidRanks) {
   Office office(2);
   Rank rank{office, 2, {}};
   const carreau_team team = rank.team();
@@ -240,7 +240,7 @@ TEST(Team, RefusesARankThatIsNone) {
   carreau_session_free(session);
 }
 
-TEST(Team, EncodesWhatAFileHolds) {
+TEST(Team, EncodesTheContentOfAFile) {
   carreau::Session session = strip_of_squares();
   session.generate();
   const carreau::Mesh mesh = session.mesh();

@@ -146,7 +146,7 @@ class FirstHour(unittest.TestCase):
         text = run("info", self.three, "--faces").stdout
         self.assertRegex(text, r"(?m)^ +2  Bezier 1 x 1 +1 +100 +\(5, 0, 0\) - \(15, 0\.1, 0\)")
 
-    def test_unknown_faces_are_told_with_near_ones(self):
+    def test_unknown_faces_are_reported_with_near_ones(self):
         done = run("mesh", self.three, "-o", self.path("a.mesh"), "--face-size", "4=1")
         self.assertIn("there is no face '4'", done.stderr)
         self.assertIn("did you mean '1', '2' or '3'?", done.stderr)

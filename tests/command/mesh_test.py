@@ -111,7 +111,7 @@ class Inputs(Folder):
         self.run_mesh(both, "--host", HOSTS[0], "-o", "none.mesh", "--size", "0.3", "--set", "failing_faces=stop", code=2)
         self.assertGreater(faces[0]["triangles"], 100)
 
-    def test_what_there_is_of_a_failed_face_is_dumped(self):
+    def test_the_domain_and_fields_of_a_failed_face_are_dumped(self):
         both = self.write("both.pardom", "2\n" + FACE.format(1) + FACE.format(2))
         done = self.run_mesh(both, "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3", "--json", "--dump-failed", "dump", code=1)
         self.assertEqual(sorted(os.listdir(self.path("dump"))), ["face_2.exr", "face_2.mesh"])
@@ -166,7 +166,7 @@ class Inputs(Folder):
         self.refused(self.write("bad.pardom", "1\n" + FACE.format(2)), "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3",
                      sentence="face 2")
 
-    def test_what_cannot_be_read_is_told(self):
+    def test_files_that_cannot_be_read_are_reported(self):
         cases = (("empty.bpt", "", "empty.bpt, line 1: the file ends"),
                  ("none.bpt", "0\n", "no face"), ("cut.bpt", SQUARE[:-4], "line 6: the file ends where a coordinate should be"),
                  ("words.bpt", SQUARE.replace("-1 1 0", "-1 one 0"), "line 4: a coordinate should be where 'one' stands"),
@@ -219,7 +219,7 @@ class Formulas(Folder):
         self.assertLess(abs(len(by_direction.triangles) / 2110 - 1), 0.15)
         self.assertGreater(len(isotropic.triangles), 2.5 * len(by_direction.triangles))
 
-    def test_what_is_no_surface_is_told(self):
+    def test_input_without_a_surface_is_reported(self):
         for given, sentence in ((("z = x + z",), "position"), (("x = u; y = v",), "A surface is"), (("z = x; z = y",), "two equations of z"),
                                 (("z = x", "--domain", "disc:0,0,0"), "is not a domain"), (("z = x", "--domain", "box:0,0,1"), "is not a domain"),
                                 (("z = x", "--domain", "box:1,0,0,1"), "is not a domain"), (("z = 1 / x",), "the formula has no value there"),
@@ -300,7 +300,7 @@ class Sizes(Folder):
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="NAME=VALUE")
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is not a length")
 
-    def test_edges_of_a_curve_can_be_told(self):
+    def test_edges_of_a_curve_can_be_prescribed(self):
         # Curve 2 of the first square is the first side of the second one, from (1, -1) to (1, 1) or back.
         def between(*options):
             mesh = self.mesh(self.two, "--size", "0.5", *options)
@@ -330,7 +330,7 @@ class Sizes(Folder):
             with self.subTest(wrong=wrong):
                 self.refused(self.two, "-o", "a.mesh", *wrong, sentence=sentence)
 
-    def test_empty_words_are_refused(self):
+    def test_empty_words_are_rejected(self):
         self.refused("", "-o", "a.mesh", sentence="The name of the input is empty")
         for option in ("--size", "--size-map", "--env"):
             self.refused(self.two, "-o", "a.mesh", option, "", sentence=option)
@@ -359,7 +359,7 @@ class Sizes(Folder):
             self.assertEqual((mesh.vertices, mesh.triangles), (meshes[0].vertices, meshes[0].triangles))
 
     @unittest.skipUnless(FORMULAS, "built without muParser")
-    def test_a_formula_that_is_wrong_is_told_with_the_position(self):
+    def test_a_formula_that_is_wrong_is_reported_with_the_position(self):
         for formula, sentence in (("x + * 2", "position 5"), ("x +", "position 4"), ("(x", "position 3"), ("0.1 + size", "position 7"),
                                   ("x y", "position 3"), ("x = 2", "'=' assigns"), ("1, 2", "more than one value"), ("  ", "empty"),
                                   ('"a"', "strings"), ("0.1 + \u00e9", "'0.1 + ...' is wrong at position 7: a character that is not plain text"), ("x" * 5000, "4096")):
@@ -373,7 +373,7 @@ class Sizes(Folder):
         self.refused(self.square, "-o", "a.mesh", "--size-map", "1/(x - x)", sentence="gives inf")
 
     @unittest.skipIf(FORMULAS, "built with muParser")
-    def test_without_muparser_a_formula_is_refused(self):
+    def test_without_muparser_a_formula_is_rejected(self):
         self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="built without muParser")
 
     def test_a_background_mesh_gives_the_sizes_at_its_vertices(self):
@@ -531,7 +531,7 @@ class Results(Folder):
         summary = json.loads(self.run_mesh(square, "-o", "a.mesh", "-q", "--json", "--threads", "3").stdout)
         self.assertEqual(summary["threads"], 3)
 
-    def test_a_summary_ends_the_run_and_a_quiet_one_says_nothing(self):
+    def test_a_summary_ends_the_run_and_a_quiet_run_prints_nothing(self):
         done = self.run_mesh(TEAPOT, "-o", "a.mesh", "-o", "a.vtu", "--size", "0.3")
         for pattern in (r"(?m)^faces +32 meshed, 0 repaired, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
                         r"(?m)^written +a\.vtu$", r"(?m)^interfaces \d+ curves of two faces, 0 seams, \d+ open", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
@@ -541,7 +541,7 @@ class Results(Folder):
         quiet = self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.3", "-q")
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
 
-    def test_json_tells_what_was_delivered(self):
+    def test_json_has_the_measures_of_the_delivered_mesh(self):
         square = self.write("square.bpt", SQUARE)
         plain = json.loads(self.run_mesh(square, "-o", "a.mesh", "--size", "0.2", "--json").stdout)
         self.assertNotIn("delivered", plain)
@@ -567,7 +567,7 @@ class Results(Folder):
         self.assertTrue(all(" of " in sentence for sentence in json.loads(bowl)["delivered"]["not_met"]))
         self.assertTrue(json.loads(bowl)["delivered"]["not_met"])
 
-    def test_json_tells_why_there_is_no_mesh(self):
+    def test_json_has_the_reason_for_a_missing_mesh(self):
         self.write("broken.bpt", "2 1\n")
         self.write("broken.mesh", "Vertices 1\n")
         square = self.write("square.bpt", SQUARE)

@@ -268,7 +268,7 @@ class Plane(unittest.TestCase):
         self.assertIn(sentence, done.stderr)
         self.assertFalse(os.path.exists(self.path("no.mesh")))
 
-    def test_mistakes_are_told_with_the_line(self):
+    def test_mistakes_are_reported_with_the_line(self):
         self.write("open.poly", SQUARES.replace("13 1\n", "12 1\n").replace("4 4 1 1\n", "").split("5 5 6 2")[0].replace("12 1\n", "3 1\n") + "0\n")
         self.fails("open.poly", sentence="its boundary is open, since only one curve ends at point '1'")
         self.write("wrong.data", PIECE.replace("AB +1 200", "AB -1 200"))
@@ -322,7 +322,7 @@ class Plane(unittest.TestCase):
         area = sum(mesh.areas().values())
         self.assertAlmostEqual(len(mesh.triangles) / (area * 4 / math.sqrt(3) * math.sqrt(0.04)), 1, delta=0.15)
 
-    def test_bl2d_tells_mistakes(self):
+    def test_bl2d_reports_mistakes(self):
         self.write("bl2d.env", ENV.format(0, 0))
         self.assertIn("there is no domain: none of piece.0.0.data, piece.0.data", self.bl2d(2))
         self.write("piece.0.data", PIECE)

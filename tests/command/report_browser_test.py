@@ -293,7 +293,7 @@ class Pages(unittest.TestCase):
             self.browser.frames()
             self.picture("scheme_" + scheme)
 
-    def test_nothing_is_asked_of_a_network_and_nothing_is_complained_of(self):
+    def test_no_request_goes_to_a_network_and_no_error_is_logged(self):
         self.browser.messages()
         self.open("teapot.html")
         self.assertEqual(self.browser.run("return performance.getEntriesByType('resource').map((e) => e.name)"), [])

@@ -110,7 +110,7 @@ class Triangles(unittest.TestCase):
             self.assertEqual(self.info(self.path(name), "--sharp", "95")["lines"], 0)
         self.assertIn("sharp edges        72\n", self.run_command("info", self.path("a.off")).stdout)
 
-    def test_features_below_45_degrees_stay_and_a_lost_one_is_told_with_its_place(self):
+    def test_features_below_45_degrees_stay_and_a_lost_one_is_reported_with_its_place(self):
         source, target = self.path("a.stl", stl(*countersink())), self.path("b.mesh")
         found = self.info(source)
         self.assertEqual((found["lines"], found["regions"], found["sharp_edges"]), (5, 5, 5 * 36))
@@ -126,7 +126,7 @@ class Triangles(unittest.TestCase):
         self.assertGreater(float(place[5]), 0.1)
         self.assertLess(math.hypot(float(place[2]), float(place[3])), 4.1)
 
-    def test_kinks_of_a_hinge_stay_and_a_lost_one_is_told_with_its_place(self):
+    def test_kinks_of_a_hinge_stay_and_a_lost_one_is_reported_with_its_place(self):
         source, target = self.path("a.stl", stl(*hinge())), self.path("b.mesh")
         found = self.info(source)
         self.assertEqual((found["euler_number"], found["border_edges"], found["regions"]), (2, 0, 10))
@@ -174,7 +174,7 @@ class Triangles(unittest.TestCase):
             self.assertTrue(kinds & {"triangles6", "quads4", "quads8"}, element)
             self.assertLessEqual(kinds, allowed[element], element)
 
-    def test_mistakes_are_told(self):
+    def test_mistakes_are_reported(self):
         x, t = cylinder()
         flat = self.path("flat.off", off(x + [(0, 0, 3), (0, 0, 4)], t + [(73, 74, 75)]))
         self.assertIn("1 triangles have no area, the first is triangle 144 (from 0): dropped", self.run_command("info", flat).stderr)
@@ -202,7 +202,7 @@ class Triangles(unittest.TestCase):
                          "-o", self.path("c.mesh"))
         self.run_command("check", self.path("c.mesh"), "--closed")
 
-    def test_each_defect_is_told_mended_or_refused(self):
+    def test_each_defect_is_reported_repaired_or_rejected(self):
         # Repairs and reports: figures of `carreau info`, and words of the warning with its place.
         for name, figures, words in (
                 ("turned.off", {"turned_triangles": 1, "border_edges": 0, "euler_number": 2, "triangles": 8},

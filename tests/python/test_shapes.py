@@ -147,7 +147,7 @@ def test_names_and_sizes_by_number(folder):
     assert longest < 0.2 * 1.5
 
 
-def test_what_is_no_shape_is_rejected():
+def test_other_objects_than_shapes_are_rejected():
     with pytest.raises(errors.ArgumentError, match="has no exportBrep"):
         shapes.brep_of(object())
 

@@ -20,7 +20,7 @@ namespace carreau {
 struct SurfacePoint {
   Point3 s{}, su{}, sv{}, suu{}, suv{}, svv{};
 };
-/// The same of a batch, a row for each (u, v); spans above the order are empty.
+/// S(u, v) and its derivatives at the points of a batch, a row for each (u, v); spans above the order are empty.
 struct SurfaceRows {
   std::span<Point3> s, su, sv, suu, suv, svv;
 };

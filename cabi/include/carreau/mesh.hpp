@@ -39,7 +39,7 @@ struct PartVertices {
   std::vector<std::int64_t> rows;
 };
 
-/// The same of its triangles.
+/// The triangles of a part: numbers in the whole mesh, and ranks.
 struct PartTriangles {
   std::vector<std::int64_t> numbers;
   std::vector<std::int32_t> owners;

@@ -105,7 +105,8 @@ class Geometries:
         self._long(lib().add_molecule, byref(molecule_options(**options)), len(xyz), xyz, doubles(radii, "radii", len(xyz)))
 
     def load_molecule(self, path: Path, **options: Any) -> None:
-        """The same of the atoms of a file .xyzr, .xyz, .pdb or .cif; option radii: a file of lines "symbol radius"."""
+        """Adds the surface of the atoms of a file .xyzr, .xyz, .pdb or .cif; option radii: a file of lines "symbol
+        radius"."""
         self._long(lib().load_molecule, byref(molecule_options(**options)), file_name(path))
 
     @property
@@ -134,7 +135,8 @@ class Geometries:
         self._long(lib().add_grid, byref(grid_options(**options)), len(grids), counts, nodes)
 
     def load_grid(self, path: Path, format: str = "", **options: Any) -> None:
-        """The same of a file; format: "plot3d", "heights", "scan", "nodes", or "": by the suffix."""
+        """Adds a surface through the grids of a file; format: "plot3d", "heights", "scan", "nodes", or "": by the
+        suffix."""
         self._long(lib().load_grid, byref(grid_options(**options)), file_name(path), choice(GRID_FORMATS, format, "format"))
 
     def add_triangles(self, vertices: ArrayLike, triangles: ArrayLike, *, references: Optional[ArrayLike] = None,
@@ -151,7 +153,7 @@ class Geometries:
         self._long(lib().add_triangles, byref(triangles_options(**options)), byref(given))
 
     def load_triangles(self, path: Path, **options: Any) -> None:
-        """The same of a file .stl, .off, .obj, .ply, .mesh, .vtu or .msh."""
+        """Adds the triangles of a file .stl, .off, .obj, .ply, .mesh, .vtu or .msh."""
         self._long(lib().load_triangles, byref(triangles_options(**options)), file_name(path))
 
     @property
@@ -185,7 +187,7 @@ class Geometries:
         self._long(lib().add_plane_domain, byref(domain._struct()))
 
     def load_plane(self, path: Path, sizes: Optional[Path] = None, corner_angle: float = 0) -> None:
-        """The same of a file .poly, .mesh, .bl2d, .data or .g; sizes: a .sol, .hg or .h for its vertices. With a
+        """Adds the plane domain of a file .poly, .mesh, .bl2d, .data or .g; sizes: a .sol, .hg or .h for its vertices. With a
         corner_angle (degrees) above 0, polygons become splines between corners."""
         self._long(lib().load_plane_domain, file_name(path), None if sizes is None else file_name(sizes), float(corner_angle))
 

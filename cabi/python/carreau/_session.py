@@ -111,7 +111,7 @@ class SessionBase(Studies):
 
     def set_sizes(self, function: Optional[Callable[..., Any]] = None, *, face_sizes: Optional[Mapping[int, float]] = None,
                   on_curve: Optional[Callable[..., Any]] = None, at_point: Optional[Callable[..., Any]] = None) -> None:
-        """Wants sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
+        """Prescribes sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
         sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point).struct()
         self._call(lib().set_metric_callbacks, byref(sizes))
         self._sizes.append(sizes)
@@ -143,7 +143,7 @@ class SessionBase(Studies):
     # ---- runs ----
 
     def _long(self, function: Callable[..., int], *arguments: Any) -> None:
-        """As _call, for calls that may take long: Ctrl-C is heard."""
+        """As _call, for calls that may take long: Ctrl-C stops them."""
         if not self._close.alive:
             raise ValueError("the session is closed")
         status = run(self._host, lambda: function(self._handle, *arguments))
@@ -176,7 +176,7 @@ class SessionBase(Studies):
             self._runs += 1
 
     def stop(self) -> None:
-        """Asks the run under way to stop, which it does within 100 ms; from a callback, or another thread."""
+        """Requests the run under way to stop, which it does within 100 ms; from a callback, or another thread."""
         if self._close.alive:
             lib().stop(self._handle)
 

@@ -78,7 +78,7 @@ class Studies:
             triangles=address(corners), faces=address(refs), sizes=address(h), metrics=address(m))))
 
     def load_background(self, mesh: Path, sol: Path) -> None:
-        """The same of files: .mesh or .meshb, and .sol or .solb."""
+        """Takes sizes or metrics from files: .mesh or .meshb, and .sol or .solb."""
         self._call(lib().set_background_mesh, file_name(mesh), file_name(sol))
 
     def load_background_fields(self, mesh: Path, sol: Path) -> None:

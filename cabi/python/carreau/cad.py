@@ -93,11 +93,12 @@ class CadFile:
         require(session._handle, cad_lib().cad_add(self._handle, session._handle))
 
     def set_face_size(self, face: object, size: float) -> None:
-        """Wants a size on the face of this number, or on all faces of this name, when hphy_flag = 2."""
+        """Prescribes a size on the face of this number, or on all faces of this name, when hphy_flag = 2."""
         self._call(cad_lib().cad_set_face_size, str(face).encode(), float(size))
 
     def set_size(self, dimension: int, number: int, size: float) -> None:
-        """The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number."""
+        """Prescribes a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by
+        number."""
         self._call(cad_lib().cad_set_size, dimension, number, float(size))
 
     @property

@@ -156,7 +156,8 @@ class Mesh:
         require_mesh(self._handle, status)
 
     def _live(self) -> c_void_p:
-        """A handle with this content. That of a session shows its latest mesh: an earlier one lives on as a copy."""
+        """A handle with this content. The handle of a session shows its latest mesh: an earlier mesh lives on as a
+        copy."""
         session = self.session
         if session is not None and not (session._close.alive and session._runs == self._run):
             copy = Mesh(self.vertices[:, :self.dimension], self.triangles, edges=self.edges, face_ids=self.face_ids,

@@ -79,7 +79,7 @@ def _base(mesh: MeshContent, size: Reals, colors: Any) -> Reals:
 
 
 def _shades(mesh: MeshContent, axes: Reals, colors: Any) -> Reals:
-    """The same lit from the eye."""
+    """Colours lit from the eye."""
     normals = mesh.normals
     size = np.linalg.norm(normals, axis=1)
     lit = np.abs(normals @ axes[2]) / np.where(size > 0, size, 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Wanted sizes and metrics by functions of the place."""
+"""Prescribed sizes and metrics by functions of the place."""
 from __future__ import annotations
 
 from typing import Any, Callable, Mapping, Optional

@@ -9,7 +9,7 @@ namespace carreau::thresholds::measure {
 // In brackets: the tests that rest on it, all of tests/cpp/measure.
 
 /// Unit edges. Gradations are measured over at least this length: over a hundredth of a unit, sizes that differ by an
-/// invisible tenth would have a gradation of 14 000. [DeliveredPlane.GradationOfTinyEdgesIsThatOfATenthOfAUnit]
+/// invisible tenth would have a gradation of 14 000. [DeliveredPlane.GradationOfTinyEdgesIsOverATenthOfAUnit]
 inline constexpr double shortest_way = 0.1;
 /// Unit edges. Trapezoids of a length in a control space are no longer. [DeliveredPlane.QuadratureHasItsOrder]
 inline constexpr double fine_length = 0.1;

@@ -55,7 +55,7 @@ inline constexpr int most_curve_halvings = 4;
 /// Curves that are cut between two reports, if several threads cut them. [time only]
 inline constexpr std::size_t curves_at_once = 64;
 /// Shares of the run: the gradation if there is one, then shares of the rest for curves and for patches.
-/// [GradedModel.TellsItsProgressAndStops]
+/// [GradedModel.ReportsItsProgressAndStops]
 inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share = 0.85;
 
 // Memory (run)
@@ -86,7 +86,7 @@ inline constexpr std::size_t most_pairs = 100'000;
 inline constexpr int newton_steps = 8;
 inline constexpr double meets_within = 1e-6, least_slope = 0.1;
 /// Projections from one face to the other and back. The first one finds the distance of parallel faces.
-/// [FaceGap.OfConcentricCylindersIsTheDifferenceOfTheirRadii]
+/// [FaceGap.ConcentricCylindersHaveTheDifferenceOfTheirRadii]
 inline constexpr int projections = 3;
 /// Share of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
 inline constexpr double no_sagitta = 1e-12;

@@ -268,7 +268,7 @@ inline constexpr double mending_gain = 1e-3;
 /// 0.3 %]
 inline constexpr double over_short_edge = 0.9;
 /// Squared units. Length of an edge that a removal leaves; longer ones may be halved. [2.5: longest edge of internal
-/// curves 1.45 to 1.52; OfTrianglesInCorners]
+/// curves 1.45 to 1.52; TrianglesInCorners]
 inline constexpr double longest_after_removal2 = 2.0;
 /// Squared units. Sizes that change much over a triangle leave shorter edges: an end goes. [0.42: more triangles on
 /// coarse poles, degrees of six 87 to 69 %]

@@ -13,12 +13,12 @@ namespace carreau::thresholds::lift {
 /// [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
 inline constexpr double too_long = 1.3;
 /// True length over promised length. Limit for a mesh that is much too fine.
-/// [Verification.WhatTheSamplesKnowCostsNothing]
+/// [Verification.SampledDetailsCostNothing]
 inline constexpr double too_short = 0.65;
 /// True length over promised length. Such edges are examined for jumps; a surface that is continuous between their ends
 /// has none. [surface: BadModels.SurfaceThatJumpsByAFewEdges]
 inline constexpr double excess = 8;
-/// Relative length. A larger change of the control space requires a new mesh. [Verification.WhatTheSamplesKnow...]
+/// Relative length. A larger change of the control space requires a new mesh. [Verification.SampledDetailsCostNothing]
 inline constexpr double notable_change = 0.1;
 /// Ratio of lengths. An edge that is so much shorter than the longest edge of its triangle is a point of space.
 /// Triangles of prescribed metrics are at most some ten thousand times longer than wide. [surface: Poles]

@@ -10,7 +10,7 @@ namespace carreau::thresholds::refine {
 
 // Crossings and balance (boundary_refinement)
 /// Rounds. Each halves the edges that cross: 2^-16 of an edge is below the accuracy of any support. [domain: Crossings.
-/// AreMendedByRefinement]
+/// AreRemovedByRefinement]
 inline constexpr int most_halvings = 16;
 /// Rounds. Around a true crossing the edges that cross become shorter with every halving, and curves that only come
 /// near each other stop crossing. If this number of halvings changes nothing, the curves lie on each other, and would
@@ -19,7 +19,7 @@ inline constexpr int most_fruitless_halvings = 6;
 /// Share of the length that crossed before. A halving without effect leaves more. [as above]
 inline constexpr double fruitless_share = 0.75;
 /// Rounds. Halvings of a boundary that is inside out: a model that is wrong stays so. [domain:
-/// OrientLoops.RefusesWhatIsNoDomain]
+/// OrientLoops.RejectsInvalidDomains]
 inline constexpr int most_turned_rounds = 6;
 /// Ratio. Assumed ratio of lengths in the metric of a curved surface to straight distances in space.
 /// [Refinement.BordersWithTheOutsideBetweenThemAreNoNarrowZone]

@@ -9,7 +9,7 @@ namespace carreau::thresholds::sample {
 // In brackets: the tests that rest on it, of tests/cpp/surface.
 
 /// Shares of the domain's box. Distances from a degenerate point at which limits are taken; the second if the first is
-/// outside. [FaceMetric.OfAPoleIsTheLimitAlongItsMeridian]
+/// outside. [FaceMetric.AtAPoleIsTheLimitAlongItsMeridian]
 inline constexpr double ways_inside[] = {1e-4, 1e-6};
 /// Share of that way. The part aside, towards the middle of the box: meridians may run along sides of the domain, which
 /// are straight but for rounding. [as above]

@@ -53,7 +53,7 @@ TEST(TransferField, IsExactForLinearFieldsAndKeepsComponentsTogether) {
   }
 }
 
-TEST(TransferField, TellsSheetsApartByTheirFaces) {
+TEST(TransferField, DistinguishesSheetsByTheirFaces) {
   // Two sheets that coincide in space, with values 1 and 2.
   const TestMesh coarse = square_mesh(3), fine = square_mesh(6);
   const auto two_sheets = [](const TestMesh& mesh) {
@@ -153,7 +153,7 @@ TEST(TransferField, CountsVerticesOutside) {
     EXPECT_NEAR(moved.values[v], std::clamp(fine.vertices[v].x(), -right, right), 1e-12);
 }
 
-TEST(TransferField, RefusesWhatDoesNotFit) {
+TEST(TransferField, RejectsWrongSizesOfInput) {
   const TestMesh mesh = square_mesh(2);
   const std::vector<double> values(mesh.vertices.size() - 1);
   EXPECT_THROW(transfer_field(surface(mesh, 1), surface(mesh, 1), values, 1), InvalidArgument);
@@ -161,7 +161,7 @@ TEST(TransferField, RefusesWhatDoesNotFit) {
   EXPECT_THROW(transfer_field({}, surface(mesh, 1), {}, 1), InvalidArgument);
 }
 
-TEST(InterpolationError, OfAQuadraticIsThatOfItsEdges) {
+TEST(InterpolationError, AQuadraticHasTheErrorOfItsEdges) {
   // On an edge of length h along x the error is 3 h^2 / 4, h^2 / 4 along y: all middles, exactly.
   TestMesh mesh = square_mesh(8);
   mesh.with([](Vec3 p) { return 3 * p.x() * p.x() + p.y() * p.y(); });

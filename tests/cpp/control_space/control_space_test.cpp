@@ -177,7 +177,7 @@ TEST(ControlSpace, BiquadraticRootsAreExact) {
 }
 
 // Differences of a field that is as smooth as a leaf equal the differences of at() itself.
-TEST(ControlSpace, SlopesAreThoseOfTheMetric) {
+TEST(ControlSpace, SlopesMatchTheMetric) {
   for (const Field& field : {fields::paraboloid(0.1), fields::torus(0.05), fields::swirl(4, 0.02)}) {
     const ControlSpace space = build(field);
     Points points(field.domain);

@@ -81,7 +81,7 @@ TEST(SampledNormals, AreExactAtSamples) {
   }
 }
 
-TEST(SampledNormals, ThoseOfAPlaneDoNotDiffer) {
+TEST(SampledNormals, DoNotDifferOnAPlane) {
   SampledNormals plane;
   plane.add({0, 0}, {});  // a pole
   for (int i = 1; i < 100; ++i) plane.add({0.1 * i, 0.2 * i}, {0.3 * i, 0.1 * i, -0.7 * i});

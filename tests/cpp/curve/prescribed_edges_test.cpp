@@ -84,7 +84,7 @@ TEST(ProgressionShares, ManyGeometricEdgesDoNotOverflow) {
   EXPECT_NEAR(progression_shares(progression(Progression::geometric, 9, 1e30))[8], 1e-30, 1e-42);
 }
 
-TEST(ProgressionShares, RefuseWhatHasNoEdges) {
+TEST(ProgressionShares, RejectInputWithoutEdges) {
   EXPECT_THROW(progression_shares(progression(Progression::equal, 0)), InvalidArgument);
   EXPECT_THROW(progression_shares(progression(Progression::geometric, 5, 0)), InvalidArgument);
   EXPECT_THROW(progression_shares(progression(Progression::arithmetic, 5, -1)), InvalidArgument);
@@ -94,7 +94,7 @@ TEST(ProgressionShares, RefuseWhatHasNoEdges) {
 }
 
 // On z = 0: lengths in space are lengths in the plane. The pace along the line is uneven.
-TEST(PrescribedEdges, OfALineAndACircleHaveTheLengthsOfTheirProgression) {
+TEST(PrescribedEdges, ALineAndACircleHaveTheLengthsOfTheirProgression) {
   for (const PrescribedEdges& told : progressions()) {
     Scene line;
     const CurveUse on_line = line.add_use(
@@ -126,7 +126,7 @@ TEST(PrescribedEdges, OfALineAndACircleHaveTheLengthsOfTheirProgression) {
 }
 
 // A parabola in space: s(x) = (x sqrt(1 + x^2) + asinh x) / 2.
-TEST(PrescribedEdges, OfACurvedCurveHaveTheLengthsOfItsArcs) {
+TEST(PrescribedEdges, ACurvedCurveHasTheLengthsOfItsArcs) {
   Scene s = interface_between_two_faces(true);
   const PrescribedEdges told = progression(Progression::geometric, 10, 1.4);
   prescribe(s, s.topology.curves[0].uses[0], told);
@@ -159,7 +159,7 @@ TEST(ExactArc, IsTheInverseOfItself) {
 
 // The second use prescribes the edges, in its own direction, and has its own parameters; the first use holds the same
 // vertices.
-TEST(PrescribedEdges, OfOneUseHoldInAll) {
+TEST(PrescribedEdges, HoldInAllUsesOfACurve) {
   for (const bool same_pace : {true, false}) {
     Scene s = interface_between_two_faces(same_pace);
     PrescribedEdges told = progression(Progression::given, 0);
@@ -206,7 +206,7 @@ std::string refusal(Scene& scene) {
   return {};
 }
 
-TEST(PrescribedEdges, ThatContradictEachOtherAreRefused) {
+TEST(PrescribedEdges, ThatContradictEachOtherAreRejected) {
   Scene s = interface_between_two_faces(true);
   const std::vector<CurveUse>& uses = s.topology.curves[0].uses;
   prescribe(s, uses[0], progression(Progression::geometric, 6, 2));
@@ -218,7 +218,7 @@ TEST(PrescribedEdges, ThatContradictEachOtherAreRefused) {
   EXPECT_NE(refusal(s), "");
 }
 
-TEST(PrescribedEdges, ThatCannotBeAreRefused) {
+TEST(PrescribedEdges, ThatCannotBeAreRejected) {
   Scene outside = interface_between_two_faces(true);
   PrescribedEdges told = progression(Progression::given, 0);
   told.t = {0.5, 1};

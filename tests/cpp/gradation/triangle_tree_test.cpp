@@ -70,7 +70,7 @@ NearestOnMesh nearest_of_all(const Triangles& mesh, const Scale& scaled, Vec2 p)
 
 class TriangleTreePlaces : public testing::TestWithParam<Vec2> {};
 
-TEST_P(TriangleTreePlaces, AreThoseOfTheNearestTriangle) {
+TEST_P(TriangleTreePlaces, MatchTheNearestTriangle) {
   std::mt19937 random(7);
   const Vec2 extent = GetParam();
   for (const int n : {4, 9, 24}) {

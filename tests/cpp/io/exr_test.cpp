@@ -245,7 +245,7 @@ TEST(Exr, AnErrorWhilePixelsAreMadeLeavesNoFile) {
     }
 }
 
-TEST(Exr, PartsThatCannotBeAreRefused) {
+TEST(Exr, PartsThatCannotBeAreRejected) {
   const TemporaryFolder folder;
   const auto sentence = [&](const std::vector<ExrPart>& parts) {
     return sentence_of<InvalidArgument>([&] { ExrWriter(folder.file("x.exr"), parts, {}); });

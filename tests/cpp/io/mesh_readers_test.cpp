@@ -442,7 +442,7 @@ TEST(MeshReaders, VtuCompressedInBlocks) {
               (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
 }
 
-TEST(MeshReaders, VtuBlocksThatAreNotWhatTheirHeaderSays) {
+TEST(MeshReaders, VtuBlocksThatContradictTheirHeader) {
   const std::string array = "x.vtu, line 16: array 'connectivity'";
   for (const auto& [corners, sentence] :
        {std::pair{"AgAAAAgAAAAEAAAADgAAAAwAAAA=eJxjYGCfYARiAAAMAAJ4nGNiYGAAAAAMAAM=",

@@ -19,7 +19,7 @@ TEST(MeshFiles, RandomMeshesReadBackExactlyAndFormatsAgree) {
   }
 }
 
-TEST(MeshFiles, AreToldApartByTheirContent) {
+TEST(MeshFiles, AreRecognisedByTheirContent) {
   const TemporaryFolder folder;
   for (const MeshFormat format : {MeshFormat::mesh, MeshFormat::meshb}) {
     const std::string path = folder.file("a mesh.mesh");
@@ -52,7 +52,7 @@ TEST(MeshFiles, TheSuffixGivesTheFormat) {
                   ".unv, .su2, .off, .obj, .ply, .vtk, .tri");
 }
 
-TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRefusedAndTheOldFileStays) {
+TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRejectedAndTheOldFileStays) {
   const TemporaryFolder folder;
   const std::string path = folder.file("x.mesh");
   write_file(path, "old");

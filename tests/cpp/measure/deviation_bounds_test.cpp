@@ -220,7 +220,7 @@ TEST(DeviationBounds, SharesAreOfTheTolerances) {
   EXPECT_NE(describe(asked.delivered).not_met.back().find("32 of 32 triangles (100 %) have an upper bound"), std::string::npos);
 }
 
-TEST(DeviationBounds, CostNothingWhenTheyAreNotAskedFor) {
+TEST(DeviationBounds, CostNothingByDefault) {
   AnalyticCad cad = one_face(sphere_jet);
   const SurfaceMesh mesh = grid_mesh(cad, std::array{Grid{1, {0, -0.5}, {1, 0.5}, 20, 20}});
   CountingCad counting(cad);

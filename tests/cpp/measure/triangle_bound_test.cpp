@@ -182,7 +182,7 @@ TEST(TriangleBound, ConeHasAnAngleAtItsApex) {
   EXPECT_LE(b.deviation, 1.3 * std::hypot(height, 1 - std::cos(a)));
 }
 
-TEST(TriangleBound, WhatIsTurnedOverHasAHalfTurn) {
+TEST(TriangleBound, TrianglesTurnedOverHaveAHalfTurn) {
   const BoundedTriangle t({Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const Bounded b = bound(t, [&](PlaceInTriangle p) { return BoundPlace{flat(t, p), {0, 0, -1}}; });
   EXPECT_EQ(b.angle, std::numbers::pi);

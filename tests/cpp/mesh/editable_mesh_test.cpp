@@ -184,7 +184,7 @@ void edit_somewhere(SurfaceMesh& mesh, EditableMesh& editable, Dice& dice, Count
   }
 }
 
-TEST(EditableMesh, KnowsWhatIsAroundCentresAndWhatMayMove) {
+TEST(EditableMesh, KnowsStarsOfCentresAndMovableVertices) {
   SurfaceMesh mesh = two_faces(4);
   const std::vector<std::int32_t> centre{20};  // in the middle of the first face, whose vertices are nine a row
   const EditableMesh local(mesh, centre, 1);
@@ -333,7 +333,7 @@ struct Solid {
   EditableMesh editable() { return {{{&uv, &triangles, nullptr, &mixed}}, xyz, {}, {}}; }
 };
 
-TEST(LinkCondition, RefusesEveryEdgeOfATetrahedron) {
+TEST(LinkCondition, RejectsEveryEdgeOfATetrahedron) {
   Solid solid({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
   const EditableMesh editable = solid.editable();
   for (std::int32_t v = 0; v < 4; ++v)
@@ -382,7 +382,7 @@ struct Annulus {
   EditableMesh editable() { return {{{&uv, &triangles}}, xyz, {}, {}}; }
 };
 
-TEST(LinkCondition, RefusesToPinchAnAnnulusOrToShutItsHole) {
+TEST(LinkCondition, RejectsEdgesThatPinchAnAnnulusOrShutItsHole) {
   Annulus one(8, 1);
   const EditableMesh thin = one.editable();
   for (std::int32_t i = 0; i < one.n; ++i)
@@ -421,7 +421,7 @@ struct Joined {
   }
 };
 
-TEST(EditableMesh, WhereAskedEdgesBetweenFacesAreEditedLikeOthers) {
+TEST(EditableMesh, EditsEdgesBetweenFacesOnRequest) {
   const SurfaceMesh mesh = two_faces(4);
   Joined joined(mesh);
   std::vector<Edge> imposed;
@@ -488,7 +488,7 @@ TEST(EditableMesh, APatchInThePlaneKeepsItsDomain) {
   EXPECT_FALSE(part.is_known(3));
 }
 
-TEST(EditableMesh, PartsOfASplitTriangleHaveTheNumbersAskedFor) {
+TEST(EditableMesh, PartsOfASplitTriangleHaveTheGivenNumbers) {
   for (const auto keeps : {EditableMesh::Split::at_a, EditableMesh::Split::at_start}) {
     PlaneDomain domain;
     domain.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

@@ -125,7 +125,7 @@ Pairs found_in(const std::vector<Vec3>& vertices, const std::vector<Indices>& tr
 }
 
 /// Integer places in a small box: corners on edges, edges on edges, triangles in one plane and double points abound.
-TEST(Intersections, AreThoseOfTheDefinitionOnRandomMeshes) {
+TEST(Intersections, MatchTheDefinitionOnRandomMeshes) {
   std::mt19937 random(11);
   std::array<int, 2> seen{};
   for (int round = 0; round < 300; ++round) {
@@ -193,7 +193,7 @@ TEST(Intersections, AreNoneInASheetOrBetweenSheetsThatTouchAtVertices) {
   EXPECT_TRUE(found_in(vertices, triangles).empty());
 }
 
-TEST(Intersections, OfTwoSheetsLieAlongTheirCommonLineWhateverTheNumberOfThreads) {
+TEST(Intersections, TwoSheetsMeetAlongTheirCommonLineForAnyNumberOfThreads) {
   std::vector<Vec3> vertices;
   std::vector<Indices> triangles;
   constexpr int n = 30;
@@ -251,7 +251,7 @@ TEST(Intersections, AreFoundByManyProcessesAsByOne) {
 }
 
 /// After some vertices have moved, triangles have gone, come and been doubled, and all have other numbers.
-TEST(Intersections, OfAChangedMeshAreFoundFromThoseOfBefore) {
+TEST(Intersections, AreFoundInAChangedMeshFromPreviousOnes) {
   std::mt19937 random(5);
   const auto upto = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   std::int64_t all = 0, kept = 0;
@@ -320,7 +320,7 @@ TEST(Intersections, TakeATimeThatGrowsAsTheTriangles) {
   EXPECT_LT(seconds(160) / seconds(40), 80);
 }
 
-TEST(Intersections, StopWhenAsked) {
+TEST(Intersections, StopOnRequest) {
   std::vector<Vec3> vertices;
   std::vector<Indices> triangles;
   add_sheet(

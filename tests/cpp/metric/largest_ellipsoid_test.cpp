@@ -31,14 +31,14 @@ Metric3 random_metric(std::mt19937& random) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
 }
 
-TEST(LargestEllipsoid, OfTwoItIsTheIntersection) {
+TEST(LargestEllipsoid, IsTheIntersectionOfTwo) {
   const Metric2 p = ellipse(1, 0.2, 0.3), q = ellipse(0.7, 0.1, 1.4);
   EXPECT_EQ(largest_inside(std::array{p, q}), intersection(p, q));
   EXPECT_EQ(largest_inside(std::array{p, p, q, q, p}), intersection(p, q));
   EXPECT_EQ(largest_inside(std::array{p}), p);
 }
 
-TEST(LargestEllipsoid, OfEllipsesTurnedEvenlyItIsACircle) {
+TEST(LargestEllipsoid, IsACircleForEllipsesTurnedEvenly) {
   // A ball, by symmetry; its radius is their small half axis. Pairwise intersections in turn leave less.
   for (const int n : {3, 4, 7}) {
     std::vector<Metric2> metrics;

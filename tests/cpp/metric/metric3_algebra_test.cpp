@@ -114,7 +114,7 @@ TEST(Eigen3, AnySymmetricTensor) {
   EXPECT_EQ(eigen({0, 0, 0, 0, 0, 0}).value[0], 0);
 }
 
-TEST(PositiveDefinite, TellsWhatIsNot) {
+TEST(PositiveDefinite, DetectsOtherMatrices) {
   const double nan = std::nan("");
   EXPECT_TRUE(is_positive_definite(Metric3{}));
   EXPECT_TRUE(is_positive_definite(Metric3{1e-300, 0, 0, 1e-300, 0, 1e-300}));

@@ -70,7 +70,7 @@ class SessionDelivered : public ::testing::Test {
   Session session{monitor};
 };
 
-TEST_F(SessionDelivered, IsMeasuredOnceWhenAsked) {
+TEST_F(SessionDelivered, IsMeasuredOnceOnRequest) {
   session.make_mesh();
   const CallCounts run = session.report().calls, before = cad->calls;
   EXPECT_EQ(monitor.count(Level::summary, "deviation A0, "), 0);
@@ -170,7 +170,7 @@ TEST_F(SessionDelivered, JsonListsFacesThatAreNotMeshedAsTheyAre) {
                          {{"reference", 8}, {"name", ""}, {"status", "failed"}, {"why", "face 8: no \"curve\""}}}));
 }
 
-TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
+TEST_F(SessionDelivered, JsonHasNullForNonFiniteNumbers) {
   MeshEvaluation nothing;
   nothing[Kind::deviation].values = {std::nan(""), infinity};
   summarise(nothing);
@@ -182,7 +182,7 @@ TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
   EXPECT_EQ(json["lengths_in_range"].get<double>(), 0);
 }
 
-TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndSaid) {
+TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndReported) {
   // In the manual an edge of unit length makes the angle: half of them are above it.
   Parameters& p = session.parameters();
   p.set("hphy_flag", 0);
@@ -318,7 +318,7 @@ TEST_F(SessionDelivered, ActionOfBlsurfEnvWritesJsonBesideIt) {
   }
 }
 
-TEST_F(SessionDelivered, ErrorsAreToldAndLoseNothing) {
+TEST_F(SessionDelivered, ErrorsAreReportedAndLoseNothing) {
   EXPECT_THROW(session.delivered(), InvalidArgument);
   EXPECT_THROW(session.write_delivered(path("a.json")), InvalidArgument);
   session.make_mesh();

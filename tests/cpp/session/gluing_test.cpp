@@ -123,7 +123,7 @@ Model with_references(AnalyticCad& cad) {
   return model;
 }
 
-TEST(Gluing, OfOpenCurvesKeepsReferences) {
+TEST(Gluing, OpenCurvesKeepReferences) {
   Patches run(three_patches(1e-3), 0.2, 0.01);
   const Model known = with_references(*run.cad);
   run.session.set_model(known);
@@ -160,7 +160,7 @@ TEST(Gluing, OfOpenCurvesKeepsReferences) {
             3);
 }
 
-TEST(Gluing, OfOpenCurvesLeavesSharedOnesAlone) {
+TEST(Gluing, OpenCurvesLeaveSharedOnesAlone) {
   // Two pairs of squares; the sides x = 1 of each pair have one reference, the pairs only touch along y = 1.
   AnalyticCad cad;
   cad.faces[1] = polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0);
@@ -193,7 +193,7 @@ TEST(Gluing, LeavesGapsAboveItsTolerance) {
   EXPECT_EQ(run.euler(), 3);
 }
 
-TEST(Gluing, FindsWhatTwoShiftedSidesShare) {
+TEST(Gluing, FindsTheCommonPartOfTwoShiftedSides) {
   AnalyticCad cad;
   cad.faces[1] = polygon({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, 0);
   cad.faces[2] = polygon({{1, 1}, {3, 1}, {3, 2}, {1, 2}}, 0);

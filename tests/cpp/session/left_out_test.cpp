@@ -143,7 +143,7 @@ TEST(FailingFaces, WithWrongDerivativesAreFoundTogether) {
   EXPECT_NE(run.session.mesh().faces[4].why.find("surf1 gives Su = (3, 0, 0)"), std::string::npos);
 }
 
-TEST(FailingFaces, OfAHostAreNotAsked) {
+TEST(FailingFaces, LeftOutFacesAreNotEvaluated) {
   AnalyticCad cad = row();
   for (const int face : {2, 6}) cad.faces.erase(face);  // std::map::at throws
   Row run(row());

@@ -89,7 +89,7 @@ Model model_of_two_squares() {
   return model;
 }
 
-TEST(PrescribedCurves, OfTwoFacesHoldInBoth) {
+TEST(PrescribedCurves, TwoFacesKeepThemInBoth) {
   for (const bool by_second : {false, true}) {
     Meshing run(two_squares(), 0.1);
     for (const char* name : {"CheckCloseEdges", "CheckAdjacentEdges"}) run.session.parameters().set(name, 20);
@@ -139,7 +139,7 @@ TEST(PrescribedCurves, OnASeamHoldOnBothOfItsSides) {
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(lengths[5 - k], 2.0 / 12 * (1 + 2 * double(k) / 5), 1e-10);
 }
 
-TEST(PrescribedCurves, OfGluedFacesHoldInBoth) {
+TEST(PrescribedCurves, GluedFacesKeepThemInBoth) {
   Meshing run(two_squares(), 0.1);
   Model model = testing::unglued(*run.cad);
   model.faces[1].curves[3].edges = told(Progression::equal, 3);
@@ -147,7 +147,7 @@ TEST(PrescribedCurves, OfGluedFacesHoldInBoth) {
   EXPECT_EQ(run.lengths(2).size(), 3U);
 }
 
-TEST(PrescribedCurves, AreToldWhereSomethingWantsOthers) {
+TEST(PrescribedCurves, AreReportedWhereOtherSizesContradict) {
   Meshing run(testing::hemisphere(), 0.5);
   run.session.parameters().set("hgeo_flag", 1);
   run.session.parameters().set("geo_guarantee", 1);
@@ -159,7 +159,7 @@ TEST(PrescribedCurves, AreToldWhereSomethingWantsOthers) {
               run.monitor.says("the edges prescribed on it stay, although geo_guarantee"));
 }
 
-TEST(PrescribedCurves, AreToldWhereElementsHalveThem) {
+TEST(PrescribedCurves, AreReportedWhereElementsHalveThem) {
   for (const char* element : {"p2", "q1.0", "q1.1"}) {
     Meshing run(two_squares(), 0.2);
     run.session.parameters().set("element", element);
@@ -172,7 +172,7 @@ TEST(PrescribedCurves, AreToldWhereElementsHalveThem) {
   }
 }
 
-TEST(PrescribedCurves, OfNarrowFacesKeepThemFromCollapsing) {
+TEST(PrescribedCurves, KeepNarrowFacesFromCollapsing) {
   AnalyticCad cad;
   cad.faces[1] = {flat_jet, testing::rectangle({0, 0}, {1, 1})};
   cad.faces[2] = {flat_jet, testing::rectangle({1, 0}, {1.001, 1})};
@@ -223,7 +223,7 @@ TEST(PrescribedCurves, ThatContradictThemselvesEndTheRunAndLeaveNoFaceOut) {
   EXPECT_THROW(run.session.make_mesh(), InvalidModel);
 }
 
-TEST(PrescribedCurves, OneEdgeTwiceBetweenTwoPointsIsRefused) {
+TEST(PrescribedCurves, OneEdgeTwiceBetweenTwoPointsIsRejected) {
   AnalyticCad cad;
   cad.faces[1] = {flat_jet, {testing::arc({0, 0}, 1, 0, pi), testing::arc({0, 0}, 1, pi, 2 * pi)}};
   Meshing run(cad, 0.5);

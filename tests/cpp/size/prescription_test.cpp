@@ -251,7 +251,7 @@ TEST(Sources, CurvesAndPointsWithoutAnAnswerTakeTheMeanOfTheSurfacesBeside) {
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.05, 1e-12);
 }
 
-TEST(Sources, WhereNobodyAnswersTheSizeIsTheDefaultOrInterpolated) {
+TEST(Sources, WithoutAnswersTheSizeIsTheDefaultOrInterpolated) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   FieldSource source;
@@ -320,7 +320,7 @@ TEST(Sources, AreCombinedWithTheGeometryInOneOfTwoWays) {
   EXPECT_NEAR(scaled.ask_on_curve(0, middle, 0.4).physical, 0.5, 1e-12);
 }
 
-TEST(Sources, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {
+TEST(Sources, UnusableMetricsHaveASentenceWithThePlaceAndTheMatrix) {
   FourPatches s;
   Prescription answer;
   FieldSource source = field_of_space([&](Vec3) { return answer; });

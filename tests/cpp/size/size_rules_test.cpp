@@ -45,7 +45,7 @@ TEST(SizeRules, MinimumAndGeometricMeansOfTheFourPatches) {
   EXPECT_DOUBLE_EQ(s.rules(p).on_curve(0, middle, 0.4), 0.45);
 }
 
-TEST(SizeRules, CurvesAreAskedBeforeSurfacesAndPointsBeforeCurves) {
+TEST(SizeRules, CurvesPrecedeSurfacesAndPointsPrecedeCurves) {
   FourPatches s;
   // Curve 1 answers through its second use only: face 4 sees it as its curve 1, from t = 0 outside to 1 at the centre.
   s.cad.hphyc = [](int face, int ic, double t) {
@@ -62,7 +62,7 @@ TEST(SizeRules, CurvesAreAskedBeforeSurfacesAndPointsBeforeCurves) {
   EXPECT_DOUBLE_EQ(with_point.at_point(1), 0.3);
 }
 
-TEST(SizeRules, InterpolatesBetweenTheEndsWhenNobodyAnswers) {
+TEST(SizeRules, InterpolatesBetweenTheEndsWithoutAnswers) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   s.cad.hphyp = [](int ref) { return ref == 6 ? std::optional<double>(0.01) : std::optional<double>(0.5); };
@@ -74,7 +74,7 @@ TEST(SizeRules, InterpolatesBetweenTheEndsWhenNobodyAnswers) {
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.255 - 0.245 * std::cos(0.4 * pi), 1e-15);
 }
 
-TEST(SizeRules, NobodyAtAllMeansTheDefault) {
+TEST(SizeRules, NoAnswerMeansTheDefault) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   SizeRules rules = s.rules(parameters(2, 0));
@@ -94,7 +94,7 @@ TEST(SizeRules, EveryAnswerIsClampedBeforeTheMean) {
   EXPECT_EQ(s.rules(p).constant(), 0.94);
 }
 
-TEST(SizeRules, ConstantSizeAsksNobody) {
+TEST(SizeRules, ConstantSizeNeedsNoCalls) {
   FourPatches s;
   SizeRules rules = s.rules(parameters(1, 0));
   EXPECT_EQ(rules.constant(), 0.094);
@@ -107,7 +107,7 @@ TEST(SizeRules, ConstantSizeAsksNobody) {
   EXPECT_FALSE(s.rules(parameters(1, 1)).constant());
 }
 
-TEST(SizeRules, PointsAreAskedOnce) {
+TEST(SizeRules, PointsAreEvaluatedOnce) {
   FourPatches s;
   SizeRules rules = s.rules(parameters(2, 0));
   rules.at_point(0);
@@ -274,7 +274,7 @@ TEST(SizeRules, ASeamCountsOncePerUseAndItsEndOncePerCorner) {
   EXPECT_DOUBLE_EQ(rules.at_point(0), (0.1 + 0.1 + 0.4) / 3);
 }
 
-TEST(SizeRules, RefusesParametersThatContradictThemselves) {
+TEST(SizeRules, RejectsParametersThatContradictThemselves) {
   FourPatches s;
   EXPECT_THROW(s.rules(parameters(0, 0)), InvalidArgument);
   const auto with = [](auto change) {

@@ -84,7 +84,7 @@ TEST(BoxTree, FindsAllBoxesThatMeetOne) {
   }
 }
 
-TEST(BoxTree, OfNothingFindsNothing) {
+TEST(BoxTree, EmptyTreeFindsNothing) {
   const BoxTree tree;
   EXPECT_TRUE(tree.empty());
   tree.all_that_meet([](const Box&) { return true; }, [](const BoxTree::Node&) { FAIL(); });
@@ -92,7 +92,7 @@ TEST(BoxTree, OfNothingFindsNothing) {
                      [](const BoxTree::Node&) { FAIL(); });
 }
 
-TEST(BoxTree, StopsWhenItIsAskedTo) {
+TEST(BoxTree, StopsOnRequest) {
   const Boxes all = random_boxes(300'000);
   Monitor stop;
   stop.request_stop();

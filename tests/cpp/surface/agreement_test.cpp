@@ -90,7 +90,7 @@ TEST_P(SurfaceAgreement, WhateverTheGeometricRule) {
         }
 }
 
-TEST_P(SurfaceAgreement, OfOneSize) {
+TEST_P(SurfaceAgreement, HoldsForOneSize) {
   const AnalyticCad cad = GetParam().make();
   for (const double h : {0.05, 0.2, 0.4, 0.8}) {
     SCOPED_TRACE(h);

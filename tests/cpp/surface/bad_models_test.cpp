@@ -258,7 +258,7 @@ TEST(BadModels, SurfaceThatIsOnePointInside) {
 // ---- tiny edges (eps_collapse) ----
 
 // A hole that is tangent to a side: CAD systems leave two tiny edges there, one in either loop, on the same place.
-TEST(TinyEdges, OfTwoLoopsOnOnePlaceBecomeOnePoint) {
+TEST(TinyEdges, TwoLoopsOnOnePlaceBecomeOnePoint) {
   constexpr double tiny = 1e-10;
   AnalyticCad cad;
   cad.faces[1] = {

@@ -148,7 +148,7 @@ TEST(CloseWalls, EffortBoundsTheWorkOfRounds) {
   }
 }
 
-TEST(CloseWalls, LevelsOfEffortAreThoseOfTheSynonyms) {
+TEST(CloseWalls, LevelsOfEffortMatchTheSynonyms) {
   Monitor monitor;
   const AnalyticCad cad = spheres(0.97, 0);
   const auto at = [&](int effort, int rounds, int trials) {

@@ -59,7 +59,7 @@ TEST(CurveAccuracy, ChordsOfACircleHaveTheirClosedForms) {
   }
 }
 
-TEST(CurveAccuracy, FourEdgesOfADiscAreToldWhenFewerDegreesAreAsked) {
+TEST(CurveAccuracy, FourEdgesOfADiscAreReportedForASmallAngle) {
   const auto asked = [](double angle, int guarantee) {
     return Meshed(disc(), 1, [=](Parameters& p) {
       p.set("hphy_flag", 0), p.set("hgeo_flag", 1), p.set("angle_mesh", angle), p.set("geo_guarantee", guarantee);
@@ -144,8 +144,8 @@ TEST(CurveAccuracy, LinesOfIndependentMeshesAreMeasuredToo) {
 }
 
 TEST(CurveAccuracy, TrianglesHaveTheAnglesOfTheirVertices) {
-  // RT-0232 sec. 3.3: the plane of a triangle and the tangent planes at its three vertices. Those of a sphere are one
-  // angle, asin of the radius of the circle around.
+  // RT-0232 sec. 3.3: the plane of a triangle and the tangent planes at its three vertices. On a sphere all three
+  // angles are asin of the radius of the circle around.
   const Meshed run(sphere(), 0.3, [](Parameters&) {});
   const SurfaceMesh& mesh = run.session->mesh();
   for (std::size_t t = 0; t < mesh.faces[0].triangles.size(); ++t) {

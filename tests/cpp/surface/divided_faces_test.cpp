@@ -160,7 +160,7 @@ class FailingTorus final : public AnalyticCad {
   bool fails = true;
 };
 
-TEST(DividedFaces, FailuresOfTheHostAreToldAsByOneThread) {
+TEST(DividedFaces, FailuresOfTheHostAreReportedAsByOneThread) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   const Case c{"", whole_torus, 0.011, 0, true};
   std::set<std::string> sentences;

@@ -53,7 +53,7 @@ KnownPatches knowing(const Asked& asked, const FaceOutcome& outcome) {
   return known;
 }
 
-TEST(KnownPatches, AreThoseOfFacesThatAreAskedTheSame) {
+TEST(KnownPatches, AreUsedForEqualRequests) {
   const Asked asked;
   const KnownPatches known = knowing(asked, outcome_of(1));
   EXPECT_FALSE(known.find(1, asked.input, asked.grow_from));
@@ -66,7 +66,7 @@ TEST(KnownPatches, AreThoseOfFacesThatAreAskedTheSame) {
   EXPECT_TRUE(same->space);
 }
 
-TEST(KnownPatches, AreNotThoseOfFacesThatAreAskedAnythingElse) {
+TEST(KnownPatches, AreNotUsedForOtherRequests) {
   const Asked before;
   const KnownPatches known = knowing(before, outcome_of(1));
   const std::vector<std::function<void(Asked&)>> changes{
@@ -85,7 +85,7 @@ TEST(KnownPatches, AreNotThoseOfFacesThatAreAskedAnythingElse) {
   }
 }
 
-TEST(KnownPatches, OfLargeModelsAreNotKept) {
+TEST(KnownPatches, LargeModelsAreNotKept) {
   const Asked asked;
   EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::most_known)).find(0, asked.input, asked.grow_from));
   EXPECT_FALSE(knowing(asked, outcome_of(thresholds::crossings::most_known + 1)).find(0, asked.input, asked.grow_from));

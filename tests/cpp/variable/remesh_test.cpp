@@ -225,7 +225,7 @@ std::string refusal(const std::function<void(RemeshInput&)>& spoil) {
   return "";
 }
 
-TEST(Remesh, RefusesBadInputWithASentence) {
+TEST(Remesh, RejectsBadInputWithASentence) {
   const auto says = [](const std::function<void(RemeshInput&)>& spoil, const std::string& words) {
     const std::string sentence = refusal(spoil);
     EXPECT_NE(sentence.find(words), std::string::npos) << "'" << sentence << "' lacks '" << words << "'";

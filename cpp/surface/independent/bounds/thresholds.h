@@ -9,7 +9,7 @@ namespace carreau::thresholds::bounds {
 // In brackets: the tests that rest on it, all of tests/cpp/measure.
 
 /// Share of the way from a corner to the place. Closest points are so near to the exact ones along the surface. A distance that is a
-/// hundredth of the way is right to a part in 20 000. [FreeElements.WhatIsDeliveredIsOfTheElements]
+/// hundredth of the way is right to a part in 20 000. [FreeElements.MeasuresAreOfTheElements]
 inline constexpr double near_foot = 1e-4;
 
 // Bounds of A0 and A1 (triangle_bound, deviation_bounds)

@@ -145,7 +145,7 @@ TEST(DirectedMeshes, ACylinderKeepsItsRimsUnderLongTriangles) {
   EXPECT_GE(share_in_range(run.session.delivered()[EvaluationKind::length].values), 0.85);
 }
 
-TEST(DirectedMeshes, GradationBoundsWhatGrows) {
+TEST(DirectedMeshes, GradationBoundsGrowingSizes) {
   // Across x = 0 the size along x falls to a tenth.
   const auto metric = [](const Vec3& p) {
     const double h = std::abs(p.x()) < 0.05 ? 0.03 : 0.3;
@@ -188,7 +188,7 @@ TEST(DirectedMeshes, SizesWithoutDirectionNeedNoMetric) {
 
 // The tensor of a torus: 1 / r across, cos v / (R + r cos v) around. The convergence has first order: the diagonals all
 // run one way.
-TEST(CurvatureTensors, ConvergeToThoseOfATorus) {
+TEST(CurvatureTensors, ConvergeOnATorus) {
   constexpr double R = 2, r = 0.7;
   double before = 0;
   for (const int n : {24, 48, 96}) {

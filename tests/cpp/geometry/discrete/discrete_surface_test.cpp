@@ -85,7 +85,7 @@ TEST(DiscreteSurface, PassesItsVertices) {
       EXPECT_EQ(s.at(t, corner[static_cast<std::size_t>(k)], want_position).s, s.mesh().at(s.mesh().corner(t, k)));
 }
 
-TEST(GregoryTriangle, DerivativesAreThoseOfDifferences) {
+TEST(GregoryTriangle, DerivativesMatchDifferences) {
   const DiscreteSurface s = surface_of(sphere(2));
   const double h = 1e-4;
   for (std::int32_t t = 0; t < 20; ++t)

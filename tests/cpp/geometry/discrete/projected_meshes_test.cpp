@@ -75,7 +75,7 @@ double mean_quality(const FlatMesh& mesh) {
   return sum / static_cast<double>(mesh.triangles.size());
 }
 
-TEST(ProjectedMeshes, ShapesAndLengthsAreThoseAskedFor) {
+TEST(ProjectedMeshes, ShapesAndLengthsMatchTheRequest) {
   for (const auto& [triangles, size, chi] :
        {std::tuple{sphere(12), 0.06, 2}, {torus(48, 24), 0.1, 0}, {cube(3), 0.05, 2}, {cylinder(36), 0.06, 2}}) {
     const MadeInPlanes made = made_of(triangles, size);
@@ -139,7 +139,7 @@ TEST(ProjectedMeshes, NameTheProcessWithOtherSizes) {
 }
 
 // Three triangles at an edge: edits make the mesh.
-TEST(ProjectedMeshes, WhatNoPlaneShowsIsMadeByEdits) {
+TEST(ProjectedMeshes, SurfacesThatNoPlaneShowsAreRemeshedLocally) {
   FlatMesh fins;
   fins.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
   fins.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
@@ -378,7 +378,7 @@ TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
 
 // Each place is found in its own triangle of the plane. Over the plane z = z(x, y) the metric has the
 // determinant 1 + z_x^2 + z_y^2 = 1 / n_z^2, and n is the place itself on a unit sphere.
-TEST(ChartPlanes, TellTriangleAndMetricOfEachPlace) {
+TEST(ChartPlanes, GiveTriangleAndMetricOfEachPlace) {
   Atlas atlas(sphere(24));
   const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
   for (std::size_t c = 0; c < found.axis.size(); ++c) {

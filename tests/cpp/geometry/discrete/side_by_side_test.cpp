@@ -150,7 +150,7 @@ TEST(SideBySide, HalvesOfASphereMeetInOneLine) {
   for (const Vec3& p : one.vertices) EXPECT_NEAR(norm(p), 1, 5e-3);
 }
 
-TEST(SideBySide, CommonTrianglesStayThoseOfTheFirst) {
+TEST(SideBySide, CommonTrianglesBelongToTheFirst) {
   const FlatMesh base = cube(2);
   const Joined boxes = joined({base, moved(base, {1, 0, 0})});  // a wall in common
   EXPECT_EQ(boxes.surface->mesh().findings.repeated_triangles, 8);

@@ -96,7 +96,7 @@ TEST(Glue, SixBlocksMakeACube) {
   for (const int ref : refs) EXPECT_EQ(refs.count(ref), 2U);
 }
 
-TEST(Glue, NormalsOfAClosedBodyPointOutwardsWhenAsked) {
+TEST(Glue, NormalsOfAClosedBodyPointOutwardsOnRequest) {
   for (unsigned mirrored = 0; mirrored < 64; ++mirrored) {
     std::vector<Block> blocks;
     for (unsigned side = 0; side < 6; ++side) {
@@ -170,7 +170,7 @@ TEST(Cells, CellsThatTouchByACornerKeepTheirLoops) {
   for (const Face& face : made.built.model.faces) EXPECT_EQ(face.curves.size(), 4U);
 }
 
-TEST(Cells, FoldsAreToldAndLinesLeftOut) {
+TEST(Cells, FoldsAreReportedAndLinesLeftOut) {
   Block folded = flat(4, 4);
   folded.nodes[folded.index(1, 1)] = {2.5, 2.5, 0};
   EXPECT_EQ(build({folded}).warnings.at(0).substr(0, 17), "3 cells fold, the");
@@ -181,7 +181,7 @@ TEST(Cells, FoldsAreToldAndLinesLeftOut) {
   EXPECT_EQ(euler(made.built.model), 1);
 }
 
-TEST(Cells, BadGridsAreRefusedWithBlockAndNode) {
+TEST(Cells, BadGridsAreRejectedWithBlockAndNode) {
   EXPECT_EQ(error_of({}), "there is no block of a grid");
   EXPECT_EQ(error_of({flat(3, 3), flat(4, 1)}), "block 2 has 4 x 1 nodes; a surface needs two rows and two columns");
   Block infinite = flat(3, 3);

@@ -288,7 +288,7 @@ TEST(SolventExcluded, ManySpheresThroughAPointLeaveNoThinFaces) {
     EXPECT_GT(norm(mesh.vertices[curve.vertices.front()] - mesh.vertices[curve.vertices[1]]), 1e-3);
 }
 
-TEST(SolventExcluded, AreasAndVolumesAreThoseOfFineMeshes) {
+TEST(SolventExcluded, AreasAndVolumesMatchFineMeshes) {
   for (const std::vector<Ball>& balls : {with_hole, with_tips, with_many_tips}) {
     MoleculeSummary summary;
     const BuiltGeometry built = excluded(balls, &summary);

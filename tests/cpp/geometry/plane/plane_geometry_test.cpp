@@ -167,7 +167,7 @@ TEST(PlaneGeometry, SizesVaryAlongACurveWithItsLength) {
   EXPECT_TRUE(seen);
 }
 
-TEST(PlaneGeometry, MistakesAreToldWithTheirPlaces) {
+TEST(PlaneGeometry, MistakesAreReportedWithTheirPlaces) {
   PlaneDomainInput open;
   open.points = {{.xy = {0, 0}}, {.xy = {1, 0}}, {.xy = {1, 1}, .name = "C"}};
   open.curves = {{.points = {0, 1, 2}, .name = "s"}};

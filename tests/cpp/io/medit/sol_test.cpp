@@ -67,7 +67,7 @@ TEST(Solution, FieldsOfSeveralTypesAreReadAndWritten) {
   EXPECT_EQ(space.count(), 1u);
 }
 
-TEST(Solution, ListsOfTypesWithoutSenseAreRefused) {
+TEST(Solution, ListsOfTypesWithoutSenseAreRejected) {
   const auto refused = [](const std::string& text) {
     return sentence_of<FileError>([&] { read_solution_text(header + text, "x.sol", SolutionUse::fields); });
   };
@@ -90,7 +90,7 @@ TEST(Solution, BinaryVersions1To4AreReadInBothByteOrders) {
       }
 }
 
-TEST(Solution, BothFormsGiveBackWhatWasWritten) {
+TEST(Solution, BothFormsRestoreWrittenValues) {
   std::mt19937_64 random(3);
   const TemporaryFolder folder;
   for (int round = 0; round < 40; ++round) {
@@ -209,7 +209,7 @@ TEST(Solution, TensorsComeInTheOrderOfTheLowerTriangle) {
   EXPECT_EQ(plane_tensor({.dimension = 2, .tensor = true, .values = {0, 0, 0, 1, 2, 3}}, 1), (Metric2{1, 2, 3}));
 }
 
-TEST(Solution, WhatNoReaderWouldTakeIsNotWritten) {
+TEST(Solution, ValuesThatNoReaderWouldTakeAreNotWritten) {
   const auto refusal = [](const Solution& s) { return sentence_of<InvalidArgument>([&] { solution_text(s); }); };
   EXPECT_EQ(refusal({.dimension = 2, .tensor = true, .values = {1, 2}}),
             "a solution cannot be written: 2 values are not a multiple of 3");

@@ -92,7 +92,7 @@ TEST(LocalSearch, LeaveNoMoreToWishForThanThereWas) {
 }
 
 // Imposed points, internal curves, holes, corners, poles: all stays as it must be.
-TEST(LocalSearch, KeepWhatIsImposed) {
+TEST(LocalSearch, KeepImposedEdges) {
   struct Named {
     PlaneCase (*make)(double);
     double h;

@@ -26,7 +26,7 @@ TEST(Memo, KeysOfTrianglesDependOnPlacesAndTurn) {
 }
 
 // A diagonal is the same from both of its sides; the other one of the quadrilateral is not.
-TEST(Memo, KeysOfDiagonalsTellWhichOneItIs) {
+TEST(Memo, KeysOfDiagonalsDiffer) {
   const PlaceKey a = key_of_place({0, 0}), b = key_of_place({1, 1}), c = key_of_place({0, 1}), d = key_of_place({1, 0});
   EXPECT_EQ(key_of_diagonal(c, a, b, d), key_of_diagonal(d, b, a, c));
   EXPECT_NE(key_of_diagonal(c, a, b, d), key_of_diagonal(a, d, c, b));
@@ -45,7 +45,7 @@ TEST(Memo, TrianglesOfAGridHaveKeysOfTheirOwn) {
   EXPECT_EQ(keys.size(), 4U * n * n);
 }
 
-TEST(Memo, WhatIsNotKnownIsNotFound) {
+TEST(Memo, UnknownKeysAreNotFound) {
   Memo<double> memo;
   memo.clear();
   const PlaceKey known = key_of_place({0.25, 0.5}), other = key_of_place({0.5, 0.25});

@@ -250,7 +250,7 @@ TEST(OrientLoops, TakesLoopsThatMeetAtAVertex) {
     }
 }
 
-TEST(OrientLoops, RefusesWhatIsNoDomain) {
+TEST(OrientLoops, RejectsInvalidDomains) {
   // HDR fig. 3.1, third: open.
   PlaneDomain open = polygon(circle(10, {0, 0}, 1));
   open.edges.pop_back();
@@ -286,7 +286,7 @@ void expect_sentence(const std::vector<std::string>& sentences, const std::vecto
   for (const std::string& word : words) EXPECT_NE(sentences[0].find(word), std::string::npos) << sentences[0];
 }
 
-TEST(FindLoopDefects, SaysWhatIsWrong) {
+TEST(FindLoopDefects, DescribesDefects) {
   const PlaneDomain square = polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
   EXPECT_TRUE(find_loop_defects(square).empty());
 

@@ -101,8 +101,8 @@ TEST(CurvedElements, AQuadraticFieldIsExactOnAPlaneMesh) {
   EXPECT_GT(interpolation_error(Curved(square(), 0.1, "p1"), field), 1e-3);
 }
 
-TEST(CurvedElements, NobodyHasLookedForTheirCrossings) {
-  // Those of the straight triangles before are known where crossing_rounds is positive.
+TEST(CurvedElements, HaveNoSearchForCrossings) {
+  // Crossings of the preceding straight triangles are known if crossing_rounds is positive.
   const auto crossings = [](const char* element) {
     Monitor monitor;
     const AnalyticCad cad = square();
@@ -159,7 +159,7 @@ TEST(CurvedElements, InterpolationIsOfOrderThree) {
   }
 }
 
-TEST(CurvedElements, TheMeshOfStraightTrianglesIsThatOfP1) {
+TEST(CurvedElements, TheMeshOfStraightTrianglesMatchesP1) {
   const Curved straight(testing::torus_patch(), 0.2, "p1"), curved(testing::torus_patch(), 0.2, "p2");
   EXPECT_EQ(straight.mesh().vertices, curved.mesh().vertices);
   ASSERT_EQ(straight.mesh().faces.size(), curved.mesh().faces.size());
@@ -199,7 +199,7 @@ TEST(CurvedElements, CurvedQuadrilateralsLieOnSurfaces) {
 }
 
 // Measured with the element's own map, A0 is of a higher order.
-TEST(CurvedElements, WhatIsDeliveredIsThatOfTheCurvedElement) {
+TEST(CurvedElements, MeasuresAreOfTheCurvedElement) {
   const auto deviation = [](double h, const char* element) {
     Curved run(testing::hemisphere(), h, element);
     return run.session->delivered()[EvaluationKind::deviation].spread;

@@ -176,7 +176,7 @@ TEST(FreeElements, NodesKnowTheirPlacesOnTheSurface) {
   }
 }
 
-TEST(FreeElements, WhatIsDeliveredIsOfTheElements) {
+TEST(FreeElements, MeasuresAreOfTheElements) {
   Monitor quiet;
   for (const Case& c : cases) {
     const auto session = meshed(sphere_of_triangles(1), 0.25, c.element, quiet);
@@ -200,7 +200,7 @@ TEST(FreeElements, MeshDoesNotDependOnThreads) {
   }
 }
 
-TEST(FreeElements, StopWhereverTheyAreAskedAndLeaveNothing) {
+TEST(FreeElements, StopAnywhereOnRequestAndLeaveNothing) {
   const AnalyticCad cad = sphere_of_triangles(1);
   Counting all;
   (void)meshed(cad, 0.3, "q2.1", all);

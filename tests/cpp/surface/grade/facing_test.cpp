@@ -140,7 +140,7 @@ TEST(Facing, CoaxialCylinders) {
     }
 }
 
-TEST(Facing, WhereSizesDifferByDirection) {
+TEST(Facing, SizesMayDifferByDirection) {
   const double gap = 0.06;
   AnalyticCad cad;
   cad.faces[1] = tube(1, 2);

@@ -485,7 +485,7 @@ class Watcher : public Monitor {
   double last_ = 0;
 };
 
-TEST(GradedModel, TellsItsProgressAndStops) {
+TEST(GradedModel, ReportsItsProgressAndStops) {
   for (const bool stop : {false, true}) {
     Watcher watcher;
     watcher.stop_there = stop;
@@ -551,7 +551,7 @@ AnalyticCad plate_with_hole(double radius) {
   return cad;
 }
 
-TEST(Proximity, NarrowZonesHoldTheLayersAskedFor) {
+TEST(Proximity, NarrowZonesHoldTheRequestedLayers) {
   for (const double radius : {0.8, 0.9, 0.95})
     for (const int layers : {2, 4}) {
       const GradedRun run(plate_with_hole(radius), 1.3, [&](Parameters& p) {

@@ -90,7 +90,7 @@ TEST(Certification, KeepsAGoodMeanShape) {
 }
 
 // Remaining tolerance violations are reported by face.
-TEST(Certification, FacesTellWhatIsBeyond) {
+TEST(Certification, FacesReportToleranceViolations) {
   const auto before = meshed(torus_of_patches(0.2), 0.3, 0);
   const std::vector<BeyondInFace> beyond = beyond_in_faces(before->mesh(), before->delivered());
   ASSERT_FALSE(beyond.empty());
@@ -121,7 +121,7 @@ TEST(Certification, ApexOfACone) {
 }
 
 // If the size alone keeps the tolerances nothing is edited.
-TEST(Certification, WhatIsWithinStays) {
+TEST(Certification, SizesWithinTolerancesStay) {
   for (const AnalyticCad& cad : {cylinder_of_strips(24), sphere_of_triangles(2)}) {
     const auto before = meshed(cad, 0.8, 0), made = meshed(cad, 0.8, 2);
     EXPECT_EQ(shares(*made).beyond, 0);

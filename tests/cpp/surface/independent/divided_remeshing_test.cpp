@@ -105,7 +105,7 @@ std::vector<std::string> mesh_in_processes(int n, const Size& size, const Monito
 
 std::unique_ptr<Monitor> silent(int) { return std::make_unique<Monitor>(); }
 
-TEST(DividedRemeshing, ATorusIsWhatOneInOnePieceWouldBe) {
+TEST(DividedRemeshing, ATorusMatchesATorusInOnePiece) {
   const SurfaceMesh& mesh = made_by_one();
   EXPECT_EQ(find_defects(mesh, {.closed = true}), std::vector<std::string>{});
   const auto n = static_cast<std::int64_t>(mesh.vertices.size()), m = static_cast<std::int64_t>(mesh.triangle_count());

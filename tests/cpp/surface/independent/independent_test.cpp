@@ -148,7 +148,7 @@ TEST(Independent, CornersKnowTheirPlacesOnTheSurface) {
 
 // On the unit sphere the surface is farthest from a triangle over its circumcentre, and the angle at its corners is the
 // largest: both in closed form.
-TEST(Independent, WhatIsDeliveredIsMeasuredAcrossBorders) {
+TEST(Independent, MeasuresGoAcrossBorders) {
   Monitor quiet;
   const auto session = meshed(sphere_of_triangles(1), 0.3, "independent", quiet);
   const FlatMesh mesh = session->exported();

@@ -45,7 +45,7 @@ double bounded(const SurfaceJet& jet, Vec3 short_way, Vec3 long_way, double h1, 
 }
 
 // The arrow of a chord of length L of a circle of radius R is L^2 / (8 R), to second order.
-TEST(BoundOfLean, IsThatOfTheArrowOfAChord) {
+TEST(BoundOfLean, MatchesTheArrowOfAChord) {
   for (const double radius : {0.1, 1., 30.})
     for (const double h : {1e-4, 1e-3})
       for (const double lean : {0.2, 0.5, 1.}) {
@@ -57,7 +57,7 @@ TEST(BoundOfLean, IsThatOfTheArrowOfAChord) {
       }
 }
 
-TEST(BoundOfLean, LeavesWhatIsShortAndNeverGoesBelowTheOtherSize) {
+TEST(BoundOfLean, LeavesShortEdgesAndNeverGoesBelowTheOtherSize) {
   const SurfaceJet jet = cylinder_jet({0, 0}, 1);
   EXPECT_EQ(bounded(jet, {0, 0, 1}, {0, 1, 0}, 0.01, 0.05, 0.5), 0.05);
   EXPECT_EQ(bounded(jet, {0, 0, 1}, {0, 1, 0}, 20, 21, 0.5), 20);

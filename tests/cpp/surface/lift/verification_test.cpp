@@ -111,7 +111,7 @@ TEST(Verification, DipsOfTheSizesThatNoSampleHitsAreMeshed) {
   EXPECT_GE(corrections, 1);
 }
 
-TEST(Verification, WhatTheSamplesKnowCostsNothing) {
+TEST(Verification, SampledDetailsCostNothing) {
   for (const double size : {0.5, 0.1, 0.03}) {
     AnalyticCad cad;
     cad.faces[1] = {[](Vec2 p) { return testing::torus_jet(p, 2, 0.7); },

@@ -211,14 +211,14 @@ TEST(Narrow, ChamferOfABoxHasOneLayer) {
   }
 }
 
-TEST(Narrow, IsKeptWhenNothingIsAsked) {
+TEST(Narrow, IsKeptByDefault) {
   const Meshed run(prism(chamfered), 0.1, "keep");
   run.expect_closed(2);
   EXPECT_EQ(run.face(3).status, FaceStatus::meshed);
   EXPECT_NEAR(run.volume(), area_of(chamfered), 1e-12);
 }
 
-TEST(Narrow, RatioSaysWhatIsNarrow) {
+TEST(Narrow, RatioDefinesNarrowFaces) {
   const std::vector<Vec2> wide{{0, 0}, {1, 0}, {1, 0.95}, {0.95, 1}, {0, 1}};  // 0.07 wide
   const Meshed narrower(prism(wide), 0.2, "collapse", 0.3);
   EXPECT_EQ(narrower.face(3).status, FaceStatus::meshed);

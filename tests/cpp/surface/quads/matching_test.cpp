@@ -99,7 +99,7 @@ TEST(Matching, FindsTheSquaresOfARow) {
   for (int k = 0; k < squares; ++k) EXPECT_EQ(pairs[chosen[k]].weight, 1.7);
 }
 
-TEST(Matching, StopsWhenAsked) {
+TEST(Matching, StopsOnRequest) {
   std::mt19937 random(3);
   Pairs pairs;
   for (int t = 0; t + 1 < 100000; ++t) pairs.push_back({{t, t + 1}, 1 + 1e-6 * static_cast<double>(random() % 1000)});

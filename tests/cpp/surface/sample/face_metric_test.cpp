@@ -51,7 +51,7 @@ struct Ellipsoid {
 };
 
 // Metrics of a pole and of the places beside it: alone, among others, last and first.
-TEST(FaceMetric, OfAPoleDoesNotDependOnTheOthersOfItsBatch) {
+TEST(FaceMetric, AtAPoleDoesNotDependOnTheOthersOfItsBatch) {
   Ellipsoid e;
   const SizeRules rules = e.rules();
   std::vector<Vec2> uv;
@@ -71,7 +71,7 @@ TEST(FaceMetric, OfAPoleDoesNotDependOnTheOthersOfItsBatch) {
 }
 
 // The limit along each meridian, from inside: distances along it are continuous.
-TEST(FaceMetric, OfAPoleIsTheLimitAlongItsMeridian) {
+TEST(FaceMetric, AtAPoleIsTheLimitAlongItsMeridian) {
   Ellipsoid e;
   const SizeRules rules = e.rules();
   for (int i = 0; i <= 12; ++i)

@@ -47,7 +47,7 @@ std::vector<std::string> thrown_by(const std::function<void(int rank, const Vec2
   });
 }
 
-TEST(SharedAnswers, AreAskedOnceAndReachAll) {
+TEST(SharedAnswers, AreEvaluatedOnceAndReachAll) {
   std::atomic<std::size_t> asked{0};
   for (const std::string& sentence : thrown_by([](int, const Vec2&) {}, &asked)) EXPECT_EQ(sentence, "");
   EXPECT_EQ(asked, places + processes * ((places + 63) / 64));
@@ -78,7 +78,7 @@ TEST(SharedAnswers, TheErrorOfOneHostEndsTheRunOfAll) {
 }
 
 // As in one process, so that the face alone fails if the options allow it.
-TEST(SharedAnswers, AnErrorOfAllHostsIsThatOfOne) {
+TEST(SharedAnswers, AnErrorOfAllHostsEqualsTheErrorOfOne) {
   const std::vector<Vec2> uv = spread();
   const auto thrown = in_processes(processes, [&](Team& team) {
     Monitor monitor;
@@ -109,7 +109,7 @@ TEST(SharedAnswers, AStopAndALackOfMemoryReachAll) {
     EXPECT_TRUE(sentence.find("memory") != std::string::npos || sentence == "std::bad_alloc") << sentence;
 }
 
-TEST(SharedAnswers, FewPlacesAreAskedByEachProcess) {
+TEST(SharedAnswers, FewPlacesAreEvaluatedByEachProcess) {
   EXPECT_FALSE(is_shared(nullptr, places));
   in_processes(2, [](Team& team) {
     EXPECT_TRUE(is_shared(&team, places));

@@ -91,9 +91,9 @@ void expect_shared(const Settings& settings, bool sizes) {
   expect_once(sum.sizes, alone.calls.sizes);
 }
 
-TEST(SharedFaces, OfSizesOfTheHost) { expect_shared({{"hphy_flag", "2"}, {"hphydef", "0.0085"}}, true); }
-TEST(SharedFaces, OfCurvature) { expect_shared({{"hphydef", "0.02"}, {"hgeo_flag", "1"}, {"angle_mesh", "0.35"}}, false); }
-TEST(SharedFaces, OfMetricsOfCurvature) {
+TEST(SharedFaces, MatchWithSizesOfTheHost) { expect_shared({{"hphy_flag", "2"}, {"hphydef", "0.0085"}}, true); }
+TEST(SharedFaces, MatchWithCurvature) { expect_shared({{"hphydef", "0.02"}, {"hgeo_flag", "1"}, {"angle_mesh", "0.35"}}, false); }
+TEST(SharedFaces, MatchWithMetricsOfCurvature) {
   expect_shared({{"hphydef", "0.02"}, {"hgeo_flag", "1"}, {"angle_mesh", "0.3"}, {"geo_metric", "1"}, {"gradation", "1.3"}}, false);
 }
 
