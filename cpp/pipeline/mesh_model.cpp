@@ -13,7 +13,7 @@
 #include "pipeline/mesh_rounds.h"
 #include "pipeline/parts/shares.h"
 #include "surface/assembly/cracks.h"
-#include "surface/free_elements/invalid_elements.h"
+#include "surface/elements/cross_patch/invalid_elements.h"
 
 namespace carreau {
 

@@ -12,8 +12,8 @@
 
 #include "plane_cases.h"
 #include "plane/plane_mesher.h"
-#include "surface/quads/passes.h"
-#include "surface/quads/quad_shape.h"
+#include "surface/elements/quads/passes.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include "pipeline/base/inspector.h"
 #include "pipeline/base/run.h"
 #include "support/format.h"
-#include "surface/elements/quadratic.h"
-#include "surface/elements/thresholds.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/second_order/quadratic.h"
+#include "surface/elements/base/thresholds.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
 

@@ -15,13 +15,13 @@
 #include "mesh/surface_mesh.h"
 #include "pipeline/base/inspector.h"
 #include "pipeline/base/run.h"
-#include "surface/elements/thresholds.h"
-#include "surface/elements/wires.h"
-#include "surface/free_elements/free_elements.h"
-#include "surface/free_elements/invalid_elements.h"
-#include "surface/free_elements/thresholds.h"
-#include "surface/independent/cross_patch.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/base/thresholds.h"
+#include "surface/elements/second_order/wires.h"
+#include "surface/elements/cross_patch/cross_patch_elements.h"
+#include "surface/elements/cross_patch/invalid_elements.h"
+#include "surface/elements/cross_patch/thresholds.h"
+#include "surface/remesh/cross_patch.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
 
@@ -114,8 +114,8 @@ class FreeMeshInspector final : public Inspector {
     now_ = {};
     ElementMaker elements;
     if (options.element != Element::p1)
-      elements = [&](const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made) {
-        now_.crossings = make_free_elements(before, frame, options, run.cad, made, monitor);
+      elements = [&](const SurfaceMesh& before, const RemeshingFrame& frame, CrossPatchResult& made) {
+        now_.crossings = make_cross_patch_elements(before, frame, options, run.cad, made, monitor);
       };
     const bool by_direction = !run.isotropic();
     bool is_free = true;
@@ -152,12 +152,12 @@ class FreeMeshInspector final : public Inspector {
   }
 
   [[nodiscard]] bool patches_continue() const {
-    return is_free_ && round_ < thresholds::free_elements::most_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
+    return is_free_ && round_ < thresholds::cross_patch::most_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
   }
 
   // A mesh that is valid already is better than one with faults, even if that one may improve.
   [[nodiscard]] bool is_hopeless() const {
-    using thresholds::free_elements::most_of_patches;
+    using thresholds::cross_patch::most_of_patches;
     return best_ && best_->faults() == 0 && (now_.shape <= best_->shape || now_.elements > most_of_patches * best_->elements);
   }
 
@@ -165,7 +165,7 @@ class FreeMeshInspector final : public Inspector {
     if (!new_places(best_ ? best_->crossings.all : crossings_of_patches_, now_.crossings.all).empty()) return false;
     if (!find_defects(run.result.mesh, {.closed = false, .limit = 1}).empty()) return false;
     if (!best_) return true;
-    if (now_.elements > thresholds::free_elements::most_of_patches * best_->elements) return false;
+    if (now_.elements > thresholds::cross_patch::most_of_patches * best_->elements) return false;
     return now_.faults() != best_->faults() ? now_.faults() < best_->faults() : now_.shape > best_->shape;
   }
 

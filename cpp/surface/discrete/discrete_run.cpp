@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "surface/discrete/start_mesh.h"
-#include "surface/free_elements/free_elements.h"
-#include "surface/independent/strategies.h"
-#include "surface/projected/projected_mesh.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/cross_patch/cross_patch_elements.h"
+#include "surface/remesh/strategies.h"
+#include "surface/remesh/planes/projected_mesh.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
 
@@ -95,8 +95,8 @@ void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions&
   RemeshingFrame frame = start_frame(surface, start.refined, result.mesh, start.wanted, options, cad, monitor);
   const auto atlas = frame.charts;
   if (options.element != Element::p1)
-    frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) {
-      make_free_elements(before, frame, options, cad, made, monitor);
+    frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& made) {
+      make_cross_patch_elements(before, frame, options, cad, made, monitor);
     };
   const std::string why = remesh_by_strategies(frame, cad, options, result, monitor);
   if (why.empty()) return;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "surface/quads/passes.h"
+#include "surface/elements/quads/passes.h"
 
 namespace carreau {
 namespace {

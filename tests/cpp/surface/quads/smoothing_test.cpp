@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing finds lattices again, and turns nothing over.
-#include "surface/quads/passes.h"
+#include "surface/elements/quads/passes.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "surface/quads/quad_shape.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace carreau {
 namespace {
