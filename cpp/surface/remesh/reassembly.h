@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a free mesh back to faces, curves and (u, v).
+// From a cross-patch mesh back to faces, curves and (u, v).
 #pragma once
 
 #include <functional>

@@ -81,7 +81,7 @@ class NodeMaker {
 };
 
 /// A node of an element with a place to test.
-struct Trial {
+struct TriedNode {
   std::int32_t node;
   SurfacePlace place;
 };
@@ -128,8 +128,8 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
     return all;
   }
 
-  [[nodiscard]] std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Vec3>>& moves) const {
-    std::vector<Trial> trials;
+  [[nodiscard]] std::vector<TriedNode> places(const std::vector<std::pair<std::int32_t, Vec3>>& moves) const {
+    std::vector<TriedNode> trials;
     for (const auto& [node, by] : moves) {
       const SurfacePlace& from = place(node);
       if (!from.regular) return {};
@@ -140,8 +140,8 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
     return trials;
   }
 
-  [[nodiscard]] Trial trial_of(std::int32_t node) const { return {node, place(node)}; }
-  void put(const Trial& trial) {
+  [[nodiscard]] TriedNode trial_of(std::int32_t node) const { return {node, place(node)}; }
+  void put(const TriedNode& trial) {
     if (trial.node < corners())
       cells_.quads.put(trial.node, trial.place);
     else

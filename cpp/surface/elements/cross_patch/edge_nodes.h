@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes on the edges of cells of a free mesh: elements of second order.
+// Nodes on the edges of cells of a cross-patch mesh: elements of second order.
 #pragma once
 
 #include <array>

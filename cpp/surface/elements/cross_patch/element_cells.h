@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of a free mesh with a vertex for each smooth side.
+// Cells of a cross-patch mesh with a vertex for each smooth side.
 #pragma once
 
 #include <cstdint>

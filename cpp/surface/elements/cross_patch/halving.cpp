@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of a free mesh are cut: quadrilaterals in four, triangles in three.
+// Cells of a cross-patch mesh are cut: quadrilaterals in four, triangles in three.
 #include <array>
 #include <map>
 #include <span>

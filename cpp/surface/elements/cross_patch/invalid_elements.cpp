@@ -11,6 +11,7 @@
 #include "mesh/elements/jacobian.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "surface/elements/base/invalid_report.h"
 #include "surface/remesh/base/charts.h"
 
 namespace carreau {
@@ -31,7 +32,7 @@ bool is_valid(const SurfaceMesh& mesh, const FaceMesh& face, const Cell& cell) {
 
 class Finder {
  public:
-  Finder(const SizedMesh& made, Element element) : made_(made), share_(has_quads_only(element) ? 1 : 0.5) {
+  Finder(const SizedMesh& made, Element element) : made_(made), element_(element) {
     for (std::size_t c = 0; c < made.mesh.curves.size(); ++c)
       for (std::size_t k = 1; k < made.mesh.curves[c].vertices.size(); ++k) {
         const std::vector<std::int32_t>& chain = made.mesh.curves[c].vertices;
@@ -55,20 +56,19 @@ class Finder {
     ++found_.count;
     const int n = corner_count(cell.kind);
     const auto at = [&](int k) { return face.vertex[cell.nodes[k % n]]; };
-    double longest = 0, least = infinity;
+    std::array<Vec3, 4> corners;
+    double least = infinity;
     for (int k = 0; k < n; ++k) {
-      longest = std::max(longest, norm(made_.mesh.vertices[at(k + 1)] - made_.mesh.vertices[at(k)]));
+      corners[static_cast<std::size_t>(k)] = made_.mesh.vertices[at(k)];
       if (const double size = made_.vertex_size[at(k)]; size > 0) least = std::min(least, size);
     }
     std::vector<std::int32_t> faces;  // it may lie over several
     for (int k = 0; k < n; ++k) faces.push_back(face.uv_face[cell.nodes[k]]);
     std::ranges::sort(faces);
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    for (int k = 0; k < n; ++k) {
-      const EdgeSizes::Source side{made_.mesh.vertices[at(k)], made_.mesh.vertices[at(k + 1)], share_ * std::min(longest, least)};
-      for (const std::int32_t f : faces) found_.finer[f].push_back(side);
-      add_coarse(mesh_edge(at(k), at(k + 1)));
-    }
+    const auto sides = finer_sides({corners.data(), static_cast<std::size_t>(n)}, least, element_);
+    for (const std::int32_t f : faces) found_.finer[f].insert(found_.finer[f].end(), sides.begin(), sides.end());
+    for (int k = 0; k < n; ++k) add_coarse(mesh_edge(at(k), at(k + 1)));
   }
   void add_coarse(const MeshEdge& edge) {
     const auto found = on_curve_.find(edge);
@@ -80,7 +80,7 @@ class Finder {
   }
 
   const SizedMesh& made_;
-  double share_;
+  Element element_;
   std::map<MeshEdge, std::pair<std::size_t, std::size_t>> on_curve_;  // the curve, and the rank of the second end
   InvalidInSpace found_;
 };
@@ -97,11 +97,7 @@ void tell_invalid(SurfaceMesh& mesh) {
       if (is_valid(mesh, face, cell)) continue;
       if (++count == 1) uv = face.uv[cell.nodes[0]];
     }
-    if (count == 0) continue;
-    const std::string what = Where{.face = face.shown_ref(), .uv = uv}.prefix() + std::to_string(count) +
-                             (count == 1 ? " element has" : " elements have") + " a Jacobian that is not positive everywhere";
-    face.status = FaceStatus::mended;
-    face.why += (face.why.empty() ? "" : "; ") + what;
+    if (count > 0) mark_invalid(face, uv, count);
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace carreau {
 
-/// The remaining edges of the sharp lines of a free mesh. Keeps references.
+/// The remaining edges of the sharp lines of a cross-patch mesh. Keeps references.
 class LineMiddles {
  public:
   /// `worked`: by line, with the places of its vertices.

@@ -11,6 +11,7 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "surface/elements/base/curve_middles.h"
+#include "surface/elements/base/invalid_report.h"
 #include "surface/elements/base/mender.h"
 #include "surface/elements/second_order/quadratic.h"
 #include "surface/elements/base/thresholds.h"
@@ -22,7 +23,7 @@ namespace {
 using namespace thresholds::elements;
 
 /// A node with a place to test.
-struct Trial {
+struct TriedNode {
   std::int32_t node;
   Vec2 uv;
   Vec3 xyz;
@@ -95,8 +96,8 @@ class FaceMender : public Mender<FaceMender, Vec2> {
   }
 
   /// Empty outside the domain, or where the host has no answer.
-  [[nodiscard]] std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Vec2>>& moves) const {
-    std::vector<Trial> trials;
+  [[nodiscard]] std::vector<TriedNode> places(const std::vector<std::pair<std::int32_t, Vec2>>& moves) const {
+    std::vector<TriedNode> trials;
     std::vector<Vec2> places;
     for (const auto& [node, by] : moves) {
       trials.push_back({node, uv(node) + by, {}});
@@ -113,8 +114,8 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     return trials;
   }
 
-  [[nodiscard]] Trial trial_of(std::int32_t node) const { return {node, uv(node), xyz(node)}; }
-  void put(const Trial& trial) {
+  [[nodiscard]] TriedNode trial_of(std::int32_t node) const { return {node, uv(node), xyz(node)}; }
+  void put(const TriedNode& trial) {
     SurfaceMesh& mesh = work_.result.mesh;
     if (trial.node < corners()) {
       face_.uv[trial.node] = trial.uv;
@@ -152,7 +153,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
   }
 
   // Hosts are evaluated inside the domain only: in the straight triangles around.
-  [[nodiscard]] bool is_inside(const Trial& trial) const {
+  [[nodiscard]] bool is_inside(const TriedNode& trial) const {
     const auto beside = around(trial.node);
     return std::any_of(beside.begin(), beside.end(), [&](std::int32_t c) {
       const std::array<std::int32_t, 8>& n = cells()[c].nodes;
@@ -187,16 +188,15 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     return (1.0 / n) * sum;
   }
   void add_finer(const Cell& cell, std::vector<EdgeSizes::Source>& finer) const {
-    const int n = corner_count(cell.kind);
-    double longest = 0, least = infinity;
-    for (int i = 0; i < n; ++i) {
-      longest = std::max(longest, norm(xyz(cell.nodes[(i + 1) % n]) - xyz(cell.nodes[i])));
-      const double size = work_.result.vertex_size[face_.vertex[cell.nodes[i]]];
-      if (size > 0) least = std::min(least, size);
+    const auto n = static_cast<std::size_t>(corner_count(cell.kind));
+    std::array<Vec3, 4> corners;
+    double least = infinity;
+    for (std::size_t i = 0; i < n; ++i) {
+      corners[i] = xyz(cell.nodes[i]);
+      if (const double size = work_.result.vertex_size[face_.vertex[cell.nodes[i]]]; size > 0) least = std::min(least, size);
     }
-    // If the mesh of triangles is cut into quadrilaterals, sizes apply to the triangles.
-    const double wanted = std::min(longest, least) * (has_quads_only(work_.options.element) ? 1 : 0.5);
-    for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), wanted});
+    const auto sides = finer_sides({corners.data(), n}, least, work_.options.element);
+    finer.insert(finer.end(), sides.begin(), sides.end());
   }
   // Adds cusps of elements whose validity depends on the nodes of two edges of curves alone.
   void add_cusps(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CuspEnd>& cusps) const {

@@ -195,7 +195,7 @@ std::int32_t CrossPatchMesh::split(const Quad& q, const SurfacePlace& at) {
   return mesh_->split(q, at.foot.uv, at.xyz).local;
 }
 
-bool CrossPatchMesh::undo(const std::array<std::size_t, 2>& state) {
+bool CrossPatchMesh::undo(const State& state) {
   const bool any = this->state() != state;
   for (; moved_.size() > state[1]; moved_.pop_back()) {
     Moved& last = moved_.back();

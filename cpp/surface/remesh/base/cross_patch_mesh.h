@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/editable_mesh.h"
+#include "mesh/trial.h"
 #include "support/infinity.h"
 #include "surface/remesh/base/charts.h"
 #include "surface/remesh/base/placed_vertices.h"
@@ -144,26 +145,14 @@ class CrossPatchMesh : public PlacedVertices {
   [[nodiscard]] const Charts& charts() const noexcept { return charts_; }
   [[nodiscard]] Cad& cad() const noexcept { return cad_; }
 
-  /// The transaction of edits and moves: undoes everything since its construction, or since the last accept(). Trials nest, and an
-  /// inner trial ends before the outer one.
-  class Trial {
-   public:
-    explicit Trial(CrossPatchMesh& mesh) : mesh_(mesh), start_(mesh.state()) { ++mesh.trials_; }
-    ~Trial() {
-      (void)undo();
-      if (--mesh_.trials_ == 0) mesh_.moved_.clear();
-    }
-    Trial(const Trial&) = delete;
-    Trial& operator=(const Trial&) = delete;
-
-    void accept() noexcept { start_ = mesh_.state(); }
-    /// Returns false if nothing had changed.
-    bool undo() { return mesh_.undo(start_); }
-
-   private:
-    CrossPatchMesh& mesh_;
-    std::array<std::size_t, 2> start_;
-  };
+  // For Trial. Numbers of edits, and of moves in trials.
+  using State = std::array<std::size_t, 2>;
+  [[nodiscard]] State state() const noexcept { return {mesh_->edits(), moved_.size()}; }
+  bool undo(const State& state);
+  void begin_trial() noexcept { ++trials_; }
+  void end_trial() noexcept {
+    if (--trials_ == 0) moved_.clear();
+  }
 
  private:
   /// A vertex with its values before a move.
@@ -173,9 +162,6 @@ class CrossPatchMesh : public PlacedVertices {
     std::vector<SurfacePlace> kept;  // of a vertex that is not free
     WantedSize wanted;
   };
-  /// Numbers of edits, and of moves in trials.
-  [[nodiscard]] std::array<std::size_t, 2> state() const noexcept { return {mesh_->edits(), moved_.size()}; }
-  bool undo(const std::array<std::size_t, 2>& state);
   void set_place(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
 
   using Judge = void (CrossPatchMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
@@ -202,7 +188,5 @@ class CrossPatchMesh : public PlacedVertices {
   int trials_ = 0;            // open ones
   std::vector<Moved> moved_;  // in them
 };
-
-using Trial = CrossPatchMesh::Trial;
 
 }  // namespace carreau

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The face of a cell of a free mesh, and the places of its corners and nodes in (u, v).
+// The face of a cell of a cross-patch mesh, and the places of its corners and nodes in (u, v).
 #pragma once
 
 #include <array>

@@ -90,7 +90,7 @@ class Certifier::Work {
   };
 
   // Undoes edits of a group. Nothing is known of triangles that come back.
-  void undo(Trial& trial, const Certification& report) {
+  void undo(Trial<CrossPatchMesh>& trial, const Certification& report) {
     if (!trial.undo()) return;
     for (const std::int32_t t : touched_) share_[t] = unknown;
     share_.resize(mesh_.triangles().size(), unknown);
@@ -408,7 +408,7 @@ class Certifier::Work {
   const RemeshingWorkers workers_;
   Monitor& monitor_;
   EditBounds bounds_;
-  Trial trial_;                     // all edits
+  Trial<CrossPatchMesh> trial_;                   // all edits
   const double upright_;       // CrossPatchMesh's share for upright triangles
   std::vector<double> share_;  // by triangle
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last step: edits until upper bounds of all triangles of a free mesh are within tolerances.
+// The last step: edits until upper bounds of all triangles of a cross-patch mesh are within tolerances.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upper bounds of A0 and A1 of single triangles of a free mesh, and of triangles that edits would make.
+// Upper bounds of A0 and A1 of single triangles of a cross-patch mesh, and of triangles that edits would make.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts of a free mesh into parts, by its triangles and their sizes, for any number of executors.
+// Cuts of a cross-patch mesh into parts, by its triangles and their sizes, for any number of executors.
 #pragma once
 
 #include <cstdint>

@@ -96,7 +96,7 @@ class DividedRemeshing {
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices()); ++v)
       places.push_back(mesh_.position(v)), places.push_back(mesh_.place(v).normal), sizes.push_back(mesh_.size(v));
     sum.add(places), sum.add(sizes);
-    workers_.team->require_same("free mesh", sum.text(), [](int rank) {
+    workers_.team->require_same("cross-patch mesh", sum.text(), [](int rank) {
       return "the mesh of rank " + std::to_string(rank) +
              " differs from the mesh of rank 0 before cross-patch remeshing: its callbacks or parameters differ";
     });
@@ -137,7 +137,7 @@ class DividedRemeshing {
 
   std::vector<EditedPart> edit(const Division& division, const Vertices& around) {
     return shared_work<EditedPart>(
-        {workers_.team, workers_.threads}, "parts of a free mesh", division.parts.size(), !workers_.hosts_threads,
+        {workers_.team, workers_.threads}, "parts of a cross-patch mesh", division.parts.size(), !workers_.hosts_threads,
         [&](std::size_t p, Monitor& of_part) { return edit_part(division, p, around, of_part); },
         [](PacketWriter& packet, const EditedPart& part) { part.put(packet); }, &EditedPart::from, monitor_);
   }

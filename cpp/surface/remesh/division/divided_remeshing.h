@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large free meshes remeshed to the prescribed sizes in parts, by several threads and processes.
+// Large cross-patch meshes remeshed to the prescribed sizes in parts, by several threads and processes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Some triangles of a free mesh that one executor edits by itself.
+// Some triangles of a cross-patch mesh that one executor edits by itself.
 #pragma once
 
 #include <cstdint>

@@ -32,13 +32,8 @@ bool evens_degrees(const CrossPatchMesh& mesh, std::int32_t a, std::int32_t b, s
   return gain > 0;
 }
 
-bool is_too_long(const CrossPatchMesh& mesh, std::int32_t v, std::int32_t w, std::int32_t c, std::int32_t d) {
-  const double l = mesh.length(c, d);
-  return l > longest && l > mesh.length(v, w);
-}
-
 bool swap_edge(CrossPatchMesh& mesh, const Quad& q, bool for_degrees) {
-  if (is_too_long(mesh, q.a, q.b, q.c, q.d)) return false;
+  if (const double l = mesh.length(q.c, q.d); l > longest && l > mesh.length(q.a, q.b)) return false;
   Change change;
   judge_swap(mesh, q, &CrossPatchMesh::judge_shape, change);
   const auto& [before, after] = change;

@@ -11,8 +11,6 @@ namespace carreau {
 
 /// Returns whether a swap of the edge from a to b to c and d brings the vertices nearer to six edges.
 [[nodiscard]] bool evens_degrees(const CrossPatchMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d);
-/// Returns whether a swap would make a diagonal that is too long.
-[[nodiscard]] bool is_too_long(const CrossPatchMesh& mesh, std::int32_t v, std::int32_t w, std::int32_t c, std::int32_t d);
 /// Swaps if the surface agrees and the worst shape gains, or, for degrees, shapes stay good enough; otherwise returns false and changes
 /// nothing.
 bool swap_edge(CrossPatchMesh& mesh, const CrossPatchMesh::Quad& q, bool for_degrees = false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Remeshing of a whole free mesh to the prescribed lengths and to good shapes.
+// Remeshing of a whole cross-patch mesh to the prescribed lengths and to good shapes.
 #pragma once
 
 #include <cstdint>

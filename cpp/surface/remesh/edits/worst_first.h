@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The worst triangles of a free mesh, at the end.
+// The worst triangles of a cross-patch mesh, at the end.
 #pragma once
 
 #include <cstdint>
