@@ -68,7 +68,7 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
   else if (run.options.independent)
-    inspectors.push_back(make_free_mesh_inspector());
+    inspectors.push_back(make_cross_patch_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
   return inspectors;
 }

@@ -61,7 +61,7 @@ struct Made {
   [[nodiscard]] std::size_t faults() const noexcept { return invalid + crossings.fresh.size(); }
 };
 
-class FreeMeshInspector final : public Inspector {
+class CrossPatchInspector final : public Inspector {
  public:
   void inspect(CompositeRun& run) override {
     if (is_first_)
@@ -237,6 +237,6 @@ class FreeMeshInspector final : public Inspector {
 
 }  // namespace
 
-std::unique_ptr<Inspector> make_free_mesh_inspector() { return std::make_unique<FreeMeshInspector>(); }
+std::unique_ptr<Inspector> make_cross_patch_inspector() { return std::make_unique<CrossPatchInspector>(); }
 
 }  // namespace carreau
