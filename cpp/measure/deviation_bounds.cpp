@@ -10,8 +10,8 @@
 #include "measure/bounds/bounded_triangles.h"
 #include "measure/bounds/charted_places.h"
 #include "support/infinity.h"
-#include "surface/independent/bounds/spread_places.h"
-#include "surface/independent/bounds/thresholds.h"
+#include "surface/remesh/bounds/spread_places.h"
+#include "surface/remesh/bounds/thresholds.h"
 
 namespace carreau {
 

@@ -12,7 +12,7 @@
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
 #include "support/infinity.h"
-#include "surface/independent/bounds/thresholds.h"
+#include "surface/remesh/bounds/thresholds.h"
 
 namespace carreau {
 

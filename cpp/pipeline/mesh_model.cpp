@@ -13,7 +13,7 @@
 #include "pipeline/mesh_rounds.h"
 #include "pipeline/parts/shares.h"
 #include "surface/assembly/cracks.h"
-#include "surface/free_elements/invalid_elements.h"
+#include "surface/elements/cross_patch/invalid_elements.h"
 
 namespace carreau {
 
@@ -64,7 +64,7 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
   else if (run.options.independent)
-    inspectors.push_back(make_free_mesh_inspector());
+    inspectors.push_back(make_cross_patch_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
   return inspectors;
 }

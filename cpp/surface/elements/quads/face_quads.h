@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a face that becomes quadrilaterals.
+#pragma once
+
+#include <vector>
+
+#include "surface/elements/base/curve_middles.h"
+#include "surface/elements/quads/quad_patch.h"
+
+namespace carreau {
+
+/// The cells of one face, and their origin.
+struct FaceQuads {
+  std::size_t face = 0;
+  QuadPatch patch;
+  std::vector<std::int32_t> vertex;  ///< local -> index in SurfaceMesh::vertices; -1: new, and of this face only
+  std::vector<Vec3> xyz;             ///< positions; lift() computes the positions of new vertices
+  std::vector<Vec2> lifted;          ///< (u, v) that xyz belongs to
+  std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: not known; below: as it was
+  std::vector<CurveSide> sides;      ///< on curves, ascending; of cells before they are cut
+  std::vector<std::int32_t> middles;  ///< of sides: local vertices, once the cells are cut; -1: none
+  std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
+
+  [[nodiscard]] const CurveSide* side_between(std::int32_t a, std::int32_t b) const noexcept;
+};
+
+/// Vertices on curves, imposed points and corners of flattened triangles are fixed.
+FaceQuads face_quads(const ElementWork& work, std::size_t face);
+
+/// Evaluates the surface for positions of vertices that are new or were moved, and `metric` for sizes there (no sizes
+/// if it is null). One evaluation a vertex.
+void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor);
+
+/// Puts the cells of faces into the mesh, all at once. Vertices without a cell are removed, new vertices are appended
+/// face by face. Order stays.
+void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);
+
+}  // namespace carreau
