@@ -19,7 +19,7 @@ namespace carreau_occ {
 
 /// A tree of items as OpenCASCADE's own documents (XDE) have it, so that files mean here what they mean there; those
 /// bring a viewer and a window system. An item is a shape, a part of one, an assembly, or one of those placed
-/// somewhere. Edges and vertices are none, since nothing of theirs has a name or a colour in a mesh.
+/// somewhere. Edges and vertices with a name are items of their parts.
 class Document {
  public:
   static constexpr int none = -1;
@@ -45,7 +45,12 @@ class Document {
   [[nodiscard]] TopoDS_Shape shape(int item) const;
   [[nodiscard]] bool is_assembly(int item) const { return at(item).assembly; }
 
-  void set_name(int item, const std::string& name) { at(item).name = name; }
+  /// Names that programs write for entities without a name are ignored: "#197", "NONE".
+  void set_name(int item, const std::string& name);
+  /// The first layer stays.
+  void set_layer(int item, const std::string& layer);
+  /// The item of an edge or vertex of a part; none: no part has this shape.
+  int find_small(const TopoDS_Shape& shape);
   /// The item of add_inside() has this shape.
   void set_shape(int item, const TopoDS_Shape& shape);
   enum class Colour { surface, general };
@@ -68,7 +73,7 @@ class Document {
     bool assembled = false;      // the shape is that of all below
     std::vector<int> below;      // in the order in which they were made
     std::vector<int> placed_as;  // items that refer to this one
-    std::string name;
+    std::string name, layer;
     std::optional<Quantity_Color> surface, general;
   };
   struct Inside {
@@ -87,13 +92,15 @@ class Document {
   Inside& inside_of(int item);
   void hand_down_from(int item);
   void assemble(int item);
-  void write_labels(int item, const TopLoc_Location& place, ShapeFile& file) const;
+  void write_labels(int item, const TopLoc_Location& place, int depth, ShapeFile& file) const;
 
   std::vector<Item> items_;
   TopTools_DataMapOfShapeInteger tops_;     // items that are in no other, by the shape that they have
   TopTools_DataMapOfShapeInteger known_;    // of what was added
   TopTools_DataMapOfShapeInteger holders_;  // the last item that holds a shape
   std::map<int, Inside> insides_;
+  TopTools_DataMapOfShapeInteger small_;  // parts of edges and vertices; filled by the first find_small()
+  bool knows_small_ = false;
   std::vector<Quantity_ColorRGBA> colours_;
 };
 

@@ -37,6 +37,35 @@ std::vector<std::pair<std::string, int>> surfaces_of(carreau_cad_file* file, con
   return surfaces;
 }
 
+std::string words_of(const carreau_cad_tree_row& row) {
+  std::string words = row.kind + (row.number > 0 ? " " + std::to_string(row.number) : std::string());
+  if (row.name[0] != '\0') words += std::string("  ") + row.name;
+  if (row.faces > 0) words += "  " + std::to_string(row.faces) + (row.faces == 1 ? " face" : " faces");
+  if (row.rgb >= 0) {
+    char colour[16];
+    std::snprintf(colour, sizeof colour, "  #%06x", static_cast<unsigned>(row.rgb));
+    words += colour;
+  }
+  return row.layer[0] != '\0' ? words + "  layer " + row.layer : words;
+}
+
+/// Rows whose holder has more than `limit` rows of their kind are counted.
+void print_tree(carreau_cad_file* file, int limit) {
+  const std::vector<carreau_cad_tree_row> rows = tree_of(file);
+  if (rows.empty()) return;
+  std::puts("tree:");
+  std::map<std::pair<int, std::string>, int> told;  // since the last row that is less deep
+  for (const carreau_cad_tree_row& row : rows) {
+    std::erase_if(told, [&](const auto& each) { return each.first.first > row.depth; });
+    int& n = told[{row.depth, row.kind}];
+    ++n;
+    const bool is_entity = row.kind == std::string("face") || row.kind == std::string("edge") || row.kind == std::string("vertex");
+    const std::string indent(2 * static_cast<std::size_t>(row.depth) + 2, ' ');
+    if (!is_entity || n <= limit) std::printf("%s%s\n", indent.c_str(), words_of(row).c_str());
+    if (is_entity && n == limit + 1) std::printf("%s...\n", indent.c_str());
+  }
+}
+
 void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit) {
   const std::string unit = content_of(file).unit;
   const std::vector<std::string> losses = losses_of(file);
@@ -71,6 +100,23 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
     if (++n <= limit) std::printf("  %s\n", danger.sentence);
     if (n == limit + 1) std::puts("  ...");
   }
+  print_tree(file, limit);
+}
+
+nlohmann::ordered_json tree_json(carreau_cad_file* file) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const carreau_cad_tree_row& row : tree_of(file))
+    list.push_back({{"depth", row.depth}, {"kind", row.kind}, {"number", row.number}, {"name", row.name},
+                    {"rgb", row.rgb}, {"layer", row.layer}, {"faces", row.faces}});
+  return list;
+}
+
+nlohmann::ordered_json contacts_json(carreau_cad_file* file) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const carreau_cad_contact& each : contacts_of(file))
+    list.push_back({{"solids", {each.solids[0], each.solids[1]}}, {"faces", {each.faces[0], each.faces[1]}},
+                    {"face_pairs", each.pairs}, {"area", each.area}, {"place", each.place}});
+  return list;
 }
 
 nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report& r, const InfoOptions& options) {
@@ -110,6 +156,8 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
           {"largest_gap", r.largest_gap},
           {"not_read", losses_of(file)},
           {"contacts", contacts},
+          {"common_areas", contacts_json(file)},
+          {"tree", tree_json(file)},
           {"notes", notes_of(file)},
           {"dangers", dangers}};
 }
