@@ -14,7 +14,6 @@
 #include "base/lengths.h"
 #include "files/mesh_file.h"
 #include "files/session_handle.h"
-#include "inputs/base/built_input.h"
 #include "inputs/base/face_model.h"
 #include "mesh/selection.h"
 #include "mesh/sizes_file.h"
@@ -60,7 +59,8 @@ double distance_from_chord(const Point& p, const Point& a, const Point& b) {
 class Shapes {
  public:
   Shapes(const MeshOptions& options, CadInput& input, const std::string& label)
-      : options_(options), input_(input), label_(label), session_(make_silent_session()) {
+      : options_(options), input_(input), label_(label), session_(make_session()) {
+    require(session_.get(), carreau_set_message_callback(session_.get(), nullptr, nullptr));  // faces are left out on purpose
     require(session_.get(), input.give_to(session_.get()));
     model_ = model_of(session_.get());
   }

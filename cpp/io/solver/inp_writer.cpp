@@ -97,6 +97,12 @@ std::string inp_text(const FlatMesh& mesh) {
     for (const std::size_t i : each.sets) list.add(sets.curves[i].name);
     list.end();
   }
+  for (const NamedVertices& each : sets.point_names) {
+    text.append("*NSET, NSET=").append(each.name).append("\n");
+    List list(text);
+    for (const std::size_t v : each.vertices) list.add(std::to_string(v + 1));
+    list.end();
+  }
   return text;
 }
 
