@@ -64,7 +64,7 @@ module carreau
   public :: carreau_metric_reduce, carreau_metric_lengths
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
-  public :: carreau_clear_background, carreau_session_background
+  public :: carreau_clear_background, carreau_session_background, carreau_add_attractor, carreau_clear_attractors
   public :: carreau_estimate, carreau_transfer, carreau_adapt
   public :: carreau_mesh_read_metrics, carreau_set_background_fields, carreau_transfer_files
   public :: carreau_string
@@ -2032,6 +2032,24 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_clear_background(session%handle)
   end subroutine carreau_clear_background
+
+  !> vertices(3, n); elements(3, m) of indices from 1: a triangle, an edge (a, b, b), a point (a, a, a).
+  subroutine carreau_add_attractor(session, vertices, elements, size_on, surrounding, reach, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: vertices(:, :), size_on, surrounding, reach
+    integer(c_int32_t), intent(in) :: elements(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(vertices, 1) /= 3 .or. size(elements, 1) /= 3) return
+    status = c_add_attractor(session%handle, size(vertices, 2, kind=c_int64_t), vertices, size(elements, 2, kind=c_int64_t), &
+      elements - 1, size_on, surrounding, reach)
+  end subroutine carreau_add_attractor
+
+  subroutine carreau_clear_attractors(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_clear_attractors(session%handle)
+  end subroutine carreau_clear_attractors
 
   subroutine carreau_session_background(session, report, status)
     type(carreau_session), intent(in) :: session

@@ -765,6 +765,29 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_background
 
+    !> Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a
+    !! size that grows linearly with the distance to `surrounding` at the distance `reach`.
+    function c_add_attractor(session, vertex_count, vertices, element_count, elements, size, surrounding, &
+      reach) result(status) bind(c, name="carreau_add_attractor")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: vertex_count
+      real(c_double), intent(in) :: vertices(*)
+      integer(c_int64_t), value :: element_count
+      integer(c_int32_t), intent(in) :: elements(*)
+      real(c_double), value :: size, surrounding, reach
+      integer(c_int32_t) :: status
+    end function c_add_attractor
+
+    !> Removes all attractors.
+    function c_clear_attractors(session) result(status) bind(c, name="carreau_clear_attractors")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_clear_attractors
+
     !> Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there.
     function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
       import :: c_double, c_estimator, c_int32_t, c_int64_t, c_ptr

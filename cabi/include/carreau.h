@@ -650,6 +650,21 @@ typedef struct carreau_background_report {
 /* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
 
+/* ---- Attractors: sizes near points, edges and triangles ---- */
+
+/* Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a size that
+ * grows linearly with the distance to `surrounding` at the distance `reach`. Farther away the attractor gives no size.
+ * Where several attractors, a background mesh or callbacks answer, the smallest size counts. All are model lengths.
+ * vertices: vertex_count x 3. elements: element_count x 3 indices of vertices from 0: a triangle; an edge (a, b, b); a
+ * point (a, a, a). The call copies them. Errors: ARGUMENT (a length that is not positive, surrounding below size, numbers
+ * not finite, no element, an index out of range), SEQUENCE. */
+CARREAU_API carreau_status carreau_add_attractor(carreau_session* session, int64_t vertex_count, const double vertices[],
+                                                 int64_t element_count, const int32_t elements[], double size,
+                                                 double surrounding, double reach);
+
+/* Removes all attractors. */
+CARREAU_API carreau_status carreau_clear_attractors(carreau_session* session);
+
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
 
 /* The source of the error estimate: the interpolation error, by second derivatives; the angles between edges and the

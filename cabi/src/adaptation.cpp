@@ -195,6 +195,25 @@ carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, c
   });
 }
 
+carreau_status carreau_add_attractor(carreau_session* session, int64_t vertex_count, const double* vertices,
+                                     int64_t element_count, const int32_t* elements, double size, double surrounding,
+                                     double reach) {
+  return guarded(session, [&] {
+    carreau::Attractor attractor{.vertices = {}, .elements = {}, .size = size, .surrounding = surrounding, .reach = reach};
+    const std::size_t n = checked_count(vertex_count, "vertex_count"), m = checked_count(element_count, "element_count");
+    if (n > 0) required(vertices, "vertices");
+    for (std::size_t i = 0; i < n; ++i) attractor.vertices.push_back({vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]});
+    if (m > 0) required(elements, "elements");
+    attractor.elements.resize(m);
+    for (std::size_t i = 0; i < m; ++i) std::copy_n(elements + 3 * i, 3, attractor.elements[i].begin());
+    session->session.add_attractor(attractor);
+  });
+}
+
+carreau_status carreau_clear_attractors(carreau_session* session) {
+  return guarded(session, [&] { session->session.clear_attractors(); });
+}
+
 carreau_status carreau_clear_background(carreau_session* session) {
   return guarded(session, [&] { session->session.set_background(nullptr); });
 }

@@ -63,6 +63,12 @@ void Session::set_prescription_source(std::shared_ptr<PrescriptionSource> source
 void Session::set_background(std::shared_ptr<BackgroundField> background) {
   state_->background = std::move(background);
 }
+void Session::add_attractor(const Attractor& attractor) {
+  auto all = state_->attractors ? std::make_shared<Attractors>(*state_->attractors) : std::make_shared<Attractors>();
+  all->add(attractor);
+  state_->attractors = std::move(all);
+}
+void Session::clear_attractors() noexcept { state_->attractors = nullptr; }
 const BackgroundReport& Session::background_report() const noexcept { return state_->background_report; }
 
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }

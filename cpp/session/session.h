@@ -22,6 +22,7 @@
 #include "pipeline/parts/part_mesh.h"
 #include "session/gluing.h"
 #include "session/parameters.h"
+#include "size/attractors.h"
 #include "size/background.h"
 #include "support/monitor.h"
 #include "support/ranks/crew.h"
@@ -55,6 +56,10 @@ class Session {
   /// A background mesh as that other source; the parameters background_mesh and background_sol come before it. nullptr:
   /// none.
   void set_background(std::shared_ptr<BackgroundField> background);
+  /// Sizes near points, edges and triangles, beside all other sources; clear_attractors() removes all. Throws
+  /// InvalidArgument, and changes nothing then.
+  void add_attractor(const Attractor& attractor);
+  void clear_attractors() noexcept;
   /// Use of the background mesh in the last make_mesh(); zero when there was none.
   [[nodiscard]] const BackgroundReport& background_report() const noexcept;
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. If the

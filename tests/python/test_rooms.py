@@ -253,6 +253,10 @@ def test_estimates_and_transfers():
     assert np.allclose(session.transfer(mesh.vertices[:, :2] @ (1, 2)), fine.vertices[:, :2] @ (1, 2))
     assert session.transfer(mesh.vertices).shape == fine.vertices.shape
     session.clear_background()
+    session.add_attractor([[0, 0, 0]], [[0, 0, 0]], 0.01, 0.2, 0.5)
+    fine = session.generate()
+    session.clear_attractors()
+    assert len(fine.triangles) > len(session.generate().triangles)
     session.set_background(mesh.vertices, mesh.triangles, sizes=np.full(len(mesh.vertices), 0.2))
     assert len(session.generate().triangles) < len(mesh.triangles) and session.background.outside == 0
 

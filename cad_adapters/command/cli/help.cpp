@@ -28,7 +28,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--ellipses", picture},          {"--samples", picture},
     {"--size", "Sizes"},              {"--min", "Sizes"},           {"--max", "Sizes"},
     {"--gradation", "Sizes"},         {"--face-size", "Sizes"},     {"--size-map", "Sizes"},
-    {"--size-on", "Sizes"},
+    {"--size-on", "Sizes"},           {"--near", "Sizes"},          {"--sizes", "Sizes"},
     {"--sol-field", "Sizes"},         {"--curve-edges", "Sizes"},   {"--curve-vertices", "Sizes"},
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},

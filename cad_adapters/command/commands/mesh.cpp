@@ -192,7 +192,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -205,6 +205,8 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else if (is_report(path))
       write_text(path, page_of(run));
+    else if (suffix_of(path) == group_table_suffix)
+      write_text(path, group_table(run.mesh));
     else
       write_mesh(run.mesh, path);
   }
@@ -230,6 +232,17 @@ std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress)
   return open_several(all, options);
 }
 
+/// Medit's files have no names of groups: a table beside each has them, when groups are asked for.
+std::vector<std::string> with_group_tables(const MeshOptions& options, std::vector<std::string> outputs) {
+  if ((options.groups.empty() && options.group_by.empty()) || options.parts) return outputs;
+  for (const std::string& path : std::vector<std::string>(outputs))
+    if (is_one_of(suffix_of(path), {".mesh", ".meshb"})) {
+      const std::string table = path.substr(0, path.size() - suffix_of(path).size()) + group_table_suffix;
+      if (std::find(outputs.begin(), outputs.end(), table) == outputs.end()) outputs.push_back(table);
+    }
+  return outputs;
+}
+
 /// JSON and files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
   for (const auto& [given, name] : {std::pair{options.json, "--json"}, {!options.dump_failed.empty(), "--dump-failed"}})
@@ -242,7 +255,7 @@ void refuse_with_parts(const MeshOptions& options) {
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
-  options.outputs = adaptation.with_fields(given.outputs);
+  options.outputs = with_group_tables(given, adaptation.with_fields(given.outputs));
   check_words(options);  // reports meaningless words before a long reading
   SizeMap map(options.size_map);
   if (options.plane.field > 0 && map.mesh_file().empty() && options.adapt.sol.empty() && options.plane.sizes.empty())
@@ -250,7 +263,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
   std::vector<std::string> suffixes = written_meshes;
-  suffixes.insert(suffixes.end(), {".exr", ".html"});
+  suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});

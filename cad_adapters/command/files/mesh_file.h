@@ -45,6 +45,11 @@ MeshHandle read_mesh(const std::string& path);
 /// Writes a file of `written_meshes`. Throws Failure with the library's sentence.
 void write_mesh(carreau_mesh* mesh, const std::string& path);
 
+/// Suffix of a table of the groups of a mesh: a line "dimension reference name" for each entity in a group.
+inline const std::string group_table_suffix = ".groups";
+/// That table. Throws Failure.
+std::string group_table(carreau_mesh* mesh);
+
 /// Throws Failure when this program cannot write one of the files for lack of a library.
 void require_writers(const std::vector<std::string>& paths);
 
