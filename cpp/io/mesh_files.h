@@ -17,7 +17,9 @@ namespace carreau {
 /// Solvers: Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`), SU2 (`.su2`), with named sets.
 /// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary). VTK's legacy format (`.vtk`), Cart3D
 /// (`.tri`).
-enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply, vtk, tri };
+/// Surfaces for programs that fill solids, written only: TetGen (`.smesh`, `.poly`), Netgen (`.vol`), a script for Gmsh (`.geo`)
+/// beside a `.msh` file of the same name.
+enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply, vtk, tri, smesh, poly, vol, geo };
 
 struct MeshFileOptions {
   /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); `.vtk` as text; otherwise
@@ -26,6 +28,7 @@ struct MeshFileOptions {
   /// Gmsh's formats: edges of curves and corners are elements, each curve and corner a physical group; otherwise there
   /// are triangles only.
   bool curve_groups = true;
+  std::string surface = "surface.msh";  ///< `.geo`: the file that has the surface; write_mesh() takes the name of its own file
 };
 
 /// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing those
@@ -40,7 +43,7 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
 /// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Reads a file by its suffix: one of those of mesh_format_of(). Throws InvalidArgument for another suffix, FileError with
+/// Reads a file by its suffix: one of mesh_format_of(), except formats that are written only. Throws InvalidArgument for another suffix, FileError with
 /// file and line, or file and byte. Vertices, edges and triangles are taken, their references, names of faces and, of
 /// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files and BL2D's only.
 FlatMesh read_mesh(const std::string& path);

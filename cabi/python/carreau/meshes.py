@@ -187,6 +187,22 @@ class Mesh:
         self._require(lib().mesh_defects(handle, int(closed), limit, byref(count), byref(text)))
         return [line for line in (text_of(text.value) or "").splitlines() if line]
 
+    def regions(self) -> tuple[Ints, Reals]:
+        """Regions of space that the mesh bounds: numbers (r,) of solids, 0 for a hole, and a point (r, 3) inside each."""
+        handle = self._live()
+        count = counted(lambda out: self._require(lib().mesh_regions(handle, 0, out, None, None)))
+        solids, places = np.empty(count, dtype=np.int32), np.empty((count, 3))
+        if count:
+            self._require(lib().mesh_regions(handle, count, byref(c_int64()), solids, places))
+        return solids, places
+
+    @property
+    def triangle_sides(self) -> Ints:
+        """Solids (m, 2) beside each triangle: the one that it looks out of, and the other one; 0: none."""
+        solids = np.empty((len(self.triangles), 2), dtype=np.int32)
+        self._require(lib().mesh_triangle_sides(self._live(), len(solids), solids))
+        return solids
+
     def crossings(self, threads: int = 0) -> tuple[Ints, Reals]:
         """Pairs of triangles that cross (k, 2), and a place of each (k, 3)."""
         handle = self._live()

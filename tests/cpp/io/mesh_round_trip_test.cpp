@@ -49,7 +49,7 @@ TEST(MeshFiles, TheSuffixGivesTheFormat) {
     EXPECT_EQ(sentence_of<InvalidArgument>([&] { mesh_format_of(path); }),
               "'" + path +
                   "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, "
-                  ".unv, .su2, .off, .obj, .ply, .vtk, .tri");
+                  ".unv, .su2, .off, .obj, .ply, .vtk, .tri, .smesh, .poly, .vol, .geo");
 }
 
 TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRefusedAndTheOldFileStays) {
