@@ -19,13 +19,14 @@ TYPES = {"triangle": 2, "triangle6": 9, "quad": 3, "quad8": 16}
 LINES = {2: 1, 3: 8}
 
 
-def to_gmsh(mesh: MeshContent, tolerance: float = 1e-5) -> None:
+def to_gmsh(mesh: MeshContent, tolerance: float = 1e-3) -> None:
     """Puts the mesh into the current model of a Gmsh that has the same STEP, IGES or BREP file open (gmsh.model.occ.importShapes): nodes with
     their parameters and elements on each vertex, curve and surface of the model, in place of their meshes.
 
     Both programs number entities in the order of the file. If a number has another place (Gmsh removes duplicates), points, curves and
     surfaces are compared by their places within `tolerance` times the diagonal. Everything behind gmsh.model.mesh.generate(2) works as with
-    a mesh of Gmsh: physical groups, generate(3), partition, write.
+    a mesh of Gmsh: physical groups, generate(3), partition, write. The option Mesh.MeshOnlyEmpty becomes 1, so that generate(3) keeps the
+    surface. Elements of order 2 stay on the surface; for volumes of order 2 give a mesh of order 1 and call setOrder(2) behind generate(3).
 
     Raises ArgumentError when the model has other surfaces or curves than the mesh, ImportError without the package gmsh."""
     gmsh = package("gmsh", ", or apt-get install python3-gmsh", "to_gmsh()")
@@ -34,7 +35,7 @@ def to_gmsh(mesh: MeshContent, tolerance: float = 1e-5) -> None:
 
 class _Filling:
     def __init__(self, gmsh: Any, mesh: MeshContent, tolerance: float) -> None:
-        self.model, self.mesh = gmsh.model, mesh
+        self.gmsh, self.model, self.mesh = gmsh, gmsh.model, mesh
         self.points = np.asarray(mesh.vertices, dtype=float)
         if len(self.points) == 0:
             raise ArgumentError("the mesh is empty")
@@ -43,6 +44,8 @@ class _Filling:
 
     def run(self) -> None:
         corners, curves, faces = self._of_points(), self._of_curves(), self._of_faces()
+        self.gmsh.option.setNumber("Mesh.MeshOnlyEmpty", 1)
+        self.model.mesh.generate(1)  # otherwise the first generate(3) of Gmsh 4.8 meshes surfaces anew
         self.model.mesh.clear()
         self.next = 1
         for tag, vertex in sorted(corners.items()):
@@ -103,7 +106,10 @@ class _Filling:
             slack = self.near + 1e-6  # OpenCASCADE's boxes are larger by a tolerance
             if (points < low - slack).any() or (points > high + slack).any():
                 return False
-            closest = np.array(self.model.getClosestPoint(dimension, tag, points.ravel().tolist())[0]).reshape(-1, 3)
+            try:
+                closest = np.array(self.model.getClosestPoint(dimension, tag, points.ravel().tolist())[0]).reshape(-1, 3)
+            except Exception:  # gmsh raises no other class; a degenerate curve has no points
+                return False
             return bool((np.linalg.norm(closest - points, axis=1) <= self.near).all())
 
         found: dict[int, int] = {}

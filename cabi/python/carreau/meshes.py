@@ -252,7 +252,7 @@ class Mesh:
         cell_data. Raises ImportError without the package meshio."""
         return to_meshio(self)
 
-    def to_gmsh(self, tolerance: float = 1e-5) -> None:
+    def to_gmsh(self, tolerance: float = 1e-3) -> None:
         """Puts the mesh into the running Gmsh, whose model has the same CAD file; see carreau.to_gmsh."""
         to_gmsh(self, tolerance)
 

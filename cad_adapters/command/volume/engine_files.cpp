@@ -71,6 +71,41 @@ class NumberFile {
 };
 
 constexpr std::int64_t most = 2147483647;
+constexpr double same_place = 1e-9;  // of the diagonal: engines print 16 digits, and edges are longer
+
+/// Vertices of the surface by cells of a lattice.
+class Places {
+ public:
+  explicit Places(const SolidSurface& surface) : surface_(surface), cell_(4 * same_place * surface.diagonal) {
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+      cells_[key_of(surface.vertices[v], {0, 0, 0})].push_back(static_cast<std::int32_t>(v));
+  }
+  /// The nearest vertex at a place; -1: there is none.
+  [[nodiscard]] std::int32_t vertex_at(const Point& p) const {
+    std::int32_t best = -1;
+    double least = same_place * surface_.diagonal;
+    for (int i = 0; i < 27; ++i) {
+      const auto found = cells_.find(key_of(p, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
+      if (found == cells_.end()) continue;
+      for (const std::int32_t v : found->second) {
+        const Point& q = surface_.vertices[static_cast<std::size_t>(v)];
+        const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+        if (distance <= least) least = distance, best = v;
+      }
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] std::size_t key_of(const Point& p, const std::array<int, 3>& shift) const {
+    std::size_t key = 0;
+    for (std::size_t k = 0; k < 3; ++k) key = key * 1000003U + std::hash<double>{}(std::floor(p[k] / cell_) + shift[k]);
+    return key;
+  }
+  const SolidSurface& surface_;
+  double cell_;
+  std::unordered_map<std::size_t, std::vector<std::int32_t>> cells_;
+};
 
 Point point_of(NumberFile& in) {
   Point p{};
@@ -112,24 +147,25 @@ void read_gmsh(const std::string& path, VolumeMesh& volume) {
   NumberFile in(path);
   in.require("$Nodes");
   const std::int64_t n = in.integer(0, most);
-  // The vertices of the surface keep their numbers, and others follow in the order of the file.
+  // Gmsh numbers nodes anew. Vertices of the surface are found by their places, and others follow in the order of the file.
   const std::size_t given = volume.surface.vertices.size();
   volume.vertices.resize(given);
   std::vector<bool> known(given, false);
+  const Places places(volume.surface);
   std::unordered_map<std::int64_t, std::int32_t> index;
   for (std::int64_t i = 0; i < n; ++i) {
     const std::int64_t number = in.integer(1, most);
     const Point p = point_of(in);
-    if (number <= static_cast<std::int64_t>(given)) {
-      volume.vertices[static_cast<std::size_t>(number - 1)] = p, known[static_cast<std::size_t>(number - 1)] = true;
-      index[number] = static_cast<std::int32_t>(number - 1);
+    if (const std::int32_t v = places.vertex_at(p); v >= 0 && !known[static_cast<std::size_t>(v)]) {
+      volume.vertices[static_cast<std::size_t>(v)] = p, known[static_cast<std::size_t>(v)] = true;
+      index[number] = v;
     } else {
       index[number] = static_cast<std::int32_t>(volume.vertices.size());
       volume.vertices.push_back(p);
     }
   }
   for (std::size_t v = 0; v < given; ++v)
-    if (!known[v]) throw Failure("Gmsh left out vertex " + std::to_string(v + 1) + " of the surface.");
+    if (!known[v]) throw Failure("The engine gmsh moved or left out vertex " + std::to_string(v + 1) + " of the surface.");
   in.require("$Elements");
   const std::int64_t m = in.integer(0, most);
   constexpr std::int64_t tetrahedron_type = 4;

@@ -72,7 +72,7 @@ void by_gmsh(const SolidSurface& surface, const TemporaryFolder& folder, const P
       if (solid > 0 && out_of != into) bounds[solid][faces.at(surface.refs[t])] = true;
   }
   write_engine_file(folder.path() + "/surface.msh", mesh + "$EndElements\n");
-  std::string script = "Merge \"surface.msh\";\nMesh.Renumber = 0;\nMesh.SaveAll = 1;\nMesh.Algorithm3D = 1;\nMesh.Optimize = 1;\n"
+  std::string script = "Merge \"surface.msh\";\nMesh.SaveAll = 1;\nMesh.Algorithm3D = 1;\nMesh.Optimize = 1;\n"
                        "Mesh.CharacteristicLengthExtendFromBoundary = 1;\n";
   if (largest_size > 0) script += "Mesh.CharacteristicLengthMax = " + exact(largest_size) + ";\n";
   for (const auto& [solid, own] : bounds) {
