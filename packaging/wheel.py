@@ -24,14 +24,14 @@ SYSTEM = re.compile(r"(ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|lib
 LARGEST = 40e6  # bytes
 
 
-def output(*words):
-    return subprocess.run(words, check=True, capture_output=True, text=True).stdout
+def output(*words, **environment):
+    return subprocess.run(words, check=True, capture_output=True, text=True, env={**os.environ, **environment}).stdout
 
 
 def needed(library):
     """Paths of the libraries that the loader finds for one."""
     found = {}
-    for line in output("ldd", library).splitlines():
+    for line in output("ldd", library, LD_LIBRARY_PATH=os.path.dirname(library)).splitlines():
         parts = re.match(r"\s*(\S+) => (\S+)", line)
         if parts and parts[2] == "not":
             raise SystemExit(f"{library} needs {parts[1]}, which is not on this machine")
@@ -53,7 +53,7 @@ def own_wheel(build, folder):
 def bundle(libraries):
     """Copies what the libraries of a folder need beside them. Returns original paths by name."""
     added = {}
-    for library in glob.glob(os.path.join(libraries, "*.so*")):  # before patchelf, whose files strip cannot read
+    for library in glob.glob(os.path.join(libraries, "*.so*")):  # as long as nothing needs them
         subprocess.run(["strip", "--strip-unneeded", library], check=True)
     for library in glob.glob(os.path.join(libraries, "*.so*")):
         for name, path in needed(library).items():
@@ -121,8 +121,6 @@ def main():
         with zipfile.ZipFile(wheel) as archive:
             archive.extractall(tree)
         libraries = os.path.join(tree, "carreau/lib")
-        # The loader must find the build's own libraries while ldd looks.
-        os.environ["LD_LIBRARY_PATH"] = libraries
         added = bundle(libraries)
         info, = glob.glob(os.path.join(tree, "*.dist-info"))
         licences(added, os.path.join(info, "licenses"))

@@ -37,7 +37,11 @@ def test_groups_are_faces_and_solids(document):
     groups = {mesh.getGroupName(g): mesh.getGroupElements(g) for g in mesh.Groups}
     assert sorted(groups) == ["Face1", "Face2", "Face3", "Face4", "Face5", "Face6", "Solid1"], sorted(groups)
     assert len(groups["Solid1"]) == mesh.VolumeCount and sum(len(groups[f"Face{i}"]) for i in range(1, 7)) == mesh.FaceCount
-    assert abs(mesh.Volume.Value - LENGTH * WIDTH * HEIGHT) < 1e-6, mesh.Volume
+    volume = 0
+    for element in mesh.Volumes:
+        a, b, c, d = (mesh.getNodeById(node) for node in mesh.getElementNodes(element))
+        volume += abs((b - a).cross(c - a).dot(d - a)) / 6
+    assert abs(volume - LENGTH * WIDTH * HEIGHT) < 1e-6, volume
     for i, face in enumerate(box.Shape.Faces, 1):  # the group of a face lies on it
         for element in groups[f"Face{i}"]:
             for node in mesh.getElementNodes(element):
