@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "check/crossings.h"
 
@@ -40,6 +41,21 @@ void take_mids(const std::vector<Element>& elements, const MeshArrays& arrays, c
   }
 }
 
+/// Solids that touch without common faces have vertices at one place.
+void refuse_equal_places(const std::vector<Point>& vertices) {
+  std::vector<Point> places = vertices;
+  std::sort(places.begin(), places.end());
+  std::size_t count = 0;
+  const Point* first = nullptr;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i] == places[i - 1] && count++ == 0) first = &places[i];
+  if (first == nullptr) return;
+  char text[300];
+  std::snprintf(text, sizeof text, "No engine can fill the mesh: %zu vertices lie at the place of another vertex, the first at (%.9g, %.9g, %.9g). Solids that touch must share faces: see --imprint.", count,
+                (*first)[0], (*first)[1], (*first)[2]);
+  throw Failure(text);
+}
+
 }  // namespace
 
 SolidSurface solid_surface_of(carreau_mesh* mesh, int threads) {
@@ -61,6 +77,7 @@ SolidSurface solid_surface_of(carreau_mesh* mesh, int threads) {
   const Crossings crossings = crossings_of(mesh, threads);
   if (crossings.pairs > 0)
     throw Failure("No engine can fill the mesh: " + crossings_count(crossings.pairs) + "; " + sentences_of(crossings, 1).front() + ".");
+  refuse_equal_places(surface.vertices);
   surface.sizes = sizes_of(mesh, surface, index, arrays.vertices.size());
   Point low = surface.vertices.front(), high = low;
   for (const Point& p : surface.vertices)
