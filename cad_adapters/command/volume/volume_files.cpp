@@ -20,6 +20,13 @@ void add(std::string& text, double x) {
   text.append(number, static_cast<std::size_t>(std::snprintf(number, sizeof number, "%.17g", x)));
 }
 
+/// The shortest text that reads back as x if it has 20 characters, the most that CalculiX takes; else the nearest number of 20 characters.
+std::string narrow(double x) {
+  char number[40];
+  for (int digits = 17;; --digits)
+    if (std::snprintf(number, sizeof number, "%.*g", digits, x) <= 20) return number;
+}
+
 /// Members of a group: numbers of solids, or references of faces.
 struct Group {
   std::string name;
@@ -144,7 +151,11 @@ class VolumeText {
 
   std::string inp() {
     text_ = "*HEADING\nmesh by Carreau\n*NODE, NSET=all_nodes\n";
-    for (std::size_t v = 0; v < volume_.vertices.size(); ++v) text_ += std::to_string(v + 1), add_point(v, ", "), text_ += '\n';
+    for (std::size_t v = 0; v < volume_.vertices.size(); ++v) {
+      text_ += std::to_string(v + 1);
+      for (const double x : volume_.vertices[v]) text_ += ", " + narrow(x);
+      text_ += '\n';
+    }
     std::set<std::string> taken;
     const auto tetrahedra = by_key(volume_.solids);
     std::string sets = "*ELSET, ELSET=all_solids\n";
@@ -159,7 +170,11 @@ class VolumeText {
     text_ += sets;
     const auto triangles = by_key(volume_.surface.refs);
     const auto sides = sides_of_elements();
-    for (const Group& group : faces_) {
+    // Each face is a set of its own beside its group.
+    std::vector<Group> groups = groups_of(keys_of(triangles), {}, "face_");
+    for (const Group& group : faces_)
+      if (group.members.size() > 1 || group.name != groups_of({group.members.front()}, {}, "face_").front().name) groups.push_back(group);
+    for (const Group& group : groups) {
       const std::string name = word_of(group.name, taken);
       std::set<std::int32_t> nodes;
       std::string surface = "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
@@ -227,6 +242,11 @@ class VolumeText {
 
  private:
   using Members = std::map<std::int32_t, std::vector<std::size_t>>;
+  static std::set<std::int32_t> keys_of(const Members& members) {
+    std::set<std::int32_t> keys;
+    for (const auto& [key, each] : members) keys.insert(key);
+    return keys;
+  }
   static Members by_key(const std::vector<std::int32_t>& keys) {
     Members members;
     for (std::size_t i = 0; i < keys.size(); ++i) members[keys[i]].push_back(i);

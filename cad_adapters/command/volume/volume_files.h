@@ -16,7 +16,7 @@ inline const std::vector<std::string> volume_suffixes{".msh", ".msh2", ".inp", "
 void refuse_order(const std::vector<std::string>& paths, bool quadratic);
 
 /// The content of a file with this suffix. Each solid and each face is a group: its name, or "solid_1" and "face_3". Solids or faces of
-/// one name are one group. CalculiX gets sets of elements for solids, and a set of nodes and a surface for each group of faces.
+/// one name are one group. CalculiX gets sets of elements for solids, and a set of nodes and a surface for each face and each group of faces.
 std::string volume_text(const VolumeMesh& volume, const std::string& suffix);
 
 }  // namespace command

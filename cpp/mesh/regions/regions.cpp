@@ -147,8 +147,9 @@ class RegionFinder {
       int number = 0;
       std::vector<std::size_t> cavities;
       for (const auto& [first, shell] : shells_) {
-        const bool behind = first % 2 == parity;
-        if (!behind) continue;
+        // Between two solids a triangle looks out of one of them only: most sides decide.
+        const auto behind = static_cast<std::size_t>(std::ranges::count_if(shell.sides, [&](std::size_t side) { return side % 2 == parity; }));
+        if (2 * behind <= shell.sides.size()) continue;
         if (shell.volume > 0)
           solid[first] = ++number;
         else if (shell.volume < 0)

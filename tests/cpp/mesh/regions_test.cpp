@@ -96,6 +96,20 @@ TEST(Regions, SolidsShareAFace) {
   EXPECT_EQ(found.sides[2], (std::array{7, 3}));
 }
 
+TEST(Regions, SolidsThatShareAFaceNeedNoNames) {
+  FlatMesh mesh = two_cubes();
+  mesh.names.face_solids.clear();
+  for (const bool turned : {false, true}) {
+    if (turned)  // the common side looks into the first cube
+      for (const std::size_t t : {2U, 3U}) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    const MeshRegions found = find_regions(mesh);
+    EXPECT_EQ(found.solids.size(), 2U);
+    EXPECT_TRUE(found.holes.empty());
+    EXPECT_EQ(found.sides[2][0] + found.sides[2][1], 3);
+    for (const int solid : {1, 2}) EXPECT_NEAR(found.volumes.at(solid), 1, 1e-15);
+  }
+}
+
 TEST(Regions, OneSolidOfTwoIsLeftOutAsAHole) {
   FlatMesh mesh = two_cubes();
   for (auto& [face, sides] : mesh.names.face_solids)
