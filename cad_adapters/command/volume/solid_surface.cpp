@@ -41,6 +41,19 @@ void take_mids(const std::vector<Element>& elements, const MeshArrays& arrays, c
   }
 }
 
+constexpr const char* to_imprint = " Solids that touch must share faces: see --imprint.";
+
+bool are_of_different_solids(const std::array<std::int32_t, 2>& faces, const SolidSurface& surface) {
+  std::array<std::array<std::int32_t, 2>, 2> solids{};
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (const std::size_t k : {0U, 1U})
+      if (surface.refs[t] == faces[k]) solids[k] = surface.sides[t];
+  for (const std::int32_t a : solids[0])
+    for (const std::int32_t b : solids[1])
+      if (a == b && a > 0) return false;
+  return true;
+}
+
 /// Solids that touch without common faces have vertices at one place.
 void refuse_equal_places(const std::vector<Point>& vertices) {
   std::vector<Point> places = vertices;
@@ -51,8 +64,8 @@ void refuse_equal_places(const std::vector<Point>& vertices) {
     if (places[i] == places[i - 1] && count++ == 0) first = &places[i];
   if (first == nullptr) return;
   char text[300];
-  std::snprintf(text, sizeof text, "No engine can fill the mesh: %zu vertices lie at the place of another vertex, the first at (%.9g, %.9g, %.9g). Solids that touch must share faces: see --imprint.", count,
-                (*first)[0], (*first)[1], (*first)[2]);
+  std::snprintf(text, sizeof text, "No engine can fill the mesh: %zu vertices lie at the place of another vertex, the first at (%.9g, %.9g, %.9g).%s", count,
+                (*first)[0], (*first)[1], (*first)[2], to_imprint);
   throw Failure(text);
 }
 
@@ -76,7 +89,8 @@ SolidSurface solid_surface_of(carreau_mesh* mesh, int threads) {
     throw Failure("No engine can fill the mesh: " + std::string(carreau_mesh_last_error(mesh)) + ".");
   const Crossings crossings = crossings_of(mesh, threads);
   if (crossings.pairs > 0)
-    throw Failure("No engine can fill the mesh: " + crossings_count(crossings.pairs) + "; " + sentences_of(crossings, 1).front() + ".");
+    throw Failure("No engine can fill the mesh: " + crossings_count(crossings.pairs) + "; " + sentences_of(crossings, 1).front() + "." +
+                  (are_of_different_solids(crossings.faces.front().faces, surface) ? to_imprint : ""));
   refuse_equal_places(surface.vertices);
   surface.sizes = sizes_of(mesh, surface, index, arrays.vertices.size());
   Point low = surface.vertices.front(), high = low;
