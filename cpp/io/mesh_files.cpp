@@ -33,7 +33,7 @@ constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".me
                               {".smesh", MeshFormat::smesh, nullptr},      {".poly", MeshFormat::poly, nullptr},
                               {".vol", MeshFormat::vol, nullptr},          {".geo", MeshFormat::geo, nullptr}};
 
-/// That the suffix of a name tells. Throws InvalidArgument.
+/// The format of a name's suffix. Throws InvalidArgument.
 const Format& known_format(const std::string& path, bool reading) {
   const std::string suffix = suffix_of(path);
   std::string known;
@@ -42,7 +42,7 @@ const Format& known_format(const std::string& path, bool reading) {
     if (suffix == format.suffix) return format;
     known.append(known.empty() ? "" : ", ").append(format.suffix);
   }
-  throw InvalidArgument("'" + path + "' has none of the suffixes of a mesh file: " + known);
+  throw InvalidArgument("'" + path + "' does not have a suffix of mesh files: " + known);
 }
 
 void check_length(const char* what, std::size_t found, std::size_t expected) {

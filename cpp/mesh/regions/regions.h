@@ -18,7 +18,7 @@ struct MeshRegion {
 };
 
 struct MeshRegions {
-  /// By triangle: the solid that it looks out of, and the solid on the other side; 0: none.
+  /// The solid that each triangle looks out of, and the solid on the other side; 0: none.
   std::vector<std::array<int, 2>> sides;
   std::vector<MeshRegion> solids, holes;  ///< by solid, then in the order of their first triangles
   std::map<int, double> volumes;          ///< of solids, by the divergence theorem on the straight triangles
