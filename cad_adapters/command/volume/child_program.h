@@ -33,7 +33,7 @@ struct ProgramResult {
   double seconds = 0;
 };
 
-/// Path of a program beside this one or in PATH; "" when there is none.
+/// Path of a program beside this one or in PATH; "": not found.
 std::string find_program(const std::string& name);
 
 /// Runs a program in a folder until it ends; it dies with this process. each_second(seconds) reports progress.

@@ -80,7 +80,7 @@ class Places {
     for (std::size_t v = 0; v < surface.vertices.size(); ++v)
       cells_[key_of(surface.vertices[v], {0, 0, 0})].push_back(static_cast<std::int32_t>(v));
   }
-  /// The nearest vertex at a place; -1: there is none.
+  /// The nearest vertex at a place; -1: no vertex.
   [[nodiscard]] std::int32_t vertex_at(const Point& p) const {
     std::int32_t best = -1;
     double least = same_place * surface_.diagonal;

@@ -11,7 +11,7 @@ TITLE = "Mesh with Carreau"
 
 
 def chosen_part(selection, document):
-    """The selected object with a shape, or the only one of the document; None: there is none, or several."""
+    """The selected object with a shape, or the only one of the document; None: no such object, or several."""
     with_shape = [each for each in selection if hasattr(each, "Shape") and each.Shape.Faces]
     if with_shape:
         return with_shape[0]

@@ -86,7 +86,7 @@ def analysis_of(obj):
 
 
 def settings_of(obj):
-    """Raises program.MeshError for a face size that is none."""
+    """Raises program.MeshError for an unreadable face size."""
     sizes = {}
     for each in obj.FaceSizes:
         name, _, size = each.partition("=")
