@@ -98,7 +98,7 @@ def pack(tree, path):
     record, rows = os.path.relpath(os.path.join(info, "RECORD"), tree), io.StringIO()
     writer = csv.writer(rows, lineterminator="\n")
     names = sorted(os.path.relpath(os.path.join(folder, name), tree) for folder, _, files in os.walk(tree) for name in files)
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
         for name in names:
             if name == record:
                 continue
@@ -106,7 +106,7 @@ def pack(tree, path):
                 content = file.read()
             digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
             writer.writerow([name, "sha256=" + digest, len(content)])
-            archive.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED, 9)
+            archive.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED, 6)
         writer.writerow([record, "", ""])
         archive.writestr(record, rows.getvalue())
 
