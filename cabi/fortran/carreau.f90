@@ -52,7 +52,7 @@ module carreau
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv, carreau_mesh_corner_faces
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
-  public :: carreau_mesh_intersections
+  public :: carreau_mesh_intersections, carreau_mesh_regions, carreau_mesh_triangle_sides
   public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_cell_faces
   public :: carreau_mesh_edge_mids
   public :: carreau_mesh_cell_quality, carreau_cell_quality
@@ -1716,6 +1716,32 @@ contains
     status = c_mesh_defects(mesh%handle, merge(1_c_int32_t, 0_c_int32_t, closed), limit, count, c_sentences)
     text = carreau_string(c_sentences)
   end subroutine carreau_mesh_defects
+
+  !> solids(n) and xyz(3, n) of all regions; solid 0 is a hole
+  subroutine carreau_mesh_regions(mesh, solids, xyz, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: solids(:)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: no_solids(0)
+    real(c_double) :: no_places(3, 0)
+    integer(c_int64_t) :: n, count
+    n = 0
+    status = c_mesh_regions(mesh%handle, 0_c_int64_t, n, no_solids, no_places)
+    allocate (solids(n), xyz(3, n))
+    if (n > 0) status = c_mesh_regions(mesh%handle, n, count, solids, xyz)
+  end subroutine carreau_mesh_regions
+
+  subroutine carreau_mesh_triangle_sides(mesh, solids, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: solids(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (solids(2, triangles))
+    status = c_mesh_triangle_sides(mesh%handle, triangles, solids)
+  end subroutine carreau_mesh_triangle_sides
 
   !> triangles(2, n) and xyz(3, n) of the first n pairs, n = min(most, count)
   subroutine carreau_mesh_intersections(mesh, threads, most, count, triangles, xyz, status)

@@ -1201,6 +1201,30 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_intersections
 
+    !> Finds the connected regions of space that the mesh bounds, for programs that fill them with solid elements:
+    !! solids in ascending order, then holes, which no solid fills.
+    function c_mesh_regions(mesh, capacity, count, solids, xyz) result(status) bind(c, name="carreau_mesh_regions")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t), intent(inout) :: solids(*)
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_regions
+
+    !> Copies the solids on both sides of each triangle (m x 2) as carreau_mesh_regions has them: the solid that the
+    !! triangle looks out of, and the solid on the other side; 0: none.
+    function c_mesh_triangle_sides(mesh, capacity, solids) result(status) bind(c, name="carreau_mesh_triangle_sides")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: solids(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_triangle_sides
+
     !> Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
     !! images.
     function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")

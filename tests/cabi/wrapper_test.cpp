@@ -122,6 +122,16 @@ TEST(Wrapper, ArraysAndFilesComeBack) {
   const carreau::Mesh copy(carreau::MeshArrays{.vertices = vertices, .triangles = triangles});
   EXPECT_EQ(copy.vertices(), vertices);
   EXPECT_EQ(copy.triangles(), triangles);
+  EXPECT_THROW((void)copy.regions(), carreau::Error);  // a bowl is open
+  EXPECT_THROW((void)copy.triangle_sides(), carreau::Error);
+  const std::vector<Point3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<std::array<std::int32_t, 3>> sides{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const carreau::Mesh tetrahedron(carreau::MeshArrays{.vertices = corners, .triangles = sides});
+  EXPECT_EQ(tetrahedron.regions().solids, std::vector<std::int32_t>{1});
+  const Point3 inside = tetrahedron.regions().inside.front();
+  EXPECT_LT(inside[0] + inside[1] + inside[2], 1);
+  EXPECT_GT(std::min({inside[0], inside[1], inside[2]}), 0);
+  EXPECT_EQ(tetrahedron.triangle_sides()[3], (std::array<std::int32_t, 2>{1, 0}));
   const std::string path = testing::TempDir() + "wrapper.meshb";
   copy.write(path);
   EXPECT_EQ(carreau::Mesh(path).vertices(), vertices);

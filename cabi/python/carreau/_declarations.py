@@ -1049,6 +1049,8 @@ CARREAU = {
     "carreau_mesh_part_quality": (c_int32, [c_void_p, POINTER(carreau_quality)]),
     "carreau_mesh_defects": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_char_p)]),
     "carreau_mesh_intersections": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), Int32s, Doubles]),
+    "carreau_mesh_regions": (c_int32, [c_void_p, c_int64, POINTER(c_int64), Int32s, Doubles]),
+    "carreau_mesh_triangle_sides": (c_int32, [c_void_p, c_int64, Int32s]),
     "carreau_write_exr": (c_int32, [c_void_p, c_char_p, POINTER(carreau_exr_options)]),
     "carreau_curve_split": (c_int32, [c_void_p, POINTER(carreau_curve), c_int64, Doubles, POINTER(c_int64), POINTER(c_double)]),
     "carreau_metric_sizes": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles, Doubles]),

@@ -35,14 +35,14 @@ struct FreeMesh {
 using MeshHandle = std::unique_ptr<carreau_mesh, FreeMesh>;
 
 /// Suffixes of the formats that the library writes, and of the program's own.
-inline const std::vector<std::string> written_meshes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d",
+inline const std::vector<std::string> mesh_suffixes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d",
                                                      ".inp",  ".bdf",   ".unv", ".su2", ".off", ".obj",  ".ply",
-                                                     ".vtk",  ".tri",   ".med"};
+                                                     ".vtk",  ".tri",   ".med", ".smesh", ".poly", ".vol", ".geo"};
 
 /// Reads a file of any format that the library reads, or .med. Throws Failure with the library's sentence.
 MeshHandle read_mesh(const std::string& path);
 
-/// Writes a file of `written_meshes`. Throws Failure with the library's sentence.
+/// Writes a file of `mesh_suffixes`. Throws Failure with the library's sentence.
 void write_mesh(carreau_mesh* mesh, const std::string& path);
 
 /// Suffix of a table of the groups of a mesh: a line "dimension reference name" for each entity in a group.
