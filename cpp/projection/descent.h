@@ -30,6 +30,7 @@ class Descent {
 
  private:
   void finish(const Vec2& step);
+  bool turn_at_pole(const Vec3& r);
 
   Vec3 x_;
   Region region_;
@@ -37,7 +38,7 @@ class Descent {
   SurfaceJet jet_;  // at at_
   Vec3 xyz_;
   double size_ = 0, diagonal_ = 0, square_ = 0, move_ = 0;
-  int steps_ = 0, halvings_ = 0;
+  int steps_ = 0, halvings_ = 0, turns_ = 0;
   bool found_ = false;
 };
 

@@ -28,10 +28,16 @@ inline constexpr std::size_t most_cells = 40'000;
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
 /// then of third order, below rounding. [Projector.Sphere]
 inline constexpr double last_step = 1e-7;
+/// Share of that step: the term of second order is at most so large. [Projector.ConeAndItsApex]
+inline constexpr double bend_of_last_step = 1e-4;
 /// Share of the diagonal. Steps that are shorter end the descent where the Hessian is nearly singular. [Projector.TorusFromItsAxis]
 inline constexpr double shortest_step = 1e-14;
 /// Number of evaluations of one descent. [Projector.TorusFromItsAxis]
 inline constexpr int most_steps = 60;
+/// Share of the diagonal. A side of a region that is shorter is a point. [Projector.Sphere, Projector.ConeAndItsApex]
+inline constexpr double length_of_pole = 1e-9;
+/// Number of times that a descent turns at such a point.
+inline constexpr int most_turns = 4;
 /// Ratio of the eigenvalues of the Hessian in the first fundamental form. Below it the Hessian counts as singular.
 inline constexpr double regular_hessian = 1e-3;
 /// Ratio of the eigenvalues. Smaller ones, and negative ones, are replaced.

@@ -296,7 +296,7 @@ TEST(Projector, HostThatFailsBeyondItsDomain) {
 TEST(Projector, TrianglesOfASurface) {
   const discrete::Triangulation mesh(discrete::sphere(3));
   const auto surface = std::make_shared<const discrete::DiscreteSurface>(mesh, discrete::find_sharp_lines(mesh));
-  const discrete::BuiltGeometry built = discrete::discrete_geometry(surface);
+  const BuiltGeometry built = discrete::discrete_geometry(surface);
   Monitor monitor;
   Projector projector(built.cad, std::dynamic_pointer_cast<const discrete::DiscreteCad>(built.cad), built.model);
   const std::vector<Vec3> x = random_points(100, 1.5);
