@@ -36,7 +36,7 @@ std::vector<Vec2> parameters_of(const double* values, std::int64_t n, std::int32
   std::vector<Vec2> places(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < places.size(); ++i) {
     places[i] = dimension == 2 ? Vec2{values[2 * i], values[2 * i + 1]} : Vec2{values[i], 0};
-    if (!is_finite(places[i])) throw InvalidArgument("a parameter of place " + std::to_string(i) + " is not finite");
+    if (!carreau::is_finite(places[i])) throw InvalidArgument("a parameter of place " + std::to_string(i) + " is not finite");
   }
   return places;
 }
@@ -77,7 +77,7 @@ carreau_status carreau_project(carreau_session* session, int32_t dimension, int3
     std::vector<Vec3> points(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-      if (!is_finite(points[i])) throw InvalidArgument("a coordinate of point " + std::to_string(i) + " is not finite");
+      if (!carreau::is_finite(points[i])) throw InvalidArgument("a coordinate of point " + std::to_string(i) + " is not finite");
     }
     std::vector<ProjectedPoint> found(points.size());
     session->session.project(dimension, reference, points, found);
