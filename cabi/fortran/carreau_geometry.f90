@@ -441,8 +441,7 @@ contains
 
   ! ---- Places of the model ----
 
-  !> parameters(dimension, n), xyz(3, n); derivatives that are not present are not computed. first(3, dimension, n); second(3, 3, n) for
-  !! faces, (3, 1, n) for curves
+  !> parameters(dimension, n), xyz(3, n), first(3, dimension, n); second(3, 3, n) of faces, (3, 1, n) of curves
   subroutine carreau_evaluate(session, dimension, reference, parameters, xyz, status, first, second)
     type(carreau_session), intent(in) :: session
     integer(c_int32_t), intent(in) :: dimension, reference
@@ -450,7 +449,7 @@ contains
     real(c_double), allocatable, intent(out) :: xyz(:, :)
     integer(c_int32_t), intent(out) :: status
     real(c_double), allocatable, optional, intent(out) :: first(:, :, :), second(:, :, :)
-    real(c_double), allocatable, target :: points(:), by_one(:), by_two(:)
+    real(c_double), allocatable :: points(:), by_one(:), by_two(:)
     integer(c_int64_t) :: n
     integer :: seconds
     status = CARREAU_ERR_ARGUMENT
@@ -461,8 +460,8 @@ contains
     points = 0
     by_one = 0
     by_two = 0
-    status = c_evaluate(session%handle, dimension, reference, n, reshape(parameters, [size(parameters)]), 2_c_int32_t, points, by_one, &
-      by_two)
+    status = c_evaluate(session%handle, dimension, reference, n, reshape(parameters, [size(parameters)]), 2_c_int32_t, &
+      points, by_one, by_two)
     if (status /= CARREAU_OK) return
     xyz = reshape(points, [3, int(n)])
     if (present(first)) first = reshape(by_one, [3, int(dimension), int(n)])
@@ -487,8 +486,8 @@ contains
     flat = 0
     points = 0
     distances = 0
-    status = c_project(session%handle, dimension, reference, int(n, c_int64_t), reshape(xyz, [size(xyz)]), references, flat, points, &
-      distances)
+    status = c_project(session%handle, dimension, reference, int(n, c_int64_t), reshape(xyz, [size(xyz)]), references, &
+      flat, points, distances)
     if (status /= CARREAU_OK) then
       deallocate (references, distances)
       return
