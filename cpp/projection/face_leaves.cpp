@@ -150,6 +150,17 @@ void add_curve(int face, int curve, const CurveSupport& support, std::vector<Cur
                   limit::beside_chord * norm(support.xyz[i] - support.xyz[i - 1]) + 1e-5 * length});
 }
 
+/// Points of a parallelogram are no farther from its nearest corner than half of its longer diagonal.
+double cover_of(const SurfaceLeaf& leaf, double bulge) {
+  double most = 0;
+  for (const std::size_t k : {0U, 1U, 3U, 4U}) {
+    const auto& p = leaf.at;
+    most = std::max({most, norm(p[k] - p[k + 4]), norm(p[k + 1] - p[k + 3])});
+    if (leaf.region.triangle) most = std::max({most, 2 * norm(p[k] - p[k + 1]), 2 * norm(p[k] - p[k + 3])});
+  }
+  return most / 2 + leaf.error + limit::error_margin * bulge;
+}
+
 std::vector<Cell> first_cells(const Vec2& low, const Vec2& high) {
   std::vector<Cell> cells;
   constexpr int n = limit::first_cells;
@@ -165,16 +176,20 @@ constexpr int deepest = 20;
 
 }  // namespace
 
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x) {
-  std::size_t nearest = 0;
-  double least = infinity;
+NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x) {
+  NearestSample nearest{0, infinity};
   for (std::size_t k = 0; k < 9; ++k) {
     if (leaf.region.triangle && k % 3 + k / 3 > 2) continue;
     const Vec3 r = leaf.at[k] - x;
-    if (const double d = dot(r, r); d < least) least = d, nearest = k;
+    if (const double d = dot(r, r); d < nearest.square) nearest = {k, d};
   }
+  return nearest;
+}
+
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from) {
+  double least = from.square;
   const Region unit{{0, 0}, {1, 1}, leaf.region.triangle};
-  Vec2 w{static_cast<double>(nearest % 3) / 2, static_cast<double>(nearest / 3) / 2};
+  Vec2 w{static_cast<double>(from.rank % 3) / 2, static_cast<double>(from.rank / 3) / 2};
   Vec2 best = w;
   for (int k = 0; k < 4; ++k) {
     const SurfaceJet jet = interpolated(leaf.at, w);
@@ -197,7 +212,7 @@ LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x) {
   return {{leaf.t0 + share * (leaf.t1 - leaf.t0), 0}, norm(leaf.from + share * d - x)};
 }
 
-void Pieces::plant(const std::vector<BoxTree::Box>& boxes) {
+void Pieces::plant() {
   std::vector<Vec3> centres;
   centres.reserve(boxes.size());
   for (const BoxTree::Box& each : boxes) centres.push_back((each.low + each.high) / 2), box.add(each);
@@ -206,7 +221,6 @@ void Pieces::plant(const std::vector<BoxTree::Box>& boxes) {
 
 Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<CurveSupport>& supports, const EvaluateFace& evaluate, Monitor& monitor) {
   Pieces pieces;
-  std::vector<BoxTree::Box> boxes;
   const Face& of = model.faces[face];
   const auto [low, high] = box_of_boundary(of, supports);
   pieces.region = {low, high};
@@ -253,8 +267,9 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
           }
           if (!judgement.known) continue;  // beside the domain
           const double error = limit::error_margin * judgement.error;
-          pieces.leaves.push_back({{cell.low, cell.high}, nine_of(samples), error, judgement.size, cell.cut});
-          boxes.push_back(box_of(samples, error + limit::error_margin * judgement.bulge));
+          pieces.leaves.push_back({{cell.low, cell.high}, nine_of(samples), error, judgement.size, 0, cell.cut});
+          pieces.leaves.back().cover = cover_of(pieces.leaves.back(), judgement.bulge);
+          pieces.boxes.push_back(box_of(samples, error + limit::error_margin * judgement.bulge));
         }
       });
     }
@@ -262,15 +277,14 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
   if (pieces.domain || pieces.leaves.empty())
     for (std::size_t c = 0; c < supports.size(); ++c)
       if (of.curves[c].type == CurveType::boundary) add_curve(static_cast<int>(face), static_cast<int>(c), supports[c], pieces.curves);
-  for (const CurveLeaf& leaf : pieces.curves) boxes.push_back(box_of(leaf));
-  pieces.plant(boxes);
+  for (const CurveLeaf& leaf : pieces.curves) pieces.boxes.push_back(box_of(leaf));
+  pieces.plant();
   return pieces;
 }
 
 Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& evaluate, Monitor& monitor) {
   Pieces pieces;
   pieces.triangles = true;
-  std::vector<BoxTree::Box> boxes;
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
   for_pieces(regions.size(), 64, [&](std::size_t first, std::size_t n) {
@@ -303,21 +317,21 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
         }
       leaf.size = norm(box.high - box.low);
       const double bulge = (norm(a - 2 * ab + b) + norm(a - 2 * ac + c) + norm(b - 2 * bc + c)) / 16;
+      leaf.cover = cover_of(leaf, bulge);
       const Vec3 by = (leaf.error + bulge) * Vec3(1, 1, 1);
       box.low -= by, box.high += by;
-      pieces.leaves.push_back(leaf), boxes.push_back(box);
+      pieces.leaves.push_back(leaf), pieces.boxes.push_back(box);
     }
   });
-  pieces.plant(boxes);
+  pieces.plant();
   return pieces;
 }
 
 Pieces pieces_of_curve(int face, int curve, const CurveSupport& support) {
   Pieces pieces;
   add_curve(face, curve, support, pieces.curves);
-  std::vector<BoxTree::Box> boxes;
-  for (const CurveLeaf& leaf : pieces.curves) boxes.push_back(box_of(leaf));
-  pieces.plant(boxes);
+  for (const CurveLeaf& leaf : pieces.curves) pieces.boxes.push_back(box_of(leaf));
+  pieces.plant();
   return pieces;
 }
 

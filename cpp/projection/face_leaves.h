@@ -25,6 +25,7 @@ struct SurfaceLeaf {
   std::array<Vec3, 9> at;  ///< at low, the middle and high of u (first) and v
   double error = 0;        ///< distance of the surface from the interpolation
   double size = 0;         ///< diameter in space
+  double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
   bool cut = false;        ///< the boundary of the domain crosses it
 };
 
@@ -37,26 +38,34 @@ struct CurveLeaf {
   double error = 0;  ///< distance of the curve from the edge
 };
 
+/// The nearest of the nine places, those inside of a triangle alone, and the square of its distance.
+struct NearestSample {
+  std::size_t rank = 0;
+  double square = 0;
+};
+NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x);
+
 /// A place of a leaf that is nearest to a point, on the interpolation.
 struct LeafPlace {
   Vec2 parameters;  ///< (u, v), or t and 0
   double distance = 0;
 };
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x);
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from);
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x);
 
 /// The pieces of a face with its boundary, or of a curve: the things of `tree` are the leaves, then the curves.
 struct Pieces {
   std::vector<SurfaceLeaf> leaves;
   std::vector<CurveLeaf> curves;
+  std::vector<BoxTree::Box> boxes;  // of the leaves, then of the curves
   BoxTree tree;
   BoxTree::Box box;
   Region region;                        ///< of a face; of triangles each leaf has its own
   std::optional<TrimmedDomain> domain;  ///< of a face whose domain is not a box
   bool triangles = false;
 
-  /// Makes the tree of `boxes`, which belong to the leaves and curves.
-  void plant(const std::vector<BoxTree::Box>& boxes);
+  /// Makes the tree of the boxes.
+  void plant();
 };
 
 /// Evaluates places of a face. Places outside of the domain where the host fails are NaN.

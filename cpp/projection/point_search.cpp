@@ -20,12 +20,7 @@ PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3
                                 [&](const BoxTree::Node& leaf) {
                                   for (const std::int32_t e : entities.tree.things(leaf)) look_at(e, bound);
                                 });
-  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.distance - c.error > bound; }),
-                    candidates_.end());
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.distance != b.distance) return a.distance < b.distance;
-    return a.entity != b.entity ? a.entity < b.entity : a.piece < b.piece;
-  });
+  refine(bound);
   begin();
 }
 
@@ -36,23 +31,51 @@ void PointSearch::look_at(std::int32_t entity, double& bound) {
       [&](double least) { return least <= bound; },
       [&](const BoxTree::Node& leaf) {
         for (const std::int32_t k : pieces.tree.things(leaf)) {
-          Candidate candidate;
+          const double least = pieces.boxes[static_cast<std::size_t>(k)].squared_distance(x_);
+          if (least > bound * bound) continue;
+          Candidate& candidate = candidates_.emplace_back();
           candidate.entity = entity, candidate.piece = k;
-          bool sure = true;
           if (const CurveLeaf* curve = curve_of(candidate)) {
             const LeafPlace place = nearest_on(*curve, x_);
             candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve->error;
+            bound = std::min(bound, place.distance + curve->error);
           } else {
             const SurfaceLeaf& of = pieces.leaves[static_cast<std::size_t>(k)];
-            const LeafPlace place = nearest_on(of, x_);
-            candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = of.error;
-            sure = !of.cut;  // the place may lie outside of the domain
+            candidate.sample = nearest_sample(of, x_);
+            candidate.distance = std::sqrt(candidate.sample.square);
+            candidate.error = of.cover;
+            if (!of.cut) bound = std::min(bound, candidate.distance);
           }
-          if (candidate.distance - candidate.error > bound) continue;
-          if (sure) bound = std::min(bound, candidate.distance + candidate.error);
-          candidates_.push_back(candidate);
         }
       });
+}
+
+// From the nearest samples to the nearest places of interpolations, in ascending order of the samples.
+void PointSearch::refine(double& bound) {
+  const auto ascending = [](const Candidate& a, const Candidate& b) {
+    if (a.distance != b.distance) return a.distance < b.distance;
+    return a.entity != b.entity ? a.entity < b.entity : a.piece < b.piece;
+  };
+  const auto drop = [&] {
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.distance - c.error > bound; }),
+                      candidates_.end());
+    std::sort(candidates_.begin(), candidates_.end(), ascending);
+  };
+  drop();
+  for (Candidate& candidate : candidates_) {
+    if (curve_of(candidate) != nullptr || candidate.distance - candidate.error > bound) continue;
+    const Pieces& pieces = pieces_of(candidate);
+    const auto k = static_cast<std::size_t>(candidate.piece);
+    if (pieces.boxes[k].squared_distance(x_) > bound * bound) {
+      candidate.distance = infinity;
+      continue;
+    }
+    const SurfaceLeaf& leaf = pieces.leaves[k];
+    const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
+    candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error;
+    if (!leaf.cut) bound = std::min(bound, place.distance + leaf.error);  // else the place may lie outside of the domain
+  }
+  drop();
 }
 
 // Begins the descent of the next candidate that may be better than the best place.

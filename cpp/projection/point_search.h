@@ -50,8 +50,10 @@ class PointSearch {
     std::int32_t entity = 0, piece = 0;  // piece: rank among leaves, then curves
     Vec2 start;
     double distance = 0, error = 0;
+    NearestSample sample;  // of a leaf of a face
   };
   void look_at(std::int32_t entity, double& bound);
+  void refine(double& bound);
   void begin();
   [[nodiscard]] const Pieces& pieces_of(const Candidate& c) const { return *entities_->pieces[static_cast<std::size_t>(c.entity)]; }
   [[nodiscard]] const CurveLeaf* curve_of(const Candidate& c) const {

@@ -66,7 +66,12 @@ Vec2 descent_direction(const Vec2& g, const Symmetric2& h, const Symmetric2& for
     return {-(c * gx - b * gy) / det * sx, -(a * gy - b * gx) / det * sy};
   }
   regular = false;
-  const double angle = 0.5 * std::atan2(b, half), ex = std::cos(angle), ey = std::sin(angle);  // of the eigenvalue mean + root
+  double ex = half >= 0 ? half + root : b, ey = half >= 0 ? b : root - half;  // of the eigenvalue mean + root
+  const double length = std::sqrt(ex * ex + ey * ey);
+  if (length > 0)
+    ex /= length, ey /= length;
+  else
+    ex = 1;
   const double floor = std::max(limit::smallest_eigenvalue * large, 1e-300);
   const double first = -(gx * ex + gy * ey) / std::max(std::abs(mean + root), floor),
                second = -(gy * ex - gx * ey) / std::max(std::abs(mean - root), floor);
