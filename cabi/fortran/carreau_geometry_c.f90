@@ -332,6 +332,36 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_triangles_bounds
 
+    !> Evaluates an entity of dimension 2 or 1 at n places, n x dimension. `order` is the highest derivative, 0 to 2.
+    !! out_xyz is n x 3; out_first is n x dimension x 3.
+    function c_evaluate(session, dimension, reference, n, parameters, order, xyz, first, second) result(status) &
+        bind(c, name="carreau_evaluate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, reference
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: parameters(*)
+      integer(c_int32_t), value :: order
+      real(c_double), intent(inout) :: xyz(*), first(*), second(*)
+      integer(c_int32_t) :: status
+    end function c_evaluate
+
+    !> Finds the closest point of an entity to each of n points of space, n x 3; a reference of 0 means all entities of
+    !! that dimension.
+    function c_project(session, dimension, reference, n, xyz, references, parameters, closest, &
+      distances) result(status) bind(c, name="carreau_project")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, reference
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xyz(*)
+      integer(c_int32_t), intent(inout) :: references(*)
+      real(c_double), intent(inout) :: parameters(*), closest(*), distances(*)
+      integer(c_int32_t) :: status
+    end function c_project
+
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")
       import :: c_double, c_int32_t, c_int64_t, c_ptr

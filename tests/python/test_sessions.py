@@ -39,6 +39,24 @@ def test_a_blsurf_env_runs(tmp_path):
     assert len(written.triangles) > 500 and 2 * len(written.vertices) == len(written.triangles)  # Euler's number of a torus is 0
 
 
+def test_points_are_projected_to_the_geometry_of_a_mesh():
+    session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session
+    x = np.random.default_rng(1).uniform(-4, 4, (200, 3))
+    found = session.project(x)
+    assert np.allclose(np.linalg.norm(found.xyz - x, axis=1), found.distances, atol=1e-12)
+    assert set(found.refs) == {1}
+    at = session.evaluate(found.parameters, ref=1, order=2)
+    assert np.allclose(at.xyz, found.xyz, atol=1e-12) and at.second.shape == (200, 3, 3)
+    assert np.abs(np.einsum("nij,nj->ni", at.first, x - at.xyz)).max() < 1e-7  # the closest point lies on a normal
+    curves = session.project(x, dimension=1)
+    assert (curves.distances >= found.distances - 1e-12).all() and curves.parameters.shape == (200, 1)
+    ref = int(curves.refs[0])
+    assert np.allclose(session.evaluate(curves.parameters[:1], ref, dimension=1).xyz, curves.xyz[:1], atol=1e-10)
+    assert session.project(x, dimension=0).parameters.shape == (200, 0)
+    with pytest.raises(carreau.CarreauError, match="77"):
+        session.project(x, ref=77)
+
+
 def test_a_thread_stops_a_run():
     begun = threading.Event()
     session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session
