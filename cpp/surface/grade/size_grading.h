@@ -7,6 +7,7 @@
 
 #include "curve/curve_sizes.h"
 #include "gradation/graded_field.h"
+#include "periodic/periodic_model.h"
 #include "surface/options.h"
 
 namespace carreau {
@@ -24,9 +25,9 @@ struct GradedModel {
 /// Grades the sizes of a model with the ratio options.gradation > 1. The graph is a mesh of its own, of twice the
 /// prescribed sizes: its vertices know the prescribed sizes, its edges the distances. Where the graded sizes are much
 /// smaller than its edges it is made again with them. Faces whose domains cannot be made are left out. Asks the host
-/// about as often as a mesh of a quarter of the vertices would, about curves once. Throws what the host throws,
+/// about as often as a mesh of a quarter of the vertices would, about curves once. Sizes grow across periodic curves. Throws what the host throws,
 /// LimitError, Cancelled.
 GradedModel grade_model(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, double diag,
-                        Monitor& monitor);
+                        Monitor& monitor, const PeriodicModel& periodic = {});
 
 }  // namespace carreau

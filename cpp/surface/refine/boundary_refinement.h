@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "periodic/periodic_model.h"
 #include "surface/domain/domain_builder.h"
 #include "surface/narrow/narrow_faces.h"
 #include "surface/options.h"
@@ -28,10 +29,10 @@ struct RefinedDomains {
 /// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
 /// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in. Strips in `narrow`, and
 /// points whose curves vanish, are not looked at and get no domain; the two sides of strips keep vertices at the same
-/// places.
+/// places. Periodic curves keep corresponding vertices.
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
-                              Monitor& monitor);
+                              Monitor& monitor, const PeriodicModel* periodic = nullptr);
 
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel where
 /// more than one of them is prescribed to have one edge.

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which faces the maps of a model carry onto which.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "periodic/curve_images.h"
+
+namespace carreau {
+
+/// A face whose mesh is the image of another face's mesh.
+struct FacePair {
+  int master = -1, slave = -1;  ///< indices in Model::faces
+  Isometry map;                 ///< of the master onto the slave
+  std::map<int, CurveImage> curves = {};  ///< by curve of the master
+};
+
+/// The pairs of all periodicities of the model, as they are given. `diag`: of the model. Throws InvalidModel: faces that do
+/// not match, with the distance and the place; unknown faces; maps that change lengths.
+std::vector<FacePair> match_faces(const CurveModel& model, double diag);
+
+/// How messages call a pair: "faces 3 and 7".
+std::string pair_name(const CurveModel& model, const FacePair& pair);
+
+}  // namespace carreau
