@@ -371,7 +371,7 @@ CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session,
 
 /* Makes faces periodic: the mesh of slave_faces[i] is the image of the mesh of master_faces[i] (references, from 1) under the map x -> R x + d.
  * Curves and corners follow from the faces; faces, curves and corners may be of several pairs. `transform` holds R | d row by row (3 x 4), a
- * translation, rotation, reflection or product of them; NULL: found for each pair from its corners. With n = 0 all pairs are found that
+ * translation, rotation, reflection or product of them; NULL or all 0: found for each pair from its corners. With n = 0 all pairs are found that
  * the map has. Images lie on the slave's own surface, within 1e-4 of the
  * model's diagonal. carreau_mesh_generate checks the pairs. Errors: ARGUMENT (n < 0, no such face, a face twice in a pair, lengths that the map
  * changes, neither faces nor map); of carreau_mesh_generate: MODEL (faces that do not match: how far, where; chains that contradict each other;

@@ -47,6 +47,7 @@ std::size_t node_count(const std::vector<PeriodicLink>& links) {
 carreau_status carreau_model_add_periodicity(carreau_session* session, const int32_t* slave_faces, const int32_t* master_faces,
                                              int64_t n, const double* transform) {
   return guarded(session, [&] {
+    if (transform != nullptr && std::all_of(transform, transform + 12, [](double x) { return x == 0; })) transform = nullptr;
     if (n < 0) throw InvalidArgument("a periodicity has " + std::to_string(n) + " pairs of faces");
     if (n > 0) required(slave_faces, "slave_faces"), required(master_faces, "master_faces");
     if (n == 0 && transform == nullptr) throw InvalidArgument("a periodicity has neither faces nor a map");
@@ -58,7 +59,7 @@ carreau_status carreau_model_add_periodicity(carreau_session* session, const int
       given.slaves.push_back(slave_faces[i]), given.masters.push_back(master_faces[i]);
     }
     if (transform != nullptr) given.map = isometry_of(transform);
-    if (given.map && !(given.map->distortion() <= carreau::most_distortion))
+    if (given.map && !(given.map->distortion() <= carreau::isometry_tolerance))
       throw InvalidArgument("the map of a periodicity changes lengths, or is not finite");
     session->edited_model().periodicities.push_back(std::move(given));
   });

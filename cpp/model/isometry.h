@@ -11,7 +11,7 @@
 namespace carreau {
 
 /// Isometry::distortion() of a map that counts as one that keeps lengths: rounding of its entries.
-inline constexpr double most_distortion = 1e-9;
+inline constexpr double isometry_tolerance = 1e-9;
 
 /// x -> R x + shift; `row` holds the rows of R.
 struct Isometry {

@@ -36,7 +36,7 @@ struct CurveShape {
   int curve = -1;
   bool degenerate = false, closed = false;
   double length = 0;
-  Vec3 low, high;  ///< box of its support
+  Vec3 low{0, 0, 0}, high{0, 0, 0};  ///< box of its support
 };
 CurveShape shape_of(const CurveModel& model, int curve);
 

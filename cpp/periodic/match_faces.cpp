@@ -72,7 +72,7 @@ class Matcher {
     if (given.slaves.size() != given.masters.size())
       throw InvalidModel("a periodicity has " + std::to_string(given.slaves.size()) + " slave faces and " +
                          std::to_string(given.masters.size()) + " master faces: they must be as many");
-    if (given.map && !(given.map->distortion() <= most_distortion))
+    if (given.map && !(given.map->distortion() <= isometry_tolerance))
       throw InvalidModel("the map of a periodicity changes lengths: R R^T differs from the identity by " +
                          format_number(given.map->distortion()));
     if (given.map && !is_finite(given.map->shift)) throw InvalidModel("the map of a periodicity is not finite");

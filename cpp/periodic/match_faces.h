@@ -15,6 +15,7 @@ struct FacePair {
   int master = -1, slave = -1;  ///< indices in Model::faces
   Isometry map;                 ///< of the master onto the slave
   std::map<int, CurveImage> curves = {};  ///< by curve of the master
+  bool flipped = false;  ///< found with the meshes: corners a, c, b of the slave's triangles are images of a, b, c
 };
 
 /// The pairs of all periodicities of the model, as they are given. `diag`: of the model. Throws InvalidModel: faces that do

@@ -173,6 +173,9 @@ class Classes {
           }
         }
       }
+      result_.place.resize(n);
+      for (std::size_t i = 0; i < all.members.size(); ++i)
+        result_.place[all.members[i].image.curve] = {static_cast<int>(result_.curves.size()), static_cast<int>(i)};
       result_.curves.push_back(std::move(all));
     }
   }

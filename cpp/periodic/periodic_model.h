@@ -2,6 +2,7 @@
 // Faces, curves and corners that are one under the maps of a model.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct PeriodicModel {
   std::vector<char> is_periodic;    ///< by face: it is a slave or a master
   std::vector<CurveClass> curves;   ///< of two members or more, or of one that turns
   std::vector<char> has_class;      ///< by curve
+  std::vector<std::array<int, 2>> place;  ///< by curve with a class: index in `curves`, and in its members
   std::vector<std::vector<int>> corners;  ///< classes of two corners or more
   double gap = 0;                   ///< model length: images may miss by it
 

@@ -81,20 +81,24 @@ std::vector<std::pair<double, int>> in_order(const DiscreteCurve& from, const Cu
   return order;
 }
 
-void place_image(const DiscreteCurve& from, const CurveImage& image, const Isometry& map, const CurveModel& model,
+void place_image(const DiscreteCurve& from, const CurveImage& image, const Isometry& map, const CurveModel& model, double exact,
                  DiscreteCurve& to) {
   if (to.indivisible) return;
   const bool closed = is_closed(model, image.curve);
   const CurveUse& use = model.curve(image.curve).uses[static_cast<std::size_t>(to.owner)];
   const CurveSupport& support = model.support(use);
   std::vector<double> r, t;
+  std::vector<Vec3> targets;
   for (const auto& [at, k] : in_order(from, image, closed)) {
     if (!(at > 0 && at < 1)) continue;
     r.push_back(at);
-    t.push_back(find_closest(model, use, parameter_at(model, use, at), support.t.front(), support.t.back(), map(from.xyz[k])).t);
+    targets.push_back(map(from.xyz[k]));
+    t.push_back(find_closest(model, use, parameter_at(model, use, at), support.t.front(), support.t.back(), targets.back()).t);
   }
   to.prescribed = from.prescribed;
   place_vertices_at(to, r, t, model);
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    if (norm(to.xyz[i + 1] - targets[i]) <= exact) to.xyz[i + 1] = targets[i];
 }
 
 // The second half of a curve that a map turns is the image of the first one.
@@ -153,7 +157,7 @@ int prescribed_member(const CurveClass& all, const CurveModel& model, const std:
   return found;
 }
 
-void carry_from(const CurveClass& all, std::size_t source, const CurveModel& model, std::vector<DiscreteCurve>& curves) {
+void carry_from(const CurveClass& all, std::size_t source, const CurveModel& model, double exact, std::vector<DiscreteCurve>& curves) {
   const CurveMember& from = all.members[source];
   const int root = all.members.front().image.curve;
   const CurveImage to_root = inverse(root, from.image);
@@ -163,7 +167,7 @@ void carry_from(const CurveClass& all, std::size_t source, const CurveModel& mod
     const CurveMember& to = all.members[i];
     const bool of_root = source == 0;
     place_image(curves[from.image.curve], of_root ? to.image : composed(to_root, to.image), of_root ? to.map : to.map.after(back),
-                model, curves[to.image.curve]);
+                model, exact, curves[to.image.curve]);
   }
 }
 
@@ -191,7 +195,16 @@ void share_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
       if (!fixed.empty()) cut_at(fixed, model, root);
       if (all.turn) make_symmetric(*all.turn, model, root);
     }
-    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, curves);
+    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, exact_images * periodic.gap, curves);
+  }
+}
+
+void carry_vertices(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves) {
+  for (const CurveClass& all : periodic.curves) {
+    DiscreteCurve& root = curves[all.members.front().image.curve];
+    if (root.indivisible || root.prescribed) continue;
+    if (all.turn) make_symmetric(*all.turn, model, root);
+    carry_from(all, 0, model, exact_images * periodic.gap, curves);
   }
 }
 
@@ -214,7 +227,7 @@ std::vector<int> complete_classes(const PeriodicModel& periodic, const CurveMode
     } else {
       place_vertices(root, r, model);
     }
-    carry_from(all, 0, model, curves);
+    carry_from(all, 0, model, exact_images * periodic.gap, curves);
     for (const CurveMember& member : all.members) changed.push_back(member.image.curve);
   }
   std::sort(changed.begin(), changed.end());

@@ -17,6 +17,9 @@ void share_sizes(const PeriodicModel& periodic, const CurveModel& model, std::ve
 /// with different prescribed edges.
 void share_vertices(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves);
 
+/// Carries the vertices of the root of each class, as it is, onto the other members.
+void carry_vertices(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves);
+
 /// Gives all members of each class the vertices that any of them has. Returns the curves that have changed, ascending.
 std::vector<int> complete_classes(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves);
 

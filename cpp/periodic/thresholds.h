@@ -27,6 +27,9 @@ inline constexpr int most_corners = 24;
 /// Share of the extent of (u, v) by which an affine map of parameters may miss. Its guesses are good beginnings beyond that, too.
 inline constexpr double affine_share = 1e-3;
 
+/// Share of the gap. An image this near to its surface is taken as it is: the two differ by rounding.
+inline constexpr double exact_images = 1e-9;
+
 // Curves (shared_curves)
 /// Share of a curve's length. Vertices this near are one.
 inline constexpr double same_fraction = 1e-9;

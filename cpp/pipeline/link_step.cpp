@@ -108,7 +108,7 @@ class Linker {
     const FacePair& pair = run_.periodic.pairs[index];
     const FaceMesh &from = mesh_.faces[pair.master], &to = mesh_.faces[pair.slave];
     PeriodicLink linked = link(2, from.shown_ref(), to.shown_ref(), pair.map);
-    const bool flipped = run_.flipped[index] != 0;
+    const bool flipped = pair.flipped;
     if (from.triangles.size() != to.triangles.size()) return;
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {
       const std::size_t u = image_triangle(from, t, flipped);

@@ -92,15 +92,14 @@ void carry_patches(CompositeRun& run) {
   run.turned.clear();
   fail_partners(run);
   std::vector<std::string> why(run.model.faces.size());
-  run.flipped.assign(run.periodic.pairs.size(), 0);
-  for (const FacePair& pair : run.periodic.pairs) {
+  for (FacePair& pair : run.periodic.pairs) {
     if (!run.has_patch(pair.master)) continue;
     run.monitor.checkpoint();
     run.keeper[pair.slave] = run.keeper[pair.master];
     if (!run.patches[pair.master]) continue;  // another process keeps both
     CarriedPatch carried = carry(run, pair);
     why[pair.slave] = carried.failure;
-    run.flipped[run.periodic.pair_of_slave[pair.slave]] = carried.flipped ? 1 : 0;
+    pair.flipped = carried.flipped;
     keep_sources(run, pair.master, std::move(carried.finer));
     run.patches[pair.slave] = std::move(carried.mesh);
   }

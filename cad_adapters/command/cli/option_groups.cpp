@@ -104,6 +104,9 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--curve-vertices", options.curve_vertices,
                            "All vertices inside a curve, by their parameters; repeatable"))
       ->type_name("CURVE=T,...");
+  repeated(app->add_option("--periodic", options.periodic,
+                           "Equal meshes on faces that x, y, z, a translation A,B,C or rotate:POINT:AXIS:DEGREES maps; or 7=3; repeatable"))
+      ->type_name("MAP");
   app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
       ->type_name(kind::file);

@@ -18,6 +18,7 @@
 #include "inputs/open_input.h"
 #include "inputs/several_input.h"
 #include "mesh/curve_edges.h"
+#include "mesh/periodic_faces.h"
 #include "mesh/failed_faces.h"
 #include "mesh/groups.h"
 #include "mesh/mesh_parameters.h"
@@ -88,6 +89,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   require(session, input.give_to(session));
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
+  set_periodic(session, options);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -192,7 +194,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == ".txt" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -205,6 +207,8 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else if (is_report(path))
       write_text(path, page_of(run));
+    else if (suffix_of(path) == ".txt")
+      write_text(path, pairs_text(run.mesh));
     else
       write_mesh(run.mesh, path);
   }
@@ -251,6 +255,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
   std::vector<std::string> suffixes = written_meshes;
   suffixes.insert(suffixes.end(), {".exr", ".html"});
+  if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});

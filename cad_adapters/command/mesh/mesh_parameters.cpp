@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
+#include "mesh/periodic_faces.h"
 #include "mesh/selection.h"
 
 namespace command {
@@ -256,6 +257,7 @@ void check_words(const MeshOptions& options) {
     parse_length(parse_assignment(each, "--face-size").second, "--face-size");
   for (const std::string& each : options.sizes_on) parse_length(parse_assignment(each, "--size-on").second, "--size-on");
   check_curve_edges(options);
+  check_periodic(options);
   if (options.settings.empty()) return;
   const SessionHandle session = make_session();
   for (const std::string& each : options.settings) check_setting(session.get(), each, "--set");

@@ -72,6 +72,21 @@ void add_curve(const CurveSet& curve, std::string& text) {
   list.end();
 }
 
+// Nodes of both faces of a pair, in matching order.
+void add_periodic(const FlatMesh& mesh, std::string& text) {
+  std::size_t pair = 0;
+  for (const PeriodicLink& link : mesh.periodic) {
+    if (link.dimension != 2) continue;
+    ++pair;
+    for (const std::size_t side : {0U, 1U}) {
+      text.append("*NSET, NSET=periodic_").append(std::to_string(pair)).append(side == 0 ? "_slave" : "_master").append(", UNSORTED\n");
+      List list(text);
+      for (const auto& nodes : link.nodes) list.add(std::to_string(nodes[side] + 1));
+      list.end();
+    }
+  }
+}
+
 }  // namespace
 
 std::string inp_text(const FlatMesh& mesh) {
@@ -97,6 +112,7 @@ std::string inp_text(const FlatMesh& mesh) {
     for (const std::size_t i : each.sets) list.add(sets.curves[i].name);
     list.end();
   }
+  add_periodic(mesh, text);
   return text;
 }
 

@@ -61,7 +61,6 @@ struct CompositeRun {
   SizeRules rules;
   CurveModel curve_model;
   PeriodicModel periodic;                  ///< empty: no periodicity
-  std::vector<char> flipped;               ///< carry_patches(); by pair: triangles of slaves run the other way round
   std::optional<SlaveSizes> slave_sizes;  ///< joined to the rules
 
   GradedModel graded;                             ///< grade_sizes()

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "periodic/closest.h"
-#include "periodic/parameter_map.h"
+#include "periodic/thresholds.h"
 #include "predicates/predicates.h"
 #include "support/format.h"
 #include "surface/carry/image_vertices.h"
@@ -15,6 +15,8 @@
 namespace carreau {
 
 namespace {
+
+using thresholds::periodic::exact_images;
 
 Vec3 surface_point(const CurveModel& model, int face, const Vec2& uv) {
   return surface_at(model.cad, model.model.faces[face].ref, want_position, uv).s;
@@ -61,9 +63,15 @@ CarriedPatch carry_patch(const CurveModel& model, const std::vector<DiscreteCurv
   for (const auto& [a, b, c] : mesh.plane.triangles)
     image.plane.triangles.push_back({there(a), there(map.flipped ? c : b), there(map.flipped ? b : c)});
 
-  const ImageVertices vertices{.cad = model.cad, .face = model.model.faces[pair.slave].ref, .map = pair.map, .from = mesh.xyz,
-                               .from_uv = mesh.plane.vertices, .imposed = map.vertex};
-  const MissedVertex missed = place_images(vertices, image.plane.triangles, image.plane.vertices, image.xyz);
+  ImageVertices vertices{.cad = model.cad, .face = model.model.faces[pair.slave].ref, .target = std::vector<Vec3>(n),
+                         .from_uv = std::vector<Vec2>(n), .known = std::vector<char>(n, 0)};
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::int32_t w = there(static_cast<std::int32_t>(v));
+    vertices.target[w] = pair.map(mesh.xyz[v]), vertices.from_uv[w] = mesh.plane.vertices[v];
+    vertices.known[w] = v < imposed ? 1 : 0;
+  }
+  const MissedVertex missed =
+      place_images(vertices, image.plane.triangles, exact_images * gap, image.plane.vertices, image.xyz);
   if (missed.distance > gap) {
     carried.failure = "the image of the mesh of face " + std::to_string(model.model.faces[pair.master].ref) + " is " +
                       format_number(missed.distance) + " away from the surface at " + text_of(image.xyz[missed.vertex]);

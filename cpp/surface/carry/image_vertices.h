@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images of the vertices inside a face.
+// Images of the vertices of a face.
 #pragma once
 
 #include <array>
@@ -8,30 +8,29 @@
 #include <vector>
 
 #include "cad/cad.h"
-#include "model/isometry.h"
 #include "support/vec.h"
 
 namespace carreau {
 
-/// The vertices of a mesh whose images are sought on another face. Vertices behind the imposed ones keep their numbers.
+/// Vertices of a face whose places are sought, with the images of another face's vertices.
 struct ImageVertices {
   Cad& cad;
-  int face = 0;  ///< reference of the image's face
-  const Isometry& map;
-  const std::vector<Vec3>& from;     ///< positions
-  const std::vector<Vec2>& from_uv;  ///< parameters in the master
-  const std::vector<int>& imposed;   ///< images of the first vertices, whose places are known
+  int face = 0;               ///< reference
+  std::vector<Vec3> target;   ///< images of the positions
+  std::vector<Vec2> from_uv;  ///< parameters in the other face
+  std::vector<char> known;    ///< the vertex has its place
 };
 
-/// The vertex inside that is farthest from its image.
+/// The vertex that is farthest from its image.
 struct MissedVertex {
   std::size_t vertex = 0;
   double distance = 0;
 };
 
-/// Fills `uv` and `xyz` behind the imposed vertices with closest points. `triangles`: of the images; they lead from known
-/// vertices to their neighbours if the parameters of both faces differ by no affine map.
-MissedVertex place_images(const ImageVertices& vertices, std::span<const std::array<std::int32_t, 3>> triangles, std::vector<Vec2>& uv,
-                          std::vector<Vec3>& xyz);
+/// Fills `uv` and `xyz` of vertices that are not known with the closest points; images that lie on the surface within `exact`
+/// (model length) are taken as they are. `triangles` lead from known vertices to their neighbours if no affine map
+/// fits the parameters of both faces.
+MissedVertex place_images(const ImageVertices& vertices, std::span<const std::array<std::int32_t, 3>> triangles, double exact,
+                          std::vector<Vec2>& uv, std::vector<Vec3>& xyz);
 
 }  // namespace carreau

@@ -156,6 +156,7 @@ void compact(FaceQuads& quads, std::vector<char>& gone) {
     for (int k = 0; k < corners_of(cell); ++k) cell[k] = now[cell[k]];
   for (auto& t : quads.flattened)
     for (std::int32_t& v : t) v = now[v];
+  quads.now = std::move(now);
 }
 
 /// New numbers of the vertices of the mesh.

@@ -20,6 +20,7 @@ struct FaceQuads {
   std::vector<CurveSide> sides;      ///< on curves, ascending; of cells before they are cut
   std::vector<std::int32_t> middles;  ///< of sides: local vertices, once the cells are cut; -1: none
   std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
+  std::vector<std::int32_t> now;  ///< put_back(): by local vertex its number in the mesh of the face; -1: it is gone
 
   [[nodiscard]] const CurveSide* side_between(std::int32_t a, std::int32_t b) const noexcept;
 };
