@@ -69,7 +69,7 @@ carreau_status carreau_model_add_period(carreau_session* session, const double* 
   return guarded(session, [&] {
     required(direction, "direction");
     const carreau::Vec3 along(direction[0], direction[1], direction[2]);
-    if (!is_finite(along) || !(norm(along) > 0)) throw InvalidArgument("the direction of a period has no length, or is not finite");
+    if (!carreau::is_finite(along) || !(carreau::norm(along) > 0)) throw InvalidArgument("the direction of a period has no length, or is not finite");
     carreau::Periodicity given;
     given.direction = along;
     session->edited_model().periodicities.push_back(std::move(given));
