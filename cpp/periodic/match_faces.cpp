@@ -22,6 +22,9 @@ namespace {
 
 using namespace thresholds::periodic;
 
+// Fraction of a curve beside whose point a place is sought, and its distance as a share of the curve's length in (u, v).
+constexpr double beside = 0.43, step_beside = 0.02;
+
 struct FaceShape {
   std::vector<int> curves;  // of the topology, ascending, each once
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
@@ -39,8 +42,9 @@ class Matcher {
     for (std::size_t f = 0; f < model.model.faces.size(); ++f) faces_.push_back(face_shape(f));
   }
 
-  std::vector<FacePair> run() {
+  std::vector<FacePair> run(std::vector<std::string>& remarks) {
     for (const Periodicity& given : model_.model.periodicities) add(given);
+    remarks = std::move(remarks_);
     return std::move(pairs_);
   }
 
@@ -159,41 +163,45 @@ class Matcher {
     return std::max(norm(a.first - b.low), norm(a.second - b.high));
   }
 
+  // A plane domain is one face, whose sides are periodic.
+  std::size_t add_curves(const Isometry& map) {
+    const std::size_t before = pairs_.size();
+    for (const CurveShape& from : shapes_)
+      for (const CurveShape& to : shapes_) {
+        if (from.curve == to.curve || from.degenerate) continue;
+        const std::optional<CurveImage> image = image_of(model_, from, to, map, gap_);
+        if (!image) continue;
+        pairs_.push_back({-1, -1, map, {{from.curve, *image}}});
+        break;
+      }
+    return pairs_.size() - before;
+  }
+
+  // Such a face must be cut along the plane for its mesh to be symmetric.
+  void note_across(int face, const Isometry& map) {
+    if (map.reflects() && pair_of(face, face, map))
+      remarks_.push_back(Where{.face = ref(face)}.prefix() +
+                         "the face lies across the plane of a reflection: its own mesh is not symmetric unless the geometry has its halves");
+  }
+
   std::size_t add_pairs(const Isometry& map) {
+    if (model_.model.plane) return add_curves(map);
     std::size_t found = 0;
     for (int m = 0; m < std::ssize(faces_); ++m) {
       if (!faces_[m].usable) continue;
       const std::pair<Vec3, Vec3> box = image_box(m, map);
       const double reach = polyline_gap * norm(box.second - box.first) + gap_;
-      std::vector<FacePair> candidates;
+      note_across(m, map);
       for (int s = 0; s < std::ssize(faces_); ++s) {
         if (s == m || !faces_[s].usable || apart(box, faces_[s]) > reach) continue;
-        if (std::optional<FacePair> pair = pair_of(m, s, map)) candidates.push_back(std::move(*pair));
+        std::optional<FacePair> pair = pair_of(m, s, map);
+        if (!pair) continue;
+        pairs_.push_back(std::move(*pair));
+        ++found;
+        break;
       }
-      if (candidates.empty()) continue;
-      pairs_.push_back(std::move(candidates.size() == 1 ? candidates.front() : nearest_inside(candidates)));
-      ++found;
     }
     return found;
-  }
-
-  // Two faces may have one boundary, like both halves of a sphere: the middle decides.
-  [[nodiscard]] FacePair& nearest_inside(std::vector<FacePair>& candidates) const {
-    const auto miss = [&](const FacePair& pair) {
-      const auto middle = [&](int face) {
-        Vec2 sum(0, 0);
-        double n = 0;
-        for (const CurveSupport& support : model_.supports[static_cast<std::size_t>(face)])
-          for (const Vec2& uv : support.uv) sum += uv, ++n;
-        return Vec2(sum / n);
-      };
-      const Vec3 target = pair.map(surface_at(model_.cad, ref(pair.master), want_position, middle(pair.master)).s);
-      ClosestPoint point{middle(pair.slave), {}, 0};
-      find_closest(model_.cad, ref(pair.slave), {&target, 1}, {&point, 1});
-      return point.distance;
-    };
-    return *std::min_element(candidates.begin(), candidates.end(),
-                             [&](const FacePair& a, const FacePair& b) { return miss(a) < miss(b); });
   }
 
   [[nodiscard]] std::string nearest_miss(const Isometry& map) const {
@@ -229,7 +237,66 @@ class Matcher {
       }
       if (!found) return {};
     }
-    return pair;
+    return has_image_inside(pair) ? std::optional(std::move(pair)) : std::nullopt;
+  }
+
+  // Two faces may have one boundary, like both halves of a sphere: places beside it decide. True if no place can.
+  [[nodiscard]] bool has_image_inside(const FacePair& pair) const {
+    for (const auto& [curve, image] : pair.curves) {
+      const CurveUse *from = only_use(curve, pair.master), *to = only_use(image.curve, pair.slave);
+      if (from == nullptr || to == nullptr || model_.curve(curve).degenerate) continue;
+      const std::optional<Vec2> inside = place_beside(*from);
+      if (!inside) continue;
+      const Vec3 target = pair.map(surface_at(model_.cad, ref(pair.master), want_position, *inside).s);
+      const Curve& shape = model_.curve(curve);
+      const double r = shape.end1 == shape.end2 ? wrapped(image.at(beside)) : image.at(beside);
+      const Vec2 start = model_.cad.curve(ref(pair.slave), to->curve + 1, want_position, parameter_at(model_, *to, r)).c;
+      ClosestPoint point{start, {}, 0};
+      find_closest(model_.cad, ref(pair.slave), {&target, 1}, {&point, 1});
+      return point.distance <= gap_ && is_inside(pair.slave, point.uv);
+    }
+    return true;
+  }
+
+  [[nodiscard]] const CurveUse* only_use(int curve, int face) const {
+    const CurveUse* found = nullptr;
+    for (const CurveUse& use : model_.curve(curve).uses) {
+      if (use.face != face) continue;
+      if (found != nullptr || model_.model.faces[face].curves[use.curve].type != CurveType::boundary) return nullptr;
+      found = &use;
+    }
+    return found;
+  }
+
+  // A place of the face a little way from the curve; empty: none, or both sides are inside.
+  [[nodiscard]] std::optional<Vec2> place_beside(const CurveUse& use) const {
+    const CurveSupport& support = model_.support(use);
+    double length = 0;
+    for (std::size_t i = 1; i < support.uv.size(); ++i) length += norm(support.uv[i] - support.uv[i - 1]);
+    const CurveJet jet =
+        model_.cad.curve(model_.face_ref(use), use.curve + 1, want_position | want_first, parameter_at(model_, use, beside));
+    const double speed = norm(jet.ct);
+    if (!(speed > 0)) return {};
+    const double step = step_beside * length / speed;
+    const Vec2 left(jet.c.x() - step * jet.ct.y(), jet.c.y() + step * jet.ct.x());
+    const Vec2 right(jet.c.x() + step * jet.ct.y(), jet.c.y() - step * jet.ct.x());
+    const bool is_left = is_inside(use.face, left), is_right = is_inside(use.face, right);
+    if (is_left == is_right) return {};
+    return is_left ? left : right;
+  }
+
+  // By the even-odd rule.
+  [[nodiscard]] bool is_inside(int face, const Vec2& p) const {
+    bool inside = false;
+    for (std::size_t c = 0; c < model_.model.faces[face].curves.size(); ++c) {
+      if (model_.model.faces[face].curves[c].type != CurveType::boundary) continue;
+      const std::vector<Vec2>& uv = model_.supports[static_cast<std::size_t>(face)][c].uv;
+      for (std::size_t i = 1; i < uv.size(); ++i) {
+        const Vec2 a = uv[i - 1], b = uv[i];
+        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+      }
+    }
+    return inside;
   }
 
   // How far the image of a face's boundary misses the other boundary, and where.
@@ -265,6 +332,8 @@ class Matcher {
     if (corner > gap_)
       return names + " do not match: their boundaries are one, but a corner at " + text_of(at) + " has no partner within " +
              format_number(corner);
+    if (faces_[master].curves.size() == faces_[slave].curves.size())
+      return names + " do not match: they have one boundary, and lie on different sides of it or curve differently";
     return names + " do not match: they have " + std::to_string(faces_[master].curves.size()) + " and " +
            std::to_string(faces_[slave].curves.size()) + " curves, which differ by up to " + format_number(worst);
   }
@@ -274,13 +343,14 @@ class Matcher {
   std::vector<CurveShape> shapes_;
   std::vector<FaceShape> faces_;
   std::vector<FacePair> pairs_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace
 
-std::vector<FacePair> match_faces(const CurveModel& model, double diag) {
+std::vector<FacePair> match_faces(const CurveModel& model, double diag, std::vector<std::string>& remarks) {
   if (model.model.periodicities.empty()) return {};
-  return Matcher(model, diag).run();
+  return Matcher(model, diag).run(remarks);
 }
 
 std::string pair_name(const CurveModel& model, const FacePair& pair) {

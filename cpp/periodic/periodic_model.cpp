@@ -80,6 +80,7 @@ class Classes {
     const auto n = model_.model.faces.size();
     std::vector<std::vector<FacePair>> steps(n);
     for (const FacePair& pair : given_) {
+      if (pair.master < 0) continue;
       steps[pair.master].push_back(pair);
       steps[pair.slave].push_back(inverse_of(pair));
     }
@@ -238,7 +239,10 @@ class Classes {
 
 PeriodicModel find_periodic(const CurveModel& model, double diag) {
   if (model.model.periodicities.empty()) return {};
-  return Classes(model, match_faces(model, diag), most_gap * diag).run();
+  std::vector<std::string> remarks;
+  PeriodicModel periodic = Classes(model, match_faces(model, diag, remarks), most_gap * diag).run();
+  periodic.remarks = std::move(remarks);
+  return periodic;
 }
 
 }  // namespace carreau

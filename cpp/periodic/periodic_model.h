@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "periodic/match_faces.h"
@@ -31,8 +32,9 @@ struct PeriodicModel {
   std::vector<std::array<int, 2>> place;  ///< by curve with a class: index in `curves`, and in its members
   std::vector<std::vector<int>> corners;  ///< classes of two corners or more
   double gap = 0;                   ///< model length: images may miss by it
+  std::vector<std::string> remarks = {};  ///< what a person should know
 
-  [[nodiscard]] bool empty() const noexcept { return pairs.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return pairs.empty() && curves.empty(); }
 };
 
 /// Matches the faces and collects their classes along spanning trees. Throws InvalidModel as match_faces(), and where two

@@ -4,7 +4,7 @@
 
 namespace carreau::thresholds::periodic {
 
-// In brackets: the tests of tests/cpp/periodic that rest on it.
+// In brackets: the tests of tests/cabi/periodic_test.cpp that rest on it.
 
 // Closest points (closest)
 /// Gauss-Newton steps; six suffice from a neighbour's parameters.
@@ -17,7 +17,7 @@ inline constexpr double overshoot = 1 + 1e-6;
 inline constexpr double least_independence = 1e-24;
 
 // Pairs (match_faces)
-/// Share of the model's diagonal by which an image may miss its face. [Periodic.FacesThatDoNotMatchAreReported]
+/// Share of the model's diagonal by which an image may miss its face. [FacesThatDoNotMatchAreReported]
 inline constexpr double most_gap = 1e-4;
 /// Share of a curve's length that its image may be away where lengths are known by polylines only.
 inline constexpr double polyline_gap = 0.02;

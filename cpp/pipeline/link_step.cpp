@@ -46,6 +46,7 @@ class Linker {
     for (const auto& [slave, master] : linked.nodes)
       worst_ = std::max(worst_, norm(linked.map(position(master)) - position(slave)));
     if (linked.dimension == 2) pairs_ += linked.nodes.size(), ++faces_;
+    if (linked.dimension == 1) curve_pairs_ += linked.nodes.size(), ++curves_;
     if (!linked.nodes.empty()) mesh_.periodic.push_back(std::move(linked));
   }
 
@@ -122,9 +123,11 @@ class Linker {
   }
 
   void report() {
-    if (faces_ == 0) return;
-    run_.monitor.message(Level::summary, "periodic: " + std::to_string(faces_) + (faces_ == 1 ? " pair" : " pairs") + " of faces, " +
-                                             std::to_string(pairs_) + " pairs of vertices, " + format_number(worst_) +
+    const bool plane = faces_ == 0;
+    const std::size_t count = plane ? curves_ : faces_;
+    if (count == 0) return;
+    run_.monitor.message(Level::summary, "periodic: " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
+                                             (plane ? " of curves, " : " of faces, ") + std::to_string(plane ? curve_pairs_ : pairs_) + " pairs of vertices, " + format_number(worst_) +
                                              " apart at most");
   }
 
@@ -132,7 +135,7 @@ class Linker {
   SurfaceMesh& mesh_;
   std::int32_t first_mid_;
   double worst_ = 0;
-  std::size_t faces_ = 0, pairs_ = 0;
+  std::size_t faces_ = 0, pairs_ = 0, curve_pairs_ = 0, curves_ = 0;
 };
 
 }  // namespace

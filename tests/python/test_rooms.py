@@ -346,8 +346,8 @@ def test_faces_are_images_of_each_other():
     session.add_periodicity([2], [1], [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 1)])
     mesh = session.generate()
     dimension, slave, master, transform, nodes = mesh.periodic()[-1]
-    assert (dimension, slave, master) == (2, 2, 1) and transform[2, 3] == 1 and 2 * len(nodes) == len(mesh.points)
-    assert np.abs(mesh.points[nodes[:, 1]] + (0, 0, 1) - mesh.points[nodes[:, 0]]).max() < 1e-12
+    assert (dimension, slave, master) == (2, 2, 1) and transform[2, 3] == 1 and 2 * len(nodes) == len(mesh.vertices)
+    assert np.abs(mesh.vertices[nodes[:, 1]] + (0, 0, 1) - mesh.vertices[nodes[:, 0]]).max() < 1e-12
     with pytest.raises(carreau.ArgumentError):
         session.add_period((0, 0, 0))
     with pytest.raises(ValueError):

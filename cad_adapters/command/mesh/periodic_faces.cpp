@@ -30,7 +30,7 @@ struct Periodic {
 
 [[noreturn]] void reject_text(const std::string& text) {
   throw Failure("--periodic '" + text +
-                "': x, y, z, a translation A,B,C, rotate:PX,PY,PZ:AX,AY,AZ:DEGREES, or a pair of faces SLAVE=MASTER is required.");
+                "': x, y, z, a translation A,B,C, rotate:POINT:AXIS:DEGREES, mirror:POINT:NORMAL or a pair of faces SLAVE=MASTER is required.");
 }
 
 std::optional<Numbers> parse_numbers(std::string_view text) {
@@ -80,6 +80,25 @@ Periodic parse_rotation(const std::string& text) {
   return periodic;
 }
 
+// The reflection in the plane through a point.
+Periodic parse_mirror(const std::string& text) {
+  const std::size_t first = text.find(':'), second = text.find(':', first + 1);
+  if (second == text.npos) reject_text(text);
+  const std::string_view whole = text;
+  const auto point = parse_numbers(whole.substr(first + 1, second - first - 1)), normal = parse_numbers(whole.substr(second + 1));
+  if (!point || !normal || point->size() != 3 || normal->size() != 3) reject_text(text);
+  const Numbers &p = *point, &n = *normal;
+  const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], height = p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
+  if (!(square > 0)) reject_text(text);
+  Periodic periodic;
+  periodic.map.emplace();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) (*periodic.map)[4 * i + k] = (i == k ? 1 : 0) - 2 * n[i] * n[k] / square;
+    (*periodic.map)[4 * i + 3] = 2 * height * n[i] / square;
+  }
+  return periodic;
+}
+
 Periodic parse_faces(const std::string& text, std::size_t sign) {
   Periodic periodic;
   const auto number = [&](std::size_t begin, std::size_t end, std::int32_t& value) {
@@ -99,6 +118,7 @@ Periodic parse_periodic(const std::string& text) {
       return periodic;
     }
   if (text.starts_with("rotate:")) return parse_rotation(text);
+  if (text.starts_with("mirror:")) return parse_mirror(text);
   if (const std::size_t sign = text.find('='); sign != text.npos) return parse_faces(text, sign);
   const auto numbers = parse_numbers(text);
   if (!numbers || numbers->size() != 3) reject_text(text);
