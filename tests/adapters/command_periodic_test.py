@@ -115,7 +115,7 @@ class Periodic(unittest.TestCase):
         return made
 
     def euler_of_skin(self, made, inner=()):
-        """Of the faces that are in no pair, glued; and edges with other than two elements."""
+        """Returns V - E + F of the glued faces that are in no pair. Each edge must have two elements."""
         paired = {f for pair in made.faces() for f in pair[1:3]}
         glued = made.classes()
         cells = [tuple(glued[n] for n in cell) for face, all in made.cells.items() if face not in paired for cell in all]

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "periodic/match_faces.h"
 #include "surface/elements/curve_middles.h"
 #include "surface/quads/quad_patch.h"
 
@@ -38,5 +39,24 @@ std::size_t split_poor(FaceQuads& quads, double least);
 /// Puts the cells of faces into the mesh, all at once: vertices that no cell has any more are removed, new ones are
 /// appended face by face. Order stays.
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);
+
+/// A periodic face whose cells are images of the cells of another face, on its way beside it.
+struct SlaveQuads {
+  const FacePair* pair = nullptr;
+  FaceQuads *master = nullptr, *slave = nullptr;
+  std::vector<std::int32_t> image;  ///< local vertices of the slave by local vertices of the master; -1: none yet
+};
+
+/// Gives the slave the cells of its master; vertices that it lacks are added without a place.
+void copy_cells(SlaveQuads& quads);
+
+/// Both have been cut (halve_cells()): images of the new vertices. `corners`: of the master's cells before.
+void match_halves(const std::vector<int>& corners, SlaveQuads& quads);
+
+/// Moves vertices inside the slave to the images of the master's.
+void place_cells(const ElementWork& work, SlaveQuads& quads);
+
+/// After put_back(): the slave has the master's elements, diagonals and all.
+void carry_back(const SlaveQuads& quads, SurfaceMesh& mesh);
 
 }  // namespace carreau

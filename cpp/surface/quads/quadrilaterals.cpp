@@ -14,7 +14,6 @@
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
 #include "surface/quads/quad_shape.h"
-#include "surface/quads/slave_quads.h"
 #include "surface/quads/smoothing.h"
 #include "surface/quads/space_search.h"
 #include "surface/quads/thresholds.h"
