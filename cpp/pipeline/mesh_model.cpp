@@ -64,7 +64,8 @@ bool any_prescribed(const CompositeRun& run) {
 // Crossings first: elements are made of the triangles that are left.
 std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   std::vector<std::unique_ptr<Inspector>> inspectors;
-  if (run.options.crossing_rounds > 0 && !run.periodic.empty()) inspectors.push_back(make_periodic_inspector());
+  if (run.options.crossing_rounds > 0 && !run.periodic.pairs.empty() && !run.options.parts)
+    inspectors.push_back(make_periodic_inspector());
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");

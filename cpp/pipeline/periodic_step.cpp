@@ -33,7 +33,7 @@ void drop_patch(CompositeRun& run, int face, const std::string& why) {
   if (mesh.status != FaceStatus::failed) {
     mesh.status = FaceStatus::failed;
     mesh.why = why;
-    if (run.options.crossing_rounds == 0) run.report(Level::error, why);
+    if (run.options.crossing_rounds == 0 || run.options.parts) run.report(Level::error, why);
   }
   run.patches[face].reset();
   run.keeper[face] = no_process;
