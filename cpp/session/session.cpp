@@ -218,6 +218,8 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   if (has_discrete(known) && !s.triangles)
     throw InvalidModel("the model has faces given by triangles, and no triangles");
   if (part != nullptr) refuse_parts_of(known, s.parameters);
+  if (has_discrete(known) && !known.periodicities.empty())
+    throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
   if (is_discrete(known)) return make_discrete_mesh(known, whole_cad, making, measuring, run);
   leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));

@@ -135,6 +135,20 @@ class Mesh:
         return [asked(c.carreau_face, lambda out, k=k: self._require(lib().mesh_face(self._handle, k, out)))  # type: ignore[misc]
                 for k in range(count)]
 
+    def periodic(self) -> list[tuple[int, int, int, NDArray[np.float64], Ints]]:
+        """Pairs of entities that periodicities carry onto each other: dimension (0, 1, 2), slave, master, map (3, 4), nodes (n, 2).
+
+        Nodes are rows of points: slave, master.
+        """
+        pairs, nodes = c_int64(), c_int64()
+        self._require(lib().mesh_periodic_count(self._handle, byref(pairs), byref(nodes)))
+        n = pairs.value
+        dimensions, refs, maps = np.empty(n, np.int32), np.empty((n, 2), np.int32), np.empty((n, 3, 4))
+        counts, rows = np.empty(n, np.int64), np.empty((nodes.value, 2), np.int32)
+        self._require(lib().mesh_periodic(self._handle, n, nodes.value, dimensions, refs, maps, counts, rows))
+        ends = np.cumsum(counts)
+        return [(int(dimensions[i]), int(refs[i, 0]), int(refs[i, 1]), maps[i], rows[ends[i] - counts[i]:ends[i]]) for i in range(n)]
+
     def face_sides(self, face: int) -> tuple[int, int]:
         """The solids on both sides of a face by its reference: the solid that its triangles look out of, and the other solid; 0:
         none."""

@@ -33,7 +33,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
     {"--depth", "Curvature"},         {"--element", "Elements"},    {"--cross-patch", "Elements"},
-    {"--sharp-angle", "Elements"},    {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
+    {"--sharp-angle", "Elements"},    {"--periodic", "Elements"},   {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
     {"--use", "Last mesh"},           {"--transfer", "Last mesh"},  {"--formula", "Field by a formula"},
     {"--iterations", "Field by a formula"},                         {"--convergence", "Field by a formula"},
     {"--differences", "Field by a formula"},                        {"--tolerance", "Error estimate"},

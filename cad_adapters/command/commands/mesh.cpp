@@ -21,6 +21,7 @@
 #include "inputs/open_input.h"
 #include "inputs/several_input.h"
 #include "mesh/curve_edges.h"
+#include "mesh/periodic_faces.h"
 #include "mesh/failed_faces.h"
 #include "mesh/groups.h"
 #include "mesh/mesh_parameters.h"
@@ -94,6 +95,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   require(session, input.give_to(session));
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
+  set_periodic(session, options);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -198,7 +200,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || suffix_of(path) == ".txt" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -215,6 +217,8 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       write_text(path, group_table(run.mesh));
     else if (run.volume_text)
       write_text(path, run.volume_text(suffix_of(path)));
+    else if (suffix_of(path) == ".txt")
+      write_text(path, pairs_text(run.mesh));
     else
       write_mesh(run.mesh, path);
   }
@@ -287,6 +291,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (!engine.empty() && ranks != nullptr) throw Failure("carreau volume runs in one process.");
   std::vector<std::string> suffixes = engine.empty() ? mesh_suffixes : volume_suffixes;
   if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
+  if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});

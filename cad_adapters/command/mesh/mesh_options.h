@@ -51,6 +51,7 @@ struct MeshOptions : InputChoice {
   std::string group_by;                       ///< part, face or color; empty: faces keep their names
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
+  std::vector<std::string> periodic;          ///< "x", "1,0,0", "rotate:...", "slave=master"
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores

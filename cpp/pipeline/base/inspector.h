@@ -43,6 +43,8 @@ class Inspector {
   virtual void report(CompositeRun& run) = 0;
 };
 
+/// Images of periodic faces that are turned over in (u, v).
+[[nodiscard]] std::unique_ptr<Inspector> make_periodic_inspector();
 /// Triangles that cross although their faces are apart.
 [[nodiscard]] std::unique_ptr<Inspector> make_crossing_inspector();
 /// Elements of meshes that keep the borders of their patches; invalid ones are divided.

@@ -31,7 +31,8 @@ bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
 }
 
 QuadraticReport make_once(CompositeRun& run) {
-  const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
+  const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor,
+                         run.periodic.empty() ? nullptr : &run.periodic};
   QuadraticReport report;
   if (has_quads(run.options.element)) report = make_quadrilaterals(work);
   if (!is_quadratic(run.options.element)) return report;

@@ -5,6 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "periodic/closest.h"
+#include "periodic/shared_curves.h"
+#include "periodic/thresholds.h"
+
 namespace carreau {
 
 namespace {
@@ -95,6 +99,42 @@ double middle_share(const DiscreteCurve& curve, std::size_t k) {
 
 std::optional<CurveMiddle> EdgeMiddles::at(std::size_t curve, std::size_t k, double shift) {
   if (!is_known(work_, curve)) return std::nullopt;
+  const PeriodicModel* periodic = work_.periodic;
+  if (periodic != nullptr && periodic->has_class[curve] != 0 && periodic->place[curve][1] > 0) return image(curve, k, shift);
+  return at_share(curve, k, middle_share(work_.curves[curve], k) + shift);
+}
+
+// The point of the root's edge, carried; on the other uses its closest points.
+std::optional<CurveMiddle> EdgeMiddles::image(std::size_t curve, std::size_t k, double shift) {
+  const auto [number, rank] = work_.periodic->place[curve];
+  const CurveClass& all = work_.periodic->curves[number];
+  const CurveMember& member = all.members[rank];
+  const int root = all.members.front().image.curve;
+  const DiscreteCurve &from = work_.curves[root], &to = work_.curves[curve];
+  const Curve& shape = work_.model.curve(root);
+  const bool closed = shape.end1 == shape.end2;
+  const int n = from.segments();
+  const int i = vertex_image(to, from, inverse(root, member.image), closed, static_cast<int>(k));
+  if (i < 0 || n != to.segments()) return std::nullopt;
+  const int segment = member.image.reversed ? (i + n - 1) % n : i % n;
+  const bool reversed = member.image.reversed;
+  const double share = middle_share(from, static_cast<std::size_t>(segment)) + (reversed ? -shift : shift);
+  const std::optional<CurveMiddle> known = at_share(static_cast<std::size_t>(root), static_cast<std::size_t>(segment), share);
+  std::optional<CurveMiddle> middle = at_share(curve, k, reversed ? 1 - share : share);
+  if (!known || !middle) return middle;
+  const Vec3 target = member.map(known->xyz);
+  const std::vector<CurveUse>& uses = work_.model.curve(static_cast<int>(curve)).uses;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const auto [low, high] = std::minmax(to.t_of_use[u][k], to.t_of_use[u][k + 1]);
+    const CurvePoint point = find_closest(work_.model, uses[u], (low + high) / 2, low, high, target);
+    middle->uv_of_use[u] = point.uv;
+    if (static_cast<int>(u) == to.owner)
+      middle->xyz = point.distance <= thresholds::periodic::exact_images * work_.periodic->gap ? target : point.xyz;
+  }
+  return middle;
+}
+
+std::optional<CurveMiddle> EdgeMiddles::at_share(std::size_t curve, std::size_t k, double share) {
   const DiscreteCurve& d = work_.curves[curve];
   piece_.curve = d.curve;
   piece_.owner = d.owner;  // a node between prescribed vertices is not prescribed itself
@@ -108,7 +148,7 @@ std::optional<CurveMiddle> EdgeMiddles::at(std::size_t curve, std::size_t k, dou
     piece_.uv_of_use[u].assign({d.uv_of_use[u][k], d.uv_of_use[u][k + 1]});
   }
   piece_.size.assign({1, 1}), piece_.physical.assign({1, 1});
-  if (!split_segment(piece_, 0, work_.model, middle_share(d, k) + shift)) return std::nullopt;
+  if (!split_segment(piece_, 0, work_.model, share)) return std::nullopt;
   CurveMiddle middle{piece_.xyz[1], {}};
   middle.uv_of_use.reserve(uses);
   for (const std::vector<Vec2>& uv : piece_.uv_of_use) middle.uv_of_use.push_back(uv[1]);

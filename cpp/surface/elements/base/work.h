@@ -7,6 +7,7 @@
 #include "cad/cad.h"
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
+#include "periodic/periodic_model.h"
 #include "size/size_rules.h"
 #include "support/monitor.h"
 #include "surface/options.h"
@@ -26,6 +27,7 @@ struct ElementWork {
   const CompositeOptions& options;
   CompositeResult& result;
   Monitor& monitor;
+  const PeriodicModel* periodic = nullptr;  ///< null: no face is periodic
 
   [[nodiscard]] bool isotropic() const noexcept { return !rules.uses_metrics(); }
   /// The evaluator; FaceMesh::ref names its faces.

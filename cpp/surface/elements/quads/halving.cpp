@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "curve/discrete_curve.h"
+#include "periodic/shared_curves.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/quads/passes.h"
 
@@ -171,10 +172,14 @@ class Halving {
 Middles halve_curves(const ElementWork& work, const std::vector<FaceQuads>& faces) {
   SurfaceMesh& mesh = work.result.mesh;
   Middles middles(mesh.curves.size());
+  std::vector<char> halved(mesh.curves.size(), 0);
+  for (std::size_t c = 0; c < mesh.curves.size(); ++c)
+    if (mesh.curves[c].vertices.size() >= 2) halved[c] = halve(work, c) ? 1 : 0;
+  if (work.periodic != nullptr) carry_vertices(*work.periodic, work.model, work.curves);
   for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
     if (mesh.curves[c].vertices.size() < 2) continue;
     middles[c].assign(mesh.curves[c].vertices.size() - 1, -1);
-    if (!halve(work, c)) continue;
+    if (halved[c] == 0) continue;
     for (std::size_t k = 0; k < middles[c].size(); ++k)
       middles[c][k] = add_vertex(work, work.curves[c].xyz[2 * k + 1], work.curves[c].size[2 * k + 1]);
   }

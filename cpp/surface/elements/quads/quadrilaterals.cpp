@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/stepped_tasks.h"
+#include "surface/carry/carry_faces.h"
 #include "surface/elements/quads/face_quads.h"
 #include "surface/elements/quads/halving.h"
 #include "surface/elements/quads/passes.h"
@@ -32,12 +33,15 @@ class Quadrilaterals {
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       quads = face_quads(work_, quads.face);
+      if (is_slave(quads)) return;
       pair(quads, monitor);
     });
+    find_slaves();
     if (has_quads_only(work_.options.element)) cut();
     const bool bound = !asks_from_threads(work_.options, work_.cad());
     for_each(
         [&](FaceQuads& quads, Monitor& monitor) {
+          if (is_slave(quads)) return;
           lift(work_, space(quads), quads, monitor);
           if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
           if (!has_quads_only(work_.options.element)) split_poor(
@@ -45,16 +49,40 @@ class Quadrilaterals {
                 [](const MixedCell&) { return true; });
         },
         bound);
+    for (SlaveQuads& quads : slaves_) {
+      copy_cells(quads);
+      place_cells(work_, quads);
+    }
     QuadraticReport report;
     report.finer.resize(work_.result.mesh.faces.size());
     for (const FaceQuads& quads : faces_) report_turned(quads, report);
     std::sort(report.coarse.begin(), report.coarse.end());
     report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
     put_back(faces_, work_.result);
+    for (const SlaveQuads& quads : slaves_) carry_back(quads, work_.result.mesh);
     return report;
   }
 
  private:
+  [[nodiscard]] bool is_slave(const FaceQuads& quads) const {
+    return work_.periodic != nullptr && work_.periodic->pair_of_slave[quads.face] >= 0;
+  }
+
+  void find_slaves() {
+    if (work_.periodic == nullptr) return;
+    const auto find = [&](int face) {
+      const auto found = std::find_if(faces_.begin(), faces_.end(), [face](const FaceQuads& quads) { return quads.face == static_cast<std::size_t>(face); });
+      return found != faces_.end() ? &*found : nullptr;
+    };
+    const std::vector<FaceMesh>& faces = work_.result.mesh.faces;
+    for (const FacePair& pair : work_.periodic->pairs) {
+      SlaveQuads quads{&pair, find(pair.master), find(pair.slave), {}};
+      if (quads.master == nullptr || quads.slave == nullptr) continue;
+      quads.image = local_images(faces[pair.master], faces[pair.slave], pair.flipped);
+      slaves_.push_back(std::move(quads));
+    }
+  }
+
   template <typename Use>
   void for_each(const Use& use, bool bound = false) {
     run_each(
@@ -88,8 +116,16 @@ class Quadrilaterals {
     halve(work_.result.vertex_size);
     for (std::vector<double>& sizes : work_.result.curve_size) halve(sizes);
     halve_sizes(work_.result, work_.curves);
+    std::vector<std::vector<int>> corners;
+    for (SlaveQuads& quads : slaves_) {
+      corners.emplace_back();
+      for (const MixedCell& cell : quads.master->patch.cells) corners.back().push_back(corners_of(cell));
+      copy_cells(quads);
+    }
+    for_each([&](FaceQuads& quads, Monitor&) { halve_cells(work_, middles, quads); });
+    for (std::size_t i = 0; i < slaves_.size(); ++i) match_halves(corners[i], slaves_[i]);
     for_each([&](FaceQuads& quads, Monitor& monitor) {
-      halve_cells(work_, middles, quads);
+      if (is_slave(quads)) return;
       if (space(quads) == nullptr) return;
       const FaceCharts charts(*space(quads));
       PlaneQuads in_metric(quads.patch, charts);
@@ -122,6 +158,7 @@ class Quadrilaterals {
 
   const ElementWork& work_;
   std::vector<FaceQuads> faces_;
+  std::vector<SlaveQuads> slaves_;
 };
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "cad/batches.h"
+#include "periodic/thresholds.h"
+#include "surface/carry/carry_faces.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/thresholds.h"
 
@@ -267,6 +269,22 @@ class FaceNodes {
   std::vector<std::pair<std::size_t, std::size_t>> joined_;
 };
 
+bool is_slave(const ElementWork& work, std::size_t face) {
+  return work.periodic != nullptr && work.periodic->pair_of_slave[face] >= 0;
+}
+
+// Nodes and vertices of slaves go where their masters' are.
+void follow_masters(const ElementWork& work, const std::vector<std::vector<char>>& fixed_vertices,
+                    const std::vector<std::vector<char>>& fixed_mids, QuadraticReport& report) {
+  for (const FacePair& pair : work.periodic->pairs) {
+    const auto slave = static_cast<std::size_t>(pair.slave);
+    if (fixed_vertices[slave].empty()) continue;
+    follow_master(work.cad(), pair, fixed_vertices[slave], fixed_mids[slave], thresholds::periodic::exact_images * work.periodic->gap,
+                  work.result.mesh);
+    find_invalid(work, slave, report);
+  }
+}
+
 template <typename Element>
 void sort_uniquely(std::vector<Element>& all) {
   std::sort(all.begin(), all.end());
@@ -297,13 +315,19 @@ QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEn
   for (const FaceMesh& face : mesh.faces)
     for (const std::int32_t v : face.vertex) ++uses[v];
   std::vector<std::size_t> doubtful;
+  std::vector<std::vector<char>> fixed_vertices(mesh.faces.size()), fixed_mids(mesh.faces.size());  // of slaves
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].triangles.empty()) continue;
     FaceNodes nodes(work, f, of_curves);
     nodes.run();
+    if (is_slave(work, f)) {
+      fixed_vertices[f] = nodes.fixed_vertices(uses), fixed_mids[f] = nodes.fixed_mids();
+      continue;
+    }
     if (!mend_face(work, f, nodes.fixed_mids(), nodes.fixed_vertices(uses), report)) doubtful.push_back(f);
   }
   for (const std::size_t f : doubtful) find_invalid(work, f, report);
+  if (work.periodic != nullptr) follow_masters(work, fixed_vertices, fixed_mids, report);
   of_curves.tell_curves();
   sort_uniquely(report.coarse), sort_uniquely(report.cusps);
   return report;
