@@ -667,7 +667,7 @@ CARREAU_API carreau_status carreau_session_background(carreau_session* session, 
 
 /* Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a size that
  * grows linearly with the distance to `surrounding` at the distance `reach`. Farther away the attractor gives no size.
- * Where several attractors, a background mesh or callbacks answer, the smallest size counts. All are model lengths.
+ * If several attractors, a background mesh or callbacks give sizes, the smallest one counts. All are model lengths.
  * vertices: vertex_count x 3. elements: element_count x 3 indices of vertices from 0: a triangle; an edge (a, b, b); a
  * point (a, a, a). The call copies them. Errors: ARGUMENT (a length that is not positive, surrounding below size, numbers
  * not finite, no element, an index out of range), SEQUENCE. */

@@ -48,6 +48,8 @@ constexpr double same_direction = 1e-6;
 constexpr int few_points = 8, many_points = 40;
 /// Points of curved faces in all, about a second; then few points are enough.
 constexpr int most_points = 200'000;
+/// Projections onto free-form surfaces in all, about a second; more faces are not compared.
+constexpr int most_projections = 20'000;
 /// Pieces of a circle in a plane: its polygon lacks 1e-4 of its area.
 constexpr double pieces_of_circle = 256;
 
@@ -236,6 +238,7 @@ class ContactAreas {
   bool lies_on(const gp_Pnt& p, int f, gp_Vec& normal) {
     Looked& looked = at(f);
     if (looked.projection.IsNull()) looked.projection = new ShapeAnalysis_Surface(BRep_Tool::Surface(face(f)));
+    if (surface(f).GetType() > GeomAbs_Torus) ++projections_;
     const gp_Pnt2d uv = looked.projection->ValueOfUV(p, Precision::Confusion());
     gp_Pnt foot;
     normal = outside(f, uv.X(), uv.Y(), foot);
@@ -266,9 +269,10 @@ class ContactAreas {
   }
 
   double common_area_of_points(int f, int g, gp_Pnt& place) {
+    if (projections_ >= most_projections && (surface(f).GetType() > GeomAbs_Torus || surface(g).GetType() > GeomAbs_Torus)) return 0;
     if (area(g) < area(f)) std::swap(f, g);
     double share = share_on(f, g, few_points, place);
-    if (share > 0 && share < 1 && points_ < most_points) share = share_on(f, g, many_points, place);
+    if (share > 0 && share < 1 && points_ < most_points && projections_ < most_projections) share = share_on(f, g, many_points, place);
     return share * area(f);
   }
 
@@ -278,7 +282,7 @@ class ContactAreas {
   std::vector<Looked> looked_;
   std::map<std::array<int, 2>, FaceContact> found_;
   std::map<std::array<int, 2>, double> largest_;
-  int points_ = 0;
+  int points_ = 0, projections_ = 0;
 };
 
 }  // namespace
