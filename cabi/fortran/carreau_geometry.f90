@@ -5,8 +5,8 @@
 !! NULL are optional.
 module carreau_geometry
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
-  use carreau, only: carreau_session, carreau_mesh, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
-    carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
+  use carreau, only: carreau_session, carreau_mesh, carreau_mesh_count, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, &
+    carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
     carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
   use carreau_c, only: c_cad
   use carreau_geometry_c
@@ -27,7 +27,7 @@ module carreau_geometry
   public :: carreau_triangles_measure, carreau_triangles_refine, carreau_triangles_distances, &
     carreau_triangles_bounds
   public :: carreau_geometry_points, carreau_geometry_curve
-  public :: carreau_evaluate, carreau_project
+  public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
     CARREAU_GEOMETRY_MOLECULE = 3, CARREAU_GEOMETRY_PLANE = 4, CARREAU_GEOMETRY_GRID = 5, &
@@ -495,6 +495,38 @@ contains
     parameters = reshape(flat, [int(dimension), n])
     closest = reshape(points, [3, n])
   end subroutine carreau_project
+
+  !> Of vertices: 0 points, 1 curves, 2 faces, and their references
+  subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: dimensions(:), references(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (dimensions(vertices), references(vertices))
+    dimensions = 0
+    references = 0
+    status = c_mesh_vertex_entities(mesh%handle, vertices, dimensions, references)
+    if (status /= CARREAU_OK) deallocate (dimensions, references)
+  end subroutine carreau_mesh_vertex_entities
+
+  !> t(2, k) on curve ics(k) of face faces(k)
+  subroutine carreau_mesh_edge_parameters(mesh, t, faces, ics, status)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(out) :: t(:, :)
+    integer(c_int32_t), allocatable, intent(out) :: faces(:), ics(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, all_faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, all_faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (t(2, edges), faces(edges), ics(edges))
+    t = 0
+    faces = 0
+    ics = 0
+    status = c_mesh_edge_parameters(mesh%handle, edges, t, faces, ics)
+    if (status /= CARREAU_OK) deallocate (t, faces, ics)
+  end subroutine carreau_mesh_edge_parameters
 
   ! ---- Points of built-in geometries ----
 

@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "carreau_geometry.h"
 #include "guard.h"
+#include "mesh_content.h"
 
 using carreau::InvalidArgument;
 using carreau::ProjectedPoint;
@@ -86,6 +87,36 @@ carreau_status carreau_project(carreau_session* session, int32_t dimension, int3
       if (out_parameters != nullptr) out_parameters = std::copy(point.parameters.data(), point.parameters.data() + dimension, out_parameters);
       if (out_closest != nullptr) out_closest = put(point.xyz, out_closest);
       if (out_distances != nullptr) *out_distances++ = point.distance;
+    }
+  });
+}
+
+carreau_status carreau_mesh_vertex_entities(carreau_mesh* mesh, int64_t capacity, int32_t out_dimensions[], int32_t out_references[]) {
+  return guarded(mesh, [&] {
+    check_capacity(capacity, Counts(*mesh).vertices, "vertices");
+    session_only(*mesh, "entities");
+    for (const carreau::MeshEntity& entity : mesh->session->session.node_entities()) {
+      if (out_dimensions != nullptr) *out_dimensions++ = entity.dimension;
+      if (out_references != nullptr) *out_references++ = entity.ref;
+    }
+  });
+}
+
+carreau_status carreau_mesh_edge_parameters(carreau_mesh* mesh, int64_t capacity, double out_t[], int32_t out_faces[], int32_t out_ics[]) {
+  return guarded(mesh, [&] {
+    check_capacity(capacity, Counts(*mesh).edges, "edges");
+    const carreau::SurfaceMesh& surface = session_only(*mesh, "parameters of edges");
+    const std::vector<carreau::CurveParameters> parameters = mesh->session->session.curve_parameters();
+    for (std::size_t c = 0; c < surface.curves.size(); ++c) {
+      const carreau::CurveParameters& on = parameters[c];
+      const std::size_t n = surface.curves[c].vertices.size();
+      const bool known = on.t.size() == n;
+      for (std::size_t i = 1; i < n; ++i) {
+        if (out_faces != nullptr) *out_faces++ = known ? on.face : 0;
+        if (out_ics != nullptr) *out_ics++ = known ? on.ic : 0;
+        for (const std::size_t end : {i - 1, i})
+          if (out_t != nullptr) *out_t++ = known ? on.t[end] : std::numeric_limits<double>::quiet_NaN();
+      }
     }
   });
 }

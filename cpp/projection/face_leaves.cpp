@@ -191,7 +191,7 @@ LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample
   const Region unit{{0, 0}, {1, 1}, leaf.region.triangle};
   Vec2 w{static_cast<double>(from.rank % 3) / 2, static_cast<double>(from.rank / 3) / 2};
   Vec2 best = w;
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const SurfaceJet jet = interpolated(leaf.at, w);
     const Vec3 r = jet.s - x;
     const double d = dot(r, r);

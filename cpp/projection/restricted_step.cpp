@@ -105,7 +105,7 @@ double share_inside(const Region& region, const Vec2& p, const Vec2& d) {
   bound(p.y(), d.y(), region.low.y(), region.high.y());
   if (region.triangle) {
     const double here = share_of_diagonal(region, p), step = dot(normal_of_diagonal(region), d);
-    if (step > 0 && here + step > 1) share = std::min(share, std::max(0.0, (1 - here) / step));
+    if (step > on_diagonal && here + step > 1) share = std::min(share, std::max(0.0, (1 - here) / step));
   }
   return share;
 }
@@ -117,6 +117,10 @@ RestrictedStep restricted_step(const Region& region, const Vec2& p, const Vec2& 
   const Walls walls = walls_at(region, p);
   Vec2 d = descent_direction(gradient, hessian, form, step.full);
   if (!walls.allow(d)) d = direction_along(walls, gradient, hessian, form, step.full);
+  for (std::size_t i = 0; i < walls.count; ++i) {  // removes the rounding of a direction along a wall
+    const Vec2& outward = walls.wall[i].outward;
+    if (const double leaves = dot(outward, d); leaves > 0) d -= leaves / dot(outward, outward) * outward;
+  }
   const double share = share_inside(region, p, d);
   if (share < 1) step.full = false;
   step.d = share * d;

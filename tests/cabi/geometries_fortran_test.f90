@@ -53,6 +53,7 @@ program geometries_fortran_test
   real(c_double), allocatable :: xyz(:, :), uv(:, :, :), uv_copy(:, :, :), first(:, :, :), second(:, :, :)
   real(c_double), allocatable :: params(:, :), closest(:, :), distances(:)
   integer(c_int32_t), allocatable :: triangles(:, :), refs(:), edges(:, :), edge_refs(:), back(:, :)
+  integer(c_int32_t), allocatable :: dimensions(:), faces(:), ics(:)
   integer(c_int32_t) :: status, degrees(2), k
   integer(c_int64_t) :: count
 
@@ -94,6 +95,10 @@ program geometries_fortran_test
   call carreau_mesh_generate(session, status)
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_session_mesh(session, mesh, status)
+  call carreau_mesh_vertex_entities(mesh, dimensions, refs, status)
+  call check(status == CARREAU_OK .and. sum(merge(1, 0, dimensions == 0)) == 8 .and. all(refs > 0), 'corners of two squares')
+  call carreau_mesh_edge_parameters(mesh, params, faces, ics, status)
+  call check(status == CARREAU_OK .and. all(params >= 0 .and. params <= 1) .and. all(ics <= 4), 'parameters of edges')
   call carreau_mesh_quality(mesh, quality, status)
   call check(quality%area > 2.2 .and. quality%area < 2.3, 'a square, and a saddle of 1.28')
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places of the model through the C interface: evaluation and projection.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -66,6 +67,44 @@ TEST_F(PlacesTest, EvaluatesCurvesWithDerivatives) {
   EXPECT_NEAR(xyz[2], (1.25 * 1.25 + 6.25) / 2, 1e-14);
   EXPECT_NEAR(first[2], 5 * -1.25, 1e-13);  // z' = x x'
   EXPECT_NEAR(second[2], 25, 1e-12);
+}
+
+TEST_F(PlacesTest, NodesKnowTheirEntities) {
+  for (const char* element : {"p1", "p2"}) {
+    use_torus();
+    ASSERT_EQ(carreau_set_text(session, "element", element), CARREAU_OK);
+    ASSERT_EQ(carreau_set_real(session, "hphydef", 1), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    const MeshData data = data_of(mesh());
+    const std::size_t n = data.vertex_count(), k = data.edge_count();
+    std::vector<std::int32_t> dimensions(n), refs(n), faces(k), ics(k);
+    std::vector<double> t(2 * k);
+    ASSERT_EQ(carreau_mesh_vertex_entities(mesh(), std::int64_t(n), dimensions.data(), refs.data()), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_edge_parameters(mesh(), std::int64_t(k), t.data(), faces.data(), ics.data()), CARREAU_OK);
+    // A torus has one corner; each edge of its two seams has one more vertex, and with p2 a node.
+    EXPECT_EQ(std::count(dimensions.begin(), dimensions.end(), 0), 1);
+    EXPECT_EQ(std::count(dimensions.begin(), dimensions.end(), 1), std::int64_t(k * (element[1] == '2' ? 2 : 1)) - 2);
+    std::vector<double> distance(1);
+    for (std::size_t v = 0; v < n; ++v) {
+      ASSERT_EQ(carreau_project(session, dimensions[v], refs[v], 1, &data.xyz[3 * v], nullptr, nullptr, nullptr, distance.data()), CARREAU_OK) << error();
+      EXPECT_LT(distance[0], 1e-11);
+    }
+    for (std::size_t e = 0; e < k; ++e)
+      for (std::size_t end = 0; end < 2; ++end) {
+        double xyz[3];
+        ASSERT_EQ(carreau_evaluate(session, 1, data.edge_refs[e], 1, &t[2 * e + end], 0, xyz, nullptr, nullptr), CARREAU_OK) << error();
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(xyz[c], data.xyz[3 * std::size_t(data.edges[2 * e + end]) + std::size_t(c)], 1e-12);
+        EXPECT_EQ(faces[e], 5);
+        EXPECT_GE(ics[e], 1);
+      }
+    EXPECT_EQ(carreau_mesh_vertex_entities(mesh(), 0, dimensions.data(), nullptr), CARREAU_ERR_ARGUMENT);
+    EXPECT_EQ(carreau_mesh_edge_parameters(mesh(), 0, nullptr, nullptr, ics.data()), CARREAU_ERR_ARGUMENT);
+  }
+  carreau_mesh* other = nullptr;
+  ASSERT_EQ(carreau_mesh_create(&other), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_vertex_entities(other, 0, nullptr, nullptr), CARREAU_ERR_SEQUENCE);
+  EXPECT_EQ(carreau_mesh_edge_parameters(other, 0, nullptr, nullptr, nullptr), CARREAU_ERR_SEQUENCE);
+  carreau_mesh_free(other);
 }
 
 TEST_F(PlacesTest, NamesErrorsAndRejectsCallsFromCallbacks) {

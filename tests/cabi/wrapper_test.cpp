@@ -423,6 +423,13 @@ TEST(Wrapper, EvaluatesAndProjects) {
   session.generate();
   const carreau::Projected side = carreau::project(session, x, 1);
   EXPECT_NEAR(side.distances[1], std::sqrt(2), 1e-12);
+  const carreau::Mesh mesh = session.mesh();
+  const carreau::VertexEntities entities = carreau::vertex_entities(mesh);
+  EXPECT_EQ(std::count(entities.dimensions.begin(), entities.dimensions.end(), 0), 4);
+  EXPECT_EQ(entities.references[0], mesh.vertex_refs()[0]);
+  const carreau::EdgeParameters edges = carreau::edge_parameters(mesh);
+  EXPECT_EQ(edges.t.front()[0], 0);
+  EXPECT_EQ(edges.faces, std::vector<std::int32_t>(edges.t.size(), 1));
   const std::array<double, 1> t{side.parameters[1]};
   EXPECT_EQ(carreau::evaluate_curve(session, side.references[1], t, 1).xyz[0], (Point3{1, 0, 0}));
 }

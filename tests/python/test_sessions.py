@@ -57,6 +57,39 @@ def test_points_are_projected_to_the_geometry_of_a_mesh():
         session.project(x, ref=77)
 
 
+def test_vertices_know_the_entities_that_they_lie_on():
+    mesh = carreau.mesh(torus, domain=TORUS_BOX, size=0.5)
+    dimensions, refs = mesh.vertex_entities()
+    assert (dimensions == 0).sum() == 1 and (dimensions == 1).sum() == len(mesh.edges) - 2  # two closed seams through one corner
+    assert (refs > 0).all() and ((dimensions == 0) == (mesh.vertex_ids != 0)).all()
+    for dimension in (1, 2):
+        k = dimensions == dimension
+        for ref in set(refs[k].tolist()):
+            on = mesh.vertices[k & (refs == ref)]
+            assert mesh.session.project(on, dimension, ref).distances.max() < 1e-12
+    t, faces, ics = mesh.edge_parameters()
+    for ref in set(mesh.curve_ids.tolist()):
+        k = mesh.curve_ids == ref
+        for end in (0, 1):
+            assert np.allclose(mesh.session.evaluate(t[k, end], ref, dimension=1).xyz, mesh.vertices[mesh.edges[k, end]], atol=1e-12)
+    assert set(faces) == {1} and set(ics) <= {1, 2, 3, 4}
+
+
+@pytest.mark.parametrize("name", ["grid/volcano.txt", "molecule/caffeine.xyzr", "triangles/fading_line.off", "plane/plate.poly"])
+def test_vertices_lie_on_geometries_of_any_kind(source, name):
+    mesh = carreau.mesh(os.path.join(source, "tests/data", name), size="10%")
+    scale = np.ptp(mesh.vertices, axis=0).max()
+    found = mesh.session.project(mesh.vertices)
+    assert found.distances.max() < 1e-12 * scale
+    x = np.random.default_rng(2).uniform(mesh.vertices.min(0) - scale / 3, mesh.vertices.max(0) + scale / 3, (100, 3))
+    far = mesh.session.project(x)
+    nearest = np.linalg.norm(mesh.vertices[None] - x[:, None], axis=2).min(1)
+    assert (far.distances <= nearest + 1e-12 * scale).all()
+    for ref in set(far.refs.tolist()):
+        k = far.refs == ref
+        assert np.allclose(mesh.session.evaluate(far.parameters[k], ref).xyz, far.xyz[k], atol=1e-11 * scale)
+
+
 def test_a_thread_stops_a_run():
     begun = threading.Event()
     session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session

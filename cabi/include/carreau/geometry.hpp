@@ -74,6 +74,28 @@ inline Projected project(Session& session, std::span<const Point3> xyz, int dime
   return out;
 }
 
+/// The entities that vertices of a mesh lie on: points (dimension 0), curves (1) and faces (2).
+struct VertexEntities {
+  std::vector<std::int32_t> dimensions{}, references{};
+};
+inline VertexEntities vertex_entities(const Mesh& mesh) {
+  const auto n = static_cast<std::size_t>(mesh.vertex_count());
+  VertexEntities out{std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
+  mesh.done(carreau_mesh_vertex_entities(mesh.get(), detail::count_of(n), out.dimensions.data(), out.references.data()));
+  return out;
+}
+/// Parameters of the ends of edges on curve ic of a face.
+struct EdgeParameters {
+  std::vector<std::array<double, 2>> t{};
+  std::vector<std::int32_t> faces{}, ics{};
+};
+inline EdgeParameters edge_parameters(const Mesh& mesh) {
+  const auto n = static_cast<std::size_t>(mesh.edge_count());
+  EdgeParameters out{std::vector<std::array<double, 2>>(n), std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
+  mesh.done(carreau_mesh_edge_parameters(mesh.get(), detail::count_of(n), detail::flat(out.t), out.faces.data(), out.ics.data()));
+  return out;
+}
+
 /// Points of a face at places (u, v).
 inline std::vector<Point3> geometry_points(Session& session, int face, std::span<const Point2> uv) {
   std::vector<Point3> out(uv.size());

@@ -1125,6 +1125,8 @@ CARREAU = {
     "carreau_triangles_bounds": (c_int32, [c_void_p, c_double, Doubles]),
     "carreau_evaluate": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles, c_int32, Doubles, Doubles, Doubles]),
     "carreau_project": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles, Int32s, Doubles, Doubles, Doubles]),
+    "carreau_mesh_vertex_entities": (c_int32, [c_void_p, c_int64, Int32s, Int32s]),
+    "carreau_mesh_edge_parameters": (c_int32, [c_void_p, c_int64, Doubles, Int32s, Int32s]),
     "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
     "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_remesh": (c_int32, [c_void_p, POINTER(carreau_remesh_input), POINTER(carreau_remesh_summary)]),

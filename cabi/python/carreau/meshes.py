@@ -184,6 +184,22 @@ class Mesh:
             self._handle, self.session, self._copy = copy._handle, None, copy
         return self._handle
 
+    # ---- the model ----
+
+    def vertex_entities(self) -> tuple[Ints, Ints]:
+        """The dimension of the entity that each vertex lies on (0 points, 1 curves, 2 faces), and its reference; mesh of a session only."""
+        n = len(self.vertices)
+        dimensions, refs = np.empty(n, dtype=np.int32), np.empty(n, dtype=np.int32)
+        self._require(lib().mesh_vertex_entities(self._handle, n, dimensions, refs))
+        return dimensions, refs
+
+    def edge_parameters(self) -> tuple[Reals, Ints, Ints]:
+        """t (k, 2) at the ends of edges on curve number ic (k) of a face (k); mesh of a session only. NaN: not known."""
+        k = len(self.edges)
+        t, faces, ics = np.empty((k, 2)), np.empty(k, dtype=np.int32), np.empty(k, dtype=np.int32)
+        self._require(lib().mesh_edge_parameters(self._handle, k, t, faces, ics))
+        return t, faces, ics
+
     # ---- quality ----
 
     @property

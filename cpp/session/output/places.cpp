@@ -29,4 +29,17 @@ void Session::project(int dimension, int ref, std::span<const Vec3> x, std::span
   projector(dimension).project(dimension, ref, x, out, threads_of(state_->parameters), state_->monitor);
 }
 
+std::vector<MeshEntity> Session::node_entities() const {
+  return entities_of_nodes(mesh(), [this](std::size_t face, std::int32_t node) { return uv_face(face, node); });
+}
+
+std::vector<CurveParameters> Session::curve_parameters() const {
+  std::vector<CurveParameters> all = state_->result.curve_parameters;
+  all.resize(mesh().curves.size());
+  for (CurveParameters& on : all)
+    for (const Face& face : state_->meshed.model.faces)
+      if (face.ref == on.face && on.ic > 0 && static_cast<std::size_t>(on.ic) <= face.curves.size()) on.ic = host_rank(face, static_cast<std::size_t>(on.ic) - 1);
+  return all;
+}
+
 }  // namespace carreau

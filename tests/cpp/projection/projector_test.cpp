@@ -313,6 +313,21 @@ TEST(Projector, TrianglesOfASurface) {
   }
 }
 
+TEST(Projector, PlacesOnEdgesOfFlatTrianglesHaveNoDistance) {
+  const discrete::Triangulation mesh(discrete::cube(3));
+  const auto surface = std::make_shared<const discrete::DiscreteSurface>(mesh, discrete::find_sharp_lines(mesh));
+  const BuiltGeometry built = discrete::discrete_geometry(surface);
+  Monitor monitor;
+  Projector projector(built.cad, std::dynamic_pointer_cast<const discrete::DiscreteCad>(built.cad), built.model);
+  std::vector<Vec3> x;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface->triangles()); ++t)
+    for (const double w : {0.0, 0.18, 0.3, 0.5, 0.77})
+      for (const Vec2& uv : {Vec2(w, 0), Vec2(0, w), Vec2(w, 1 - w)}) x.push_back(surface->at(t, uv, want_position).s);
+  std::vector<ProjectedPoint> out(x.size());
+  projector.project(2, 0, x, out, 1, monitor);
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT(out[i].distance, 1e-14) << x[i].transpose();
+}
+
 TEST(Projector, EvaluatesCurvesByTheChainRule) {
   const AnalyticCad cad = testing::hemisphere();
   Monitor monitor;

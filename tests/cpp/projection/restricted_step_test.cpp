@@ -45,6 +45,16 @@ TEST(RestrictedStep, DescendsWhereTheHessianIsIndefinite) {
   EXPECT_LT(dot(step.d, Vec2(0.1, 0.1)), 0);
 }
 
+TEST(RestrictedStep, FollowsAWallThatRoundingPointsOutOf) {
+  for (const Region& region : {unit, half}) {
+    const RestrictedStep step = restricted_step(region, {0, 0.5}, {1e-17, 0.32}, identity, identity);
+    EXPECT_EQ(step.to.x(), 0);
+    EXPECT_NEAR(step.to.y(), 0.18, 1e-15);
+  }
+  const RestrictedStep diagonal = restricted_step(half, {0.5, 0.5}, {0.25 - 1e-17, -0.25 - 1e-17}, identity, identity);
+  EXPECT_NEAR(norm(diagonal.to - Vec2(0.25, 0.75)), 0, 1e-14);
+}
+
 TEST(RestrictedStep, RestsAtACornerThatHoldsTheMinimum) {
   const RestrictedStep step = restricted_step(unit, {1, 1}, {-1, -2}, identity, identity);
   EXPECT_EQ(norm(step.d), 0);
