@@ -53,13 +53,16 @@ class _Filling:
             self.model.mesh.addElementsByType(tag, 15, [], [int(self.tags[vertex])])
         for tag, rows in sorted(curves.items()):
             inside = self._fresh(rows)
-            self._add_nodes(1, tag, inside, lambda xyz, tag=tag: self.model.getParametrization(1, tag, xyz))
+            self._add_nodes(1, tag, inside, self._parameters(1, tag))
             self.model.mesh.addElementsByType(tag, LINES[rows.shape[1]], [], self.tags[rows].ravel().tolist())
         for tag, blocks in sorted(faces.items()):
             inside = self._fresh(np.concatenate([rows.ravel() for _, rows in blocks]))
-            self._add_nodes(2, tag, inside, lambda xyz, tag=tag: self.model.getParametrization(2, tag, xyz))
+            self._add_nodes(2, tag, inside, self._parameters(2, tag))
             for name, rows in blocks:
                 self.model.mesh.addElementsByType(tag, TYPES[name], [], self.tags[rows].ravel().tolist())
+
+    def _parameters(self, dimension: int, tag: int) -> Callable[[Any], Any]:
+        return lambda xyz: self.model.getParametrization(dimension, tag, xyz)
 
     def _fresh(self, nodes: Any) -> Any:
         """Nodes that no entity has yet, each once, in their order."""
