@@ -164,7 +164,7 @@ void CrossPatchMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_
   const double area = norm(n);
   double share = regular ? std::max(0.0, (1 - (area > 0 ? least / area : -1)) / (1 - cosine_)) : 0;
   const bool by_length = by_direction() && !(tolerances_.deviation > 0);
-  double most = tolerances_.deviation > 0 ? tolerances_.deviation : tolerances_.share_of_size * ((size_[a] + size_[b] + size_[c]) / 3);
+  double most = tolerances_.deviation_at((size_[a] + size_[b] + size_[c]) / 3);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const Vec3 d = *p[j] - *p[i];

@@ -27,6 +27,9 @@ struct SurfaceTolerances {
   double angle_deg = 0;       ///< A1: of a triangle's normal with the surface's normals at its corners
   double deviation = 0;       ///< A0, model length; 0: `share_of_size` counts
   double share_of_size = 0;   ///< A0 as a share of the size
+
+  /// A0 for triangles or edges of size h.
+  [[nodiscard]] double deviation_at(double h) const noexcept { return deviation > 0 ? deviation : share_of_size * h; }
 };
 
 /// Sums of the shapes of some triangles.

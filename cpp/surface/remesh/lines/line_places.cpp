@@ -5,8 +5,15 @@
 #include <cmath>
 
 #include "support/infinity.h"
+#include "support/segment.h"
 
 namespace carreau {
+
+double LineGeometry::distance(double from, double to, const Vec3& p, const Vec3& q) const {
+  double most = 0;
+  for (const double s : {0.25, 0.5, 0.75}) most = std::max(most, distance_to_segment(near(from + s * (to - from)), p, q));
+  return most;
+}
 
 LinePlaces::LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
                        std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad)

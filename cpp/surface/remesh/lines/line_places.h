@@ -34,6 +34,8 @@ class LineGeometry {
   [[nodiscard]] virtual const std::vector<double>& arcs() const noexcept = 0;
   /// A point of the line there, or no farther from it than the accuracy of the line's data.
   [[nodiscard]] virtual Vec3 near(double arc) const = 0;
+  /// The distance of the line between two places from the chord from p to q.
+  [[nodiscard]] double distance(double from, double to, const Vec3& p, const Vec3& q) const;
   /// Places on the surfaces beside.
   [[nodiscard]] virtual KeptPlaces at(double arc) = 0;
   /// Places on curves of the host: two places where one curve ends and the next begins; empty without curves.

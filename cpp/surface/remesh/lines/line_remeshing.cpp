@@ -10,7 +10,6 @@
 
 #include "curve/unit_discretisation.h"
 #include "support/infinity.h"
-#include "support/segment.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/edits/judgement.h"
 
@@ -73,15 +72,10 @@ class LineRemesher {
 
   // The edge of a line leaves its curve no farther than the tolerance, or than one of the old edges.
   [[nodiscard]] double distance(const Node& p, const Node& q) const {
-    double most = 0;
-    for (const double s : {0.25, 0.5, 0.75})
-      most = std::max(most, distance_to_segment(places_.near(p.arc + s * (q.arc - p.arc)), mesh_.position(p.vertex),
-                                                mesh_.position(q.vertex)));
-    return most;
+    return places_.distance(p.arc, q.arc, mesh_.position(p.vertex), mesh_.position(q.vertex));
   }
   [[nodiscard]] double tolerated(std::int32_t v, std::int32_t next) const {
-    const SurfaceTolerances& tolerances = mesh_.tolerances();
-    return tolerances.deviation > 0 ? tolerances.deviation : tolerances.share_of_size * mesh_.size_along(v, next);
+    return mesh_.tolerances().deviation_at(mesh_.size_along(v, next));
   }
 
   /// A vertex inside the line that may be left out: beside the shortest edges, the shorter ones first.

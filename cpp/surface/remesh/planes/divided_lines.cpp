@@ -4,21 +4,11 @@
 #include <set>
 
 #include "curve/unit_discretisation.h"
-#include "support/segment.h"
 #include "surface/remesh/planes/borders.h"
 
 namespace carreau {
 
 namespace {
-
-// As the line leaves its chords (line_remeshing).
-bool is_near(const BorderInput& input, const WorkedLine& line, double from, double to, const Vec3& p, const Vec3& q,
-             double h) {
-  const double allowed = input.tolerance.deviation > 0 ? input.tolerance.deviation : input.tolerance.share_of_size * h;
-  return std::ranges::all_of(std::array{0.25, 0.5, 0.75}, [&](double s) {
-    return distance_to_segment(line.places->near(from + s * (to - from)), p, q) <= allowed;
-  });
-}
 
 /// Ranks of the vertices of the line that take the n + 1 places at `to`: ascending, both ends at the ends.
 std::vector<std::size_t> nearest_ranks(const std::vector<double>& arcs, const std::vector<double>& to) {
@@ -119,7 +109,7 @@ std::optional<DividedLine> divide_line(const BorderInput& input, std::size_t ran
     };
     bool near = true;
     for (std::size_t j = 1; near && j < to.size(); ++j)
-      near = is_near(input, worked, to[j - 1], to[j], at(j - 1), at(j), h[ranks[j]]);
+      near = worked.places->distance(to[j - 1], to[j], at(j - 1), at(j)) <= input.tolerance.deviation_at(h[ranks[j]]);
     if (near) return divided;
     least = std::max(least, static_cast<int>(to.size()) - 1);
   }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "euler_number.h"
-#include "independent/patchworks.h"
+#include "remesh/patchworks.h"
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
 #include "session_of_size.h"

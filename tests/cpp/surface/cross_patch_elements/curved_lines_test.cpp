@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "euler_number.h"
-#include "free_elements/drilled_plate.h"
+#include "cross_patch_elements/drilled_plate.h"
 #include "mesh/elements/jacobian.h"
 #include "session_of_size.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/field_source.h"
-#include "independent/patchworks.h"
+#include "remesh/patchworks.h"
 #include "metric/metric3_algebra.h"
 #include "session_of_size.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "euler_number.h"
-#include "independent/patchworks.h"
+#include "remesh/patchworks.h"
 #include "mesh/surface_mesh.h"
 #include "session_of_size.h"
 #include "surface/remesh/base/sharp_edges.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "euler_number.h"
-#include "independent/patchworks.h"
+#include "remesh/patchworks.h"
 #include "mesh/triangle_search.h"
 #include "session_of_size.h"
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "independent/patchworks.h"
+#include "remesh/patchworks.h"
 #include "session_of_size.h"
 
 namespace carreau {
