@@ -34,6 +34,7 @@ module carreau
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_divide_curve, carreau_model_divide_curve_at
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
+  public :: carreau_model_add_periodicity, carreau_model_add_period, carreau_mesh_periodic
   public :: carreau_model_name_entities, carreau_model_set_face_sides, carreau_mesh_face_sides, carreau_mesh_entity_name
   public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
@@ -52,7 +53,7 @@ module carreau
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv, carreau_mesh_corner_faces
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
-  public :: carreau_mesh_intersections
+  public :: carreau_mesh_intersections, carreau_mesh_regions, carreau_mesh_triangle_sides
   public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_cell_faces
   public :: carreau_mesh_edge_mids
   public :: carreau_mesh_cell_quality, carreau_cell_quality
@@ -815,6 +816,27 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_leave_out_face(session%handle, face_ref, c_text(why))
   end subroutine carreau_model_leave_out_face
+
+  !> slave_faces(i) is the image of master_faces(i); transform(4, 3): the rows of R | d, left out: found. Without faces all
+  !> pairs that the map has.
+  subroutine carreau_model_add_periodicity(session, slave_faces, master_faces, status, transform)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: slave_faces(:), master_faces(:)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), intent(in), optional :: transform(4, 3)
+    real(c_double) :: map(4, 3)
+    map = 0
+    if (present(transform)) map = transform
+    status = c_model_add_periodicity(session%handle, slave_faces, master_faces, &
+                                     int(min(size(slave_faces), size(master_faces)), c_int64_t), map)
+  end subroutine carreau_model_add_periodicity
+
+  subroutine carreau_model_add_period(session, direction, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: direction(:)
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_add_period(session%handle, direction)
+  end subroutine carreau_model_add_period
 
   subroutine carreau_model_read_pardom(session, path, status)
     type(carreau_session), intent(in) :: session
@@ -1667,6 +1689,23 @@ contains
     status = c_mesh_face_sides(mesh%handle, face_ref, solids)
   end subroutine carreau_mesh_face_sides
 
+  !> dimensions(pairs), refs(2, pairs): slave, master; transforms(4, 3, pairs); counts(pairs); nodes(2, all), from 1.
+  subroutine carreau_mesh_periodic(mesh, dimensions, refs, transforms, counts, nodes, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: dimensions(:), refs(:, :), nodes(:, :)
+    real(c_double), allocatable, intent(out) :: transforms(:, :, :)
+    integer(c_int64_t), allocatable, intent(out) :: counts(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: pairs, all
+    pairs = 0
+    all = 0
+    status = c_mesh_periodic_count(mesh%handle, pairs, all)
+    allocate(dimensions(pairs), refs(2, pairs), transforms(4, 3, pairs), counts(pairs), nodes(2, all))
+    if (status /= 0) return
+    status = c_mesh_periodic(mesh%handle, pairs, all, dimensions, refs, transforms, counts, nodes)
+    nodes = nodes + 1
+  end subroutine carreau_mesh_periodic
+
   function carreau_mesh_entity_name(mesh, dimension, ref) result(name)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), intent(in) :: dimension, ref
@@ -1716,6 +1755,32 @@ contains
     status = c_mesh_defects(mesh%handle, merge(1_c_int32_t, 0_c_int32_t, closed), limit, count, c_sentences)
     text = carreau_string(c_sentences)
   end subroutine carreau_mesh_defects
+
+  !> solids(n) and xyz(3, n) of all regions; solid 0 is a hole
+  subroutine carreau_mesh_regions(mesh, solids, xyz, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: solids(:)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: no_solids(0)
+    real(c_double) :: no_places(3, 0)
+    integer(c_int64_t) :: n, count
+    n = 0
+    status = c_mesh_regions(mesh%handle, 0_c_int64_t, n, no_solids, no_places)
+    allocate (solids(n), xyz(3, n))
+    if (n > 0) status = c_mesh_regions(mesh%handle, n, count, solids, xyz)
+  end subroutine carreau_mesh_regions
+
+  subroutine carreau_mesh_triangle_sides(mesh, solids, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: solids(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (solids(2, triangles))
+    status = c_mesh_triangle_sides(mesh%handle, triangles, solids)
+  end subroutine carreau_mesh_triangle_sides
 
   !> triangles(2, n) and xyz(3, n) of the first n pairs, n = min(most, count)
   subroutine carreau_mesh_intersections(mesh, threads, most, count, triangles, xyz, status)

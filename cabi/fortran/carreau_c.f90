@@ -441,6 +441,29 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_part_of_curve
 
+    !> Makes faces periodic: the mesh of slave_faces[i] is the image of the mesh of master_faces[i] (references, from 1)
+    !! under the map x -> R x + d.
+    function c_model_add_periodicity(session, slave_faces, master_faces, n, transform) result(status) &
+        bind(c, name="carreau_model_add_periodicity")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), intent(in) :: slave_faces(*), master_faces(*)
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: transform(*)
+      integer(c_int32_t) :: status
+    end function c_model_add_periodicity
+
+    !> Makes all faces periodic that the translation along `direction` (3 numbers, any length but 0) by the model's
+    !! extent along it carries onto other faces.
+    function c_model_add_period(session, direction) result(status) bind(c, name="carreau_model_add_period")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), intent(in) :: direction(*)
+      integer(c_int32_t) :: status
+    end function c_model_add_period
+
     !> Replaces the model by the content of a file x.pardom.
     function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
       import :: c_char, c_int32_t, c_ptr
@@ -1134,6 +1157,29 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_face
 
+    !> Counts the pairs of entities that periodicities carry onto each other, and their pairs of nodes.
+    function c_mesh_periodic_count(mesh, pairs, nodes) result(status) bind(c, name="carreau_mesh_periodic_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout) :: pairs, nodes
+      integer(c_int32_t) :: status
+    end function c_mesh_periodic_count
+
+    !> Gets the pairs: corners first, curves, faces.
+    function c_mesh_periodic(mesh, capacity, node_capacity, dimensions, refs, transforms, counts, &
+      nodes) result(status) bind(c, name="carreau_mesh_periodic")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity, node_capacity
+      integer(c_int32_t), intent(inout) :: dimensions(*), refs(*)
+      real(c_double), intent(inout) :: transforms(*)
+      integer(c_int64_t), intent(inout) :: counts(*)
+      integer(c_int32_t), intent(inout) :: nodes(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_periodic
+
     !> Gets the solids on both sides of a face by its reference (carreau_model_set_face_sides); 0: none.
     function c_mesh_face_sides(mesh, face_ref, solids) result(status) bind(c, name="carreau_mesh_face_sides")
       import :: c_int32_t, c_ptr
@@ -1200,6 +1246,30 @@ module carreau_c
       real(c_double), intent(inout) :: xyz(*)
       integer(c_int32_t) :: status
     end function c_mesh_intersections
+
+    !> Finds the connected regions of space that the mesh bounds, for programs that fill them with solid elements:
+    !! solids in ascending order, then holes, which no solid fills.
+    function c_mesh_regions(mesh, capacity, count, solids, xyz) result(status) bind(c, name="carreau_mesh_regions")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t), intent(inout) :: solids(*)
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_regions
+
+    !> Copies the solids on both sides of each triangle (m x 2) as carreau_mesh_regions has them: the solid that the
+    !! triangle looks out of, and the solid on the other side; 0: none.
+    function c_mesh_triangle_sides(mesh, capacity, solids) result(status) bind(c, name="carreau_mesh_triangle_sides")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: solids(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_triangle_sides
 
     !> Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
     !! images.

@@ -373,6 +373,19 @@ CARREAU_API carreau_status carreau_model_part_of_face(carreau_session* session, 
  * `whole_ref`, as edges on the other parts of that curve have. Errors: ARGUMENT (no such curve). */
 CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session, int32_t ref, int32_t whole_ref);
 
+/* Makes faces periodic: the mesh of slave_faces[i] is the image of the mesh of master_faces[i] (references, from 1) under the map x -> R x + d.
+ * Curves and corners follow from the faces; faces, curves and corners may be of several pairs. `transform` holds R | d row by row (3 x 4), a
+ * translation, rotation, reflection or product of them; NULL or all 0: found for each pair from its corners. With n = 0 all pairs are found that
+ * the map has. Images lie on the slave's own surface, within 1e-4 of the
+ * model's diagonal. carreau_mesh_generate checks the pairs. Errors: ARGUMENT (n < 0, no such face, a face twice in a pair, lengths that the map
+ * changes, neither faces nor map); of carreau_mesh_generate: MODEL (faces that do not match: how far, where; chains that contradict each other;
+ * prescribed edges that differ). */
+CARREAU_API carreau_status carreau_model_add_periodicity(carreau_session* session, const int32_t slave_faces[],
+                                                         const int32_t master_faces[], int64_t n, const double transform[]);
+/* Makes all faces periodic that the translation along `direction` (3 numbers, any length but 0) by the model's extent along it
+ * carries onto other faces. Errors: ARGUMENT; of carreau_mesh_generate: MODEL (no face matches another one). */
+CARREAU_API carreau_status carreau_model_add_period(carreau_session* session, const double direction[]);
+
 /* Replaces the model by the content of a file x.pardom. On an error the old model stays. Errors: FILE, MODEL. */
 CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
 
@@ -805,7 +818,8 @@ CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const ca
 
 /* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2,
- * with named sets; .off, .obj, .ply, .vtk, .tri. Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters
+ * with named sets; .off, .obj, .ply, .vtk, .tri. Surfaces for programs that fill solids, which are not read: .smesh, .poly (TetGen), .vol
+ * (Netgen), .geo (a script of Gmsh for the .msh file of the same name). Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters
  * option, refs and flag choose how the mesh of a session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves
  * in the parameter plane. .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl.
  * The file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
@@ -957,6 +971,14 @@ typedef struct carreau_face {
  * file describes. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
 
+/* Counts the pairs of entities that periodicities carry onto each other, and their pairs of nodes. Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_mesh_periodic_count(carreau_mesh* mesh, int64_t* out_pairs, int64_t* out_nodes);
+/* Gets the pairs: corners first, curves, faces. By pair: the dimension (0, 1, 2), the references {slave, master}, the map of the master onto
+ * the slave (3 x 4, row by row) and the number of its pairs of nodes; then all nodes {slave, master} (indices from 0), ascending in each pair. Nodes of second order are among
+ * them. Arrays may be NULL and have room for the counts above. Errors: ARGUMENT (room too small). */
+CARREAU_API carreau_status carreau_mesh_periodic(carreau_mesh* mesh, int64_t capacity, int64_t node_capacity, int32_t out_dimensions[],
+                                                 int32_t out_refs[], double out_transforms[], int64_t out_counts[], int32_t out_nodes[]);
+
 /* Gets the solids on both sides of a face by its reference (carreau_model_set_face_sides); 0: none. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t face_ref, int32_t out_solids[2]);
 /* Returns the name that carreau_model_name_entities gave to points (dimension 0), curves (1), a face (2) or a solid (3); "": none, or no
@@ -999,6 +1021,18 @@ CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t clos
  * capacity below *out_count is no error. Finding pairs is CARREAU_OK. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity,
                                                       int64_t* out_count, int32_t out_triangles[], double out_xyz[]);
+
+/* Finds the connected regions of space that the mesh bounds, for programs that fill them with solid elements: solids in ascending order,
+ * then holes, which no solid fills. *out_count: all of them. out_solids gets the numbers of the solids of the first `capacity` regions, 0: a
+ * hole, and out_xyz a point inside each (rows of 3, model length); both may be NULL. A capacity below *out_count is no error. Solids are those of
+ * carreau_model_set_face_sides; a mesh without them has a solid for each region that its triangles look out of. Each point lies halfway
+ * between two triangles on a ray, and its winding number is 1. Errors: ARGUMENT (NULL; the surface is open, or its solids contradict
+ * each other, with the place), SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_regions(carreau_mesh* mesh, int64_t capacity, int64_t* out_count, int32_t out_solids[],
+                                                double out_xyz[]);
+/* Copies the solids on both sides of each triangle (m x 2) as carreau_mesh_regions has them: the solid that the triangle looks out of, and
+ * the solid on the other side; 0: none. Errors as there, and ARGUMENT for a capacity below m. */
+CARREAU_API carreau_status carreau_mesh_triangle_sides(carreau_mesh* mesh, int64_t capacity, int32_t out_solids[]);
 
 /* ---- Fields as images (OpenEXR) ---- */
 

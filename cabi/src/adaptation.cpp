@@ -33,7 +33,7 @@ static_assert(int(carreau::ErrorShape::anisotropic) == CARREAU_ANISOTROPIC);
 
 namespace {
 
-constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t largest_count = std::numeric_limits<std::int32_t>::max();
 
 /// Order of the interface: xx xy xz yy yz zz.
 Metric3 metric_of(const double* m) { return {m[0], m[1], m[2], m[3], m[4], m[5]}; }
@@ -60,9 +60,9 @@ std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* w
 }
 
 std::size_t checked_count(std::int64_t n, const char* name) {
-  if (n >= 0 && n <= most) return static_cast<std::size_t>(n);
+  if (n >= 0 && n <= largest_count) return static_cast<std::size_t>(n);
   throw InvalidArgument(std::string(name) + " is " + std::to_string(n) + "; it must lie between 0 and " +
-                        std::to_string(most));
+                        std::to_string(largest_count));
 }
 
 /// `count` rows of N indices, member `name` of the struct.

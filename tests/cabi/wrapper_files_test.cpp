@@ -95,6 +95,15 @@ TEST_F(WrapperFiles, FacesHaveNamesColoursAndParts) {
   EXPECT_EQ(error_of([&] { session.part_of_curve(77, 1); }).status(), carreau::Status::argument);
 }
 
+TEST_F(WrapperFiles, SidesOfABowlArePeriodic) {
+  carreau::Session session = session_of(paraboloid());
+  EXPECT_EQ(error_of([&] { session.add_period({0, 0, 0}); }).status(), carreau::Status::argument);
+  const std::array<std::int32_t, 1> face{1};
+  EXPECT_EQ(error_of([&] { session.add_periodicity(face, face); }).status(), carreau::Status::argument);
+  EXPECT_EQ(session.generate(), carreau::Outcome::complete);
+  EXPECT_TRUE(session.mesh().periodic().empty());
+}
+
 TEST_F(WrapperFiles, StopsFromACallback) {
   carreau::Session session;
   carreau::Geometry geometry = paraboloid();

@@ -328,6 +328,9 @@ def test_arrays_become_a_mesh():
     mesh = carreau.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], face_ids=[1, 2, 3, 3])
     assert mesh.check(closed=True) == [] and mesh.quality.area == pytest.approx(1.5 + math.sqrt(3) / 2)
     assert [face.triangles for face in mesh.faces] == [1, 1, 2]
+    solids, inside = mesh.regions()
+    assert solids.tolist() == [1] and min(inside[0]) > 0 and sum(inside[0]) < 1
+    assert mesh.triangle_sides.tolist() == [[1, 0]] * 4
     crossing = carreau.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.2, 0.2, -1), (0.3, 0.2, 1), (0.2, 0.3, 1)], [(0, 1, 2), (3, 4, 5)])
     pairs, places = crossing.crossings()
     assert pairs.tolist() == [[0, 1]] and abs(places[0, 2]) < 1e-12
@@ -342,6 +345,20 @@ def test_faces_that_fail_are_left_out(caplog):
     assert [face.ref for face in mesh.failed] == [2] and mesh.failed[0].why
     assert mesh.quality.area == pytest.approx(1)
     assert any("face 2 has no mesh" in record.getMessage() for record in caplog.records)
+
+
+def test_faces_are_images_of_each_other():
+    session = carreau.Session(hphydef=0.2)
+    session.add([carreau.Patch(lambda u, v, k=k: (u, v, k + 0.1 * np.sin(3 * u))) for k in range(2)])
+    session.add_periodicity([2], [1], [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 1)])
+    mesh = session.generate()
+    dimension, slave, master, transform, nodes = mesh.periodic()[-1]
+    assert (dimension, slave, master) == (2, 2, 1) and transform[2, 3] == 1 and 2 * len(nodes) == len(mesh.vertices)
+    assert np.abs(mesh.vertices[nodes[:, 1]] + (0, 0, 1) - mesh.vertices[nodes[:, 0]]).max() < 1e-12
+    with pytest.raises(carreau.ArgumentError):
+        session.add_period((0, 0, 0))
+    with pytest.raises(ValueError):
+        session.add_periodicity([2], [])
 
 
 def test_faces_are_left_out_by_hand():

@@ -33,7 +33,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
     {"--depth", "Curvature"},         {"--element", "Elements"},    {"--cross-patch", "Elements"},
-    {"--sharp-angle", "Elements"},    {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
+    {"--sharp-angle", "Elements"},    {"--periodic", "Elements"},   {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
     {"--use", "Last mesh"},           {"--transfer", "Last mesh"},  {"--formula", "Field by a formula"},
     {"--iterations", "Field by a formula"},                         {"--convergence", "Field by a formula"},
     {"--differences", "Field by a formula"},                        {"--tolerance", "Error estimate"},
@@ -51,13 +51,14 @@ constexpr GroupOf groups_of_options[] = {
     {"--lengths", "Grids"},           {"--step", "Grids"},          {"--fill", "Grids"},
     {"--join", "Grids"},              {"--join-nodes", "Grids"},    {"--domain", "Formulas and hosts"},
     {"--host", "Formulas and hosts"}, {"--env", "Parameters"},      {"--effort", "Parameters"},   {"--set", "Parameters"},
+    {"--engine", "Solids"},           {"--engine-seconds", "Solids"},  {"--engine-memory", "Solids"},
     {"--threads", "Processes"},       {"--parts", "Processes"},     {"--dump-failed", "Diagnosis"},
     {"--help", "Help"},               {"--help-all", "Help"},
 };
 
 /// The options that the short help prints.
 constexpr const char* most_used[] = {"--output", "--size", "--angle",   "--chord",       "--max", "--gradation", "--face-size",
-                                     "--anisotropic", "--element", "--cross-patch", "--mesh", "--sol", "--formula", "--tolerance", "--threads", "--set"};
+                                     "--anisotropic", "--element", "--cross-patch", "--mesh", "--sol", "--formula", "--tolerance", "--engine", "--threads", "--set"};
 
 constexpr std::size_t short_enough = 18;  // options that the short help prints as a whole
 constexpr std::size_t name_width = 32;

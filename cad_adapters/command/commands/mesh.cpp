@@ -4,8 +4,11 @@
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "base/json_output.h"
 #include "base/output_files.h"
 #include "base/ranks.h"
 #include "base/signals.h"
@@ -18,12 +21,16 @@
 #include "inputs/open_input.h"
 #include "inputs/several_input.h"
 #include "mesh/curve_edges.h"
+#include "mesh/periodic_faces.h"
 #include "mesh/failed_faces.h"
 #include "mesh/groups.h"
 #include "mesh/mesh_parameters.h"
 #include "mesh/mesh_summary.h"
 #include "mesh/progress.h"
 #include "report/report_content.h"
+#include "volume/engines.h"
+#include "volume/fill_solids.h"
+#include "volume/volume_files.h"
 
 namespace command {
 namespace {
@@ -88,6 +95,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   require(session, input.give_to(session));
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
+  set_periodic(session, options);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -192,7 +200,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || suffix_of(path) == ".txt" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -207,6 +215,10 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       write_text(path, page_of(run));
     else if (suffix_of(path) == group_table_suffix)
       write_text(path, group_table(run.mesh));
+    else if (run.volume_text)
+      write_text(path, run.volume_text(suffix_of(path)));
+    else if (suffix_of(path) == ".txt")
+      write_text(path, pairs_text(run.mesh));
     else
       write_mesh(run.mesh, path);
   }
@@ -252,6 +264,19 @@ void refuse_with_parts(const MeshOptions& options) {
       throw Failure("'" + path + "' is made of the whole mesh: --parts writes .meshb and .pvtu.");
 }
 
+/// The largest size that options allow; 0: any.
+double largest_size(carreau_session* session, const MeshOptions& options) {
+  double size = 0;
+  if (!options.maximum.empty()) require(session, carreau_get_real(session, "hgeomax", &size));
+  return std::max(size, 0.0);
+}
+
+/// The file of the surface that no engine could fill: "part.surface.msh" beside "part.inp".
+std::string kept_surface(const MeshOptions& options) {
+  const std::string& path = options.outputs.front();
+  return path.substr(0, path.size() - suffix_of(path).size()) + ".surface.msh";
+}
+
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
@@ -262,8 +287,11 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     throw Failure("--sol-field chooses a field of a file .sol, and no option names one.");
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
-  std::vector<std::string> suffixes = written_meshes;
-  suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
+  const std::string engine = options.volume.is_volume ? found_engine(options.volume.engine) : "";
+  if (!engine.empty() && ranks != nullptr) throw Failure("carreau volume runs in one process.");
+  std::vector<std::string> suffixes = engine.empty() ? mesh_suffixes : volume_suffixes;
+  if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
+  if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
@@ -302,6 +330,12 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any && (!failed.empty() || !input->is_wires())) throw Failure(failed.empty() ? "There is no triangle." : failed);
   if (part == nullptr && (!options.quiet || options.json || has_report(options))) run.short_edges = find_short_edges(run.session, run.mesh, run.quality);
+  std::optional<VolumeMesh> volume;
+  if (!engine.empty()) {
+    if (!failed.empty()) throw Failure("No engine can fill the mesh: " + failed);
+    volume = fill_solids(run.mesh, options, engine, largest_size(run.session, options), kept_surface(options), progress);
+    run.volume_text = [&](const std::string& suffix) { return volume_text(*volume, suffix); };
+  }
   run.warnings = progress.warnings();
   if (has_report(options)) measure(run.session);
   const Stopwatch writing;
@@ -317,8 +351,16 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     if (!line.empty()) progress.line(line);
     progress.attention("crossing", part != nullptr ? crossing_lines_of_parts(run) : crossing_lines(run.crossings, *input));  // shown last
   }
+  if (volume)
+    for (const std::string& line : volume_lines(*volume)) progress.line(line);
   run.warnings = progress.warnings();
-  if (options.json) print_json(run);
+  if (options.json && volume) {
+    nlohmann::ordered_json json = summary_json(run, false);
+    json["volume"] = volume_json(*volume);
+    print_json("volume", json);
+  } else if (options.json) {
+    print_json(run);
+  }
   if (failed.empty() && lost.empty()) return all_faces;
   for (const std::string& sentence : {lost, failed})
     if (!sentence.empty()) progress.error(sentence);

@@ -18,12 +18,20 @@ struct SizesFile {
   std::size_t faces = 0, entities = 0, near = 0;
 };
 
+/// The engine that fills solids, of `carreau volume`.
+struct VolumeChoice {
+  bool is_volume = false;
+  std::string engine;                  ///< empty: the first one on the machine
+  double seconds = 3600, gigabytes = 0;  ///< its limits; 0: none
+};
+
 struct MeshOptions : InputChoice {
   std::string input;
   std::vector<std::string> more_inputs;  ///< of `carreau mesh`: files beside it
   std::string repeat;       ///< shell_line() of all of this, for reports
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
+  VolumeChoice volume;      ///< of `carreau volume`
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -43,6 +51,7 @@ struct MeshOptions : InputChoice {
   std::string group_by;                       ///< part, face or color; empty: faces keep their names
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
+  std::vector<std::string> periodic;          ///< "x", "1,0,0", "rotate:...", "slave=master"
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores

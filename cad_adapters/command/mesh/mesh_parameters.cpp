@@ -16,6 +16,7 @@
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
 #include "mesh/near.h"
+#include "mesh/periodic_faces.h"
 #include "mesh/selection.h"
 #include "mesh/sizes_file.h"
 
@@ -269,6 +270,7 @@ void check_words(const MeshOptions& options) {
   for (const std::string& each : options.sizes_on) parse_length(parse_assignment(each, "--size-on").second, "--size-on");
   for (const std::string& each : options.near) (void)parse_near(each, "--near");
   check_curve_edges(options);
+  check_periodic(options);
   if (options.settings.empty()) return;
   const SessionHandle session = make_session();
   for (const std::string& each : options.settings) check_setting(session.get(), each, "--set");

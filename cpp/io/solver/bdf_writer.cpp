@@ -15,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 32, small_field = 8, large_field = 16, largest_number = 99'999'999;
+constexpr std::size_t max_property_name = 32, small_field = 8, large_field = 16, largest_number = 99'999'999;
 
 const char* card_of(CellKind kind) noexcept {
   switch (kind) {
@@ -119,7 +119,7 @@ void add_sets(const ElementSets& sets, const std::vector<std::size_t>& propertie
 }  // namespace
 
 std::string bdf_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_property_name);
   if (std::max(sets.elements, mesh.vertices.size()) > largest_number)
     throw InvalidArgument("the mesh has more nodes or elements than the eight digits of .bdf can number");
   const std::vector<std::size_t> properties = properties_of(sets);

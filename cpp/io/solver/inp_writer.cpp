@@ -10,7 +10,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 80, number_width = 20, a_line = 16;
+constexpr std::size_t max_set_name = 80, number_width = 20, a_line = 16;
 
 /// Shells of three to eight nodes, which have the order of the format, with the names of CalculiX: S6 is STRI65 in
 /// Abaqus.
@@ -79,10 +79,25 @@ void add_node_set(const std::string& name, const std::vector<const CurveSet*>& c
   list.end();
 }
 
+// Nodes of both faces of a pair, in matching order.
+void add_periodic(const FlatMesh& mesh, std::string& text) {
+  std::size_t pair = 0;
+  for (const PeriodicLink& link : mesh.periodic) {
+    if (link.dimension != 2) continue;
+    ++pair;
+    for (const std::size_t side : {0U, 1U}) {
+      text.append("*NSET, NSET=periodic_").append(std::to_string(pair)).append(side == 0 ? "_slave" : "_master").append(", UNSORTED\n");
+      List list(text);
+      for (const auto& nodes : link.nodes) list.add(std::to_string(nodes[side] + 1));
+      list.end();
+    }
+  }
+}
+
 }  // namespace
 
 std::string inp_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_set_name);
   std::string text = "*HEADING\nmesh by Carreau\n";
   add_nodes(mesh, text);
   for (const FaceSet& face : sets.faces) add_face(face, text);
@@ -109,6 +124,7 @@ std::string inp_text(const FlatMesh& mesh) {
     for (const std::size_t v : each.vertices) list.add(std::to_string(v + 1));
     list.end();
   }
+  add_periodic(mesh, text);
   return text;
 }
 

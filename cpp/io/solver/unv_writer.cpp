@@ -10,7 +10,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 40;
+constexpr std::size_t max_group_name = 40;
 constexpr int beam = 21, beam_of_order_2 = 24, colour = 7, node_code = 7, element_code = 8;
 
 /// Descriptor of a thin shell.
@@ -145,7 +145,7 @@ void add_groups(const ElementSets& sets, std::string& text) {
 }  // namespace
 
 std::string unv_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_group_name);
   std::string text;
   add_vertices(mesh, text);
   add_elements(sets, text);
