@@ -166,7 +166,7 @@ TEST(CadLibrary, ListsTheContentOfAFile) {
 }
 
 // press.step: a plate with two stamps on it, and names, layers and automatic names ("#197") in the file.
-TEST(CadLibrary, TellsNamesLayersAndTheTree) {
+TEST(CadLibrary, ListsNamesLayersAndTheTree) {
   Session session;
   File file;
   EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/press.step").c_str(), nullptr, &file.handle));
@@ -207,7 +207,7 @@ TEST(CadLibrary, TellsNamesLayersAndTheTree) {
   EXPECT_EQ(named, 1);
 }
 
-TEST(CadLibrary, TellsContactsAndTheirAreas) {
+TEST(CadLibrary, MeasuresContacts) {
   Session session;
   File file;
   EXPECT_EQ(carreau_cad_count_contacts(nullptr, nullptr), CARREAU_ERR_ARGUMENT);

@@ -120,7 +120,7 @@ class CadFile:
 
     def entity_name(self, dimension: int, number: int) -> str:
         """The name of a vertex (dimension 0), an edge (1), a face (2) or a solid (3); "": none."""
-        return text_of(cad_lib().cad_entity_name(self._handle, dimension, number))
+        return str(text_of(cad_lib().cad_entity_name(self._handle, dimension, number)))
 
     @property
     def tree(self) -> list[CadTreeRow]:

@@ -70,14 +70,15 @@ class Sweep {
   [[nodiscard]] const std::array<double, 2>& inside() const { return inside_; }
 
  private:
-  double length(double y) {
+  /// `is_inside`: y is no end of a strip, so that the middle of the longest piece is a point of both regions.
+  double length(double y, bool is_inside = false) {
     p_.at(y, xp_), q_.at(y, xq_);
     double sum = 0;
     for (std::size_t i = 0, k = 0; i + 1 < xp_.size() && k + 1 < xq_.size();) {
       const double begin = std::max(xp_[i], xq_[k]), end = std::min(xp_[i + 1], xq_[k + 1]);
       if (end > begin) {
         sum += end - begin;
-        if (end - begin > longest_) longest_ = end - begin, inside_ = {(begin + end) / 2, y};
+        if (is_inside && end - begin > longest_) longest_ = end - begin, inside_ = {(begin + end) / 2, y};
       }
       (xp_[i + 1] < xq_[k + 1] ? i : k) += 2;
     }
@@ -86,7 +87,7 @@ class Sweep {
 
   /// The length is linear in y but where borders of both regions cross.
   double integral(double low, double at_low, double high, double at_high, int depth) {
-    const double middle = (low + high) / 2, at_middle = length(middle), mean = (at_low + at_high) / 2;
+    const double middle = (low + high) / 2, at_middle = length(middle, true), mean = (at_low + at_high) / 2;
     if (depth >= deepest_division) return mean * (high - low);
     // Two kinks may be symmetric about the middle.
     constexpr double elsewhere = 0.3;

@@ -82,6 +82,7 @@ class ContactAreas {
     std::unique_ptr<BRepTopAdaptor_FClass2d> inside;
     Handle(ShapeAnalysis_Surface) projection;
     std::optional<double> area;
+    std::optional<std::vector<Segment>> borders;  // in its own plane
   };
   Looked& at(int f) { return looked_[static_cast<std::size_t>(f - 1)]; }
   [[nodiscard]] TopoDS_Face face(int f) const { return TopoDS::Face(faces_(f)); }
@@ -209,11 +210,19 @@ class ContactAreas {
     return all;
   }
 
+  const std::vector<Segment>& borders(int f) {
+    Looked& looked = at(f);
+    if (!looked.borders) looked.borders = segments(f, surface(f).Plane());
+    return *looked.borders;
+  }
+
   double common_area_of_planes(int f, int g, gp_Pnt& place) {
     if (outside_of_plane(f) * outside_of_plane(g) > 0) return 0;
+    // A face with many borders, which may touch many others, is divided once.
+    if (borders(f).size() < borders(g).size()) std::swap(f, g);
     const gp_Pln plane = surface(f).Plane();
     std::array<double, 2> inside{};
-    const double common = common_area(segments(f, plane), segments(g, plane), inside);
+    const double common = common_area(borders(f), segments(g, plane), inside);
     place = ElSLib::Value(inside[0], inside[1], plane);
     return common;
   }
