@@ -496,7 +496,7 @@ contains
     closest = reshape(points, [3, n])
   end subroutine carreau_project
 
-  !> Of vertices: 0 points, 1 curves, 2 faces, and their references
+  !> Entities that vertices lie on: 0 points, 1 curves, 2 faces, and their references
   subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: dimensions(:), references(:)
