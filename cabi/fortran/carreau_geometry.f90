@@ -6,8 +6,8 @@
 module carreau_geometry
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
   use carreau, only: carreau_session, carreau_mesh, carreau_mesh_count, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, &
-    carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
-    carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
+    carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, &
+    carreau_curve_value_fn, carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
   use carreau_c, only: c_cad
   use carreau_geometry_c
   implicit none
@@ -496,7 +496,7 @@ contains
     closest = reshape(points, [3, n])
   end subroutine carreau_project
 
-  !> Of vertices: 0 points, 1 curves, 2 faces, and their references
+  !> Entities that vertices lie on: 0 points, 1 curves, 2 faces, and their references
   subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), allocatable, intent(out) :: dimensions(:), references(:)

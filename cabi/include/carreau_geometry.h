@@ -419,8 +419,8 @@ CARREAU_API carreau_status carreau_project(carreau_session* session, int32_t dim
 CARREAU_API carreau_status carreau_mesh_vertex_entities(carreau_mesh* mesh, int64_t capacity, int32_t out_dimensions[],
                                                         int32_t out_references[]);
 /* Gives the parameters of both ends of each edge of carreau_mesh_edges, k x 2, on curve number ic (k) of a face (k), as callbacks get them.
- * A closed curve has one parameter at its first edge and another at its last. Where vertices have left the curve (narrow faces that became
- * one curve), t is NaN, and so it is on surfaces given as triangles; face and ic are 0 on a curve without any. Mesh of a session only. Each
+ * A closed curve has one parameter at its first edge and another at its last. t is NaN where vertices have left the curve (narrow faces
+ * that became one curve), and on surfaces given as triangles; face and ic are 0 on a curve without any. Mesh of a session only. Each
  * array may be NULL. Errors: ARGUMENT (capacity below the number of edges), SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_edge_parameters(carreau_mesh* mesh, int64_t capacity, double out_t[], int32_t out_faces[],
                                                         int32_t out_ics[]);

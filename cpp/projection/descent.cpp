@@ -19,7 +19,7 @@ constexpr double halved = 0.35;
 
 void Descent::finish(const Vec2& step) {
   const double du = step.x(), dv = step.y();
-  result_ = (at_ + step).cwiseMax(region_.low).cwiseMin(region_.high), beyond_ = step;
+  result_ = (at_ + step).cwiseMax(region_.low).cwiseMin(region_.high);
   xyz_ = jet_.s + du * jet_.su + dv * jet_.sv + (0.5 * du * du) * jet_.suu + (du * dv) * jet_.suv + (0.5 * dv * dv) * jet_.svv;
 }
 

@@ -24,8 +24,6 @@ class Descent {
   /// After the last take(). False: no place could be evaluated.
   [[nodiscard]] bool found() const noexcept { return found_; }
   [[nodiscard]] const Vec2& parameters() const noexcept { return result_; }
-  /// The way from the last evaluated place to the result.
-  [[nodiscard]] const Vec2& beyond() const noexcept { return beyond_; }
   [[nodiscard]] const Vec3& xyz() const noexcept { return xyz_; }
 
  private:
@@ -34,7 +32,7 @@ class Descent {
 
   Vec3 x_;
   Region region_;
-  Vec2 trial_, at_, step_, result_, beyond_;
+  Vec2 trial_, at_, step_, result_;
   SurfaceJet jet_;  // at at_
   Vec3 xyz_;
   double size_ = 0, diagonal_ = 0, square_ = 0, move_ = 0;

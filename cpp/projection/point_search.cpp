@@ -100,7 +100,7 @@ PlaceRequest PointSearch::request() const {
   return {candidate.entity, -1, descent_.place()};
 }
 
-void PointSearch::take(const SurfaceJet& jet, const CurveJet& curve, Cad& cad) {
+void PointSearch::take(const SurfaceJet& jet, Cad& cad) {
   if (descent_.take(jet)) return;
   const Candidate& candidate = candidates_[next_++];
   if (descent_.found()) {
@@ -110,14 +110,7 @@ void PointSearch::take(const SurfaceJet& jet, const CurveJet& curve, Cad& cad) {
     const Pieces& pieces = pieces_of(candidate);
     if (square < best_.square && (of != nullptr || !pieces.domain || pieces.domain->contains(descent_.parameters(), cad))) {
       best_.entity = candidate.entity, best_.xyz = descent_.xyz(), best_.square = square;
-      if (of != nullptr) {
-        const double dt = descent_.beyond().x();
-        best_.place = {of->face, of->curve, descent_.parameters()};
-        best_.uv = curve.c + dt * curve.ct + (0.5 * dt * dt) * curve.ctt;
-      } else {
-        best_.place = {candidate.entity, -1, descent_.parameters()};
-        best_.uv = descent_.parameters();
-      }
+      best_.place = {of != nullptr ? of->face : candidate.entity, of != nullptr ? of->curve : -1, descent_.parameters()};
     }
   }
   begin();

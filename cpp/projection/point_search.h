@@ -32,14 +32,13 @@ class PointSearch {
   /// False when the search has ended.
   [[nodiscard]] bool goes_on() const noexcept { return next_ < candidates_.size(); }
   [[nodiscard]] PlaceRequest request() const;
-  /// Takes the values at the request; of a curve, the position along it and its derivatives, as if v had no influence. `curve`: its values
-  /// in the parameter plane. `cad`: for the domains of faces.
-  void take(const SurfaceJet& jet, const CurveJet& curve, Cad& cad);
+  /// Takes the values at the request; of a curve, the position along it and its derivatives, as if v had no influence. `cad`: for the domains
+  /// of faces.
+  void take(const SurfaceJet& jet, Cad& cad);
 
   struct Found {
     std::int32_t entity = -1;  ///< rank of the entity; -1: none was found
     PlaceRequest place;        ///< on a curve its t
-    Vec2 uv;                   ///< in the face
     Vec3 xyz;
     double square = 0;  ///< of the distance
   };

@@ -278,7 +278,7 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
       for (std::size_t k = first; k < end; ++k) {
         const Asked& each = asked[k];
         const SurfaceJet& jet = jets[k - first];
-        searches[each.search].take(each.place.curve >= 0 ? along(jet, each.curve) : jet, each.curve, cad);
+        searches[each.search].take(each.place.curve >= 0 ? along(jet, each.curve) : jet, cad);
       }
     }
   }
@@ -286,7 +286,9 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
     const PointSearch::Found& best = searches[i].best();
     if (best.entity < 0) throw InvalidArgument("no point of the model was found for point " + std::to_string(i));
     const auto entity = static_cast<std::size_t>(best.entity);
-    out[i] = {of_curve ? curve_refs[entity] : model.faces[entity].ref, of_curve ? best.place.parameters : best.uv, best.xyz, std::sqrt(best.square)};
+    out[i] = {of_curve ? curve_refs[entity] : model.faces[entity].ref, best.place.parameters, best.xyz, std::sqrt(best.square)};
+    if (!of_curve && best.place.curve >= 0)  // on the boundary of a face
+      out[i].parameters = cad.curve(model.faces[entity].ref, best.place.curve + 1, want_position, best.place.parameters.x()).c;
   }
 }
 
