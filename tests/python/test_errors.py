@@ -171,7 +171,7 @@ def test_a_bar_is_drawn_and_taken_away(capsys):
 def test_names_that_mean_nothing():
     with pytest.raises(carreau.ArgumentError, match="did you mean 'hphydef'"):
         carreau.mesh("z = x", hphydeff=1)
-    with pytest.raises(carreau.ArgumentError, match="no length"):
+    with pytest.raises(carreau.ArgumentError, match="not a length"):
         carreau.mesh("z = x", size="wide")
     with pytest.raises(carreau.ArgumentError, match="min .* is above max"):
         carreau.mesh("z = x", size=0.1, min=0.3, max=0.2)

@@ -37,7 +37,7 @@ struct EdgesOfCurve {
 
 /// "8", "8,arithmetic:3" or "8,geometric:1.2".
 EdgesOfCurve parse_edges(const std::string& setting, const std::string& text) {
-  const char* expected = "N, N,arithmetic:RATIO or N,geometric:RATIO must follow the sign; N: number of edges";
+  const char* expected = "a number of edges N, or N,arithmetic:RATIO or N,geometric:RATIO must follow the sign";
   EdgesOfCurve told;
   const std::size_t comma = text.find(',');
   if (!parse(std::string_view(text).substr(0, comma), told.edges) || told.edges < 1)
