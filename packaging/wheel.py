@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""wheel.py BUILD OUT: a wheel of the libraries in the CMake build folder BUILD, with OpenCASCADE and all other libraries inside. Outside are glibc
+"""wheel.py BUILD OUT [LEVEL]: a wheel of the libraries in the CMake build folder BUILD, with OpenCASCADE and all other libraries inside. Outside are glibc
 and NumPy alone. It works on every Linux machine of the architecture whose glibc is at least as new as its name tells.
 
 It needs patchelf, readelf and ldd (Debian: patchelf, binutils), setuptools and wheel. Licences are in carreau-*.dist-info/licenses."""
@@ -92,13 +92,13 @@ def licences(added, folder):
         file.write("\n".join(lines) + "\n")
 
 
-def pack(tree, path):
+def pack(tree, path, level):
     """The wheel of a tree, with its RECORD."""
     info, = glob.glob(os.path.join(tree, "*.dist-info"))
     record, rows = os.path.relpath(os.path.join(info, "RECORD"), tree), io.StringIO()
     writer = csv.writer(rows, lineterminator="\n")
     names = sorted(os.path.relpath(os.path.join(folder, name), tree) for folder, _, files in os.walk(tree) for name in files)
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=level) as archive:
         for name in names:
             if name == record:
                 continue
@@ -106,15 +106,16 @@ def pack(tree, path):
                 content = file.read()
             digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
             writer.writerow([name, "sha256=" + digest, len(content)])
-            archive.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED, 6)
+            archive.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED, level)
         writer.writerow([record, "", ""])
         archive.writestr(record, rows.getvalue())
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         raise SystemExit(__doc__.splitlines()[0])
-    build, out = sys.argv[1:]
+    build, out = sys.argv[1:3]
+    level = int(sys.argv[3]) if len(sys.argv) > 3 else 9  # of compression
     with tempfile.TemporaryDirectory() as folder:
         wheel = own_wheel(build, folder)
         tree = os.path.join(folder, "tree")
@@ -132,7 +133,7 @@ def main():
         os.makedirs(out, exist_ok=True)
         version = os.path.basename(wheel).split("-")[1]
         path = os.path.join(out, f"carreau-{version}-py3-none-{tag}.whl")
-        pack(tree, path)
+        pack(tree, path, level)
     size = os.path.getsize(path)
     print(f"{path}: {size / 1e6:.1f} MB, {len(added)} libraries of others inside")
     if size > LARGEST:

@@ -6,9 +6,11 @@ import json
 import math
 import os
 import shutil
+import signal
 import stat
 import subprocess
 import sys
+import time
 import unittest
 
 from work_folder import WorkFolder
@@ -370,6 +372,24 @@ class VolumeTest(WorkFolder):
             self.assertFalse(os.path.exists(self.path("x.msh")))
             self.assertIn("defects     none", self.run_program("check", "x.surface.msh").stdout)
             os.remove(self.path("x.surface.msh"))
+
+    def test_a_signal_ends_the_engine_and_removes_its_files(self):
+        self.cube()
+        os.mkdir(self.path("temporary"))
+        self.fake("tetgen", 'echo $$ > "%s"; exec sleep 60' % self.path("engine"))
+        environment = dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"], TMPDIR=self.path("temporary"))
+        run = subprocess.Popen([PROGRAM, "volume", "cube.off", "-o", "x.msh", "--engine", "tetgen", "--size", "0.5", "-q"], cwd=self.folder, env=environment,
+                               stderr=subprocess.PIPE)
+        wait = lambda done: any(done() or time.sleep(0.05) for _ in range(400))  # noqa: E731
+        self.assertTrue(wait(lambda: os.path.exists(self.path("engine")) and os.path.getsize(self.path("engine")) > 0))
+        with open(self.path("engine")) as file:
+            engine = int(file.read())
+        run.terminate()
+        self.assertEqual(run.wait(20), -signal.SIGTERM)
+        run.stderr.close()
+        self.assertTrue(wait(lambda: os.listdir(self.path("temporary")) == []))
+        self.assertTrue(wait(lambda: not os.path.exists(f"/proc/{engine}/exe") if os.path.isdir("/proc/self") else True))
+        self.assertFalse(os.path.exists(self.path("x.msh")))
 
     def test_results_that_are_wrong_are_found(self):
         """A real engine, whose files are changed."""

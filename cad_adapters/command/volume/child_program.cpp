@@ -83,6 +83,18 @@ std::string end_of(int status) {
   return "signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
 }
 
+/// In the child: waits for the end of the parent. Only functions that POSIX allows after fork().
+[[noreturn]] void remove_at_end(const char* folder, int end) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+  const int nothing = open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
+  char byte = 0;
+  while (read(end, &byte, 1) < 0 && errno == EINTR) {
+  }
+  execl("/bin/rm", "rm", "-rf", folder, static_cast<char*>(nullptr));
+  _exit(127);
+}
+
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
@@ -90,11 +102,24 @@ TemporaryFolder::TemporaryFolder() {
   path_ = (std::filesystem::temp_directory_path(error) / "carreau-XXXXXX").string();
   if (error || mkdtemp(path_.data()) == nullptr)
     throw Failure("A temporary folder cannot be made: " + (error ? error.message() : std::strerror(errno)) + ".");
+  int ends[2];
+  if (pipe(ends) != 0) return;  // then a signal leaves the folder
+  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
+  remover_ = fork();
+  if (remover_ == 0) {
+    close(ends[1]);
+    remove_at_end(path_.c_str(), ends[0]);
+  }
+  close(ends[0]);
+  alive_ = ends[1];
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code error;
   std::filesystem::remove_all(path_, error);
+  if (alive_ >= 0) close(alive_);
+  while (remover_ > 0 && waitpid(remover_, nullptr, 0) < 0 && errno == EINTR) {
+  }
 }
 
 std::string find_program(const std::string& name) {

@@ -8,7 +8,7 @@
 
 namespace command {
 
-/// A folder for files of an engine, removed with the object.
+/// A folder for files of an engine, removed with the object. A small process removes it when a signal ends this program.
 class TemporaryFolder {
  public:
   TemporaryFolder();  ///< Throws Failure.
@@ -19,6 +19,8 @@ class TemporaryFolder {
 
  private:
   std::string path_;
+  int alive_ = -1;    ///< end of a pipe that is open as long as this process runs
+  int remover_ = -1;  ///< process
 };
 
 struct ProgramLimits {
