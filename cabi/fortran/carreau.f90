@@ -34,6 +34,7 @@ module carreau
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_divide_curve, carreau_model_divide_curve_at
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
+  public :: carreau_model_add_periodicity, carreau_model_add_period, carreau_mesh_periodic
   public :: carreau_model_name_entities, carreau_model_set_face_sides, carreau_mesh_face_sides, carreau_mesh_entity_name
   public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
@@ -64,7 +65,7 @@ module carreau
   public :: carreau_metric_reduce, carreau_metric_lengths
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
-  public :: carreau_clear_background, carreau_session_background
+  public :: carreau_clear_background, carreau_session_background, carreau_add_attractor, carreau_clear_attractors
   public :: carreau_estimate, carreau_transfer, carreau_adapt
   public :: carreau_mesh_read_metrics, carreau_set_background_fields, carreau_transfer_files
   public :: carreau_string
@@ -815,6 +816,27 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_leave_out_face(session%handle, face_ref, c_text(why))
   end subroutine carreau_model_leave_out_face
+
+  !> slave_faces(i) is the image of master_faces(i); transform(4, 3): the rows of R | d, left out: found. Without faces all
+  !> pairs that the map has.
+  subroutine carreau_model_add_periodicity(session, slave_faces, master_faces, status, transform)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: slave_faces(:), master_faces(:)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), intent(in), optional :: transform(4, 3)
+    real(c_double) :: map(4, 3)
+    map = 0
+    if (present(transform)) map = transform
+    status = c_model_add_periodicity(session%handle, slave_faces, master_faces, &
+                                     int(min(size(slave_faces), size(master_faces)), c_int64_t), map)
+  end subroutine carreau_model_add_periodicity
+
+  subroutine carreau_model_add_period(session, direction, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: direction(:)
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_add_period(session%handle, direction)
+  end subroutine carreau_model_add_period
 
   subroutine carreau_model_read_pardom(session, path, status)
     type(carreau_session), intent(in) :: session
@@ -1667,6 +1689,23 @@ contains
     status = c_mesh_face_sides(mesh%handle, face_ref, solids)
   end subroutine carreau_mesh_face_sides
 
+  !> dimensions(pairs), refs(2, pairs): slave, master; transforms(4, 3, pairs); counts(pairs); nodes(2, all), from 1.
+  subroutine carreau_mesh_periodic(mesh, dimensions, refs, transforms, counts, nodes, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: dimensions(:), refs(:, :), nodes(:, :)
+    real(c_double), allocatable, intent(out) :: transforms(:, :, :)
+    integer(c_int64_t), allocatable, intent(out) :: counts(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: pairs, all
+    pairs = 0
+    all = 0
+    status = c_mesh_periodic_count(mesh%handle, pairs, all)
+    allocate(dimensions(pairs), refs(2, pairs), transforms(4, 3, pairs), counts(pairs), nodes(2, all))
+    if (status /= 0) return
+    status = c_mesh_periodic(mesh%handle, pairs, all, dimensions, refs, transforms, counts, nodes)
+    nodes = nodes + 1
+  end subroutine carreau_mesh_periodic
+
   function carreau_mesh_entity_name(mesh, dimension, ref) result(name)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), intent(in) :: dimension, ref
@@ -2058,6 +2097,24 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_clear_background(session%handle)
   end subroutine carreau_clear_background
+
+  !> vertices(3, n); elements(3, m) of indices from 1: a triangle, an edge (a, b, b), a point (a, a, a).
+  subroutine carreau_add_attractor(session, vertices, elements, size_on, surrounding, reach, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: vertices(:, :), size_on, surrounding, reach
+    integer(c_int32_t), intent(in) :: elements(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(vertices, 1) /= 3 .or. size(elements, 1) /= 3) return
+    status = c_add_attractor(session%handle, size(vertices, 2, kind=c_int64_t), vertices, size(elements, 2, kind=c_int64_t), &
+      elements - 1, size_on, surrounding, reach)
+  end subroutine carreau_add_attractor
+
+  subroutine carreau_clear_attractors(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_clear_attractors(session%handle)
+  end subroutine carreau_clear_attractors
 
   subroutine carreau_session_background(session, report, status)
     type(carreau_session), intent(in) :: session

@@ -441,6 +441,29 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_part_of_curve
 
+    !> Makes faces periodic: the mesh of slave_faces[i] is the image of the mesh of master_faces[i] (references, from 1)
+    !! under the map x -> R x + d.
+    function c_model_add_periodicity(session, slave_faces, master_faces, n, transform) result(status) &
+        bind(c, name="carreau_model_add_periodicity")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), intent(in) :: slave_faces(*), master_faces(*)
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: transform(*)
+      integer(c_int32_t) :: status
+    end function c_model_add_periodicity
+
+    !> Makes all faces periodic that the translation along `direction` (3 numbers, any length but 0) by the model's
+    !! extent along it carries onto other faces.
+    function c_model_add_period(session, direction) result(status) bind(c, name="carreau_model_add_period")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), intent(in) :: direction(*)
+      integer(c_int32_t) :: status
+    end function c_model_add_period
+
     !> Replaces the model by the content of a file x.pardom.
     function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
       import :: c_char, c_int32_t, c_ptr
@@ -764,6 +787,29 @@ module carreau_c
       type(c_background_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function c_session_background
+
+    !> Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a
+    !! size that grows linearly with the distance to `surrounding` at the distance `reach`.
+    function c_add_attractor(session, vertex_count, vertices, element_count, elements, size, surrounding, &
+      reach) result(status) bind(c, name="carreau_add_attractor")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: vertex_count
+      real(c_double), intent(in) :: vertices(*)
+      integer(c_int64_t), value :: element_count
+      integer(c_int32_t), intent(in) :: elements(*)
+      real(c_double), value :: size, surrounding, reach
+      integer(c_int32_t) :: status
+    end function c_add_attractor
+
+    !> Removes all attractors.
+    function c_clear_attractors(session) result(status) bind(c, name="carreau_clear_attractors")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_clear_attractors
 
     !> Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there.
     function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
@@ -1110,6 +1156,29 @@ module carreau_c
       type(c_face), intent(inout) :: face
       integer(c_int32_t) :: status
     end function c_mesh_face
+
+    !> Counts the pairs of entities that periodicities carry onto each other, and their pairs of nodes.
+    function c_mesh_periodic_count(mesh, pairs, nodes) result(status) bind(c, name="carreau_mesh_periodic_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout) :: pairs, nodes
+      integer(c_int32_t) :: status
+    end function c_mesh_periodic_count
+
+    !> Gets the pairs: corners first, curves, faces.
+    function c_mesh_periodic(mesh, capacity, node_capacity, dimensions, refs, transforms, counts, &
+      nodes) result(status) bind(c, name="carreau_mesh_periodic")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity, node_capacity
+      integer(c_int32_t), intent(inout) :: dimensions(*), refs(*)
+      real(c_double), intent(inout) :: transforms(*)
+      integer(c_int64_t), intent(inout) :: counts(*)
+      integer(c_int32_t), intent(inout) :: nodes(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_periodic
 
     !> Gets the solids on both sides of a face by its reference (carreau_model_set_face_sides); 0: none.
     function c_mesh_face_sides(mesh, face_ref, solids) result(status) bind(c, name="carreau_mesh_face_sides")

@@ -373,6 +373,19 @@ CARREAU_API carreau_status carreau_model_part_of_face(carreau_session* session, 
  * `whole_ref`, as edges on the other parts of that curve have. Errors: ARGUMENT (no such curve). */
 CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session, int32_t ref, int32_t whole_ref);
 
+/* Makes faces periodic: the mesh of slave_faces[i] is the image of the mesh of master_faces[i] (references, from 1) under the map x -> R x + d.
+ * Curves and corners follow from the faces; faces, curves and corners may be of several pairs. `transform` holds R | d row by row (3 x 4), a
+ * translation, rotation, reflection or product of them; NULL or all 0: found for each pair from its corners. With n = 0 all pairs are found that
+ * the map has. Images lie on the slave's own surface, within 1e-4 of the
+ * model's diagonal. carreau_mesh_generate checks the pairs. Errors: ARGUMENT (n < 0, no such face, a face twice in a pair, lengths that the map
+ * changes, neither faces nor map); of carreau_mesh_generate: MODEL (faces that do not match: how far, where; chains that contradict each other;
+ * prescribed edges that differ). */
+CARREAU_API carreau_status carreau_model_add_periodicity(carreau_session* session, const int32_t slave_faces[],
+                                                         const int32_t master_faces[], int64_t n, const double transform[]);
+/* Makes all faces periodic that the translation along `direction` (3 numbers, any length but 0) by the model's extent along it
+ * carries onto other faces. Errors: ARGUMENT; of carreau_mesh_generate: MODEL (no face matches another one). */
+CARREAU_API carreau_status carreau_model_add_period(carreau_session* session, const double direction[]);
+
 /* Replaces the model by the content of a file x.pardom. On an error the old model stays. Errors: FILE, MODEL. */
 CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
 
@@ -649,6 +662,21 @@ typedef struct carreau_background_report {
 } carreau_background_report;
 /* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
+
+/* ---- Attractors: sizes near points, edges and triangles ---- */
+
+/* Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a size that
+ * grows linearly with the distance to `surrounding` at the distance `reach`. Farther away the attractor gives no size.
+ * If several attractors, a background mesh or callbacks give sizes, the smallest one counts. All are model lengths.
+ * vertices: vertex_count x 3. elements: element_count x 3 indices of vertices from 0: a triangle; an edge (a, b, b); a
+ * point (a, a, a). The call copies them. Errors: ARGUMENT (a length that is not positive, surrounding below size, numbers
+ * not finite, no element, an index out of range), SEQUENCE. */
+CARREAU_API carreau_status carreau_add_attractor(carreau_session* session, int64_t vertex_count, const double vertices[],
+                                                 int64_t element_count, const int32_t elements[], double size,
+                                                 double surrounding, double reach);
+
+/* Removes all attractors. */
+CARREAU_API carreau_status carreau_clear_attractors(carreau_session* session);
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
 
@@ -942,6 +970,14 @@ typedef struct carreau_face {
 /* Describes face `index`, from 0. The faces of a mesh from a file are its triangle references, ascending, and other faces that the
  * file describes. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
+
+/* Counts the pairs of entities that periodicities carry onto each other, and their pairs of nodes. Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_mesh_periodic_count(carreau_mesh* mesh, int64_t* out_pairs, int64_t* out_nodes);
+/* Gets the pairs: corners first, curves, faces. By pair: the dimension (0, 1, 2), the references {slave, master}, the map of the master onto
+ * the slave (3 x 4, row by row) and the number of its pairs of nodes; then all nodes {slave, master} (indices from 0), ascending in each pair. Nodes of second order are among
+ * them. Arrays may be NULL and have room for the counts above. Errors: ARGUMENT (room too small). */
+CARREAU_API carreau_status carreau_mesh_periodic(carreau_mesh* mesh, int64_t capacity, int64_t node_capacity, int32_t out_dimensions[],
+                                                 int32_t out_refs[], double out_transforms[], int64_t out_counts[], int32_t out_nodes[]);
 
 /* Gets the solids on both sides of a face by its reference (carreau_model_set_face_sides); 0: none. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t face_ref, int32_t out_solids[2]);

@@ -178,6 +178,24 @@ void carry(DiscreteCurve& d, const CurveModel& model, double tolerance, const st
     if (static_cast<int>(u) != d.owner) check_use(d, model, u, tolerance);
 }
 
+void place_inside(DiscreteCurve& d, const std::vector<double>& inside) {
+  const auto keep_ends = [&](auto& values) {
+    const auto first = values.front(), last = values.back();
+    values.assign(inside.size() + 2, first);
+    values.back() = last;
+  };
+  keep_ends(d.r);
+  keep_ends(d.size);
+  keep_ends(d.physical);
+  keep_ends(d.xyz);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    d.r[i + 1] = inside[i];
+    d.size[i + 1] = d.sizes.size_at(inside[i]);
+    d.physical[i + 1] = d.sizes.physical_at(inside[i]);
+  }
+  d.gap = 0;
+}
+
 }  // namespace
 
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options) {
@@ -204,22 +222,17 @@ DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& ru
 
 void place_vertices(DiscreteCurve& d, const std::vector<double>& inside, const CurveModel& model) {
   if (d.indivisible || d.prescribed) return;
-  const auto keep_ends = [&](auto& values) {
-    const auto first = values.front(), last = values.back();
-    values.assign(inside.size() + 2, first);
-    values.back() = last;
-  };
-  keep_ends(d.r);
-  keep_ends(d.size);
-  keep_ends(d.physical);
-  keep_ends(d.xyz);
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    d.r[i + 1] = inside[i];
-    d.size[i + 1] = d.sizes.size_at(inside[i]);
-    d.physical[i + 1] = d.sizes.physical_at(inside[i]);
-  }
-  d.gap = 0;
+  place_inside(d, inside);
   carry(d, model, CurveOptions{}.carry_tolerance);
+}
+
+void place_vertices_at(DiscreteCurve& d, const std::vector<double>& inside, const std::vector<double>& t,
+                       const CurveModel& model) {
+  place_inside(d, inside);
+  std::vector<double> told{0};  // ends are known
+  told.insert(told.end(), t.begin(), t.end());
+  told.push_back(0);
+  carry(d, model, CurveOptions{}.carry_tolerance, told);
 }
 
 bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model, double share) {

@@ -44,5 +44,8 @@ bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model, doub
 /// Moves the vertices inside a curve to other fractions of its length, ascending, strictly between 0 and 1, in every
 /// use. A curve that is one point of space or whose edges are prescribed does not change.
 void place_vertices(DiscreteCurve& discrete, const std::vector<double>& inside, const CurveModel& model);
+/// The same at given parameters of the owner's use, also on curves whose edges are prescribed.
+void place_vertices_at(DiscreteCurve& discrete, const std::vector<double>& inside, const std::vector<double>& t,
+                       const CurveModel& model);
 
 }  // namespace carreau

@@ -36,6 +36,7 @@ class Grading {
         monitor_(monitor),
         fans_(graph),
         segments_(graph.xyz.size(), graph.segments),
+        joined_(graph.xyz.size(), graph.joined),
         front_(graph.xyz.size()) {
     for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
   }
@@ -111,10 +112,18 @@ class Grading {
         through_triangle(from, a, b);
       }
     }
+    leave_joined(v);
     for (const std::int32_t s : segments_.of(v)) {
       const int to = graph_.segments[s][graph_.segments[s][0] == v ? 1 : 0];
       const double length = norm(graph_.xyz[to] - graph_.xyz[v]);
       improve(to, {front_[v].h + slope_ * length, front_[v].h + slope_ * length, {}, fans_.first(to), v, false});
+    }
+  }
+
+  void leave_joined(int v) {
+    for (const std::int32_t s : joined_.of(v)) {
+      const int to = graph_.joined[s][graph_.joined[s][0] == v ? 1 : 0];
+      improve(to, {front_[v].h, front_[v].h, {}, fans_.first(to), v, false});
     }
   }
 
@@ -182,7 +191,7 @@ class Grading {
   double slope_;
   Monitor& monitor_;
   detail::PlaceFans fans_;
-  Incidence segments_;
+  Incidence segments_, joined_;
   std::vector<Front> front_;
   SmallestFirst queue_;
 };

@@ -21,6 +21,7 @@ struct GradationGraph {
   std::vector<Vec3> xyz;
   std::vector<Place> places;
   std::vector<std::array<int, 3>> triangles;  ///< three indices in `places`, any orientation
+  std::vector<std::array<int, 2>> joined = {};  ///< vertices that are one although their places differ
   std::vector<std::array<int, 2>> segments;  ///< vertices joined by a curve, for curves without triangles; may be empty
 };
 

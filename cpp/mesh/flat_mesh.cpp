@@ -77,6 +77,7 @@ FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges) {
       flat.edge_mids.push_back(static_cast<std::int32_t>(mesh.vertices.size()) + mid);
     flat.edge_refs.resize(flat.edges.size(), curve.shown_ref());
   }
+  flat.periodic = mesh.periodic;
   return flat;
 }
 

@@ -46,6 +46,7 @@ struct FlatMesh {
   std::vector<Cell> cells = {};
   std::vector<std::int32_t> edge_mids = {};  ///< node of each edge, index in vertices; empty: edges are straight
   EntityNames names = {};
+  std::vector<PeriodicLink> periodic = {};
   /// Straight solids of a volume mesh, indices from 0: read for background meshes, never written.
   std::vector<std::array<std::int32_t, 4>> tetrahedra = {};
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/cells.h"
+#include "mesh/periodic_link.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -80,6 +81,7 @@ struct SurfaceMesh {
   std::vector<CurveMesh> curves;         ///< as in the topology
   /// Nodes on edges of elements of second order. In a common numbering, these follow the vertices.
   std::vector<Vec3> mid_vertices = {};
+  std::vector<PeriodicLink> periodic = {};
   /// Borders that are not sharp mean nothing: curves have the edges that are sharp, others may lie between faces.
   bool independent = false;
 

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "model/isometry.h"
 #include "model/names.h"
 #include "support/vec.h"
 
@@ -94,6 +96,14 @@ struct GeometryRange {
   int first_point = 1, last_point = 0;
 };
 
+/// Faces that are one under a map: the mesh of each slave is the image of its master's mesh.
+struct Periodicity {
+  std::vector<int> slaves, masters;  ///< references of faces, pair by pair; both empty: all pairs that the map finds
+  std::optional<Isometry> map = {};  ///< from masters to slaves; empty: found
+  /// Length not 0, without a map: the translation along this direction by the extent of the model.
+  Vec3 direction{0, 0, 0};
+};
+
 struct Model {
   std::vector<Face> faces;
   std::string source;  ///< name of the file it was read from; empty: from memory
@@ -101,6 +111,7 @@ struct Model {
   std::map<int, int> shown_points = {};
   std::vector<GeometryRange> geometries = {};  ///< beside the host's own; see Face::geometry
   EntityNames names = {};
+  std::vector<Periodicity> periodicities = {};
   bool plane = false;  ///< all of it lies in the plane z = 0, and files of its mesh have dimension 2
 };
 

@@ -10,7 +10,6 @@
 #include "support/format.h"
 #include "surface/assembly/assembly.h"
 #include "surface/assembly/narrow_collapse.h"
-#include "surface/assembly/shared_chords.h"
 #include "surface/lift/verification.h"
 
 namespace carreau {
@@ -104,8 +103,7 @@ std::vector<FaceCollapse> collapses(CompositeRun& run) {
 
 void assemble_patches(CompositeRun& run) {
   run.show_progress(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
-  separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads,
-                  run.options.parts ? run.options.team : nullptr, run.monitor);
+  separate_shared_chords(run);
   reject_degenerate(run);
   assemble(run.model, run.topology, run.domains, run.curves, faces_with_patches(run), run.patches, run.result);
   if (run.options.parts) run.result.shares = share_out(run);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "curve/edge_accuracy.h"
+#include "periodic/shared_curves.h"
 #include "pipeline/base/run.h"
 #include "pipeline/base/thresholds.h"
 #include "support/stepped_tasks.h"
@@ -18,12 +19,10 @@ namespace {
 
 using namespace thresholds::patches;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void cut_curve(CompositeRun& run, std::size_t c) {
+// `shared`: sizes of periodic curves, of all curves, or none.
+void cut_curve(CompositeRun& run, std::size_t c, const std::vector<SizeSamples>& shared) {
   const SizeSamples* known = run.graded.curves.empty() ? nullptr : &run.graded.curves[c];
+  if (!shared.empty() && run.periodic.has_class[c] != 0) known = &shared[c];
   run.curves[c] =
       discretise_curve(run.curve_model, static_cast<int>(c), run.rules, {.lss = run.options.lss, .known = known});
 }
@@ -79,13 +78,19 @@ bool keeps_prescribed(CompositeRun& run, int face) {
   return false;
 }
 
+// Matched sides have other vertices than their images.
+bool keeps_periodic(const CompositeRun& run, int face) {
+  const std::vector<int>& curves = run.topology.curve_of[face];
+  return !run.periodic.empty() && std::any_of(curves.begin(), curves.end(), [&](int c) { return run.periodic.has_class[c] != 0; });
+}
+
 }  // namespace
 
 void grade_sizes(CompositeRun& run) {
   if (run.options.gradation == 0 || (run.rules.constant() && run.options.proximity == 0)) return;
   const auto start = std::chrono::steady_clock::now();
   run.monitor.progress(Phase::gradation, 0, 0);
-  run.graded = grade_model(run.curve_model, run.rules, run.options, run.supports.diag, run.monitor);
+  run.graded = grade_model(run.curve_model, run.rules, run.options, run.supports.diag, run.monitor, run.periodic);
   run.begin = gradation_share;
   run.result.graded = run.graded.field;
   run.result.report.gradation_rounds = run.graded.rounds;
@@ -97,6 +102,7 @@ void discretise_curves(CompositeRun& run) {
   const auto start = std::chrono::steady_clock::now();
   const std::size_t n = run.topology.curves.size();
   run.curves.resize(n);
+  const std::vector<SizeSamples> shared = run.periodic.empty() ? std::vector<SizeSamples>{} : shared_sizes(run);
   // Rules keep the sizes of points for later, unless there is one size everywhere.
   const bool alone = !run.rules.constant() || !asks_from_threads(run.options, run.cad);
   const std::size_t at_once = alone ? 1 : curves_at_once;
@@ -108,15 +114,17 @@ void discretise_curves(CompositeRun& run) {
     run.show_progress(Phase::curves, run.topology.curves[begin].ref,
              curves_share * static_cast<double>(begin) / static_cast<double>(n));
     run_each(
-        end - begin, alone, run.options.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i); },
+        end - begin, alone, run.options.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i, shared); },
         run.monitor);
     for (std::size_t c = begin; c < end; ++c) {
       edges += run.curves[c].segments();
       if (edges > most) refuse_triangles(Where{.curve = run.topology.curves[c].ref}, static_cast<double>(edges), most);
     }
   }
+  share_vertices(run.periodic, run.curve_model, run.curves);
   keep_to_curves(run);
   separate_coincident_curves(run.curve_model, run.curves);
+  complete_classes(run.periodic, run.curve_model, run.curves);
   run.result.report.seconds_curves = seconds_since(start);
 }
 
@@ -127,7 +135,7 @@ void find_narrow(CompositeRun& run) {
   const auto start = std::chrono::steady_clock::now();
   const bool collapse = run.options.narrow_faces == NarrowFaces::collapse;
   for (NarrowFace& face : find_narrow_faces(run.curve_model, run.curves, run.options.narrow_ratio)) {
-    if (keeps_prescribed(run, face.face)) continue;
+    if (keeps_prescribed(run, face.face) || keeps_periodic(run, face.face)) continue;
     if (!face.point || collapse) (face.point ? narrow.points : narrow.strips).push_back(std::move(face));
   }
   if (collapse) keep_thin_bodies(run.curve_model, run.curves, narrow);
@@ -142,7 +150,7 @@ void refine_boundaries(CompositeRun& run) {
   const auto start = std::chrono::steady_clock::now();
   for (;;) {
     run.domains =
-        refine_domains(run.curve_model, run.rules, run.options, run.limits(), run.narrow, run.curves, run.monitor);
+        refine_domains(run.curve_model, run.rules, run.options, run.limits(), run.narrow, run.curves, run.monitor, &run.periodic);
     if (mesh_as_others(run, run.domains.unmatched)) continue;
     run.between.clear();
     for (const NarrowFace& face : run.narrow.strips)

@@ -13,15 +13,11 @@
 #include "pipeline/mesh_rounds.h"
 #include "pipeline/parts/shares.h"
 #include "surface/assembly/cracks.h"
-#include "surface/free_elements/invalid_elements.h"
+#include "surface/elements/cross_patch/invalid_elements.h"
 
 namespace carreau {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Parameters of vertices on curves. Sides of narrow faces that have become one curve have none: their vertices have moved.
 void place_on_curves(CompositeRun& run) {
@@ -64,11 +60,15 @@ bool any_prescribed(const CompositeRun& run) {
 // Crossings first: elements are made of the triangles that are left.
 std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   std::vector<std::unique_ptr<Inspector>> inspectors;
+  if (run.options.crossing_rounds > 0 && !run.periodic.pairs.empty() && !run.options.parts)
+    inspectors.push_back(make_periodic_inspector());
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
+  else if (run.options.independent && !run.periodic.empty())
+    run.report(Level::warning, "no cross-patch remeshing: faces are periodic");
   else if (run.options.independent)
-    inspectors.push_back(make_free_mesh_inspector());
+    inspectors.push_back(make_cross_patch_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
   return inspectors;
 }
@@ -94,6 +94,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   }
   place_on_curves(run);
   report_prescribed(run);
+  link_periodic(run);
   if (options.cracks) open_cracks(run.result);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);

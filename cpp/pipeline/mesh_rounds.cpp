@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "periodic/shared_curves.h"
 #include "pipeline/base/thresholds.h"
 #include "support/error.h"
 #include "surface/improve/even_edges.h"
@@ -42,9 +43,8 @@ void mesh_without_narrow(CompositeRun& run) {
 }
 
 // Also enforces the gradation of neighbouring edges on the assembled mesh.
-void even_out(CompositeRun& run) {
+void even_out_sampled(CompositeRun& run) {
   const CompositeOptions& options = run.options;
-  if (run.slope() == 0) return;
   if (run.isotropic())
     even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
   else
@@ -53,10 +53,24 @@ void even_out(CompositeRun& run) {
                    run.result, run.monitor);
 }
 
+// Periodic faces stay as they are: faces without control space do.
+void even_out(CompositeRun& run) {
+  if (run.slope() == 0) return;
+  std::vector<std::optional<ControlSpace>> kept(run.model.faces.size());
+  const auto exchange = [&] {
+    for (std::size_t f = 0; f < kept.size() && !run.periodic.empty(); ++f)
+      if (run.periodic.is_periodic[f] != 0) std::swap(kept[f], run.result.spaces[f]);
+  };
+  exchange();
+  even_out_sampled(run);
+  exchange();
+}
+
 void halve_segments(CompositeRun& run, const std::vector<std::pair<std::int32_t, int>>& segments) {
   run.curves = run.cut_curves;
   for (auto edge = segments.rbegin(); edge != segments.rend(); ++edge)
     (void)split_segment(run.curves[edge->first], edge->second, run.curve_model);
+  complete_classes(run.periodic, run.curve_model, run.curves);
   if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, run.curves);
 }
 

@@ -46,7 +46,13 @@ std::vector<EdgeSizes::Source> edges_to_grow_from(const CompositeRun& run, std::
   const double asked = run.options.edge_gradation;
   std::vector<EdgeSizes::Source> sources;
   if (run.isotropic()) sources = short_edges(run, *run.domains.domain[f], on_curves, asked > 0);
-  if (!run.finer.empty()) sources.insert(sources.end(), run.finer[f].begin(), run.finer[f].end());
+  if (run.finer.empty()) return sources;
+  sources.insert(sources.end(), run.finer[f].begin(), run.finer[f].end());
+  for (const FacePair& pair : run.periodic.pairs) {
+    if (pair.master != static_cast<int>(f)) continue;
+    const Isometry back = pair.map.inverse();
+    for (const EdgeSizes::Source& edge : run.finer[pair.slave]) sources.push_back({back(edge.a), back(edge.b), edge.h});
+  }
   return sources;
 }
 
@@ -97,7 +103,7 @@ void make_jobs(PatchJobs& work) {
   const bool reentrant = asks_from_threads(run.options, run.cad);
   work.short_edges.assign(run.model.faces.size(), {});
   for (std::size_t f = 0; f < run.model.faces.size(); ++f) {
-    if (!run.domains.domain[f] || run.has_patch(f)) continue;
+    if (!run.domains.domain[f] || run.has_patch(f) || run.is_slave(f)) continue;
     std::vector<EdgeSizes::Source> grow_from;
     PatchInput input = input_of(work, f, grow_from);
     if (keep_known(work, f, input, grow_from)) continue;
@@ -221,6 +227,14 @@ void keep_in_turn(CompositeRun& run, std::size_t i, std::size_t f) {
   if (run.keeper[f] != team.rank()) run.patches[f].reset();
 }
 
+void carry_all(PatchJobs& work) {
+  CompositeRun& run = work.run;
+  carry_patches(run);
+  for (const FacePair& pair : run.periodic.pairs)
+    if (run.patches[pair.slave]) work.left -= static_cast<std::int64_t>(run.patches[pair.slave]->plane.triangles.size());
+  if (work.left < 0) refuse_triangles({}, static_cast<double>(run.options.max_triangles - work.left), run.options.max_triangles);
+}
+
 void place_narrow_patches(CompositeRun& run) {
   for (std::size_t i = 0; i < run.between.size(); ++i) {
     const int f = run.narrow.strips[i].face;
@@ -241,6 +255,7 @@ void mesh_patches(CompositeRun& run) {
   place_narrow_patches(run);
   for (std::size_t f = 0; f < run.model.faces.size(); ++f)
     if (!run.domains.domain[f] && !run.domains.failure[f].empty() && !run.model.faces[f].discrete) run.fail(f, run.domains.failure[f]);
+  if (!run.periodic.empty()) fail_partners(run);
   PatchJobs work{.run = run};
   work.left = run.options.max_triangles;
   // Narrow faces may be meshed twice in a round, and the spaces belong to the second mesh.
@@ -253,6 +268,7 @@ void mesh_patches(CompositeRun& run) {
     mesh_in_team(work, *run.options.team);
   else
     mesh_here(work);
+  if (!run.periodic.empty()) carry_all(work);
   const bool none = std::all_of(run.keeper.begin(), run.keeper.end(), [](int rank) { return rank == no_process; });
   if (none && work.first_beyond_limit) throw LimitError(*work.first_beyond_limit);
 }

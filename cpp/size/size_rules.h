@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -93,6 +94,17 @@ struct CurveSizes {
   double h = 0;           ///< with the geometric size
 };
 
+class SizeRules;
+
+/// Faces at whose places other faces' sizes count, too.
+class JoinedFaces {
+ public:
+  virtual ~JoinedFaces() = default;
+  /// Intersects metrics of the parameter plane of a face (index in Model::faces) with the metrics of the faces joined to it.
+  virtual void intersect(const SizeRules& rules, int face, std::span<const Vec2> uv, std::span<Metric2> metric) const = 0;
+  virtual void lower(const SizeRules& rules, int face, std::span<const Vec2> uv, std::span<double> h) const = 0;
+};
+
 /// Size: double, or Metric2 of the tangent plane in an orthonormal basis (sizes_at_places.cpp).
 template <typename Size>
 class SizesAtPlaces;
@@ -116,6 +128,10 @@ class SizeRules {
 
   /// These rules with another host, and these sources.
   [[nodiscard]] SizeRules asking(Cad& cad) const { return {model_, topology_, cad, parameters_}; }
+
+  /// The least size of each class of points (indices in Topology::points) holds at all its points, and sizes of faces that
+  /// `faces` joins count for each other from now on. Null: none are joined. Not owned.
+  void join(const std::vector<std::vector<int>>& points, const JoinedFaces* faces);
 
   /// Returns the Want bits that on_surface() needs in its jets.
   [[nodiscard]] unsigned surface_wants() const noexcept;
@@ -154,6 +170,9 @@ class SizeRules {
   /// the geometric size is the size of the nearest regular point of the batch.
   void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
+  /// The same without the sizes of joined faces.
+  void alone_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                        const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
   /// Computes the sizes of rules without metrics; the jets need no more than surface_wants().
   void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   const std::function<double(Vec2)>& fallback, std::span<double> h) const;
@@ -207,6 +226,10 @@ class SizeRules {
   [[nodiscard]] bool asks_curves_only() const noexcept;
 
   double mean_of_answers_around(int point);
+  double alone_physical_at_point(int point);
+  double alone_at_point(int point);
+  void alone_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                        const std::function<double(Vec2)>& fallback, std::span<double> h) const;
 
   const Model& model_;
   const Topology& topology_;
@@ -214,6 +237,8 @@ class SizeRules {
   SizeParameters parameters_;
   GeometricRule rule_;
   std::vector<std::optional<double>> physical_at_point_, size_at_point_;
+  std::map<int, std::vector<int>> joined_points_;  // by point: its class
+  const JoinedFaces* joined_faces_ = nullptr;
 };
 
 }  // namespace carreau

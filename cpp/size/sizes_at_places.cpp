@@ -495,6 +495,18 @@ class SizesAtPlaces {
 
 void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                            const std::function<double(Vec2)>& fallback, std::span<double> h) const {
+  alone_on_surface(face, uv, jets, fallback, h);
+  if (joined_faces_ != nullptr) joined_faces_->lower(*this, face, uv, h);
+}
+
+void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                           const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
+  alone_on_surface(face, uv, jets, fallback, metric);
+  if (joined_faces_ != nullptr) joined_faces_->intersect(*this, face, uv, metric);
+}
+
+void SizeRules::alone_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                                 const std::function<double(Vec2)>& fallback, std::span<double> h) const {
   const SizesAtPlaces<double> sizes(*this);
   sizes.sizes_on_surface(
       face, uv, jets, fallback, [&](std::size_t i, const Place<double>&, double size) { h[i] = size; },
@@ -503,11 +515,11 @@ void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const S
       });
 }
 
-void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                           const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
+void SizeRules::alone_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                                 const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
   if (!uses_metrics()) {
     std::vector<double> h(uv.size());
-    on_surface(face, uv, jets, fallback, h);
+    alone_on_surface(face, uv, jets, fallback, h);
     for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h[i]);
     return;
   }
@@ -554,7 +566,7 @@ double SizeRules::mean_of_answers_around(int point) {
   return clamped_physical(parameters_.hphydef);
 }
 
-double SizeRules::physical_at_point(int point) {
+double SizeRules::alone_physical_at_point(int point) {
   if (parameters_.physical == PhysicalSizes::ignored) return infinity;
   auto& known = physical_at_point_[static_cast<std::size_t>(point)];
   if (!known)
@@ -562,13 +574,36 @@ double SizeRules::physical_at_point(int point) {
   return *known;
 }
 
-double SizeRules::at_point(int point) {
+double SizeRules::alone_at_point(int point) {
   auto& known = size_at_point_[static_cast<std::size_t>(point)];
-  const double physical = physical_at_point(point);
+  const double physical = alone_physical_at_point(point);
   if (!known)
     known = uses_metrics() ? SizesAtPlaces<Metric2>(*this).size_at_point(point, physical)
                            : SizesAtPlaces<double>(*this).size_at_point(point, physical);
   return std::min(*known, physical);
+}
+
+double SizeRules::physical_at_point(int point) {
+  const auto joined = joined_points_.find(point);
+  if (joined == joined_points_.end()) return alone_physical_at_point(point);
+  double least = infinity;
+  for (const int p : joined->second) least = std::min(least, alone_physical_at_point(p));
+  return least;
+}
+
+double SizeRules::at_point(int point) {
+  const auto joined = joined_points_.find(point);
+  if (joined == joined_points_.end()) return alone_at_point(point);
+  double least = infinity;
+  for (const int p : joined->second) least = std::min(least, alone_at_point(p));
+  return least;
+}
+
+void SizeRules::join(const std::vector<std::vector<int>>& points, const JoinedFaces* faces) {
+  joined_points_.clear();
+  for (const std::vector<int>& all : points)
+    for (const int p : all) joined_points_[p] = all;
+  joined_faces_ = faces;
 }
 
 }  // namespace carreau

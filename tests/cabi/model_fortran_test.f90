@@ -50,6 +50,9 @@ program model_fortran_test
   type(carreau_mesh) :: mesh, copy
   type(carreau_face) :: face
   integer(c_int32_t), allocatable :: refs(:), turned(:), of_faces(:), corner_faces(:, :), edge_refs(:)
+  integer(c_int32_t), allocatable :: dimensions(:), pairs(:, :), nodes(:, :)
+  integer(c_int64_t), allocatable :: counts(:)
+  real(c_double), allocatable :: transforms(:, :, :)
   integer(c_int64_t) :: faces, n_curves, points, n, m, k, f, outside
   real(c_double), allocatable :: uv(:, :), xyz(:, :), metrics(:, :)
   integer(c_int32_t) :: status, dimension, i
@@ -130,6 +133,12 @@ program model_fortran_test
   call carreau_mesh_vertices(mesh, xyz, status)
   call check(maxval(abs(read_sol('next.sol', size(xyz, 2)) - xyz(1, :))) < 1d-12, 'a linear field')
   call carreau_clear_background(session, status)
+  call carreau_add_attractor(session, reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0], [3, 2]), reshape([1, 2, 2], [3, 1]), 0.05d0, 0.2d0, &
+    0.5d0, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_add_attractor(session, reshape([0d0, 0d0, 0d0], [3, 1]), reshape([1, 1, 2], [3, 1]), 0.05d0, 0.2d0, 0.5d0, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'an index out of range')
+  call carreau_clear_attractors(session, status)
   call carreau_reset_parameter(session, 'hphymax', status)
   call check(status == CARREAU_OK, carreau_last_error(session))
 
@@ -149,6 +158,22 @@ program model_fortran_test
   call check(status == CARREAU_ERR_PARTIAL, 'one face is missing')
   call carreau_mesh_face(mesh, 2_c_int64_t, face, status)
   call check(face%status == CARREAU_FACE_FAILED .and. face%why == 'it is not wanted', face%why)
+
+  ! The right square is the image of the left one.
+  call carreau_model_clear(session, status)
+  call add_squares(session)
+  call carreau_model_add_periodicity(session, [2], [1], status, &
+      reshape([1d0, 0d0, 0d0, 1d0, 0d0, 1d0, 0d0, 0d0, 0d0, 0d0, 1d0, 0d0], [4, 3]))
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_mesh_generate(session, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_mesh_vertices(mesh, xyz, status)
+  call carreau_mesh_periodic(mesh, dimensions, pairs, transforms, counts, nodes, status)
+  call check(all(pairs(:, size(counts)) == [2, 1]) .and. dimensions(size(counts)) == 2, 'a pair of faces')
+  k = sum(counts(:size(counts) - 1))
+  call check(all(abs(xyz(1, nodes(1, k + 1:)) - xyz(1, nodes(2, k + 1:)) - 1) < 1d-12), 'images of vertices')
+  call carreau_model_add_period(session, [0d0, 1d0, 0d0], status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_mesh_free(copy)
   call carreau_session_free(session)
 contains

@@ -253,6 +253,10 @@ def test_estimates_and_transfers():
     assert np.allclose(session.transfer(mesh.vertices[:, :2] @ (1, 2)), fine.vertices[:, :2] @ (1, 2))
     assert session.transfer(mesh.vertices).shape == fine.vertices.shape
     session.clear_background()
+    session.add_attractor([[0, 0, 0]], [[0, 0, 0]], 0.01, 0.2, 0.5)
+    fine = session.generate()
+    session.clear_attractors()
+    assert len(fine.triangles) > len(session.generate().triangles)
     session.set_background(mesh.vertices, mesh.triangles, sizes=np.full(len(mesh.vertices), 0.2))
     assert len(session.generate().triangles) < len(mesh.triangles) and session.background.outside == 0
 
@@ -341,6 +345,20 @@ def test_faces_that_fail_are_left_out(caplog):
     assert [face.ref for face in mesh.failed] == [2] and mesh.failed[0].why
     assert mesh.quality.area == pytest.approx(1)
     assert any("face 2 has no mesh" in record.getMessage() for record in caplog.records)
+
+
+def test_faces_are_images_of_each_other():
+    session = carreau.Session(hphydef=0.2)
+    session.add([carreau.Patch(lambda u, v, k=k: (u, v, k + 0.1 * np.sin(3 * u))) for k in range(2)])
+    session.add_periodicity([2], [1], [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 1)])
+    mesh = session.generate()
+    dimension, slave, master, transform, nodes = mesh.periodic()[-1]
+    assert (dimension, slave, master) == (2, 2, 1) and transform[2, 3] == 1 and 2 * len(nodes) == len(mesh.vertices)
+    assert np.abs(mesh.vertices[nodes[:, 1]] + (0, 0, 1) - mesh.vertices[nodes[:, 0]]).max() < 1e-12
+    with pytest.raises(carreau.ArgumentError):
+        session.add_period((0, 0, 0))
+    with pytest.raises(ValueError):
+        session.add_periodicity([2], [])
 
 
 def test_faces_are_left_out_by_hand():

@@ -197,6 +197,30 @@ class Mesh {
     return out;
   }
 
+  /// Entities that periodicities carry onto each other: corners (dimension 0), curves (1), faces (2), with nodes {slave, master} from 0.
+  struct PeriodicPair {
+    int dimension = 2, slave = 0, master = 0;
+    std::array<double, 12> transform{};  ///< of the master onto the slave, 3 x 4 row by row
+    std::vector<std::array<std::int32_t, 2>> nodes = {};
+  };
+  [[nodiscard]] std::vector<PeriodicPair> periodic() const {
+    std::int64_t pairs = 0, nodes = 0;
+    done(carreau_mesh_periodic_count(mesh_, &pairs, &nodes));
+    const auto n = static_cast<std::size_t>(pairs);
+    std::vector<std::int32_t> dimensions(n), refs(2 * n), all(2 * static_cast<std::size_t>(nodes));
+    std::vector<double> transforms(12 * n);
+    std::vector<std::int64_t> counts(n);
+    done(carreau_mesh_periodic(mesh_, pairs, nodes, dimensions.data(), refs.data(), transforms.data(), counts.data(), all.data()));
+    std::vector<PeriodicPair> out(n);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = {dimensions[i], refs[2 * i], refs[2 * i + 1]};
+      std::copy_n(transforms.begin() + static_cast<std::ptrdiff_t>(12 * i), 12, out[i].transform.begin());
+      for (std::int64_t k = 0; k < counts[i]; ++k, next += 2) out[i].nodes.push_back({all[next], all[next + 1]});
+    }
+    return out;
+  }
+
   /// Solids on both sides of a face by its reference: the solid that its triangles look out of, and the other solid; 0:
   /// none.
   [[nodiscard]] std::array<std::int32_t, 2> face_sides(int face) const {

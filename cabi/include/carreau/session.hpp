@@ -135,6 +135,16 @@ class Session {
   void color_face(int face, int rgb) { done(carreau_model_color_face(get(), face, rgb)); }
   void part_of_face(int face, int whole) { done(carreau_model_part_of_face(get(), face, whole)); }
   void part_of_curve(int curve, int whole) { done(carreau_model_part_of_curve(get(), curve, whole)); }
+  /// Makes slaves[i] the image of masters[i], faces by reference; `transform` is empty (found) or R | d row by row (3 x 4). Without faces all
+  /// pairs are found that it maps.
+  void add_periodicity(std::span<const std::int32_t> slaves, std::span<const std::int32_t> masters, std::span<const double> transform = {}) {
+    if (slaves.size() != masters.size()) throw std::invalid_argument("slaves and masters must be as many");
+    if (!transform.empty() && transform.size() != 12) throw std::invalid_argument("a transform has 12 numbers");
+    done(carreau_model_add_periodicity(get(), detail::data_or_null(slaves), detail::data_or_null(masters), detail::count_of(slaves.size()),
+                                       detail::data_or_null(transform)));
+  }
+  /// Pairs by the translation along a direction by the extent of the model.
+  void add_period(const Point3& direction) { done(carreau_model_add_period(get(), direction.data())); }
   void read_pardom(const std::string& path) { done(carreau_model_read_pardom(get(), path.c_str())); }
   void write_pardom(const std::string& path) { done(carreau_model_write_pardom(get(), path.c_str())); }
   void check_model() { done(carreau_model_check(get())); }
@@ -257,6 +267,12 @@ class Session {
   void set_vertex_metrics(std::span<const Tensor3> metrics) {
     done(carreau_set_vertex_metrics(get(), detail::count_of(metrics.size()), detail::flat(metrics)));
   }
+  /// Sizes near points (a, a, a), edges (a, b, b) and triangles: carreau_add_attractor. vertices: 3 n numbers.
+  void add_attractor(std::span<const double> vertices, std::span<const Triangle> elements, double size, double surrounding, double reach) {
+    done(carreau_add_attractor(get(), detail::count_of(vertices.size() / 3), detail::data_or_null(vertices),
+                               detail::count_of(elements.size()), detail::flat(elements), size, surrounding, reach));
+  }
+  void clear_attractors() { done(carreau_clear_attractors(get())); }
   void clear_background() { done(carreau_clear_background(get())); }
   [[nodiscard]] carreau_background_report background_report() { return filled(carreau_session_background); }
 

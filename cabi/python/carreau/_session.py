@@ -126,6 +126,23 @@ class SessionBase(Studies):
         none."""
         self._call(lib().model_set_face_sides, face, solid, other_solid)
 
+    def add_periodicity(self, slaves: ArrayLike = (), masters: ArrayLike = (), transform: Optional[ArrayLike] = None) -> None:
+        """Makes slaves[i] the image of masters[i], faces by reference, under a map (3, 4), R | d; None: found.
+
+        Without faces all pairs are found that the map has.
+        """
+        rows = [np.atleast_1d(np.asarray(faces, np.int32)).ravel() for faces in (slaves, masters)]
+        if len(rows[0]) != len(rows[1]):
+            raise ValueError(f"{len(rows[0])} slaves have {len(rows[1])} masters")
+        numbers = None if transform is None else doubles(np.asarray(transform, float).ravel(), "transform", None)
+        if numbers is not None and len(numbers) != 12:
+            raise ValueError(f"a transform has 12 numbers, not {len(numbers)}")
+        self._call(lib().model_add_periodicity, rows[0], rows[1], len(rows[0]), numbers)
+
+    def add_period(self, direction: ArrayLike) -> None:
+        """Makes faces periodic by the translation along a direction (3) by the extent of the model."""
+        self._call(lib().model_add_period, doubles(direction, "direction", None))
+
     def divide_curve(self, face: int, ic: int, edges: Union[int, ArrayLike], *, arithmetic: float = 1, geometric: float = 1) -> None:
         """Prescribes the edges of curve number ic, from 1, of a face, and so of all curves that are one with it.
 

@@ -135,6 +135,20 @@ class Mesh:
         return [asked(c.carreau_face, lambda out, k=k: self._require(lib().mesh_face(self._handle, k, out)))  # type: ignore[misc]
                 for k in range(count)]
 
+    def periodic(self) -> list[tuple[int, int, int, NDArray[np.float64], Ints]]:
+        """Pairs of entities that periodicities carry onto each other: dimension (0, 1, 2), slave, master, map (3, 4), nodes (n, 2).
+
+        Nodes are rows of points: slave, master.
+        """
+        pairs, nodes = c_int64(), c_int64()
+        self._require(lib().mesh_periodic_count(self._handle, byref(pairs), byref(nodes)))
+        n = pairs.value
+        dimensions, refs, maps = np.empty(n, np.int32), np.empty((n, 2), np.int32), np.empty((n, 3, 4))
+        counts, rows = np.empty(n, np.int64), np.empty((nodes.value, 2), np.int32)
+        self._require(lib().mesh_periodic(self._handle, n, nodes.value, dimensions, refs, maps, counts, rows))
+        ends = np.cumsum(counts)
+        return [(int(dimensions[i]), int(refs[i, 0]), int(refs[i, 1]), maps[i], rows[ends[i] - counts[i]:ends[i]]) for i in range(n)]
+
     def face_sides(self, face: int) -> tuple[int, int]:
         """The solids on both sides of a face by its reference: the solid that its triangles look out of, and the other solid; 0:
         none."""
@@ -169,6 +183,22 @@ class Mesh:
                         curve_ids=self.curve_ids, vertex_ids=self.vertex_ids, corner_uv=self.corner_uv)
             self._handle, self.session, self._copy = copy._handle, None, copy
         return self._handle
+
+    # ---- the model ----
+
+    def vertex_entities(self) -> tuple[Ints, Ints]:
+        """The dimension of the entity that each vertex lies on (0 points, 1 curves, 2 faces), and its reference; mesh of a session only."""
+        n = len(self.vertices)
+        dimensions, refs = np.empty(n, dtype=np.int32), np.empty(n, dtype=np.int32)
+        self._require(lib().mesh_vertex_entities(self._handle, n, dimensions, refs))
+        return dimensions, refs
+
+    def edge_parameters(self) -> tuple[Reals, Ints, Ints]:
+        """t (k, 2) at the ends of edges on curve number ic (k) of a face (k); mesh of a session only. NaN: not known."""
+        k = len(self.edges)
+        t, faces, ics = np.empty((k, 2)), np.empty(k, dtype=np.int32), np.empty(k, dtype=np.int32)
+        self._require(lib().mesh_edge_parameters(self._handle, k, t, faces, ics))
+        return t, faces, ics
 
     # ---- quality ----
 

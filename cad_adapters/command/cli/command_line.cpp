@@ -17,6 +17,7 @@
 #include "cli/option_scope.h"
 #include "cli/parse_errors.h"
 #include "inputs/built/plane_input.h"
+#include "mesh/sizes_file.h"
 #include "volume/engines.h"
 
 namespace command {
@@ -431,6 +432,7 @@ int CommandLine::run(int argc, char** argv) {
 }
 
 int CommandLine::run_command() {
+  for (MeshOptions* options : {&mesh_, &plane_, &adapt_, &fields_.mesh}) read_sizes(*options);
   if (app_.got_subcommand("mesh")) {
     mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
     check_scope(*app_.get_subcommand("mesh"), inputs_, mesh_, false);

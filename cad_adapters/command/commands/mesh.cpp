@@ -21,6 +21,7 @@
 #include "inputs/open_input.h"
 #include "inputs/several_input.h"
 #include "mesh/curve_edges.h"
+#include "mesh/periodic_faces.h"
 #include "mesh/failed_faces.h"
 #include "mesh/groups.h"
 #include "mesh/mesh_parameters.h"
@@ -94,6 +95,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   require(session, input.give_to(session));
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
+  set_periodic(session, options);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -198,7 +200,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || suffix_of(path) == ".txt" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -211,8 +213,12 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else if (is_report(path))
       write_text(path, page_of(run));
+    else if (suffix_of(path) == group_table_suffix)
+      write_text(path, group_table(run.mesh));
     else if (run.volume_text)
       write_text(path, run.volume_text(suffix_of(path)));
+    else if (suffix_of(path) == ".txt")
+      write_text(path, pairs_text(run.mesh));
     else
       write_mesh(run.mesh, path);
   }
@@ -236,6 +242,17 @@ std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress)
   std::vector<std::string> all{options.input};
   all.insert(all.end(), options.more_inputs.begin(), options.more_inputs.end());
   return open_several(all, options);
+}
+
+/// Medit's files have no names of groups: a table beside each has them, when groups are asked for.
+std::vector<std::string> with_group_tables(const MeshOptions& options, std::vector<std::string> outputs) {
+  if ((options.groups.empty() && options.group_by.empty()) || options.parts) return outputs;
+  for (const std::string& path : std::vector<std::string>(outputs))
+    if (is_one_of(suffix_of(path), {".mesh", ".meshb"})) {
+      const std::string table = path.substr(0, path.size() - suffix_of(path).size()) + group_table_suffix;
+      if (std::find(outputs.begin(), outputs.end(), table) == outputs.end()) outputs.push_back(table);
+    }
+  return outputs;
 }
 
 /// JSON and files of failed faces need the whole mesh.
@@ -263,7 +280,7 @@ std::string kept_surface(const MeshOptions& options) {
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
-  options.outputs = adaptation.with_fields(given.outputs);
+  options.outputs = with_group_tables(given, adaptation.with_fields(given.outputs));
   check_words(options);  // reports meaningless words before a long reading
   SizeMap map(options.size_map);
   if (options.plane.field > 0 && map.mesh_file().empty() && options.adapt.sol.empty() && options.plane.sizes.empty())
@@ -273,7 +290,8 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const std::string engine = options.volume.is_volume ? found_engine(options.volume.engine) : "";
   if (!engine.empty() && ranks != nullptr) throw Failure("carreau volume runs in one process.");
   std::vector<std::string> suffixes = engine.empty() ? mesh_suffixes : volume_suffixes;
-  if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html"});
+  if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
+  if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});

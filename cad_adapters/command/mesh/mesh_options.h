@@ -2,6 +2,7 @@
 // The options of `carreau mesh`, as the command line has them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "mesh/adaptation.h"
 
 namespace command {
+
+/// A file of --sizes, and the number of the first rules of each list that it holds.
+struct SizesFile {
+  std::string path;  ///< empty: none
+  std::size_t faces = 0, entities = 0, near = 0;
+};
 
 /// The engine that fills solids, of `carreau volume`.
 struct VolumeChoice {
@@ -38,10 +45,13 @@ struct MeshOptions : InputChoice {
   std::optional<int> effort;                  ///< level of the parameter of that name
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> sizes_on;          ///< "entities=length", the entities by selection.h
+  std::vector<std::string> near;              ///< "entities=size:reach", the entities by selection.h
+  SizesFile sizes;
   std::vector<std::string> groups;            ///< "name=selector" (selection.h)
   std::string group_by;                       ///< part, face or color; empty: faces keep their names
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
+  std::vector<std::string> periodic;          ///< "x", "1,0,0", "rotate:...", "slave=master"
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores

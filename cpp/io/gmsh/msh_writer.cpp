@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-constexpr int line_type = 1, line_of_order_2_type = 8, point_type = 15;
+constexpr int written_line = 1, written_line_of_order_2 = 8, written_point = 15;
 
 /// The format's type of a kind of elements; nodes have the order of the format already.
 int type_of(CellKind kind) noexcept {
@@ -81,6 +81,7 @@ class MshText {
       add_nodes_4();
       add_elements_4();
     }
+    add_periodic();
     return std::move(text_);
   }
 
@@ -201,8 +202,8 @@ class MshText {
   }
 
   [[nodiscard]] int type_of(int dim, std::size_t member) const {
-    if (dim == 0) return point_type;
-    if (dim == 1) return mesh_.edge_mids.empty() ? line_type : line_of_order_2_type;
+    if (dim == 0) return written_point;
+    if (dim == 1) return mesh_.edge_mids.empty() ? written_line : written_line_of_order_2;
     return carreau::type_of(cells_[member].kind);
   }
 
@@ -309,6 +310,37 @@ class MshText {
       for (std::size_t i = first; i < end; ++i) number(text_, ++tag), add_corners(dim, entity.members[i]);
     });
     text_ += "$EndElements\n";
+  }
+
+  /// An entity that a map carries another one onto; parts of one face are one entity.
+  struct Link {
+    int master = 0;
+    Isometry map;
+    std::vector<std::array<std::int32_t, 2>> nodes;
+  };
+
+  void add_periodic() {
+    std::map<std::pair<int, int>, Link> links;  // by dimension and tag; an entity has one master in the format
+    for (const PeriodicLink& link : mesh_.periodic) {
+      const Entities& entities = entities_[link.dimension];
+      const auto slave = entities.find(link.slave), master = entities.find(link.master);
+      if (slave == entities.end() || master == entities.end()) continue;
+      Link& all = links.try_emplace({link.dimension, slave->second.tag}, Link{master->second.tag, link.map, {}}).first->second;
+      if (all.master == master->second.tag) all.nodes.insert(all.nodes.end(), link.nodes.begin(), link.nodes.end());
+    }
+    if (links.empty()) return;
+    text_ += "$Periodic\n" + std::to_string(links.size()) + "\n";
+    for (const auto& [key, link] : links) {
+      number(text_, key.first), number(text_, key.second), number(text_, link.master), end_line(text_);
+      text_ += version_2_ ? "Affine " : "16 ";
+      for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) number(text_, link.map.row[static_cast<std::size_t>(i)][k]);
+        number(text_, link.map.shift[i]);
+      }
+      text_ += "0 0 0 1\n" + std::to_string(link.nodes.size()) + "\n";
+      for (const auto& [slave, master] : link.nodes) number(text_, slave + 1), number(text_, master + 1), end_line(text_);
+    }
+    text_ += "$EndPeriodic\n";
   }
 
   /// use(dimension, entity, first member, end) for each block of elements of one type.

@@ -43,11 +43,13 @@ class Inspector {
   virtual void report(CompositeRun& run) = 0;
 };
 
+/// Images of periodic faces that are turned over in (u, v).
+[[nodiscard]] std::unique_ptr<Inspector> make_periodic_inspector();
 /// Triangles that cross although their faces are apart.
 [[nodiscard]] std::unique_ptr<Inspector> make_crossing_inspector();
 /// Elements of meshes that keep the borders of their patches; invalid ones are divided.
 [[nodiscard]] std::unique_ptr<Inspector> make_element_inspector();
 /// Frees the mesh of the borders of its patches and makes its elements; invalid and crossing ones are divided.
-[[nodiscard]] std::unique_ptr<Inspector> make_free_mesh_inspector();
+[[nodiscard]] std::unique_ptr<Inspector> make_cross_patch_inspector();
 
 }  // namespace carreau

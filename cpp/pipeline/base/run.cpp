@@ -5,7 +5,7 @@
 
 #include "gradation/gradation.h"
 #include "support/ranks/team.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 #if defined(__unix__)
 #include <unistd.h>
@@ -48,6 +48,11 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
   if (options.max_triangles <= 0)
     options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4) * (options.parts ? options.team->size() : 1);
   result.report.diag = supports.diag;
+  periodic = find_periodic(curve_model, supports.diag);
+  for (const std::string& remark : periodic.remarks) report(Level::warning, remark);
+  if (periodic.empty()) return;
+  if (!rules.constant()) slave_sizes.emplace(curve_model, periodic.pairs);
+  rules.join(periodic.corners, slave_sizes ? &*slave_sizes : nullptr);
 }
 
 double CompositeRun::slope_of_edges() const {

@@ -2,6 +2,7 @@
 // A run over a composite surface: the data that its steps share. Private to pipeline/.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,6 +13,8 @@
 
 #include "curve/discrete_curve.h"
 #include "gradation/edge_sizes.h"
+#include "periodic/parameter_map.h"
+#include "periodic/periodic_model.h"
 #include "pipeline/base/known_patches.h"
 #include "surface/grade/size_grading.h"
 #include "surface/narrow/narrow_faces.h"
@@ -21,6 +24,10 @@
 #include "surface/supports.h"
 
 namespace carreau {
+
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// CompositeRun::keeper.
 inline constexpr int no_process = -1, all_have = 0;
@@ -43,6 +50,8 @@ struct CompositeRun {
   void report_kept(int curve, const std::string& what_requires_others);
   /// The patch is here or, if patches stay, with another process.
   [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
+  /// The mesh of the face is an image of its master's mesh.
+  [[nodiscard]] bool is_slave(std::size_t face) const { return !periodic.empty() && periodic.pair_of_slave[face] >= 0; }
   /// True if an inspector may request a finer mesh.
   [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
   /// The face has no mesh; the run continues with the others.
@@ -56,6 +65,8 @@ struct CompositeRun {
   Monitor& monitor;
   SizeRules rules;
   CurveModel curve_model;
+  PeriodicModel periodic;                  ///< empty: no periodicity
+  std::optional<SlaveSizes> slave_sizes;  ///< joined to the rules
 
   GradedModel graded;                             ///< grade_sizes()
   double begin = 0;                               ///< share of the run that was over before the curves
@@ -72,6 +83,7 @@ struct CompositeRun {
   /// The input of the mesh, which the next round refines: its curves, and by face the sources of sizes inside.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
+  std::vector<std::vector<EdgeSizes::Source>> turned;  ///< carry_patches(); by master: triangles whose images are turned over
   KnownPatches known;          ///< mesh_patches(), if rounds may follow
   std::set<std::string> reported;  ///< once, however often something is meshed
   bool trying = false;
@@ -91,6 +103,16 @@ void find_narrow(CompositeRun& run);
 void refine_boundaries(CompositeRun& run);
 /// Samples, meshes and lifts every face, on several threads.
 void mesh_patches(CompositeRun& run);
+/// Sizes of curves; members of classes have the least of their sizes.
+[[nodiscard]] std::vector<SizeSamples> shared_sizes(CompositeRun& run);
+/// Fails the partners of periodic faces that have failed or have no domain.
+void fail_partners(CompositeRun& run);
+/// Makes the patches of slaves as images of the patches of their masters. Both fail if one does.
+void carry_patches(CompositeRun& run);
+/// Divides chords that faces share; pairs stay images of each other.
+void separate_shared_chords(CompositeRun& run);
+/// Lists the pairs of vertices of the mesh, and reports how far they are apart.
+void link_periodic(CompositeRun& run);
 /// Makes one mesh of all patches, with statuses and sentences of its faces.
 void assemble_patches(CompositeRun& run);
 /// Lets all narrow faces vanish. False, and nothing done, if one cannot.

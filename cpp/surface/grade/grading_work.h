@@ -36,10 +36,11 @@ struct GradingWork {
   };
 
   GradingWork(const CurveModel& curve_model, SizeRules& size_rules, const CompositeOptions& composite_options,
-              double diag, Monitor& run_monitor);
+              double diag, Monitor& run_monitor, const PeriodicModel& periodic_model);
   ~GradingWork();
 
   const CurveModel& model;
+  const PeriodicModel& periodic;
   SizeRules& rules;
   CompositeOptions options;
   Monitor& monitor;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "periodic/shared_curves.h"
 #include "support/infinity.h"
 #include "support/ranks/crew.h"
 #include "surface/grade/graph_sizes.h"
@@ -11,8 +12,10 @@
 namespace carreau::detail {
 
 GradingWork::GradingWork(const CurveModel& curve_model, SizeRules& size_rules,
-                         const CompositeOptions& composite_options, double diag, Monitor& run_monitor)
+                         const CompositeOptions& composite_options, double diag, Monitor& run_monitor,
+                         const PeriodicModel& periodic_model)
     : model(curve_model),
+      periodic(periodic_model),
       rules(size_rules),
       options(composite_options),
       monitor(run_monitor),
@@ -69,6 +72,23 @@ void number_vertices(GradingWork& work, const std::vector<SizeSamples>& raw) {
     if (!curve.degenerate)
       for (std::size_t i = 1; i < nodes.size(); ++i) work.graph.segments.push_back({nodes[i - 1], nodes[i]});
     work.node_of.push_back(std::move(nodes));
+  }
+}
+
+// Periodic corners and vertices of curves are one.
+void join_vertices(GradingWork& work) {
+  for (const std::vector<int>& corners : work.periodic.corners)
+    for (std::size_t i = 1; i < corners.size(); ++i) work.graph.joined.push_back({corners.front(), corners[i]});
+  for (const CurveClass& all : work.periodic.curves) {
+    const int root = all.members.front().image.curve;
+    const Curve& shape = work.model.curve(root);
+    const bool closed = shape.end1 == shape.end2 && !shape.degenerate;
+    for (const CurveMember& member : all.members) {
+      const int c = member.image.curve;
+      for (int k = 0; c != root && k < work.curves[root].segments(); ++k)
+        if (const int image = vertex_image(work.curves[root], work.curves[c], member.image, closed, k); image >= 0)
+          work.graph.joined.push_back({work.node_of[root][k], work.node_of[c][image]});
+    }
   }
 }
 
@@ -227,9 +247,12 @@ void make_graph(GradingWork& work, const std::vector<SizeSamples>& raw, const Gr
     work.curves.push_back(
         discretise_curve(work.model, static_cast<int>(c), work.rules, {.lss = work.options.lss, .known = &coarse}));
   }
+  share_vertices(work.periodic, work.model, work.curves);
   separate_coincident_curves(work.model, work.curves);
-  work.domains = refine_domains(work.model, work.rules, work.options, limits, {}, work.curves, work.monitor);
+  complete_classes(work.periodic, work.model, work.curves);
+  work.domains = refine_domains(work.model, work.rules, work.options, limits, {}, work.curves, work.monitor, &work.periodic);
   number_vertices(work, raw);
+  join_vertices(work);
   add_faces(work, limits, before);
   work.sizes->complete();
 }

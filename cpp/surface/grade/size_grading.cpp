@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "curve/unit_discretisation.h"
+#include "periodic/shared_curves.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
@@ -109,18 +110,19 @@ Round run_round(GradingWork& work, const std::vector<SizeSamples>& raw, const Gr
 }  // namespace detail
 
 GradedModel grade_model(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, double diag,
-                        Monitor& monitor) {
+                        Monitor& monitor, const PeriodicModel& periodic) {
   using namespace thresholds::grade;
   std::vector<SizeSamples> raw;
   for (std::size_t c = 0; c < model.topology.curves.size(); ++c) {
     monitor.checkpoint();
     raw.push_back(sample_sizes(model, static_cast<int>(c), rules, {.lss = options.lss}));
   }
+  share_sizes(periodic, model, raw);
   GradedModel graded;
   std::size_t long_before = SIZE_MAX;
   double triangles_before = 0;
   for (int number = 1; number <= most_rounds; ++number) {
-    detail::GradingWork work(model, rules, options, diag, monitor);
+    detail::GradingWork work(model, rules, options, diag, monitor, periodic);
     auto [now, long_edges] = detail::run_round(work, raw, graded);
     graded = std::move(now);
     graded.rounds = number;

@@ -10,6 +10,7 @@
 #include "support/infinity.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
+#include "periodic/shared_curves.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/near_vertices.h"
 #include "surface/refine/bulging_edges.h"
@@ -32,7 +33,8 @@ using Splits = std::map<int, std::set<int>>;
 class Refiner {
  public:
   Refiner(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
-          const NarrowModel& narrow, std::vector<DiscreteCurve>& curves, std::set<int>& given_up, Monitor& monitor)
+          const NarrowModel& narrow, std::vector<DiscreteCurve>& curves, const PeriodicModel* periodic, std::set<int>& given_up,
+          Monitor& monitor)
       : curve_model_(model),
         model_(model.model),
         topology_(model.topology),
@@ -42,6 +44,7 @@ class Refiner {
         narrow_(narrow),
         strips_(narrow.strips),
         curves_(curves),
+        periodic_(periodic),
         given_up_(given_up),
         monitor_(monitor) {
     const std::size_t n = model_.faces.size();
@@ -194,6 +197,8 @@ class Refiner {
     for (const auto& [curve, segments] : splits)
       for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) any |= split(curve, *segment);
     if (any && !strips_.empty()) complete_strips();
+    if (any && periodic_ != nullptr)
+      for (const int curve : complete_classes(*periodic_, curve_model_, curves_)) mark_stale(curve);
     rebuild_stale();
     return any;
   }
@@ -252,6 +257,7 @@ class Refiner {
     if (!options_.stagger_strips || !narrow_.empty() || !isotropic_) return;
     rebuild_stale();
     for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, options_.threads, monitor_)) {
+      if (periodic_ != nullptr && !periodic_->empty() && periodic_->has_class[c] != 0) continue;
       stagger(curves_[c], curve_model_);
       mark_stale(c);
     }
@@ -387,6 +393,7 @@ class Refiner {
   std::vector<NarrowFace> strips_;  // whose sides have vertices at the same places
   std::vector<char> left_out_;  // by face
   std::vector<DiscreteCurve>& curves_;
+  const PeriodicModel* periodic_;  // null: none
   std::set<int>& given_up_;  // faces whose edges are no longer cut
   Monitor& monitor_;
   RefinedDomains result_;
@@ -410,12 +417,12 @@ class Refiner {
 
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
-                              Monitor& monitor) {
+                              Monitor& monitor, const PeriodicModel* periodic) {
   const std::vector<DiscreteCurve> unrefined = curves;
   std::set<int> given_up;
   std::map<int, std::string> why;
   for (;;) {
-    RefinedDomains result = Refiner(model, rules, options, limits, narrow, curves, given_up, monitor).run();
+    RefinedDomains result = Refiner(model, rules, options, limits, narrow, curves, periodic, given_up, monitor).run();
     const std::size_t known = why.size();
     for (int f = 0; f < static_cast<int>(result.failure.size()); ++f)
       if (!result.failure[f].empty() && result.mended[f] != 0) why.emplace(f, result.failure[f]), given_up.insert(f);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "periodic/periodic_model.h"
 #include "surface/domain/domain_builder.h"
 #include "surface/narrow/narrow_faces.h"
 #include "surface/options.h"
@@ -29,10 +30,10 @@ struct RefinedDomains {
 /// splits them where boundaries come close or lengths of neighbours differ (CheckCloseEdges, CheckAdjacentEdges,
 /// CheckWellDefined). The options prescribe the number of rounds. `limits`: limits of the sizes in which lengths are
 /// compared. Strips in `narrow`, and points whose curves vanish, are passed over and get no domain. The two sides of
-/// strips keep vertices at the same places.
+/// strips keep vertices at the same places. Periodic curves keep corresponding vertices.
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
-                              Monitor& monitor);
+                              Monitor& monitor, const PeriodicModel* periodic = nullptr);
 
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel if two
 /// such curves are prescribed to have one edge.

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "periodic/periodic_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "model/union_find.h"
+#include "periodic/thresholds.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::periodic;
+
+// Chains add the gaps of their maps.
+constexpr double gaps_of_chain = 10;
+
+std::vector<CurveImage> images_at(const std::map<int, CurveImage>& curves) {
+  std::vector<CurveImage> images;
+  for (const auto& [from, image] : curves) images.push_back(image);
+  return images;
+}
+
+bool same_way(const CurveImage& a, const CurveImage& b) {
+  if (a.curve != b.curve || a.reversed != b.reversed) return false;
+  const double apart = std::abs(a.shift - b.shift);
+  return std::abs(apart - std::round(apart)) < polyline_gap;
+}
+
+class Classes {
+ public:
+  Classes(const CurveModel& model, std::vector<FacePair> given, double gap) : model_(model), given_(std::move(given)) {
+    result_.gap = gap;
+  }
+
+  PeriodicModel run() {
+    collect_faces();
+    collect_curves();
+    collect_corners();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] int ref(int face) const { return model_.model.faces[face].ref; }
+
+  // One step of a chain.
+  struct Step {
+    int from = -1, to = -1;
+    const FacePair* pair = nullptr;
+    bool back = false;  // against the map of the pair
+    CurveImage image;   // of curves
+    [[nodiscard]] Isometry map() const { return back ? pair->map.inverse() : pair->map; }
+  };
+  using Steps = std::vector<std::vector<Step>>;
+
+  // ---- faces ----
+
+  static FacePair inverse_of(const FacePair& pair) {
+    FacePair back{pair.slave, pair.master, pair.map.inverse()};
+    for (const auto& [curve, image] : pair.curves) back.curves.emplace(image.curve, inverse(curve, image));
+    return back;
+  }
+
+  static FacePair composed_pair(const FacePair& first, const FacePair& second) {
+    FacePair all{first.master, second.slave, second.map.after(first.map)};
+    for (const auto& [curve, image] : first.curves)
+      all.curves.emplace(curve, composed(image, second.curves.at(image.curve)));
+    return all;
+  }
+
+  void collect_faces() {
+    const auto n = model_.model.faces.size();
+    std::vector<std::vector<FacePair>> steps(n);
+    for (const FacePair& pair : given_) {
+      if (pair.master < 0) continue;
+      steps[pair.master].push_back(pair);
+      steps[pair.slave].push_back(inverse_of(pair));
+    }
+    result_.pair_of_slave.assign(n, -1);
+    result_.is_periodic.assign(n, 0);
+    std::vector<FacePair> found;
+    std::vector<int> parent(n, -1), known(n, -1);  // `known`: index in `found`
+    for (int root = 0; root < static_cast<int>(n); ++root) {
+      if (steps[root].empty() || known[root] >= 0) continue;
+      FacePair itself{root, root, {}};
+      for (const int c : model_.topology.curve_of[root]) itself.curves.emplace(c, CurveImage{c});
+      known[root] = static_cast<int>(found.size());
+      found.push_back(itself);
+      std::vector<int> queue{root};
+      for (std::size_t i = 0; i < queue.size(); ++i) {
+        const int at = queue[i];
+        for (const FacePair& step : steps[at]) {
+          FacePair reached = composed_pair(found[known[at]], step);
+          if (known[step.slave] < 0) {
+            known[step.slave] = static_cast<int>(found.size());
+            found.push_back(std::move(reached));
+            parent[step.slave] = at;
+            queue.push_back(step.slave);
+          } else {
+            require_same(found[known[step.slave]], reached, parent, at);
+          }
+        }
+      }
+    }
+    for (int f = 0; f < static_cast<int>(n); ++f) {
+      if (known[f] < 0) continue;
+      result_.is_periodic[f] = 1;
+      FacePair& pair = found[known[f]];
+      if (pair.master == f) continue;
+      result_.pair_of_slave[f] = static_cast<int>(result_.pairs.size());
+      result_.pairs.push_back(std::move(pair));
+    }
+  }
+
+  [[nodiscard]] std::string path_of(const std::vector<int>& parent, int face) const {
+    std::string path = std::to_string(ref(face));
+    for (int f = parent[face]; f >= 0; f = parent[f]) path = std::to_string(ref(f)) + ", " + path;
+    return path;
+  }
+
+  void require_same(const FacePair& known, const FacePair& other, const std::vector<int>& parent, int by) const {
+    double worst = 0;
+    for (const auto& [curve, image] : known.curves)
+      for (const double r : {0.2, 0.7}) {
+        const Vec3 p = support_point(model_, curve, r);
+        worst = std::max(worst, norm(known.map(p) - other.map(p)));
+      }
+    const std::vector<CurveImage> a = images_at(known.curves), b = images_at(other.curves);
+    const bool same = std::equal(a.begin(), a.end(), b.begin(), b.end(), same_way);
+    if (same && worst <= gaps_of_chain * result_.gap) return;
+    throw InvalidModel(Where{.face = ref(known.slave)},
+                       "two chains of periodicities carry face " + std::to_string(ref(known.master)) + " onto the face, " +
+                           format_number(worst) + " apart: by faces " + path_of(parent, known.slave) + " and by faces " +
+                           path_of(parent, by) + ", " + std::to_string(ref(known.slave)));
+  }
+
+  // ---- curves ----
+
+  void collect_curves() {
+    const std::size_t n = model_.topology.curves.size();
+    Steps steps(n);
+    for (const FacePair& pair : given_)
+      for (const auto& [curve, image] : pair.curves) {
+        steps[curve].push_back({curve, image.curve, &pair, false, image});
+        steps[image.curve].push_back({image.curve, curve, &pair, true, inverse(curve, image)});
+      }
+    result_.has_class.assign(n, 0);
+    std::vector<std::size_t> place(n, 0);
+    std::vector<int> parent(n, -1);
+    for (int root = 0; root < static_cast<int>(n); ++root) {
+      if (steps[root].empty() || result_.has_class[root] != 0) continue;
+      CurveClass all;
+      all.members.push_back({{root}, {}});
+      result_.has_class[root] = 1;
+      for (std::size_t i = 0; i < all.members.size(); ++i) {
+        const CurveMember from = all.members[i];
+        for (const Step& step : steps[from.image.curve]) {
+          CurveMember reached{composed(from.image, step.image), step.map().after(from.map)};
+          if (result_.has_class[step.to] == 0) {
+            result_.has_class[step.to] = 1;
+            parent[step.to] = from.image.curve;
+            place[step.to] = all.members.size();
+            all.members.push_back(std::move(reached));
+          } else {
+            close(all, all.members[place[step.to]], reached, parent);
+          }
+        }
+      }
+      result_.place.resize(n);
+      for (std::size_t i = 0; i < all.members.size(); ++i)
+        result_.place[all.members[i].image.curve] = {static_cast<int>(result_.curves.size()), static_cast<int>(i)};
+      result_.curves.push_back(std::move(all));
+    }
+  }
+
+  [[nodiscard]] std::string curve_path(const std::vector<int>& parent, int curve) const {
+    std::string path = std::to_string(model_.curve(curve).ref);
+    for (int c = parent[curve]; c >= 0; c = parent[c]) path = std::to_string(model_.curve(c).ref) + ", " + path;
+    return path;
+  }
+
+  // A second chain to a curve carries it like the first one, or, if it is open, the other way round.
+  void close(CurveClass& all, const CurveMember& known, const CurveMember& reached, const std::vector<int>& parent) const {
+    const int root = all.members.front().image.curve;
+    const Curve& shape = model_.curve(root);
+    if (shape.degenerate) return;
+    const bool closed = shape.end1 == shape.end2;
+    if (!closed && known.image.reversed != reached.image.reversed) {
+      if (!all.turn) all.turn = known.map.inverse().after(reached.map);
+      return;
+    }
+    double worst = 0;
+    for (const double r : {0.2, 0.7}) {
+      const Vec3 p = support_point(model_, root, r);
+      worst = std::max(worst, norm(known.map(p) - reached.map(p)));
+    }
+    if (same_way(known.image, reached.image) && worst <= gaps_of_chain * result_.gap) return;
+    throw InvalidModel(Where{.curve = model_.curve(known.image.curve).ref},
+                       "two chains of periodicities carry curve " + std::to_string(shape.ref) + " onto the curve, " +
+                           format_number(worst) + " apart; one is that by curves " + curve_path(parent, known.image.curve));
+  }
+
+  // ---- corners ----
+
+  void collect_corners() {
+    const std::size_t n = model_.topology.points.size();
+    UnionFind sets(n);
+    const auto join = [&](int a, int b) { sets.merge(static_cast<std::size_t>(a), static_cast<std::size_t>(b)); };
+    for (const FacePair& pair : given_)
+      for (const auto& [curve, image] : pair.curves) {
+        const Curve &a = model_.curve(curve), &b = model_.curve(image.curve);
+        const bool closed = a.end1 == a.end2;
+        if (closed && image.shift != 0 && !a.degenerate) continue;
+        const bool turned = !closed && image.reversed;
+        join(a.end1, turned ? b.end2 : b.end1);
+        join(a.end2, turned ? b.end1 : b.end2);
+      }
+    std::map<std::size_t, std::vector<int>> by_root;
+    for (std::size_t p = 0; p < n; ++p) by_root[sets.find(p)].push_back(static_cast<int>(p));
+    for (auto& [root, corners] : by_root)
+      if (corners.size() > 1) result_.corners.push_back(std::move(corners));
+    std::sort(result_.corners.begin(), result_.corners.end());
+  }
+
+  const CurveModel& model_;
+  const std::vector<FacePair> given_;
+  PeriodicModel result_;
+};
+
+}  // namespace
+
+PeriodicModel find_periodic(const CurveModel& model, double diag) {
+  if (model.model.periodicities.empty()) return {};
+  std::vector<std::string> remarks;
+  PeriodicModel periodic = Classes(model, match_faces(model, diag, remarks), most_gap * diag).run();
+  periodic.remarks = std::move(remarks);
+  return periodic;
+}
+
+}  // namespace carreau

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Faces, curves and corners that are one under the maps of a model.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "periodic/match_faces.h"
+
+namespace carreau {
+
+/// A curve as the image of the root of its class.
+struct CurveMember {
+  CurveImage image;  ///< of the root
+  Isometry map;      ///< of the root onto the curve
+};
+
+struct CurveClass {
+  std::vector<CurveMember> members;  ///< the root first, the lowest of their indices
+  std::optional<Isometry> turn = {};  ///< carries the root onto itself, reversed
+};
+
+/// Closed under chains of maps: a class is all that the maps carry onto each other.
+struct PeriodicModel {
+  std::vector<FacePair> pairs;      ///< of each slave, ascending; the master is the lowest face of the class, and no slave
+  std::vector<int> pair_of_slave;   ///< by face: index in `pairs`; -1: the face is no slave
+  std::vector<char> is_periodic;    ///< by face: it is a slave or a master
+  std::vector<CurveClass> curves;   ///< of two members or more, or of one that turns
+  std::vector<char> has_class;      ///< by curve
+  std::vector<std::array<int, 2>> place;  ///< by curve with a class: index in `curves`, and in its members
+  std::vector<std::vector<int>> corners;  ///< classes of two corners or more
+  double gap = 0;                   ///< model length: images may miss by it
+  std::vector<std::string> remarks = {};  ///< what a person should know
+
+  [[nodiscard]] bool empty() const noexcept { return pairs.empty() && curves.empty(); }
+};
+
+/// Matches the faces and collects their classes along spanning trees. Throws InvalidModel as match_faces(), and where two
+/// chains of maps carry a face or a curve onto one another in different ways.
+PeriodicModel find_periodic(const CurveModel& model, double diag);
+
+}  // namespace carreau

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "periodic/shared_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "curve/unit_discretisation.h"
+#include "periodic/closest.h"
+#include "periodic/thresholds.h"
+#include "support/error.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::periodic;
+
+bool is_closed(const CurveModel& model, int curve) {
+  const Curve& shape = model.curve(curve);
+  return shape.end1 == shape.end2 && !shape.degenerate;
+}
+
+// Fractions that the list has already, or nearly, stay.
+void insert_fraction(std::vector<double>& sorted, double r) {
+  const auto above = std::lower_bound(sorted.begin(), sorted.end(), r - same_fraction);
+  if (above != sorted.end() && *above <= r + same_fraction) return;
+  if (r > 0 && r < 1) sorted.insert(above, r);
+}
+
+double of_root(const CurveMember& member, bool closed, double r) {
+  return closed ? wrapped(member.image.back(r)) : member.image.back(r);
+}
+double of_member(const CurveMember& member, bool closed, double r) {
+  return closed ? wrapped(member.image.at(r)) : member.image.at(r);
+}
+
+SizeSamples least_of(const CurveClass& all, bool closed, const std::vector<SizeSamples>& sizes) {
+  SizeSamples least;
+  least.law = sizes[all.members.front().image.curve].law;
+  least.r = sizes[all.members.front().image.curve].r;
+  for (const CurveMember& member : all.members)
+    for (const double r : sizes[member.image.curve].r) insert_fraction(least.r, of_root(member, closed, r));
+  if (all.turn)
+    for (const double r : std::vector<double>(least.r)) insert_fraction(least.r, 1 - r);
+  for (const double at : least.r) {
+    double h = INFINITY, physical = INFINITY;
+    for (const CurveMember& member : all.members) {
+      const SizeSamples& own = sizes[member.image.curve];
+      for (const double r : {at, all.turn ? 1 - at : at}) {
+        h = std::min(h, own.size_at(of_member(member, closed, r)));
+        physical = std::min(physical, own.physical_at(of_member(member, closed, r)));
+      }
+    }
+    least.h.push_back(h), least.physical.push_back(physical);
+  }
+  return least;
+}
+
+SizeSamples carried(const SizeSamples& of, const CurveMember& member, bool closed) {
+  SizeSamples result;
+  result.law = of.law;
+  result.r = {0, 1};
+  for (const double r : of.r) insert_fraction(result.r, of_member(member, closed, r));
+  for (const double r : result.r) {
+    result.h.push_back(of.size_at(of_root(member, closed, r)));
+    result.physical.push_back(of.physical_at(of_root(member, closed, r)));
+  }
+  return result;
+}
+
+/// Vertices of `from` in the order of its image: fraction there and index here. Ends of open curves are both listed, of
+/// closed ones the first.
+std::vector<std::pair<double, int>> in_order(const DiscreteCurve& from, const CurveImage& image, bool closed) {
+  std::vector<std::pair<double, int>> order;
+  for (int k = 0; k < from.segments() + (closed ? 0 : 1); ++k)
+    order.emplace_back(closed ? wrapped(image.at(from.r[k])) : image.at(from.r[k]), k);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+void place_image(const DiscreteCurve& from, const CurveImage& image, const Isometry& map, const CurveModel& model, double exact,
+                 DiscreteCurve& to) {
+  if (to.indivisible) return;
+  const bool closed = is_closed(model, image.curve);
+  const CurveUse& use = model.curve(image.curve).uses[static_cast<std::size_t>(to.owner)];
+  const CurveSupport& support = model.support(use);
+  std::vector<double> r, t;
+  std::vector<Vec3> targets;
+  for (const auto& [at, k] : in_order(from, image, closed)) {
+    if (!(at > 0 && at < 1)) continue;
+    r.push_back(at);
+    targets.push_back(map(from.xyz[k]));
+    t.push_back(find_closest(model, use, parameter_at(model, use, at), support.t.front(), support.t.back(), targets.back()).t);
+  }
+  to.prescribed = from.prescribed;
+  place_vertices_at(to, r, t, model);
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    if (norm(to.xyz[i + 1] - targets[i]) <= exact) to.xyz[i + 1] = targets[i];
+}
+
+// The second half of a curve that a map turns is the image of the first one.
+void make_symmetric(const Isometry& turn, const CurveModel& model, DiscreteCurve& d) {
+  const std::size_t n = d.r.size() - 1;
+  std::vector<double> r;
+  for (std::size_t k = 1; k < n; ++k) r.push_back((d.r[k] + 1 - d.r[n - k]) / 2);
+  place_vertices(d, r, model);
+  const CurveUse& use = model.curve(d.curve).uses[static_cast<std::size_t>(d.owner)];
+  const CurveSupport& support = model.support(use);
+  std::vector<double> t(d.t_of_use[static_cast<std::size_t>(d.owner)].begin() + 1, d.t_of_use[static_cast<std::size_t>(d.owner)].end() - 1);
+  for (std::size_t k = n / 2 + 1; k < n; ++k)
+    t[k - 1] = find_closest(model, use, t[k - 1], support.t.front(), support.t.back(), turn(d.xyz[n - k])).t;
+  place_vertices_at(d, r, t, model);
+}
+
+// Vertices where closed members begin; the arcs between them are cut by sizes.
+void cut_at(std::vector<double> fixed, const CurveModel& model, DiscreteCurve& d) {
+  fixed.insert(fixed.begin(), 0);
+  fixed.push_back(1);
+  const double length = model.length(d.curve);
+  const int at_least = fixed.size() > 3 ? 1 : 2;
+  std::vector<double> r;
+  for (std::size_t i = 0; i + 1 < fixed.size(); ++i) {
+    std::vector<double> s{fixed[i] * length}, h{d.sizes.size_at(fixed[i])};
+    for (std::size_t k = 0; k < d.sizes.r.size(); ++k)
+      if (d.sizes.r[k] > fixed[i] && d.sizes.r[k] < fixed[i + 1]) s.push_back(d.sizes.r[k] * length), h.push_back(d.sizes.h[k]);
+    s.push_back(fixed[i + 1] * length), h.push_back(d.sizes.size_at(fixed[i + 1]));
+    const std::vector<double> cuts = split_by_sizes(s, h, d.sizes.law, at_least);
+    if (i > 0) r.push_back(fixed[i]);
+    for (std::size_t k = 1; k + 1 < cuts.size(); ++k) r.push_back(cuts[k] / length);
+  }
+  place_vertices(d, r, model);
+}
+
+int prescribed_member(const CurveClass& all, const CurveModel& model, const std::vector<DiscreteCurve>& curves) {
+  int found = -1;
+  for (int i = 0; i < std::ssize(all.members); ++i) {
+    if (!curves[all.members[i].image.curve].prescribed) continue;
+    if (found < 0) {
+      found = i;
+      continue;
+    }
+    const CurveMember &a = all.members[found], &b = all.members[i];
+    const bool closed = is_closed(model, a.image.curve);
+    const DiscreteCurve &p = curves[a.image.curve], &q = curves[b.image.curve];
+    const CurveImage between = composed(inverse(all.members.front().image.curve, a.image), b.image);
+    bool same = p.segments() == q.segments();
+    const auto order = in_order(p, between, closed);
+    for (std::size_t k = 0; same && k < order.size(); ++k) same = std::abs(order[k].first - q.r[k]) < 1e-6;
+    if (!same)
+      throw InvalidModel(Where{.curve = model.curve(b.image.curve).ref},
+                         "edges are prescribed on the curve and on curve " + std::to_string(model.curve(a.image.curve).ref) +
+                             ", which are periodic: they differ");
+  }
+  return found;
+}
+
+void carry_from(const CurveClass& all, std::size_t source, const CurveModel& model, double exact, std::vector<DiscreteCurve>& curves) {
+  const CurveMember& from = all.members[source];
+  const int root = all.members.front().image.curve;
+  const CurveImage to_root = inverse(root, from.image);
+  const Isometry back = from.map.inverse();
+  for (std::size_t i = 0; i < all.members.size(); ++i) {
+    if (i == source) continue;
+    const CurveMember& to = all.members[i];
+    const bool of_root = source == 0;
+    place_image(curves[from.image.curve], of_root ? to.image : composed(to_root, to.image), of_root ? to.map : to.map.after(back),
+                model, exact, curves[to.image.curve]);
+  }
+}
+
+}  // namespace
+
+void share_sizes(const PeriodicModel& periodic, const CurveModel& model, std::vector<SizeSamples>& sizes) {
+  for (const CurveClass& all : periodic.curves) {
+    const int root = all.members.front().image.curve;
+    if (model.curve(root).degenerate) continue;
+    const bool closed = is_closed(model, root);
+    const SizeSamples least = least_of(all, closed, sizes);
+    for (const CurveMember& member : all.members) sizes[member.image.curve] = carried(least, member, closed);
+  }
+}
+
+void share_vertices(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves) {
+  for (const CurveClass& all : periodic.curves) {
+    DiscreteCurve& root = curves[all.members.front().image.curve];
+    if (root.indivisible) continue;
+    const int prescribed = prescribed_member(all, model, curves);
+    if (prescribed < 0) {
+      std::vector<double> fixed;
+      if (is_closed(model, root.curve))
+        for (const CurveMember& member : all.members) insert_fraction(fixed, wrapped(member.image.back(0)));
+      if (!fixed.empty()) cut_at(fixed, model, root);
+      if (all.turn) make_symmetric(*all.turn, model, root);
+    }
+    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, exact_images * periodic.gap, curves);
+  }
+}
+
+void carry_vertices(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves) {
+  for (const CurveClass& all : periodic.curves) {
+    DiscreteCurve& root = curves[all.members.front().image.curve];
+    if (root.indivisible || root.prescribed) continue;
+    if (all.turn) make_symmetric(*all.turn, model, root);
+    carry_from(all, 0, model, exact_images * periodic.gap, curves);
+  }
+}
+
+std::vector<int> complete_classes(const PeriodicModel& periodic, const CurveModel& model, std::vector<DiscreteCurve>& curves) {
+  std::vector<int> changed;
+  for (const CurveClass& all : periodic.curves) {
+    DiscreteCurve& root = curves[all.members.front().image.curve];
+    if (root.indivisible || root.prescribed) continue;
+    const bool closed = is_closed(model, root.curve);
+    std::vector<double> r(root.r.begin() + 1, root.r.end() - 1);
+    for (const CurveMember& member : all.members)
+      for (const double at : curves[member.image.curve].r) insert_fraction(r, of_root(member, closed, at));
+    if (all.turn)
+      for (const double at : std::vector<double>(r)) insert_fraction(r, 1 - at);
+    const auto has_all = [&](const CurveMember& member) { return curves[member.image.curve].r.size() == r.size() + 2; };
+    if (std::all_of(all.members.begin(), all.members.end(), has_all)) continue;
+    if (all.turn) {
+      place_vertices(root, r, model);
+      make_symmetric(*all.turn, model, root);
+    } else {
+      place_vertices(root, r, model);
+    }
+    carry_from(all, 0, model, exact_images * periodic.gap, curves);
+    for (const CurveMember& member : all.members) changed.push_back(member.image.curve);
+  }
+  std::sort(changed.begin(), changed.end());
+  return changed;
+}
+
+int vertex_image(const DiscreteCurve& from, const DiscreteCurve& to, const CurveImage& image, bool closed, int k) {
+  if (to.segments() != from.segments()) return -1;
+  const int n = from.segments();
+  const bool shifted = closed && image.shift != 0 && image.shift != 1;
+  if (!shifted) return image.reversed ? n - k : k;
+  const double r = wrapped(image.at(from.r[k]));
+  const auto above = std::lower_bound(to.r.begin(), to.r.end(), r - 1e-6);
+  if (above == to.r.end() || *above > r + 1e-6) return -1;
+  return static_cast<int>(above - to.r.begin());
+}
+
+}  // namespace carreau

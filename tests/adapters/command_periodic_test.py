@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""command_periodic_test.py CARREAU MAKE_CELLS: periodic meshes of `carreau mesh`, glued to themselves and read back by Gmsh."""
+import importlib
+import itertools
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, MAKE_CELLS = sys.argv[1:3]
+CELLS = tempfile.mkdtemp(prefix="carreau cells ")
+AXES = ("--periodic", "x", "--periodic", "y", "--periodic", "z")
+SECTOR = ("--periodic", "rotate:0,0,0:0,0,1:60")
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=600)
+
+
+def sections(path):
+    """Lines of each section of a file .msh, by its name."""
+    found, name = {}, None
+    with open(path, encoding="utf-8") as file:
+        for line in file.read().splitlines():
+            if line.startswith("$End"):
+                name = None
+            elif line.startswith("$"):
+                name = line[1:]
+                found[name] = []
+            elif name:
+                found[name].append(line.split())
+    return found
+
+
+class Mesh:
+    """A file .msh of version 2.2: points by number, elements by face, periodic pairs."""
+
+    def __init__(self, path):
+        content = sections(path)
+        self.points = {int(n): tuple(map(float, p)) for n, *p in content["Nodes"][1:]}
+        self.cells = {}
+        for element in content["Elements"][1:]:
+            kind, face, nodes = int(element[1]), int(element[4]), [int(n) for n in element[5:]]
+            if kind in (2, 3, 9, 16):
+                self.cells.setdefault(face, []).append(nodes[:3 if kind in (2, 9) else 4])
+        self.pairs, rows = [], iter(content.get("Periodic", [["0"]])[1:])
+        for dimension, slave, master in rows:
+            affine = [float(x) for x in next(rows)[1:]]
+            count = int(next(rows)[0])
+            nodes = [tuple(map(int, next(rows))) for _ in range(count)]
+            self.pairs.append((int(dimension), int(slave), int(master), affine, nodes))
+
+    def faces(self):
+        return [pair for pair in self.pairs if pair[0] == 2]
+
+    def mismatch(self):
+        """Largest |T(x) - y| of the pairs."""
+        worst = 0
+        for _, _, _, a, nodes in self.pairs:
+            for slave, master in nodes:
+                x, y = self.points[master], self.points[slave]
+                image = [sum(a[4 * i + k] * x[k] for k in range(3)) + a[4 * i + 3] for i in range(3)]
+                worst = max(worst, math.dist(image, y))
+        return worst
+
+    def classes(self):
+        """The number of each point in the glued mesh."""
+        parent = {n: n for n in self.points}
+
+        def find(n):
+            while parent[n] != n:
+                parent[n] = parent[parent[n]]
+                n = parent[n]
+            return n
+
+        for *_, nodes in self.pairs:
+            for slave, master in nodes:
+                a, b = find(slave), find(master)
+                parent[max(a, b)] = min(a, b)
+        return {n: find(n) for n in self.points}
+
+    def same_cells(self, slave, master, nodes):
+        """Elements of a slave are those of its master by the pairs of nodes."""
+        to_slave = {m: s for s, m in nodes}
+        images = sorted(tuple(sorted(to_slave[n] for n in cell)) for cell in self.cells[master])
+        return images == sorted(tuple(sorted(cell)) for cell in self.cells[slave])
+
+
+class Periodic(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau periodic ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def mesh(self, cell, *options, size="0.2", name="cell.msh2", status=0):
+        path = os.path.join(self.folder, name)
+        done = run("mesh", os.path.join(CELLS, cell), "-o", path, "--size", size, *options)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.said = done.stderr
+        return path
+
+    def check(self, path, faces, within=2e-12):
+        """Pairs of faces, exact images, equal elements, a sound mesh."""
+        made = Mesh(path)
+        self.assertEqual(len(made.faces()), faces)
+        self.assertLessEqual(made.mismatch(), within)
+        for _, slave, master, _, nodes in made.faces():
+            self.assertTrue(made.same_cells(slave, master, nodes), (slave, master))
+        self.assertEqual(run("check", path, "--allow-crossings").returncode, 0)
+        return made
+
+    def euler_of_skin(self, made, inner=()):
+        """Returns V - E + F of the glued faces that are in no pair. Each edge must have two elements."""
+        paired = {f for pair in made.faces() for f in pair[1:3]}
+        glued = made.classes()
+        cells = [tuple(glued[n] for n in cell) for face, all in made.cells.items() if face not in paired for cell in all]
+        edges = {}
+        for cell in cells:
+            for a, b in zip(cell, cell[1:] + cell[:1]):
+                key = (min(a, b), max(a, b))
+                edges[key] = edges.get(key, 0) + 1
+        self.assertEqual([e for e, n in edges.items() if n != 2], [])
+        return len({n for cell in cells for n in cell}) - len(edges) + len(cells)
+
+    def test_a_cube_has_three_pairs_of_faces_and_classes_of_edges_and_corners(self):
+        made = self.check(self.mesh("cube.step", *AXES), 3)
+        self.assertEqual(sum(pair[0] == 1 for pair in made.pairs), 9)  # twelve edges in three classes
+        self.assertEqual(sum(pair[0] == 0 for pair in made.pairs), 7)  # eight corners in one
+        self.assertEqual(len({made.classes()[n] for n, p in made.points.items() if set(p) <= {0., 1.}}), 1)
+        self.assertIn("periodic: 3 pairs of faces", self.said)
+
+    def test_a_translation_by_its_length_is_the_same(self):
+        path = self.mesh("cube.step", "--periodic", "1,0,0")
+        self.check(path, 1)
+        with open(path, "rb") as file:
+            first = file.read()
+        with open(self.mesh("cube.step", "--periodic", "x"), "rb") as file:
+            self.assertEqual(file.read(), first)
+
+    def test_sectors_of_cylinders(self):
+        for cell in ("sector.step", "annulus.step"):
+            with self.subTest(cell):
+                self.check(self.mesh(cell, *SECTOR), 1)
+        self.check(self.mesh("sector24.step", "--periodic", "rotate:0,0,0:0,0,1:15", size="0.05"), 1)
+
+    def test_sizes_of_one_side_hold_on_the_other_side(self):
+        made = self.check(self.mesh("cube.step", *AXES, "--face-size", "1=.05"), 3)
+        slave = next(pair for pair in made.faces() if 1 in pair[1:3])
+        self.assertGreater(len(made.cells[slave[1]]), 600)
+
+    def test_gradation_crosses_the_border(self):
+        for options in (("--gradation", "1.3"), ("--gradation", "1.3", "--size-map", ".03 + .2*abs(x - .9)")):
+            with self.subTest(options):
+                self.check(self.mesh("cube.step", *AXES, *options), 3)
+
+    def test_elements_of_all_kinds(self):
+        for element in ("p2", "q1.0", "q1.1", "q2.0", "q2.1"):
+            for cell, options, pairs in (("fcc.step", AXES, None), ("annulus.step", SECTOR, 1)):
+                with self.subTest(element=element, cell=cell):
+                    path = self.mesh(cell, *options, "--element", element)
+                    made = Mesh(path)
+                    self.check(path, pairs or len(made.faces()))
+
+    def test_spheres_in_the_corners_and_faces_of_a_cube(self):
+        """Glued, the surface in the cell is four whole spheres."""
+        made = self.check(self.mesh("fcc.step", *AXES, size="0.1"), 3)
+        self.assertEqual(self.euler_of_skin(made), 8)
+
+    def test_forty_inclusions(self):
+        made = self.check(self.mesh("inclusions.step", *AXES, size="0.05"), 3)
+        self.assertEqual(self.euler_of_skin(made), 80)
+
+    def test_the_mesh_does_not_depend_on_threads(self):
+        files = []
+        for threads in ("1", "3"):
+            with open(self.mesh("fcc.step", *AXES, "--threads", threads), "rb") as file:
+                files.append(file.read())
+        self.assertEqual(files[0], files[1])
+
+    def test_anisotropic_sizes(self):
+        made = Mesh(self.mesh("fcc.step", *AXES, "--anisotropic", "--angle", "10"))
+        self.assertEqual(len(made.faces()), 3)
+        self.assertLessEqual(made.mismatch(), 2e-12)
+
+    def test_faces_that_do_not_match_are_reported(self):
+        path = os.path.join(self.folder, "none.msh")
+        done = run("mesh", os.path.join(CELLS, "mismatch.step"), "-o", path, "--periodic", "x")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("do not match", done.stderr)
+        self.assertIn("apart at (", done.stderr)
+        for word in ("w", "1,2", "0,0,0", "rotate:0,0,0:0,0,0:60", "1=", "rotate:1"):
+            done = run("mesh", os.path.join(CELLS, "cube.step"), "-o", path, "--periodic", word)
+            self.assertEqual(done.returncode, 2, word)
+            self.assertIn("--periodic", done.stderr)
+        done = run("mesh", os.path.join(CELLS, "cube.step"), "-o", path, "--periodic", "1=1")
+        self.assertIn("periodic with itself", done.stderr)
+
+    def test_prescribed_edges_of_both_sides(self):
+        """Edges of one side are the edges of the other side; two that differ are an error."""
+        made = self.check(self.mesh("cube.step", *AXES, "--curve-edges", "1=7"), 3)
+        counts = {len(pair[4]) for pair in made.pairs if pair[0] == 1}
+        self.assertIn(8, counts)
+
+    def test_pairs_as_text(self):
+        path = os.path.join(self.folder, "pairs.txt")
+        self.mesh("cube.step", *AXES, "-o", path)
+        with open(path, encoding="utf-8") as file:
+            blocks = [line.split() for line in file if line.startswith("# ") and line[2].isdigit()]
+        self.assertEqual([int(block[1]) for block in blocks], 7 * [0] + 9 * [1] + 3 * [2])
+
+    def test_gmsh_reads_the_pairs(self):
+        try:
+            gmsh = importlib.import_module("gmsh")
+        except ImportError:
+            raise unittest.SkipTest("Python has no gmsh") from None
+        for name, element in itertools.product(("cell.msh", "cell.msh2"), ("p1", "p2")):
+            with self.subTest(name=name, element=element):
+                path = self.mesh("fcc.step", *AXES, "--element", element, "--set", "flag=1", name=name)
+                gmsh.initialize()
+                try:
+                    gmsh.option.setNumber("General.Terminal", 0)
+                    if name == "cell.msh2":
+                        shutil.copy(path, path + ".msh")
+                        path += ".msh"
+                    gmsh.open(path)
+                    found = 0
+                    for dimension, tag in gmsh.model.getEntities(2):
+                        master, nodes, masters, affine = gmsh.model.mesh.getPeriodicNodes(dimension, tag, True)
+                        if master == tag:
+                            continue
+                        found += 1
+                        self.assertGreater(len(nodes), 3)
+                        for node, partner in zip(nodes, masters):
+                            y, x = gmsh.model.mesh.getNode(node)[0], gmsh.model.mesh.getNode(partner)[0]
+                            image = [sum(affine[4 * i + k] * x[k] for k in range(3)) + affine[4 * i + 3] for i in range(3)]
+                            self.assertLess(math.dist(image, y), 2e-12)
+                    self.assertEqual(found, 3)
+                finally:
+                    gmsh.finalize()
+
+
+if __name__ == "__main__":
+    subprocess.run([MAKE_CELLS, CELLS], check=True, stdout=subprocess.DEVNULL)
+    try:
+        program = unittest.main(argv=sys.argv[:1] + sys.argv[3:], exit=False)
+    finally:
+        shutil.rmtree(CELLS)
+    sys.exit(not program.result.wasSuccessful())

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// make_cells FOLDER: periodic cells and cyclic sectors, made by OpenCASCADE.
+//   cube.step        the unit cube
+//   sector.step      60 degrees of a cylinder of radius 1 and height 1 about z; annulus.step: of a pipe; sector24.step: 15 degrees of a
+//                    pipe with a hole in it
+//   fcc.step         the unit cube without spheres of radius .3 around its corners and the middles of its faces
+//   inclusions.step  the unit cube without forty spheres, of which six faces cut some; mismatch.step: the cube without one at one face
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <gp_Ax2.hxx>
+#include <gp_Pnt.hxx>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Centre = std::array<double, 3>;
+
+void write(const TopoDS_Shape& shape, const std::string& path) {
+  STEPControl_Writer writer;
+  if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone || writer.Write(path.c_str()) != IFSelect_RetDone)
+    throw std::runtime_error(path + " cannot be written");
+}
+
+TopoDS_Shape cut(const TopoDS_Shape& from, const TopTools_ListOfShape& tools) {
+  TopTools_ListOfShape arguments;
+  arguments.Append(from);
+  BRepAlgoAPI_Cut operation;
+  operation.SetArguments(arguments);
+  operation.SetTools(tools);
+  operation.Build();
+  if (!operation.IsDone()) throw std::runtime_error("a cut has failed");
+  return operation.Shape();
+}
+
+// Spheres with their periodic images as far as these meet the unit cube.
+TopoDS_Shape without_spheres(const std::vector<Centre>& centres, double radius) {
+  TopTools_ListOfShape spheres;
+  for (const Centre& c : centres)
+    for (int image = 0; image < 27; ++image) {
+      const Centre p{c[0] + image % 3 - 1, c[1] + image / 3 % 3 - 1, c[2] + image / 9 - 1};
+      double distance = 0;
+      for (const double x : p) distance += std::pow(std::max({-x, x - 1, 0.}), 2);
+      if (std::sqrt(distance) < radius) spheres.Append(BRepPrimAPI_MakeSphere(gp_Pnt(p[0], p[1], p[2]), radius).Shape());
+    }
+  return cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), spheres);
+}
+
+double apart(const Centre& a, const Centre& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += std::pow(std::remainder(a[k] - b[k], 1.), 2);
+  return std::sqrt(sum);
+}
+
+// Random, apart from each other, and never nearly touching a face: slivers would show nothing.
+std::vector<Centre> forty(double radius) {
+  std::uint64_t state = 46;
+  const auto next = [&] {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(state >> 11) / 9007199254740992.;
+  };
+  std::vector<Centre> centres;
+  while (centres.size() < 40) {
+    const Centre c{next(), next(), next()};
+    bool good = true;
+    for (const double x : c) {
+      const double to_face = std::min(x, 1 - x);
+      good = good && (to_face < 0.8 * radius || to_face > 1.2 * radius);
+    }
+    for (const Centre& other : centres) good = good && apart(c, other) > 2.2 * radius;
+    if (good) centres.push_back(c);
+  }
+  return centres;
+}
+
+TopoDS_Shape pipe_sector(double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  TopTools_ListOfShape bore;
+  bore.Append(BRepPrimAPI_MakeCylinder(0.5, 1., angle).Shape());
+  return cut(BRepPrimAPI_MakeCylinder(1., 1., angle).Shape(), bore);
+}
+
+void make(const std::string& folder) {
+  write(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), folder + "/cube.step");
+  write(BRepPrimAPI_MakeCylinder(1., 1., std::numbers::pi / 3).Shape(), folder + "/sector.step");
+  write(pipe_sector(60), folder + "/annulus.step");
+  TopTools_ListOfShape hole;
+  hole.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0.75 * std::cos(0.13), 0.75 * std::sin(0.13), 0.5), 0.06).Shape());
+  write(cut(pipe_sector(15), hole), folder + "/sector24.step");
+  write(without_spheres({{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.3), folder + "/fcc.step");
+  write(without_spheres(forty(0.12), 0.12), folder + "/inclusions.step");
+  TopTools_ListOfShape one;
+  one.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0, 0.5, 0.5), 0.2).Shape());
+  write(cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), one), folder + "/mismatch.step");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (argc != 2) throw std::runtime_error("usage: make_cells FOLDER");
+    make(argv[1]);
+  } catch (const Standard_Failure& error) {
+    std::fprintf(stderr, "%s\n", error.GetMessageString());
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
