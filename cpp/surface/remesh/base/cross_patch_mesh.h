@@ -141,7 +141,6 @@ class CrossPatchMesh : public PlacedVertices {
   /// Moves a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
 
-
   /// Takes over the results of all parts of a division. Triangles get other numbers, old vertices keep theirs.
   void take(const Division& division, std::vector<EditedPart>&& edited);
 
