@@ -7,6 +7,7 @@
 #include <set>
 
 #include "geometry/discrete/thresholds.h"
+#include "geometry/discrete/triangulation.h"
 #include "model/union_find.h"
 
 namespace carreau::discrete {

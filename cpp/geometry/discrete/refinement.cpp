@@ -6,6 +6,7 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "geometry/discrete/triangulation.h"
 #include "support/error.h"
 
 namespace carreau::discrete {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "geometry/discrete/refinement.h"
+#include "geometry/discrete/triangulation.h"
 #include "support/error.h"
 
 namespace carreau::discrete {

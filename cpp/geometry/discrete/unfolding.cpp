@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/discrete/triangulation.h"
+
 namespace carreau::discrete {
 
 namespace {
