@@ -16,7 +16,7 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PRE
   OUTPUT_VARIABLE CARREAU_PC_TO_PREFIX)
 string(REGEX REPLACE "/$" "" CARREAU_PC_TO_PREFIX "${CARREAU_PC_TO_PREFIX}")
 set(pc_files carreau)
-# What the library links: a program has to do so itself when the library is static.
+# Libraries that the library links: a program must link them itself when the library is static.
 set(CARREAU_PC_LIBS_PRIVATE "-lz -pthread")
 if(CARREAU_TBB)
   string(APPEND CARREAU_PC_LIBS_PRIVATE " -ltbb")
@@ -52,7 +52,7 @@ if(CARREAU_MPI)
 endif()
 if(CARREAU_FORTRAN)
   list(APPEND pc_files carreau-fortran)
-  # Of the programs that carreau_add_blsurf makes.
+  # The manual page of programs that carreau_add_blsurf makes.
   install(FILES ${PROJECT_SOURCE_DIR}/docs/man/blsurf.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT development)
 endif()
 foreach(name IN LISTS pc_files)

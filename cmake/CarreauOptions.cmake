@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What of OpenCASCADE is linked to libcarreau_cad, and what its readers of STEP and IGES files need beside.
+# Libraries of OpenCASCADE that libcarreau_cad links, and further libraries for its readers of STEP and IGES files.
 set(CARREAU_OPENCASCADE_LIBRARIES TKBO TKShHealing TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
 set(CARREAU_STEP_LIBRARIES TKSTEP TKSTEPAttr TKSTEPBase TKXSBase)
 set(CARREAU_IGES_LIBRARIES TKIGES TKXSBase)
 
-# What is built. AUTO, the default: where what it needs is found; ON: it must be found. What is left out is told at the end of
-# the configuration (carreau_print_summary), with the Debian packages that would bring it.
+# Options of the build. AUTO, the default: builds a part if its dependencies are found; ON: they must be found. The end of the
+# configuration (carreau_print_summary) lists the parts that are left out, with the Debian packages that they require.
 include(CheckLanguage)
 set_property(GLOBAL PROPERTY CARREAU_LEFT_OUT "")
 
-# carreau_left_out(<what is missing> <why>)
+# carreau_left_out(<missing part> <reason>)
 function(carreau_left_out what why)
   set_property(GLOBAL APPEND PROPERTY CARREAU_LEFT_OUT "${what}: ${why}")
 endfunction()
 
-# carreau_option(<name> <help> <found> <what is missing without it> <why AUTO is OFF>)
+# carreau_option(<name> <help> <found> <missing part without it> <reason if AUTO is OFF>)
 function(carreau_option name help found what why)
-  set(${name} AUTO CACHE STRING "${help}; AUTO: when what it needs is found")
+  set(${name} AUTO CACHE STRING "${help}; AUTO: if its dependencies are found")
   set_property(CACHE ${name} PROPERTY STRINGS AUTO ON OFF)
   if(NOT "${${name}}" STREQUAL "AUTO")
     if(NOT ${name})
@@ -62,7 +62,7 @@ check_language(Fortran)
 carreau_option(CARREAU_FORTRAN "Fortran modules and examples" "${CMAKE_Fortran_COMPILER}"
   "Fortran modules and examples" "there is no Fortran compiler (gfortran)")
 
-# Of a project that contains this one, the library alone.
+# A project that contains this one gets the library alone.
 if(NOT PROJECT_IS_TOP_LEVEL)
   option(CARREAU_OPENCASCADE "libcarreau_cad" OFF)
   option(CARREAU_COMMAND "The command carreau" OFF)
@@ -97,7 +97,7 @@ if(CARREAU_COMMAND)
   endif()
   carreau_option(CARREAU_MUPARSER "Formulas in carreau mesh --size-map" ${found}
     "formulas in --size-map" "muParser was not found (libmuparser-dev)")
-  # The header of the MED library includes the header of its own HDF5, and of MPI in parallel builds.
+  # The header of the MED library includes the header of the HDF5 that it was built with, and of MPI in parallel builds.
   find_library(CARREAU_MED_LIBRARY medC DOC "MED, for files .med")
   find_path(CARREAU_MED_INCLUDE medmesh.h DOC "Folder of med.h")
   set(found OFF)

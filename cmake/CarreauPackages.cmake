@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cpack` in the build folder: one archive that can be unpacked anywhere, and one package for Debian, each with all that was built. The
+# `cpack` in the build folder: one archive that can be unpacked anywhere, and one package for Debian, each with all built parts. The
 # packages of a distribution, library by library, are made from debian/.
 set(CPACK_GENERATOR TGZ)
 find_program(CARREAU_DPKG dpkg-deb)
@@ -22,6 +22,6 @@ if(CARREAU_OPENCASCADE)
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/cad_adapters/cad)
 endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/triggers)
-# Those of debian/ hold the same files.
+# The packages of debian/ hold the same files.
 set(CPACK_DEBIAN_PACKAGE_CONFLICTS "libcarreau0, libcarreau-dev, libcarreau-cad0, libcarreau-cad-dev, libcarreau-mpi0, libcarreau-mpi-dev, python3-carreau")
 include(CPack)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Precompiled headers, which halve the time of a build from nothing. They are those of others only, never our own: what
-# changes with every edit would build everything again. Sources include what they use all the same, and
-# -DCARREAU_PCH=OFF builds them so.
+# Precompiled headers, which halve the time of a build from nothing. They hold headers of other projects only: an edit of
+# an own header would build everything again. Sources still include all headers that they use, and -DCARREAU_PCH=OFF
+# builds them without precompiled headers.
 include_guard()
 
-# ccache takes precompiled headers only when it is told to be sloppy.
+# ccache takes precompiled headers only with sloppy settings.
 set(default ON)
 if("${CMAKE_CXX_COMPILER_LAUNCHER};${CMAKE_CXX_COMPILER}" MATCHES "ccache")
   set(default OFF)
@@ -14,7 +14,7 @@ option(CARREAU_PCH "Precompile the headers of the standard library and of other 
 set(CARREAU_STANDARD_HEADERS <algorithm> <array> <atomic> <bit> <cmath> <cstddef> <cstdint> <cstdio> <cstring> <deque>
   <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <set> <span> <stdexcept> <string> <string_view>
   <utility> <variant> <vector>)
-# What every source of the engine includes.
+# Headers that every source of the engine includes.
 set(CARREAU_ENGINE_HEADERS ${CARREAU_STANDARD_HEADERS} <Eigen/Core>)
 
 # carreau_precompile(<target> <header>...): of a target in C++ only.
@@ -33,8 +33,8 @@ function(carreau_precompiled_as target owner)
   endif()
 endfunction()
 
-# GCC 12 sees overflows in std::string's operator+ that are not there (GCC bug 105651), and where headers are precompiled it
-# tells of them although they are the system's. A build without looks for those of our own.
+# GCC 12 reports overflows in std::string's operator+ that do not exist (GCC bug 105651). With precompiled headers it reports
+# them although the headers belong to the system. A build without precompiled headers finds overflows of this project.
 function(carreau_silence_false_overflows target)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-stringop-overflow>
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-stringop-overread>

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# CARREAU_PYTHON, and CARREAU_PYTHON_EXECUTABLE: a Python with NumPy. The one that CMake finds first may be a person's own
-# without it, beside that of the system.
+# CARREAU_PYTHON, and CARREAU_PYTHON_EXECUTABLE: a Python with NumPy. CMake may first find a user's Python
+# without NumPy, beside the Python of the system.
 find_package(Python3 QUIET COMPONENTS Interpreter)
 if(NOT CARREAU_PYTHON_EXECUTABLE)
   foreach(candidate IN ITEMS ${Python3_EXECUTABLE} /usr/bin/python3)

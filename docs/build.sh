@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# build.sh OUT [BUILDER]: makes the pages: OUT/html/index.html. A warning is an error, and so is an internal link that leads nowhere. The network is not
-# asked, unless BUILDER is `linkcheck`, which tries the links to other sites.
+# build.sh OUT [BUILDER]: makes the pages: OUT/html/index.html. A warning is an error, and so is an internal link that leads
+# nowhere. It does not use the network, unless BUILDER is `linkcheck`, which tries the links to other sites.
 # Debian: python3-sphinx python3-myst-parser furo groff-base, and for the C++ interface doxygen python3-breathe.
 set -eu
 docs=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)

@@ -13,7 +13,7 @@ project = "Carreau"
 copyright = "the authors of Carreau, BSD-3-Clause"
 extensions = ["myst_parser", "fortran_domain"]
 if os.path.exists(os.path.join(docs, "../cabi/include/carreau.hpp")):
-    extensions.append("breathe")  # build.sh says where Doxygen's XML is
+    extensions.append("breathe")  # build.sh sets the folder of Doxygen's XML
 breathe_default_project = "carreau"
 breathe_show_include = False
 root_doc = "index"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what is missing, builds, and meshes the Utah teapot through its Fortran host: out/teapot of the clone then holds
+# Installs missing packages, builds, and meshes the Utah teapot through its Fortran host. Then out/teapot of the clone holds
 # the mesh for Medit and Gmsh (.mesh), for ParaView (.vtu), and a picture (.png).
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)

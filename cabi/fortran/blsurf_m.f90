@@ -7,8 +7,9 @@
 !>     end program blsurf
 !>
 !> cad_m is compiled first, then this file; both are linked with carreau_fortran and carreau. cad_m holds the routines of
-!> the manual's figure 10; cad_init and those of sizes (cad_hphys, cad_hphyc, cad_hphyp, cad_rads, cad_radc) may be left out:
-!> nothing is initialised, no size is answered. Routines that the variables of blsurf.env do not ask for are not called.
+!> the manual's figure 10; cad_init and the routines of sizes (cad_hphys, cad_hphyc, cad_hphyp, cad_rads, cad_radc) may be
+!> left out:
+!> nothing is initialised, no size is answered. blsurf_s does not call routines that the variables of blsurf.env do not need.
 module blsurf_m
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
@@ -24,7 +25,7 @@ module blsurf_m
 contains
 
   !> Runs a blsurf.env: `env`, or the first argument of the command line, or blsurf.env in the current folder. Files that
-  !> it names are beside it. Prints messages as its variable verb wants. When something fails the sentence goes to the
+  !> it names are beside it. Prints messages by its variable verb. When something fails the sentence goes to the
   !> error output, and the program stops with exit code 1.
   subroutine blsurf_s(env)
     character(len=*), intent(in), optional :: env
@@ -84,7 +85,7 @@ contains
 
   ! The user's routines take default integers and double precision numbers without intent, may change their arguments, and
   ! may be compiled with flags that change default kinds: they get copies of their own kinds. Results start as NaN, so
-  ! that what a routine leaves unset for a reference it does not know is found.
+  ! that values that a routine leaves unset for an unknown reference are found.
 
   pure function nan() result(value)
     double precision :: value
@@ -221,8 +222,8 @@ contains
     h = x
   end subroutine radc
 
-  ! Routines that cad_m may leave out. In a procedure that uses cad_m its names hide those of this module: the empty
-  ! routines below are called where it has none. There, names of ours must not be names of cad_m.
+  ! Routines that cad_m may leave out. In a procedure that uses cad_m its names hide the names of this module: the empty
+  ! routines below are called where it has none. There, our names must not be names of cad_m.
 
   subroutine user_init
     use cad_m

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What carreau.h declares, as plain Python data: functions, structs, callbacks, constants, and what it says of them."""
+"""The declarations of carreau.h as plain Python data: functions, structs, callbacks, constants, and their comments."""
 import re
 
 COMMENT = re.compile(r"/\*.*?\*/", flags=re.S)
@@ -23,8 +23,8 @@ def first_sentence(comment):
 
 class Header:
     """functions: {name: (result, [(type, argument)])}; structs: {name: [(type, member)]}, in the order of the file, with
-    pointers to functions of type "function", which member_functions[struct] has in full, as callback_types has those
-    with a name of their own;
+    pointers to functions of type "function", which member_functions[struct] has in full; callback_types has the named
+    function types;
     comments: {name: first sentence of the comment right before the declaration}; constants: {name: value}."""
 
     def __init__(self, path):

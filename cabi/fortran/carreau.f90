@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! wrappers.py writes this file from carreau.f90.in: do not edit it.
-!> Fortran 2003 interface of cabi/include/carreau.h: the same names, the same order of arguments, the status last. What each
-!> routine means, its units and its errors are written there. Different here:
+!> Fortran 2003 interface of cabi/include/carreau.h: the same names, the same order of arguments, the status last. That
+!> header documents the meaning, units and errors of each routine. Different here:
 !>   - vertices, triangles, edges, faces and parameters count from 1;
 !>   - arrays of results are allocated by the call, column by column: xyz(3, n), triangles(3, m), uv(2, 3, m); after an
 !>     error they are not allocated;
 !>   - texts are allocated by the call, and trailing blanks of texts that are given do not count;
-!>   - callbacks are arguments of their own, so that the compiler checks them; those that are optional may be left out.
+!>   - callbacks are separate arguments, so that the compiler checks them; optional callbacks may be left out.
 !> Callbacks are bind(c) procedures of a module, with the interfaces below. They must return: no `stop`.
 module carreau
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, c_funptr, c_int32_t, &
@@ -125,7 +125,7 @@ module carreau
     real(c_double) :: uv(2) = 0, t = 0
   end type carreau_error_place
 
-  ! The order of members is older than that of C.
+  ! The order of members is older than the order in C.
   type :: carreau_parameter
     character(len=:), allocatable :: name, help, default_text, choices, set_by
     integer(c_int32_t) :: type = 0
@@ -140,7 +140,7 @@ module carreau
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type carreau_report
 
-  ! The order of members is older than that of C.
+  ! The order of members is older than the order in C.
   type :: carreau_interface
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
     logical :: boundary = .false., glued = .false., degenerate = .false.
@@ -154,7 +154,7 @@ module carreau
   end type carreau_background_report
 
   !> Zeros stand for the defaults in carreau.h.
-  ! The order of members is older than that of C.
+  ! The order of members is older than the order in C.
   type :: carreau_estimator
     integer(c_int32_t) :: source = CARREAU_HESSIAN, shape = CARREAU_ISOTROPIC
     logical :: relative = .false.
@@ -209,7 +209,7 @@ module carreau
       angle_min = 0, angle_max = 0, area = 0, edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
   end type carreau_quality
 
-  !> Of a mesh in parts.
+  !> Counts of a mesh in parts.
   type :: carreau_part_counts
     integer(c_int32_t) :: rank = 0, size = 0
     integer(c_int64_t) :: own_vertices = 0, own_triangles = 0, all_vertices = 0, all_triangles = 0, all_edges = 0, &
@@ -392,7 +392,7 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_surface_metric_fn
 
-    !> The same at n points; xyz are the points in space.
+    !> Metrics at n points; xyz are the points in space.
     function carreau_surface_metric_batch_fn(face, n, uv, xyz, kind, value, user) result(status) bind(c)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -437,14 +437,14 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_field_fn
 
-    !> Nothing asks the callbacks any more.
+    !> Nothing calls the callbacks any more.
     subroutine carreau_release_fn(user) bind(c)
       import :: c_ptr
       implicit none
       type(c_ptr), value :: user
     end subroutine carreau_release_fn
 
-    !> Adds count to what all ranks share.
+    !> Adds count to the number that all ranks share.
     function carreau_team_take_fn(count, before, user) result(status) bind(c)
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -454,7 +454,8 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_team_take_fn
 
-    !> bytes: the address of n bytes; sizes: as many as there are ranks; all_bytes: the address of those of all.
+    !> bytes: the address of n bytes; sizes: as many as there are ranks; all_bytes: the address of the bytes of all
+    !> ranks.
     function carreau_team_exchange_fn(n, bytes, sizes, all_bytes, user) result(status) bind(c)
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -616,7 +617,7 @@ contains
   end subroutine carreau_set_cad_m
 
   !> surface_order and curve_order: the derivatives that `surface` and `curve` give, 2 when they are left out (carreau.h: 0);
-  !> what they do not give is found by finite differences. user: c_loc of a target, c_null_ptr when left out.
+  !> finite differences replace the others. user: c_loc of a target, c_null_ptr when left out.
   subroutine carreau_set_cad(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
       reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, &
       failure, release)
@@ -678,7 +679,7 @@ contains
     status = c_set_team(session%handle, team)
   end subroutine carreau_set_team
 
-  !> Where `size` is an argument the function of this name is not there.
+  !> A procedure with an argument `size` cannot call the intrinsic function of this name.
   pure function bytes_of_team() result(bytes)
     integer(c_size_t) :: bytes
     type(c_team) :: team
@@ -694,7 +695,7 @@ contains
     status = c_set_error(session%handle, error, c_text(sentence))
   end subroutine carreau_set_error
 
-  !> Those that are left out do not answer. Of either kind of geometry.
+  !> Callbacks that are left out do not answer. They work beside either kind of geometry.
   subroutine carreau_set_metric_callbacks(session, status, user, surface_metric, curve_metric, point_metric, &
       surface_metric_batch)
     type(carreau_session), intent(in) :: session
@@ -1117,7 +1118,7 @@ contains
     interface%gap = c%gap
   end subroutine carreau_session_interface
 
-  ! ---- What was delivered ----
+  ! ---- The delivered mesh ----
 
   subroutine carreau_session_delivered(session, delivered, status)
     type(carreau_session), intent(in) :: session
@@ -1295,7 +1296,7 @@ contains
     if (size(triangles, 1) /= 3) return
     c%struct_size = size(transfer(c, [c_null_char]))
     c%dimension = int(size(vertices, 1), c_int32_t)
-    allocate (p(size(vertices) + 1), t(3 * m + 1)) ! never empty: an address is wanted
+    allocate (p(size(vertices) + 1), t(3 * m + 1)) ! never empty: C needs an address
     p(:size(vertices)) = reshape(vertices, [size(vertices)])
     t(:3 * m) = reshape(triangles, [3 * m]) - 1
     c%vertices = c_loc(p(1))
@@ -1382,7 +1383,7 @@ contains
     counts%crossings = c%crossings
   end subroutine carreau_mesh_part_count
 
-  !> Of the whole mesh.
+  !> Quality of the whole mesh.
   subroutine carreau_mesh_part_quality(part, quality, status)
     type(carreau_mesh), intent(in) :: part
     type(carreau_quality), intent(out) :: quality
@@ -1679,7 +1680,7 @@ contains
     face%rgb = c%rgb
   end subroutine carreau_mesh_face
 
-  !> solids: the one that the triangles of the face look out of, and the one that they look into; 0: none.
+  !> solids: the solid that the triangles of the face look out of, and the solid that they look into; 0: none.
   subroutine carreau_mesh_face_sides(mesh, face_ref, solids, status)
     type(carreau_mesh), intent(in) :: mesh
     integer(c_int32_t), intent(in) :: face_ref
@@ -1801,7 +1802,8 @@ contains
   ! ---- Curves in metrics ----
 
   !> points(2 or 3, n) of a polyline; metrics(3 or 6, m), xx xy yy or xx xy xz yy yz zz, at abscissae(m); law 0, 1, 2;
-  !> lss 0: 0.5. cuts(number of edges + 1): abscissae of edges of equal length in the metric; length: that of the curve.
+  !> lss 0: 0.5. cuts(number of edges + 1): abscissae of edges of equal length in the metric; length: the length of the
+  !! curve.
   subroutine carreau_curve_split(session, points, abscissae, metrics, law, lss, cuts, length, status)
     type(carreau_session), intent(in) :: session
     real(c_double), intent(in) :: points(:, :), abscissae(:), metrics(:, :)
@@ -1927,7 +1929,7 @@ contains
       metrics, lengths)
   end subroutine carreau_metric_lengths
 
-  !> 2 or 3; 0: neither, which the library refuses.
+  !> 2 or 3; 0: neither, which the library rejects.
   pure integer(c_int32_t) function dimension_of(metrics) result(d)
     real(c_double), intent(in) :: metrics(:, :)
     d = 0
@@ -1944,7 +1946,7 @@ contains
     status = c_set_background_mesh(session%handle, c_text(mesh_path), c_text(sol_path))
   end subroutine carreau_set_background_mesh
 
-  !> By the fields of a file: see adapt_ parameters.
+  !> Sets sizes by the fields of a file: see adapt_ parameters.
   subroutine carreau_set_background_fields(session, mesh_path, sol_path, status)
     type(carreau_session), intent(in) :: session
     character(len=*), intent(in) :: mesh_path, sol_path
@@ -2012,7 +2014,7 @@ contains
     c%dimension = int(size(vertices, 1), c_int32_t)
     c%vertex_count = size(vertices, 2)
     c%triangle_count = size(triangles, 2)
-    allocate (p(size(vertices) + 1), t(size(triangles) + 1)) ! never empty: an address is wanted
+    allocate (p(size(vertices) + 1), t(size(triangles) + 1)) ! never empty: C needs an address
     p(:size(vertices)) = reshape(vertices, [size(vertices)])
     t(:size(triangles)) = reshape(triangles, [size(triangles)]) - 1
     c%vertices = c_loc(p(1))
@@ -2115,7 +2117,8 @@ contains
     metrics = m
   end subroutine carreau_estimate
 
-  !> values(components, n) at the vertices of the mesh before, transferred(components, n) at those of the mesh now.
+  !> values(components, n) at the vertices of the previous mesh, transferred(components, n) at the vertices of the
+  !> current mesh.
   !> Elements of second order have them at all nodes, corners first; values at corners alone are carried to corners,
   !> and other nodes have NaN.
   subroutine carreau_transfer(session, values, transferred, outside, status)

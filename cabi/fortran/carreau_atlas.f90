@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran 2003 face of cabi/include/carreau_atlas.h: loops and annuli of the plane with smooth parameters, and C1 atlases
-!! of triangulated surfaces. What each routine means and its errors are written there. Different here: vertices, clusters and
-!! charts count from 1.
+!! of triangulated surfaces. That header documents the meaning and errors of each routine. Different here: vertices, clusters
+!! and charts count from 1.
 module carreau_atlas
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_null_ptr, c_null_char, c_ptr
   use carreau, only: carreau_session, carreau_string, CARREAU_ERR_ARGUMENT

@@ -14,7 +14,7 @@ module carreau_atlas_c
     integer(c_int32_t) :: border = 0, reach = 0
   end type c_atlas_options
 
-  !> What an atlas consists of.
+  !> The numbers of the charts and other entities of an atlas.
   type, bind(c) :: c_atlas_counts
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, charts = 0, triples = 0, mended = 0
@@ -85,7 +85,7 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_loop_invert
 
-    !> The pivots (x y), inside and outside by turns, and their number; capacity 0 asks for the number alone.
+    !> The pivots (x y), inside and outside by turns, and their number; capacity 0 requests the number alone.
     function c_loop_pivots(loop, capacity, xy, count) result(status) bind(c, name="carreau_loop_pivots")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -145,7 +145,7 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_annulus_points
 
-    !> Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of those in the annulus; of others 0.
+    !> Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of points in the annulus, 0 for others.
     function c_annulus_invert(annulus, n, xy, tau_phi, zones) result(status) bind(c, name="carreau_annulus_invert")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -240,7 +240,7 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_atlas_build
 
-    !> Count what the atlas consists of, and tell of chart `chart`.
+    !> Count the entities of the atlas, and describe chart `chart`.
     function c_atlas_count(atlas, counts) result(status) bind(c, name="carreau_atlas_count")
       import :: c_atlas_counts, c_int32_t, c_ptr
       implicit none

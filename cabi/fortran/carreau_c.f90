@@ -8,7 +8,7 @@ module carreau_c
   implicit none
   public
 
-  !> What the last error is about.
+  !> The place of the last error.
   type, bind(c) :: c_error_place
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: face = 0, ic = 0, curve = 0, point = 0, line = 0, reserved = 0
@@ -34,7 +34,7 @@ module carreau_c
       surface_radius = c_null_funptr, curve_radius = c_null_funptr, failure = c_null_funptr, release = c_null_funptr
   end type c_cad
 
-  !> Callbacks that want metrics, beside those of a geometry.
+  !> Callbacks that prescribe metrics, beside the callbacks of a geometry.
   type, bind(c) :: c_metric_callbacks
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: user = c_null_ptr
@@ -42,7 +42,7 @@ module carreau_c
       surface_metric_batch = c_null_funptr
   end type c_metric_callbacks
 
-  !> What is known of a parameter, whatever its value.
+  !> The properties of a parameter that do not depend on its value.
   type, bind(c) :: c_parameter
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: name = c_null_ptr, help = c_null_ptr, default_text = c_null_ptr, choices = c_null_ptr
@@ -59,7 +59,7 @@ module carreau_c
     type(c_funptr) :: take = c_null_funptr, exchange = c_null_funptr, release = c_null_funptr
   end type c_team
 
-  !> What the last successful run did.
+  !> Counts and times of the last successful run.
   type, bind(c) :: c_report
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: diag = 0
@@ -111,7 +111,7 @@ module carreau_c
     real(c_double) :: convergence = 0
   end type c_adaptation
 
-  !> What a loop did.
+  !> The outcome of a loop.
   type, bind(c) :: c_adaptation_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: iterations = 0, converged = 0
@@ -122,7 +122,7 @@ module carreau_c
   end type c_adaptation_report
 
   !> A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the
-  !! arrays to carreau_set_background.) Arrays may be NULL where this says so.
+  !! arrays to carreau_set_background.) Arrays may be NULL where their comment allows it.
   type, bind(c) :: c_mesh_arrays
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: dimension = 0, reserved = 0
@@ -139,10 +139,9 @@ module carreau_c
       crossings = 0
   end type c_part_counts
 
-  !> What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two
-  !! sides that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular
-  !! polygon; both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of
-  !! the Jacobian over its mean: 1 for triangles of p1, positive for a valid element.
+  !> The quality of the elements. shape is sigma of the regular polygon over sigma = diameter / least inradius of two
+  !! sides that meet (HDR sec. 1.1.1). scaled_jacobian is the least sine of an element's angles over the sine of the
+  !! regular polygon's angle.
   type, bind(c) :: c_cell_quality
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: triangles3 = 0, triangles6 = 0, quads4 = 0, quads8 = 0, invalid = 0
@@ -150,7 +149,7 @@ module carreau_c
       least_jacobian_mean = 0, least_jacobian_min = 0, angle_min = 0, angle_max = 0, area = 0, triangle_share = 0
   end type c_cell_quality
 
-  !> What became of a face.
+  !> The result of meshing a face.
   type, bind(c) :: c_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: ref = 0, status = 0
@@ -159,8 +158,7 @@ module carreau_c
     integer(c_int32_t) :: rgb = 0
   end type c_face
 
-  !> The shapes and sizes of the triangles. q1 = 2 sqrt(3) inradius / longest edge and q2 = 4 sqrt(3) area / sum of
-  !! squared edges (HDR eq. 1.5, 1.6) are 1 for an equilateral triangle. p1 is the first percentile.
+  !> The shapes and sizes of the triangles.
   type, bind(c) :: c_quality
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
@@ -184,7 +182,7 @@ module carreau_c
     real(c_double) :: lss = 0
   end type c_curve
 
-  !> What a mesh delivers, as a whole.
+  !> Totals of a delivered mesh.
   type, bind(c) :: c_delivered
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0, short_edges = 0, long_edges = 0, &
@@ -268,8 +266,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_last_error_place
 
-    !> For libraries that work on a session of their caller: makes the last call on it one that has failed with this
-    !! status and sentence, and returns the status.
+    !> For libraries that work on a session of their caller: marks the last call as failed with this status and
+    !! sentence.
     function c_set_error(session, error, sentence) result(status) bind(c, name="carreau_set_error")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -324,7 +322,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_add_face
 
-    !> Leaves a face out of what is meshed, for the reason `why`; NULL or "" takes it in again.
+    !> Leaves a face out of the mesh, for the reason `why`; NULL or "" takes it in again.
     function c_model_leave_out_face(session, face_ref, why) result(status) bind(c, name="carreau_model_leave_out_face")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -345,8 +343,8 @@ module carreau_c
     end function c_model_add_curve
 
     !> Prescribes the edges of curve number ic of a face, and so of all curves that are one with it in space, whatever
-    !! sizes say: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its
-    !! parameter t.
+    !! the prescribed sizes: `edges` arcs, whose lengths along the curve in space follow one another in the direction of
+    !! its parameter t.
     function c_model_divide_curve(session, face_ref, ic, edges, progression, ratio) result(status) &
         bind(c, name="carreau_model_divide_curve")
       import :: c_double, c_int32_t, c_ptr
@@ -403,8 +401,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_name_entities
 
-    !> Sets the solids on both sides of a face, by references of the host's own from 1: the one that its triangles look
-    !! out of, and the one that they look into; 0: none.
+    !> Sets the solids on both sides of a face, by references of the host from 1: the solid that its triangles look out
+    !! of, and the solid that they look into; 0: none.
     function c_model_set_face_sides(session, face_ref, solid, other_solid) result(status) &
         bind(c, name="carreau_model_set_face_sides")
       import :: c_int32_t, c_ptr
@@ -424,7 +422,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_color_face
 
-    !> Makes a face a part of another one.
+    !> Makes a face a part of another face.
     function c_model_part_of_face(session, face_ref, whole_ref) result(status) &
         bind(c, name="carreau_model_part_of_face")
       import :: c_int32_t, c_ptr
@@ -434,7 +432,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_part_of_face
 
-    !> Makes the curves of a reference that the model has parts of another one.
+    !> Makes the existing curves of a reference parts of another curve.
     function c_model_part_of_curve(session, ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_curve")
       import :: c_int32_t, c_ptr
       implicit none
@@ -533,7 +531,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_points
 
-    !> Tell the number of parameters, and parameter `index` (from 0) in alphabetical order.
+    !> Give the number of parameters, and parameter `index` (from 0) in alphabetical order.
     function c_parameter_count() result(count) bind(c, name="carreau_parameter_count")
       import :: c_int32_t
       implicit none
@@ -658,7 +656,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_progress_callback
 
-    !> Asks the run under way to stop.
+    !> Requests the run under way to stop.
     subroutine c_stop(session) bind(c, name="carreau_stop")
       import :: c_ptr
       implicit none
@@ -693,7 +691,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_run_env
 
-    !> Tells what that run did.
+    !> Gives the report of that run.
     function c_session_report(session, report) result(status) bind(c, name="carreau_session_report")
       import :: c_int32_t, c_ptr, c_report
       implicit none
@@ -702,7 +700,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_report
 
-    !> Tell the number of interfaces, and interface `index`, from 0, by first appearance.
+    !> Give the number of interfaces, and interface `index`, from 0, by first appearance.
     function c_session_interface_count(session, count) result(status) bind(c, name="carreau_session_interface_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -781,7 +779,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_read_metrics
 
-    !> Tells how.
+    !> Gives the report on the background of the last mesh.
     function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
       import :: c_background_report, c_int32_t, c_ptr
       implicit none
@@ -802,7 +800,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_estimate
 
-    !> Interpolates a field from the n vertices of the mesh that the session had before to those of its mesh now.
+    !> Interpolates a field from the n vertices of the session's previous mesh to the vertices of its current mesh.
     !! `values` has `components` values a vertex (n x components), and out_values has room for `capacity` such rows.
     function c_transfer(session, components, n, values, capacity, out_values, outside) result(status) &
         bind(c, name="carreau_transfer")
@@ -880,7 +878,7 @@ module carreau_c
       type(c_ptr) :: error
     end function c_mesh_last_error
 
-    !> Replaces the content by that of a file.
+    !> Replaces the content by the content of a file.
     function c_mesh_read(mesh, path) result(status) bind(c, name="carreau_mesh_read")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -919,10 +917,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_encode
 
-    !> carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its part:
-    !! the mesh that one process makes, bit for bit, which no process ever has as a whole. `part` (carreau_mesh_create)
-    !! becomes that part: the triangles of the faces that this process has meshed and, behind them, ghosts: those of
-    !! other processes that touch them in a vertex.
+    !> Runs carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its
+    !! part.
     function c_mesh_generate_part(session, part) result(status) bind(c, name="carreau_mesh_generate_part")
       import :: c_int32_t, c_ptr
       implicit none
@@ -930,7 +926,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_generate_part
 
-    !> Tells them.
+    !> Gives the counts of a part.
     function c_mesh_part_count(part, counts) result(status) bind(c, name="carreau_mesh_part_count")
       import :: c_int32_t, c_part_counts, c_ptr
       implicit none
@@ -973,7 +969,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_count
 
-    !> Tells the dimension: 3, or 2 when the mesh was read from a plane one.
+    !> Gives the dimension: 3, or 2 when the mesh was read from a plane mesh.
     function c_mesh_dimension(mesh, dimension) result(status) bind(c, name="carreau_mesh_dimension")
       import :: c_int32_t, c_ptr
       implicit none
@@ -1086,8 +1082,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_cells
 
-    !> u v of each node of each element of a kind in its face, or, when the mesh is independent of its patches
-    !! (parameter patches), in that of carreau_mesh_cell_faces, in the same order; mesh of a session only.
+    !> Gives u v of each node of each element of a kind in its face, in the order of the elements.
     function c_mesh_cell_uv(mesh, kind, capacity, uv) result(status) bind(c, name="carreau_mesh_cell_uv")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -1129,7 +1124,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_cell_quality
 
-    !> Tells of face `index`, from 0.
+    !> Describes face `index`, from 0.
     function c_mesh_face(mesh, index, face) result(status) bind(c, name="carreau_mesh_face")
       import :: c_face, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -1191,8 +1186,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_quality
 
-    !> The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded
-    !! otherwise than in one process.
+    !> Gives the quality of the whole mesh to which a part belongs, as all processes have measured it together: sums are
+    !! rounded otherwise than in one process.
     function c_mesh_part_quality(part, quality) result(status) bind(c, name="carreau_mesh_part_quality")
       import :: c_int32_t, c_ptr, c_quality
       implicit none
@@ -1201,9 +1196,9 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_part_quality
 
-    !> Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area
-    !! or twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that
-    !! are not in their faces.
+    !> Looks for defects that make a mesh unusable: indices out of range, numbers that are not finite, triangles without
+    !! area or duplicates, vertices without a triangle, edges of more than two triangles away from curves, and curves
+    !! that are not in their faces.
     function c_mesh_defects(mesh, closed, limit, count, text) result(status) bind(c, name="carreau_mesh_defects")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -1229,7 +1224,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_intersections
 
-    !> Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images.
+    !> Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
+    !! images.
     function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")
       import :: c_char, c_exr_options, c_int32_t, c_ptr
       implicit none
@@ -1346,7 +1342,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_delivered
 
-    !> Tells the spread of a kind.
+    !> Gives the spread of a kind.
     function c_delivered_measure(session, kind, measure) result(status) bind(c, name="carreau_delivered_measure")
       import :: c_int32_t, c_measure, c_ptr
       implicit none
@@ -1412,7 +1408,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_write
 
-    !> Of the C library: the length of a text that the library returns.
+    !> strlen of the C library: the length of a text that the library returns.
     function c_strlen(text) result(length) bind(c, name="strlen")
       import :: c_ptr, c_size_t
       implicit none

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran 2003 face of cabi/include/carreau_geometry.h: several geometries in
-!! a session, Bezier patches, molecules, grids, triangles and plane domains. What each routine means and its errors are written
-!! there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
-!! are optional.
+!! a session, Bezier patches, molecules, grids, triangles and plane domains. That header documents the meaning and errors of
+!! each routine. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be
+!! NULL are optional.
 module carreau_geometry
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
   use carreau, only: carreau_session, carreau_mesh, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
@@ -115,7 +115,7 @@ contains
       c%first_point, c%last_point)
   end subroutine carreau_geometry_info
 
-  !> Arguments as those of carreau_set_cad.
+  !> Arguments as in carreau_set_cad.
   subroutine carreau_geometry_begin(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
       reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, failure, release)
     type(carreau_session), intent(in) :: session
@@ -562,7 +562,7 @@ contains
     answer = c /= 0
   end subroutine carreau_plane_has_sizes
 
-  !> Whether the optional arrays of n curves have their sizes.
+  !> True if the optional arrays of n curves have their sizes.
   function fit_curves(curves, n) result(fit)
     type(carreau_plane_curves), intent(in) :: curves
     integer, intent(in) :: n

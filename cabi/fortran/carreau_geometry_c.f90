@@ -30,7 +30,7 @@ module carreau_geometry_c
     type(c_ptr) :: radii = c_null_ptr
   end type c_molecule_options
 
-  !> Of the surface, exactly: no mesh is needed.
+  !> Exact measures of the surface: no mesh is needed.
   type, bind(c) :: c_molecule_measures
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: area = 0, volume = 0
@@ -59,7 +59,7 @@ module carreau_geometry_c
     integer(c_int32_t) :: fill = 0, reserved = 0
   end type c_grid_options
 
-  !> What of a surface given as triangles is a line.
+  !> The lines of a surface given as triangles.
   type, bind(c) :: c_triangles_options
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: sharp_angle = 0, corner_angle = 0
@@ -73,7 +73,7 @@ module carreau_geometry_c
     type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, triangle_refs = c_null_ptr, edges = c_null_ptr
   end type c_triangles
 
-  !> What was found in the triangles of a session.
+  !> Findings in the triangles of a session.
   type, bind(c) :: c_triangles_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, shells = 0, euler_number = 0, border_edges = 0, &
@@ -84,7 +84,7 @@ module carreau_geometry_c
   end type c_triangles_report
 
   interface
-    !> Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
+    !> Count the geometries that were added, and describe geometry `index`, from 0, in the order of adding.
     function c_geometry_count(session, count) result(status) bind(c, name="carreau_geometry_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -102,7 +102,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_geometry_info
 
-    !> Begins a geometry of callbacks beside what the session has.
+    !> Begins a geometry of callbacks beside the geometries of the session.
     function c_geometry_begin(session, callbacks) result(status) bind(c, name="carreau_geometry_begin")
       import :: c_int32_t, c_ptr
       implicit none
@@ -133,8 +133,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_bezier
 
-    !> The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are
-    !! found when a mesh is made.
+    !> Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides
+    !! that meet are found when a mesh is made.
     function c_load_bezier(session, path) result(status) bind(c, name="carreau_load_bezier")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -143,7 +143,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_bezier
 
-    !> Tells the degrees m and n of a face that is a Bezier patch.
+    !> Gives the degrees m and n of a face that is a Bezier patch.
     function c_bezier_degrees(session, face_ref, degrees) result(status) bind(c, name="carreau_bezier_degrees")
       import :: c_int32_t, c_ptr
       implicit none
@@ -164,7 +164,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_molecule
 
-    !> The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif.
+    !> Adds the surface of the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif.
     function c_load_molecule(session, options, path) result(status) bind(c, name="carreau_load_molecule")
       import :: c_char, c_int32_t, c_molecule_options, c_ptr
       implicit none
@@ -183,7 +183,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_measure
 
-    !> Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+    !> Gives reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
     function c_molecule_atoms(session, capacity, refs, areas) result(status) bind(c, name="carreau_molecule_atoms")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -194,8 +194,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_atoms
 
-    !> Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on
-    !! its side of the plane in which the probe's centre moves; a third of each concave part that touches it.
+    !> Gives the full area of each atom: of its convex parts, as above; its share of the torus parts beside it; a third
+    !! of each concave part that touches it.
     function c_molecule_atom_areas(session, capacity, convex, torus, concave) result(status) &
         bind(c, name="carreau_molecule_atom_areas")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
@@ -206,7 +206,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_atom_areas
 
-    !> Tells the residue of an atom, from 0; "" when it has none.
+    !> Gives the residue of an atom, from 0; "" when it has none.
     function c_molecule_atom_name(session, atom) result(name) bind(c, name="carreau_molecule_atom_name")
       import :: c_int64_t, c_ptr
       implicit none
@@ -224,9 +224,9 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_plane_domain
 
-    !> The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb
-    !! or .bl2d of dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with the sizes of a
-    !! .hg beside it).
+    !> Adds the plane domain of a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils),
+    !! .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with
+    !! the sizes of a .hg beside it).
     function c_load_plane_domain(session, path, sizes, corner_angle) result(status) &
         bind(c, name="carreau_load_plane_domain")
       import :: c_char, c_double, c_int32_t, c_ptr
@@ -237,7 +237,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_plane_domain
 
-    !> Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was.
+    !> Gives 1 if the plane domain that the session got last has sizes or metrics at its points; 0 without such a
+    !! domain.
     function c_plane_has_sizes(session, answer) result(status) bind(c, name="carreau_plane_has_sizes")
       import :: c_int32_t, c_ptr
       implicit none
@@ -258,7 +259,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_grid
 
-    !> The same from a file.
+    !> Adds a surface through the grids of a file.
     function c_load_grid(session, options, path, format) result(status) bind(c, name="carreau_load_grid")
       import :: c_char, c_grid_options, c_int32_t, c_ptr
       implicit none
@@ -280,7 +281,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_triangles
 
-    !> The same of a file that carreau_mesh_read reads.
+    !> Adds the triangles of a file that carreau_mesh_read reads.
     function c_load_triangles(session, options, path) result(status) bind(c, name="carreau_load_triangles")
       import :: c_char, c_int32_t, c_ptr, c_triangles_options
       implicit none
@@ -290,7 +291,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_triangles
 
-    !> Tells of the triangles that the session was given.
+    !> Gives the report on the triangles of the session.
     function c_triangles_measure(session, report) result(status) bind(c, name="carreau_triangles_measure")
       import :: c_int32_t, c_ptr, c_triangles_report
       implicit none
@@ -321,9 +322,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_triangles_distances
 
-    !> The same over all points of both: the largest distance from the mesh to the triangles lies between out_bounds[0]
-    !! and out_bounds[1], rounding included, that from the triangles to the mesh between out_bounds[2] and
-    !! out_bounds[3].
+    !> Bounds the distances over all points of both.
     function c_triangles_bounds(session, share, bounds) result(status) bind(c, name="carreau_triangles_bounds")
       import :: c_double, c_int32_t, c_ptr
       implicit none

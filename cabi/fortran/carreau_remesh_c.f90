@@ -28,7 +28,7 @@ module carreau_remesh_c
     real(c_double) :: reach = 0
   end type c_remesh_input
 
-  !> What happened.
+  !> The events of a remeshing.
   type, bind(c) :: c_remesh_summary
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, boundary_edges = 0, bound_vertices = 0, free_vertices = 0, &
@@ -40,8 +40,8 @@ module carreau_remesh_c
 
   interface
     !> Meshes a piece anew after an increment, and puts the result into a mesh that carreau_mesh_create has made:
-    !! dimension 2; references of vertices and edges are CARREAU_NODE_...; edges are those of the boundary, with the
-    !! piece on their left; references of triangles are parts, from 1. `out_summary` may be NULL.
+    !! dimension 2; references of vertices and edges are CARREAU_NODE_...; edges are the boundary, with the piece on
+    !! their left; references of triangles are parts, from 1. `out_summary` may be NULL.
     function c_remesh(mesh, input, summary) result(status) bind(c, name="carreau_remesh")
       import :: c_int32_t, c_ptr, c_remesh_input, c_remesh_summary
       implicit none
@@ -80,8 +80,8 @@ module carreau_remesh_c
       integer(c_int32_t) :: status
     end function c_remesh_damage
 
-    !> Adds a field to a mesh that is no session's, for carreau_mesh_write to .vtu: `components` numbers for each
-    !! vertex, or each triangle.
+    !> Adds a field to a mesh outside of sessions, for carreau_mesh_write to .vtu: `components` numbers for each vertex,
+    !! or each triangle.
     function c_mesh_add_field(mesh, name, on_vertices, components, values) result(status) &
         bind(c, name="carreau_mesh_add_field")
       import :: c_char, c_double, c_int32_t, c_ptr

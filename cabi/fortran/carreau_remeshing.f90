@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran 2003 face of cabi/include/carreau_remesh.h: pieces that deform, break and touch tools are meshed anew. What
-!! each routine means and its errors are written there. Different here: vertices, points of tools and components count
-!! from 1; arrays that are not allocated are not given.
+!> Fortran 2003 face of cabi/include/carreau_remesh.h: pieces that deform, break and touch tools are meshed anew. That
+!! header documents the meaning and errors of each routine. Different here: vertices, points of tools and components
+!! count from 1; arrays that are not allocated are not given.
 module carreau_remeshing
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_null_char
   use carreau, only: carreau_mesh, carreau_mesh_count, CARREAU_ERR_ARGUMENT, CARREAU_OK
@@ -73,7 +73,7 @@ contains
     if (.not. shapes_fit(input)) return
     c%struct_size = size(transfer(c, [c_null_char]))
     told%struct_size = size(transfer(told, [c_null_char]))
-    allocate (triangles(size(input%triangles) + 1)) ! never empty: an address is wanted
+    allocate (triangles(size(input%triangles) + 1)) ! never empty: C needs an address
     triangles(:size(input%triangles)) = reshape(input%triangles, [size(input%triangles)]) - 1
     c%vertex_count = size(input%vertices, 2)
     c%triangle_count = size(input%triangles, 2)
@@ -130,7 +130,7 @@ contains
     c%max_triangles = options%max_triangles
   end subroutine set_options
 
-  !> What C could not see: arrays of a length that belongs to none.
+  !> Checks lengths that C cannot see: each array must have the length of its entities.
   function shapes_fit(input) result(fit)
     type(carreau_remesh_input), intent(in) :: input
     logical :: fit

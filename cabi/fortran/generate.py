@@ -4,7 +4,7 @@
 carreau_geometry_c.f90 of carreau_geometry.h, carreau_cad_c.f90 of carreau_cad.h.
 
     generate.py <carreau.h> <carreau_c.f90>            writes the module
-    generate.py --check <carreau.h> <carreau_c.f90>    fails when the module is not what it would write
+    generate.py --check <carreau.h> <carreau_c.f90>    fails when the module is out of date
 
 How a declaration of C becomes one of Fortran:
   carreau_x                          c_x, for functions and structs
@@ -89,7 +89,7 @@ class Writer:
         return "type(c_ptr), value", ""
 
     def result(self, name, c_type):
-        """(attributes, name) of a function's result; None of a subroutine."""
+        """(attributes, name) of a function's result; None for a subroutine."""
         if c_type == "void":
             return None
         if c_type == "carreau_status":
@@ -165,7 +165,7 @@ class Writer:
         for function in self.header.functions:
             self.function(function)
         if name == "carreau":
-            self.comment("Of the C library: the length of a text that the library returns.", "    ")
+            self.comment("strlen of the C library: the length of a text that the library returns.", "    ")
             self.procedure("c_strlen", "strlen", ("integer(c_size_t)", "length"), [("type(c_ptr), value", "text", "")])
         self.lines.pop()
         self.add("  end interface", f"end module {name}_c")

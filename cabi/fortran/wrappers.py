@@ -3,11 +3,11 @@
 """Writes the Fortran module of a header from its template: carreau.f90 of carreau.f90.in and carreau.h.
 
     wrappers.py <header> <template> <module>            writes the module
-    wrappers.py --check <header> <template> <module>    fails when the module is not what it would write
+    wrappers.py --check <header> <template> <module>    fails when the module is out of date
 
-A template is Fortran, with lines that stand for what the header says:
+A template is Fortran, with lines that stand for declarations of the header:
   !@ wrap carreau_x                the procedure that calls c_x
-  !@ wrap carreau_x a(3, n) b(n)   the same; arrays a and b are allocated by the call. n is a count of carreau_mesh_count,
+  !@ wrap carreau_x a(3, n) b(n) the call also allocates the arrays a and b. n is a count of carreau_mesh_count,
                                    carreau_model_count or carreau_mesh_cell_count. Marks follow an array, without blanks:
                                    a(3, n)+1   its values count from 1
                                    a(n)?       it is not allocated after an error
@@ -54,7 +54,7 @@ class Array:
 
 
 class Wrapper:
-    """One procedure. declarations: [(attributes, name)] of its arguments; local: the same of its variables."""
+    """One procedure. declarations: [(attributes, name)] of its arguments; local: likewise its variables."""
 
     def __init__(self, writer, c_name, arrays):
         self.writer, self.header, self.c_name = writer, writer.header, c_name

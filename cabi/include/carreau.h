@@ -21,22 +21,22 @@
  *              that handle ("" after success). A NULL handle is CARREAU_ERR_ARGUMENT and has no sentence.
  *   Threads    Handles are independent of one another. Use a handle from one thread at a time; only carreau_stop may be
  *              called from anywhere at any time. There is no global state.
- *   Callbacks  come one after another from the thread that called carreau_mesh_generate, carreau_run_env,
- *              carreau_write_exr or, to measure what was delivered, carreau_session_delivered and its like. Only
- *              carreau_cad.reentrant allows more. A callback must return: no longjmp, Fortran stop or C++ exception may
- *              leave it (an exception that does is CARREAU_ERR_CALLBACK, where compilers agree). Inside a callback,
- *              carreau_stop is the only call allowed on its session and mesh; any other returns CARREAU_ERR_BUSY.
+ *   Callbacks  come one at a time from the thread that called carreau_mesh_generate, carreau_run_env, carreau_write_exr
+ *              or, to measure the delivered mesh, carreau_session_delivered and its like. Only carreau_cad.reentrant
+ *              allows more. A callback must return: no longjmp, Fortran stop or C++ exception may leave it (an
+ *              exception that does is CARREAU_ERR_CALLBACK, where compilers agree). Inside a callback, carreau_stop is
+ *              the only call allowed on its session and mesh; any other returns CARREAU_ERR_BUSY.
  *   Silence    The library prints nothing, raises and catches no signal, and never ends the process. It gives back the
  *              caller's floating-point environment (rounding, traps, flags) as it was; callbacks run in the default.
- *   Ownership  The library copies arguments before a call returns. Strings that it returns belong to it, and each says
- *              how long it lives. Arrays of results belong to the caller.
+ *   Ownership  The library copies arguments before a call returns. The library owns the strings that it returns; the
+ *              comment of each states its lifetime. Arrays of results belong to the caller.
  *   Text       is UTF-8 and ends with a zero byte. Numbers in it do not depend on the locale.
  *   Structs    start with struct_size, so that they can grow: set it to sizeof the struct. Set every other member of an
  *              input struct to zero (`= {0}`) before you fill it.
  *   Arrays     are declared as `T name[]`, pointers to one value as `T* name`.
  *   Indices    of vertices, triangles, edges and faces count from 0. Two numbers of the manual count from 1 here too:
  *              `ic`, the rank of a curve in its face, and the rank in `orientation`.
- *   Units      Lengths are in model units (those of S(u, v)), angles in degrees, times in seconds.
+ *   Units      Lengths are in the model units of S(u, v), angles in degrees, times in seconds.
  *
  * "RT-0232" is the manual of the program BLSURF: P. Laug, H. Borouchaki, INRIA RT-0232 (1999). "RR-2818" is P. Laug,
  * H. Borouchaki, P. L. George, INRIA RR-2818 (1996), and "HDR" is P. Laug's habilitation (2006).
@@ -80,14 +80,14 @@ extern "C" {
   X(CARREAU_ERR_CALLBACK, 4, "a callback reported a failure or returned a value that is not usable")          \
   X(CARREAU_ERR_DOMAIN, 5, "a parameter domain does not close, crosses itself or is turned the wrong way")    \
   X(CARREAU_ERR_LIMIT, 6, "the mesh would exceed the limit set by max_triangles or by memory")                \
-  X(CARREAU_ERR_CANCELLED, 7, "the host asked to stop")                                                       \
+  X(CARREAU_ERR_CANCELLED, 7, "the host stopped the run")                                                       \
   X(CARREAU_ERR_MEMORY, 8, "an allocation failed")                                                            \
-  X(CARREAU_ERR_SEQUENCE, 9, "the call needs the result of another one that was not made or did not succeed") \
+  X(CARREAU_ERR_SEQUENCE, 9, "the call needs the result of an earlier call that was not made or did not succeed") \
   X(CARREAU_ERR_PARTIAL, 10, "some faces could not be meshed; the mesh holds the others")                     \
   X(CARREAU_ERR_BUSY, 11, "the session is running: only carreau_stop may be called from a callback")          \
   X(CARREAU_ERR_INTERNAL, 99, "a defect of the library; please report it")
 
-/* What a function that can fail returns: CARREAU_OK, or one of the errors above. */
+/* The result of a function that can fail: CARREAU_OK, or one of the errors above. */
 typedef int32_t carreau_status;
 enum {
 #define CARREAU_STATUS_ROW(symbol, value, meaning) symbol = value,
@@ -108,7 +108,7 @@ CARREAU_API int32_t carreau_version_number(void);
 
 /* Holds geometry, model, parameters and the mesh made of them. */
 typedef struct carreau_session carreau_session;
-/* Holds a mesh: that of a session, or one read from a file. */
+/* Holds a mesh: the mesh of a session, or a mesh read from a file. */
 typedef struct carreau_mesh carreau_mesh;
 
 /* Creates a session with default parameters, and without geometry or model. Free it with carreau_session_free.
@@ -123,7 +123,7 @@ CARREAU_API void carreau_session_free(carreau_session* session);
  */
 CARREAU_API const char* carreau_last_error(const carreau_session* session);
 
-/* What the last error is about. A member that does not matter is 0, or NaN. References are the host's own. */
+/* The place of the last error. A member that does not matter is 0, or NaN. References are the host's own. */
 typedef struct carreau_error_place {
   size_t struct_size;
   int32_t face;  /* reference of the face */
@@ -139,14 +139,15 @@ typedef struct carreau_error_place {
 /* Fills *out_place. Unlike other calls, it keeps the sentence and the place. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_last_error_place(const carreau_session* session, carreau_error_place* out_place);
 
-/* For libraries that work on a session of their caller: makes the last call on it one that has failed with this status
- * and sentence, and returns the status. NULL or "": no sentence. Errors: ARGUMENT (the status is CARREAU_OK or none).
+/* For libraries that work on a session of their caller: marks the last call as failed with this status and sentence.
+ * Returns the status. NULL or "": no sentence. Errors: ARGUMENT (the status is CARREAU_OK or none).
  */
 CARREAU_API carreau_status carreau_set_error(carreau_session* session, carreau_status error, const char* sentence);
 
 /* ---- Geometry: the routines of the module cad_m ---- */
 
-/* What h and the radii hold before a routine is asked. A routine that does not answer leaves it (RT-0232 sec. 3.1.3).
+/* The value of h and the radii before the call of a routine. A routine that does not answer leaves it (RT-0232 sec.
+ * 3.1.3).
  */
 #define CARREAU_HVIDE (-1e38)
 
@@ -167,10 +168,10 @@ typedef struct carreau_cad_m {
   void (*curv0)(const int32_t* refs, const int32_t* ic, const double* t, double* C);     /* C[2] */
   void (*curv1)(const int32_t* refs, const int32_t* ic, const double* t, double* Ct);    /* [2] */
   void (*curv2)(const int32_t* refs, const int32_t* ic, const double* t, double* Ctt);   /* [2] */
-  void (*cad_hphys)(const int32_t* refs, const double* uv, double* h);                   /* asked when hphy_flag = 2 */
-  void (*cad_hphyc)(const int32_t* refs, const int32_t* ic, const double* t, double* h); /* asked when hphy_flag = 2 */
-  void (*cad_hphyp)(const int32_t* refp, double* h);                                     /* asked when hphy_flag = 2 */
-  void (*cad_rads)(const int32_t* refs, const double* uv, double* rhos);                 /* asked when hgeo_flag = 2 */
+  void (*cad_hphys)(const int32_t* refs, const double* uv, double* h);                   /* called if hphy_flag = 2 */
+  void (*cad_hphyc)(const int32_t* refs, const int32_t* ic, const double* t, double* h); /* called if hphy_flag = 2 */
+  void (*cad_hphyp)(const int32_t* refp, double* h);                                     /* called if hphy_flag = 2 */
+  void (*cad_rads)(const int32_t* refs, const double* uv, double* rhos);                 /* called if hgeo_flag = 2 */
   void (*cad_radc)(const int32_t* refs, const int32_t* ic, const double* t, double* rhoc); /* when hgeo_flag = 2 */
 } carreau_cad_m;
 
@@ -186,7 +187,7 @@ CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const car
  * leaves CARREAU_HVIDE in *value. A callback may leave entries above `order` untouched.
  *   face    reference of the face
  *   ic      rank of the curve in the face, from 1
- *   order   highest derivative wanted: 0, 1 or 2, never above surface_order (curve_order)
+ *   order   highest derivative requested: 0, 1 or 2, never above surface_order (curve_order)
  *   user    the member `user` of the struct */
 #define CARREAU_NO_ANSWER (-1)
 
@@ -201,21 +202,21 @@ typedef int32_t (*carreau_interval_fn)(int32_t face, int32_t ic, double* a, doub
 /* Gives C(t) in the parameter plane and its derivatives, [2] each. No pointer is NULL. */
 typedef int32_t (*carreau_curve_fn)(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct,
                                     double* Ctt, void* user);
-/* Give the wanted size (hphy_flag = 2) or the radius of curvature (hgeo_flag = 2), a model length > 0. A size that is not
- * positive and finite is an error of the callback. */
+/* Give the desired size (hphy_flag = 2) or the radius of curvature (hgeo_flag = 2), a model length > 0. A size that is
+ * not positive and finite is an error of the callback. */
 typedef int32_t (*carreau_surface_value_fn)(int32_t face, double u, double v, double* value, void* user);
 typedef int32_t (*carreau_curve_value_fn)(int32_t face, int32_t ic, double t, double* value, void* user);
 typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* user);
-/* Says to people why a callback has failed on a face, as part of the sentence of the error. It is called right after
- * the callback, from the same thread. The text is copied; NULL or "" says nothing. */
+/* Explains to a reader why a callback has failed on a face, as part of the sentence of the error. It is called right
+ * after the callback, from the same thread. The text is copied; NULL or "" adds nothing. */
 typedef const char* (*carreau_failure_fn)(int32_t face, void* user);
 
 /* The callbacks of a geometry. */
 typedef struct carreau_cad {
   size_t struct_size;
   void* user;            /* handed to every callback; never looked at */
-  int32_t surface_order; /* what `surface` can give: 0, 1 or 2; the rest is found by finite differences */
-  int32_t curve_order;   /* what `curve` can give: 0, 1 or 2 */
+  int32_t surface_order; /* order that `surface` can give: 0, 1 or 2; the rest is found by finite differences */
+  int32_t curve_order;   /* order that `curve` can give: 0, 1 or 2 */
   int32_t reentrant;     /* 1: callbacks may come from several threads at a time; 0: from the caller's thread only */
   int32_t reserved;      /* 0 */
   carreau_surface_fn surface;             /* needed, unless surface_batch is given */
@@ -233,13 +234,13 @@ typedef struct carreau_cad {
 } carreau_cad;
 
 /* Registers the callbacks in place of earlier ones of this call or of carreau_set_cad_m; geometries that were added
- * (carreau_geometry.h) stay. Copies the struct, but not what `user` points to.
+ * (carreau_geometry.h) stay. Copies the struct, but not the target of `user`.
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
-/* ---- Wanted sizes and metrics ---- */
+/* ---- Prescribed sizes and metrics ---- */
 
-/* *kind tells what a metric callback answers. Before the call it is NONE, and every value is NaN.
+/* *kind is the kind of the answer of a metric callback. Before the call it is NONE, and every value is NaN.
  *   NONE      nothing; the status CARREAU_NO_ANSWER means the same
  *   SIZE      value[0]: the same size in all directions, a model length
  *   SPACE     value[0..5]: xx, xy, xz, yy, yz, zz of a positive definite tensor M, in 1 / model length^2. A vector d
@@ -247,8 +248,8 @@ CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carre
  *             1 / sqrt(eigenvalue)
  *   TANGENT   value[0..4]: h1, h2 > 0, model lengths, and x, y, z of a direction of any length but zero. The size is h1
  *             along the direction and h2 across it. The direction should be tangent to the surface. If it is not, the
- *             answer is the SPACE metric with h1 along it and h2 across, as the tangent plane sees it; along the normal
- *             h2 is left
+ *             answer is the SPACE metric with h1 along it and h2 across, restricted to the tangent plane; the size
+ *             along the normal is h2
  * A size that is not finite and positive, or a tensor that is not positive definite, ends the run with
  * CARREAU_ERR_CALLBACK and a sentence with the place. */
 enum { CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3 };
@@ -264,7 +265,7 @@ typedef int32_t (*carreau_point_metric_fn)(int32_t point, int32_t* kind, double*
 typedef int32_t (*carreau_surface_metric_batch_fn)(int32_t face, int64_t n, const double* uv, const double* xyz,
                                                    int32_t* kind, double* value, void* user);
 
-/* Callbacks that want metrics, beside those of a geometry. */
+/* Callbacks that prescribe metrics, beside the callbacks of a geometry. */
 typedef struct carreau_metric_callbacks {
   size_t struct_size;
   void* user;                               /* handed to every callback; never looked at */
@@ -275,12 +276,12 @@ typedef struct carreau_metric_callbacks {
 } carreau_metric_callbacks;
 
 /* Registers metric callbacks beside a geometry of either kind. If all are NULL there are none, as in a new session.
- * Copies the struct. The library asks them unless hphy_flag is 0. It clamps sizes along the axes of a metric, in the
- * tangent plane, to [hphymin, hphymax]. Where a size routine of the geometry answers too (hphy_flag 2), both hold: the
- * result is the largest ellipse inside both unit balls. The parameter metric_combination says how it is combined with
- * geometric sizes. On a curve the size is that along its tangent. A curve or point that has no answer of its own takes
- * those of the surfaces beside it, by hmean_flag. Inside a face, a place without an answer takes hphydef (hphy_flag 1)
- * or the size interpolated from the curves around (hphy_flag 2). Errors: ARGUMENT (struct_size). */
+ * Copies the struct. The library calls them unless hphy_flag is 0. It clamps sizes along the axes of a metric, in the
+ * tangent plane, to [hphymin, hphymax]. If a size routine of the geometry answers too (hphy_flag 2), both hold: the
+ * result is the largest ellipse inside both unit balls. The parameter metric_combination chooses how it is combined
+ * with geometric sizes. On a curve the size is the size along its tangent. A curve or point without an answer takes the
+ * answers of the surfaces beside it, by hmean_flag. Inside a face, a place without an answer takes hphydef (hphy_flag
+ * 1) or the size interpolated from the curves around (hphy_flag 2). Errors: ARGUMENT (struct_size). */
 CARREAU_API carreau_status carreau_set_metric_callbacks(carreau_session* session,
                                                         const carreau_metric_callbacks* callbacks);
 
@@ -293,18 +294,19 @@ enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
  * ARGUMENT. */
 CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
 
-/* Appends a face. Callbacks get the number `ref`, which differs from face to face. An orientation of +k (-k) says that
- * the domain lies on the left (right) of the face's k-th curve, which must be a boundary.
+/* Appends a face. Callbacks get the number `ref`, which differs from face to face. With an orientation of +k (-k) the
+ * domain lies on the left (right) of the face's k-th curve, which must be a boundary.
  *
  * An orientation of 0 makes it a wire: curves of space that lie in no face, all of type CARREAU_INTERNAL. They are cut
  * by sizes and by their curvature like others, and the mesh has their edges, which no triangle has. Callbacks give them
- * as those of faces, C(t) in a plane and S(u, v): with C(t) = (t, 0), say, S(t, 0) is the curve. S is asked on the
- * curves, and within a step of finite differences beside them where its derivatives are not given. Ends that have the
- * reference of a point of a face are its vertices. Results list no wire among the faces. Errors: ARGUMENT. */
+ * like curves of faces, as C(t) in a plane and S(u, v): for instance, with C(t) = (t, 0), S(t, 0) is the curve. S is
+ * evaluated on the curves, and within a step of finite differences beside them where its derivatives are not given.
+ * Ends that have the reference of a point of a face are its vertices. Results list no wire among the faces. Errors:
+ * ARGUMENT. */
 CARREAU_API carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation);
 
-/* Leaves a face out of what is meshed, for the reason `why`; NULL or "" takes it in again. The mesh holds the face as
- * failed, with this reason. Its geometry is not asked, and it may have no curves. With the parameter failing_faces at
+/* Leaves a face out of the mesh, for the reason `why`; NULL or "" takes it in again. The mesh holds the face as failed,
+ * with this reason. Its geometry is not evaluated, and it may have no curves. With the parameter failing_faces at
  * "leave_out", faces that fail during a run are left out, too. Errors: ARGUMENT (no such face). */
 CARREAU_API carreau_status carreau_model_leave_out_face(carreau_session* session, int32_t face_ref, const char* why);
 
@@ -320,21 +322,22 @@ CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int
 /* How the lengths of edges follow one another. */
 enum { CARREAU_EQUAL = 0, CARREAU_ARITHMETIC = 1, CARREAU_GEOMETRIC = 2 };
 
-/* Prescribes the edges of curve number ic of a face, and so of all curves that are one with it in space, whatever sizes
- * say: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its parameter t.
- * With CARREAU_EQUAL all are the same (`ratio` means nothing); with CARREAU_ARITHMETIC they grow by the same length
- * each time, and the last is `ratio` times as long as the first; with CARREAU_GEOMETRIC each is `ratio` times as long
- * as the one before. edges = 0 takes prescriptions away. What would have such a curve finer or coarser
- * (CheckCloseEdges, geo_guarantee, narrow_faces, quadrilaterals without triangles) leaves it, or is told by a warning.
- * Triangles beside short edges grow as edge_gradation says (1.5 where it is 0). Two places of one curve must not
- * contradict each other: that ends a run with MODEL, as does a closed curve of less than three edges, and a curve that
- * gluing cuts. Errors: ARGUMENT (no such face or curve, ratio not positive, edges that would have no length). */
+/* Prescribes the edges of curve number ic of a face, and so of all curves that are one with it in space, whatever the
+ * prescribed sizes: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its
+ * parameter t. With CARREAU_EQUAL all are the same (`ratio` means nothing). With CARREAU_ARITHMETIC they grow by a
+ * constant length, and the last is `ratio` times as long as the first. With CARREAU_GEOMETRIC each is `ratio` times as
+ * long as its predecessor. edges = 0 removes prescriptions. Options that would refine or coarsen this curve
+ * (CheckCloseEdges, geo_guarantee, narrow_faces, quadrilaterals without triangles) leave it unchanged, or warn.
+ * Triangles beside short edges grow by edge_gradation (1.5 if it is 0). The prescriptions of one curve must not
+ * contradict each other. A contradiction ends a run with MODEL, as does a closed curve of less than three edges, or a
+ * curve that gluing cuts. Errors: ARGUMENT (no such face or curve, ratio not positive, edges that would have no
+ * length). */
 CARREAU_API carreau_status carreau_model_divide_curve(carreau_session* session, int32_t face_ref, int32_t ic,
                                                       int32_t edges, int32_t progression, double ratio);
 
 /* Prescribes all vertices inside a curve by their parameters, strictly increasing, inside of its interval: n = 0 makes
  * it one edge. They are kept as they are, also on the parts of a curve that gluing cuts. Errors: ARGUMENT (no such face
- * or curve, parameters that do not increase); a run finds what lies outside of the interval (MODEL). */
+ * or curve, parameters that do not increase); a run rejects parameters outside of the interval (MODEL). */
 CARREAU_API carreau_status carreau_model_divide_curve_at(carreau_session* session, int32_t face_ref, int32_t ic,
                                                          int64_t n, const double t[]);
 
@@ -351,21 +354,22 @@ CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int
  * files when the parameter flag is 1. "" takes the name away. Errors: ARGUMENT (no such entity, NULL, a solid that no face has). */
 CARREAU_API carreau_status carreau_model_name_entities(carreau_session* session, int32_t dimension, int64_t n,
                                                        const int32_t refs[], const char* name);
-/* Sets the solids on both sides of a face, by references of the host's own from 1: the one that its triangles look out of, and
- * the one that they look into; 0: none. A file .msh then has volumes that Gmsh fills. Errors: ARGUMENT (no such face, below 0). */
+/* Sets the solids on both sides of a face, by references of the host from 1: the solid that its triangles look out of, and the
+ * solid that they look into; 0: none. A file .msh then has volumes that Gmsh fills. Errors: ARGUMENT (no such face, below 0). */
 CARREAU_API carreau_status carreau_model_set_face_sides(carreau_session* session, int32_t face_ref, int32_t solid,
                                                         int32_t other_solid);
 /* Colours a face, for files that hold colours (.vtu). rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour away.
  * Errors: ARGUMENT (no such face, no such colour). */
 CARREAU_API carreau_status carreau_model_color_face(carreau_session* session, int32_t face_ref, int32_t rgb);
 
-/* Makes a face a part of another one. A host that cuts a face where its surface bends adds its parts one after another,
- * and calls this for each but the first; `whole_ref` is the reference of the first. The results of a run have one face,
- * `whole_ref`, in their place: references of triangles, carreau_mesh_face, files. Callbacks, messages, interfaces and
- * images of fields know each part by its own reference. Errors: ARGUMENT (no such face, another one is before it). */
+/* Makes a face a part of another face. A host that cuts a face where its surface bends adds its parts one after
+ * another, and calls this for each but the first; `whole_ref` is the reference of the first. The results of a run have
+ * one face, `whole_ref`, in their place: references of triangles, carreau_mesh_face, files. Callbacks, messages,
+ * interfaces and images of fields know each part by its own reference. Errors: ARGUMENT (no such face, another face
+ * comes before it). */
 CARREAU_API carreau_status carreau_model_part_of_face(carreau_session* session, int32_t face_ref, int32_t whole_ref);
 
-/* Makes the curves of a reference that the model has parts of another one. Edges on them have the reference
+/* Makes the existing curves of a reference parts of another curve. Edges on them have the reference
  * `whole_ref`, as edges on the other parts of that curve have. Errors: ARGUMENT (no such curve). */
 CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session, int32_t ref, int32_t whole_ref);
 
@@ -413,7 +417,7 @@ CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_
 /* The types of parameters. */
 enum { CARREAU_INTEGER = 1, CARREAU_REAL = 2, CARREAU_TEXT = 3 };
 
-/* What is known of a parameter, whatever its value. */
+/* The properties of a parameter that do not depend on its value. */
 typedef struct carreau_parameter {
   size_t struct_size;
   const char* name;         /* strings are static */
@@ -427,7 +431,7 @@ typedef struct carreau_parameter {
   const char* set_by;       /* "effort" of a synonym, whose value follows that parameter until it is set itself; "" otherwise */
 } carreau_parameter;
 
-/* Tell the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
+/* Give the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
 CARREAU_API int32_t carreau_parameter_count(void);
 CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_parameter);
 
@@ -441,8 +445,8 @@ CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_paramet
  *     measure_distances     1             0    1    1   distances from and to triangles given as input are measured
  *
  * All rounds of crossing_rounds together cost at most as much as the first mesh, or as 24 000 triangles when it has fewer; at
- * level 2 twice as much. Elements that are invalid have finer meshes, which together have at most 12 times as many triangles as
- * the first mesh, or as 1 000 when it has fewer; at level 0 they have none. */
+ * level 2 twice as much. Invalid elements cause finer meshes. These have together at most 12 times the triangles of the first
+ * mesh, or 12 000 when it has fewer than 1 000; at level 0 there are none. */
 
 /* Set a parameter for the runs to come. A real parameter takes an integer, too.
  * Errors: ARGUMENT (unknown name, for which the sentence has the nearest one; other type; out of range). */
@@ -477,7 +481,7 @@ enum {
   CARREAU_LEVEL_DEBUG = 100
 };
 
-/* What a run is doing at the moment. */
+/* The phase of a run. */
 enum {
   CARREAU_PHASE_IDLE = 0,
   CARREAU_PHASE_MODEL = 1,
@@ -485,7 +489,7 @@ enum {
   CARREAU_PHASE_PATCHES = 3,
   CARREAU_PHASE_ASSEMBLY = 4,
   CARREAU_PHASE_WRITING = 5,
-  CARREAU_PHASE_MEASURE = 6,  /* measures what was delivered; `fraction` is of the measure */
+  CARREAU_PHASE_MEASURE = 6,  /* measures the delivered mesh; `fraction` is of the measure */
   CARREAU_PHASE_GRADATION = 7 /* before curves and patches, when the parameter gradation is not 0 */
 };
 
@@ -503,26 +507,27 @@ CARREAU_API carreau_status carreau_set_message_callback(carreau_session* session
 CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback,
                                                          void* user);
 
-/* Asks the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the callback
- * that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does nothing.
- * NULL is allowed. */
+/* Requests the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the
+ * callback that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does
+ * nothing. NULL is allowed. */
 CARREAU_API void carreau_stop(carreau_session* session);
 
 /* ---- Many processes ---- */
 
 /* Processes (ranks, from 0) can make one mesh together. This is the interface for whatever connects them; libcarreau_mpi
- * does it by MPI (carreau_mpi.h). Every rank has a session with the same geometry, model and parameters, and the callbacks
- * of its own; all call carreau_mesh_generate together, and carreau_adapt, _estimate, _transfer, _transfer_files (rank 0 writes), _set_background_fields,
- * _triangles_distances, _triangles_bounds, with the same values. Work is dealt out, every rank gets all, and it is that of one process, bit for bit. An error of one rank ends the run of all. Where a rank's callbacks or parameters
- * are others the run ends with CARREAU_ERR_MODEL or CARREAU_ERR_INTERNAL and a sentence that names the rank.
+ * does it by MPI (carreau_mpi.h). Every rank has a session with the same geometry, model and parameters, and its callbacks. All ranks call
+ * carreau_mesh_generate together, with the same values; likewise carreau_adapt, _estimate, _transfer, _transfer_files (rank 0 writes),
+ * _set_background_fields, _triangles_distances, _triangles_bounds. The work is distributed, every rank gets the whole result, and it is
+ * identical to the result of one process. An error of one rank ends the run of all. If the callbacks or parameters of a rank differ, the
+ * run ends with CARREAU_ERR_MODEL or CARREAU_ERR_INTERNAL and a sentence that names the rank.
  *
  * A callback returns 0, CARREAU_ERR_MEMORY when some rank has not enough memory (the run ends with CARREAU_ERR_LIMIT), or
  * any other value when it has failed (CARREAU_ERR_CALLBACK). exchange must fail on all ranks or on none. */
 
-/* Adds `count` to a number that all ranks share, and gives what it was before. */
+/* Adds `count` to a number that all ranks share, and gives its previous value. */
 typedef int32_t (*carreau_team_take_fn)(int64_t count, int64_t* out_before, void* user);
-/* Waits until all ranks are here, and makes that number 0. Every rank gives n bytes, and gets those of all: out_sizes[r]
- * bytes of rank r, one rank behind the other from *out_bytes, which stay until the next call. */
+/* Waits until all ranks are here, and makes that number 0. Every rank gives n bytes, and gets the bytes of all:
+ * out_sizes[r] bytes of rank r, one rank behind the other from *out_bytes, which stay until the next call. */
 typedef int32_t (*carreau_team_exchange_fn)(int64_t n, const void* bytes, int64_t* out_sizes, const void** out_bytes,
                                             void* user);
 
@@ -553,11 +558,11 @@ CARREAU_API carreau_status carreau_mesh_generate(carreau_session* session);
  * env file, unless the session has a model already, from carreau_model_add_face and its like or from
  * carreau_model_read_pardom. `call export` writes beside it. Parameters have their defaults before the first action,
  * after each action, and when the call returns. When the file cannot be read they keep their values. Errors: FILE (with
- * the line), ARGUMENT (unknown names, wrong values, with the line), those of carreau_mesh_generate. */
+ * the line), ARGUMENT (unknown names, wrong values, with the line), and the errors of carreau_mesh_generate. */
 CARREAU_API carreau_status carreau_run_env(carreau_session* session, const char* path);
 
-/* What the last successful run did. A point of a batch, or a call of any order, counts as one call of the routine of
- * the highest order wanted. */
+/* Counts and times of the last successful run. A point of a batch, or a call of any order, counts as one call of the
+ * routine of the highest order requested. */
 typedef struct carreau_report {
   size_t struct_size;
   double diag; /* diagonal of the box of all curves */
@@ -567,7 +572,7 @@ typedef struct carreau_report {
   double seconds_curves, seconds_sampling, seconds_plane, seconds_lift, seconds_total;
 } carreau_report;
 
-/* Tells what that run did. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Gives the report of that run. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report);
 
 /* ---- Interfaces: the curves of the last mesh in space ---- */
@@ -577,7 +582,7 @@ CARREAU_API carreau_status carreau_session_report(carreau_session* session, carr
  * glued, need not agree. */
 typedef struct carreau_interface {
   size_t struct_size;
-  int32_t curve;      /* its reference; after gluing that of its first place */
+  int32_t curve;      /* its reference; after gluing the reference of its first place */
   int32_t uses;       /* number of places. 1 on a boundary: open. Two in one face: a seam */
   int32_t face;       /* the first place */
   int32_t ic;         /* of the host's curve there, also where it was cut */
@@ -591,29 +596,29 @@ typedef struct carreau_interface {
                  it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
 } carreau_interface;
 
-/* Tell the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
+/* Give the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
  * mesh yet). */
 CARREAU_API carreau_status carreau_session_interface_count(carreau_session* session, int64_t* out_count);
 CARREAU_API carreau_status carreau_session_interface(carreau_session* session, int64_t index,
                                                      carreau_interface* out_interface);
 
-/* ---- Background meshes: wanted sizes at the vertices of a mesh ---- */
+/* ---- Background meshes: desired sizes at the vertices of a mesh ---- */
 
 /* The next meshes take their sizes from a background mesh, unless hphy_flag = 0. The library looks up the nearest point
  * of a surface in space, the tetrahedron that holds a point of space, or the triangle that holds (u, v) in a parameter
  * plane. Outside of it the nearest value holds, and the point is counted. Edges alone (of curves, RR-2818 sec. 4.1) hold
- * on curves and points; inside faces sizes are then interpolated from those of their boundaries, as by hphy_flag = 2. Between vertices sizes, or the sizes along common directions of metrics, vary by
- * hinterpol_flag. Sizes are clamped to [hphymin, hphymax], whose defaults (diag / 500, diag / 5) may be too narrow.
- * Where callbacks answer too, the smaller size, or the intersection, holds. Each of the four calls replaces what the
- * others have set, and copies it. On an error the old background mesh stays. Errors: ARGUMENT (sizes not positive,
+ * on curves and points; inside faces sizes are then interpolated from the sizes of their boundaries, as by hphy_flag = 2. Between vertices
+ * sizes, or the sizes along common directions of metrics, vary by hinterpol_flag. Sizes are clamped to [hphymin, hphymax], whose defaults
+ * (diag / 500, diag / 5) may be too narrow. If callbacks answer too, the smaller size, or the intersection, holds. Each of the four calls
+ * copies its input and replaces the input of the others. On an error the old background mesh stays. Errors: ARGUMENT (sizes not positive,
  * metrics not positive definite, numbers not finite, no element, numbers of vertices that do not fit), FILE, SEQUENCE.
  */
 
 /* Reads files: .mesh or .meshb (.vtu and .msh, too), and .sol or .solb with a scalar (size) or a symmetric tensor
- * (metric) at each vertex. A mesh of dimension 3 has triangles in space, tetrahedra, or edges, and a place takes what the
- * nearest of them says. One of dimension 2 lies in the parameter planes of the faces that the
- * references of its triangles name (0: any other face), and its metrics are those of the parameter plane. The
- * parameters background_mesh and background_sol name files, too, and come before what these calls set. */
+ * (metric) at each vertex. A mesh of dimension 3 has triangles in space, tetrahedra, or edges, and a place takes the
+ * value of the nearest of them. A mesh of dimension 2 lies in the parameter planes of the faces that the references of
+ * its triangles name (0: any other face), and its metrics are metrics of the parameter plane. The parameters
+ * background_mesh and background_sol name files, too, and take precedence over these calls. */
 CARREAU_API carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path,
                                                        const char* sol_path);
 
@@ -655,15 +660,15 @@ typedef struct carreau_background_report {
   int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest element */
   double farthest; /* distance of the farthest one; model length, or parameter length */
 } carreau_background_report;
-/* Tells how. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
 
-/* What the error is estimated from: the interpolation error, by second derivatives; the angles between edges and the
- * tangent planes of the graph of the field; the distance from the graph's tangent planes. */
+/* The source of the error estimate: the interpolation error, by second derivatives; the angles between edges and the
+ * graph's tangent planes; the distance from the graph's tangent planes. The graph is the graph of the field. */
 enum { CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2 };
-/* What is prescribed: a size; circles in the tangent planes of the graph; or sizes by both principal values. */
+/* The prescription: a size; circles in the tangent planes of the graph; or sizes by both principal values. */
 enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
 /* How derivatives are found from values at vertices: quadratics that fit the neighbours of each vertex; or the gradients
  * of triangles averaged at vertices, twice (double L2 projection), which is smoother, and biased at boundaries. */
@@ -684,27 +689,27 @@ typedef struct carreau_estimator {
 
 /* Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there. Give them back to
  * carreau_set_vertex_sizes or carreau_set_vertex_metrics. With ISOTROPIC, out_sizes (n) or out_metrics (n x 6) may be
- * NULL. Otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long,
- * set the parameter gradation (to 2, say): sizes that jump between neighbours hide the bends of a front from the fit of
- * its values. On elements of second order n is the number of all nodes, or that of corners alone: sizes are those of straight
- * elements in either case, so that quadratic ones carry the field with a smaller error. Errors: ARGUMENT, SEQUENCE. */
+ * NULL. Otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long, set
+ * the parameter gradation (for instance to 2): sizes that jump between neighbours hide the bends of a front from the fit of
+ * its values. On elements of second order n is the number of all nodes, or of corners alone. Sizes are always sizes for
+ * straight elements, so that quadratic elements carry the field with a smaller error. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
                                             const double values[], double out_sizes[], double out_metrics[]);
 
-/* Interpolates a field from the n vertices of the mesh that the session had before to those of its mesh now. `values`
- * has `components` values a vertex (n x components), and out_values has room for `capacity` such rows. Elements of
- * second order carry values at all their nodes, corners first, by their shape functions, and out_values gets those at
- * all nodes of the new mesh; with n the number of corners alone, both are at corners, and the field is linear. *out_outside,
- * which may be NULL, counts the vertices beside the old mesh; they take the nearest value. Errors: ARGUMENT, SEQUENCE
- * (fewer than two meshes made). */
+/* Interpolates a field from the n vertices of the session's previous mesh to the vertices of its current mesh. `values`
+ * has `components` values a vertex (n x components), and out_values has room for `capacity` such rows. Elements of second
+ * order carry values at all their nodes, corners first, by their shape functions, and out_values gets the values at all
+ * nodes of the new mesh. With n the number of corners alone, both are at corners, and the field is linear. *out_outside,
+ * which may be NULL, counts the vertices beside the old mesh; they take the nearest value. Errors: ARGUMENT, SEQUENCE (fewer
+ * than two meshes made). */
 CARREAU_API carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n,
                                             const double values[], int64_t capacity, double out_values[],
                                             int64_t* out_outside);
 
 /* The loop by files: fields at the vertices of the last mesh, the next mesh, the fields on it. `carreau adapt` is made
  * of these two. The first sets a background mesh (see carreau_set_background_mesh) from a .sol or .solb with any number
- * of scalars and vectors at the vertices of a mesh: each scalar and each component is estimated as the parameters
- * adapt_* say, and the smallest size, or the intersection of the metrics, holds. A file of one symmetric tensor holds
+ * of scalars and vectors at the vertices of a mesh. Each scalar and each component is estimated by the parameters
+ * adapt_*, and the smallest size, or the intersection of the metrics, holds. A file of one symmetric tensor holds
  * metrics. It comes after the model. The second writes fields of any types, as they are at the vertices of the
  * session's mesh, to a .sol or .solb; of a plane domain it has dimension 2. *out_outside, which may be NULL, counts the
  * vertices beside the old mesh; they take the nearest values. Errors: ARGUMENT, FILE (with the line), SEQUENCE (no mesh
@@ -729,8 +734,8 @@ typedef struct carreau_adaptation {
   double convergence;  /* ends when the number of triangles changes by a smaller share; 0: makes all iterations */
 } carreau_adaptation;
 
-/* What a loop did. An error of the field is its distance from its interpolation on the mesh: linear, or, on elements of second
- * order, by their shape functions; vertices are all nodes then. */
+/* The outcome of a loop. An error of the field is its distance from its interpolation on the mesh: linear, or, on elements of
+ * second order, by their shape functions; vertices are all nodes then. */
 typedef struct carreau_adaptation_report {
   size_t struct_size;
   int32_t iterations; /* meshes made, without the one that it started with */
@@ -746,9 +751,9 @@ typedef struct carreau_adaptation_report {
 
 /* Adapts the mesh in a loop: it estimates, sets new sizes on the mesh, and meshes again. It starts with the session's
  * mesh, or makes one by the parameters. To look at each mesh, set iterations = 1 and call it again. In the end the
- * session has the last mesh, and no background mesh. hphymin and hphymax, unless they are set, are those of the
- * estimator. out_report may be NULL. Errors: those of carreau_mesh_generate; the session then has the last mesh that
- * was made. */
+ * session has the last mesh, and no background mesh. hphymin and hphymax, unless they are set, are the bounds of the
+ * estimator. out_report may be NULL. Errors: as carreau_mesh_generate; the session then has the last mesh that was
+ * made. */
 CARREAU_API carreau_status carreau_adapt(carreau_session* session, const carreau_adaptation* adaptation,
                                          carreau_adaptation_report* out_report);
 
@@ -765,18 +770,18 @@ CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* Frees it. NULL is all
 /* Returns the sentence of the last call on the mesh, "" after success. It lives until the next call on the mesh. */
 CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 
-/* Replaces the content by that of a file. The suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
+/* Replaces the content by the content of a file. The suffix determines the format: .mesh, .meshb (Medit), .vtu (VTK, also
  * compressed by zlib), .stl (text or binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and
  * binary), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2, .off (text), .obj, .ply (text and binary), whose
  * polygons become triangles, .vtk (VTK's legacy format, text and binary), .tri (Cart3D). Without a surface the outer
- * faces of solids are read. What carreau_mesh_write has written comes back: points, exactly but for binary .stl, and references and
- * names where the format holds them. These are all of them, with status and colour of faces, in .vtu; references of
- * faces and curves, and of corners if positive, in .msh; solids as faces in .stl. On an error the old content stays.
+ * faces of solids are read. It restores meshes of carreau_mesh_write: points, exactly except in binary .stl, and the references and
+ * names that the format holds. A .vtu holds all of them, with status and colour of faces; a .msh the references of faces and
+ * curves, and of corners if positive; a .stl has solids as faces. On an error the old content stays.
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
 /* A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the
- * arrays to carreau_set_background.) Arrays may be NULL where this says so. */
+ * arrays to carreau_set_background.) Arrays may be NULL where their comment allows it. */
 typedef struct carreau_mesh_arrays {
   size_t struct_size;
   int32_t dimension; /* 3; 2: of the plane z = 0 */
@@ -792,37 +797,37 @@ typedef struct carreau_mesh_arrays {
 } carreau_mesh_arrays;
 
 /* Replaces the content of a mesh that carreau_mesh_create has made by a copy of arrays. On an error the old content
- * stays. Errors: ARGUMENT (an index that is none, with the triangle or edge; a coordinate that is not finite; no vertex
- * or no triangle; mesh of a session). What else is wrong carreau_mesh_defects tells. */
+ * stays. Errors: ARGUMENT (an index out of range, with the triangle or edge; a coordinate that is not finite; no vertex
+ * or no triangle; mesh of a session). carreau_mesh_defects reports all other faults. */
 CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const carreau_mesh_arrays* arrays);
 
 /* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2,
- * with named sets; .off, .obj, .ply, .vtk, .tri. Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters option, refs and flag say how the mesh of a
- * session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves in the parameter plane.
- * .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl. The
- * file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
+ * with named sets; .off, .obj, .ply, .vtk, .tri. Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters
+ * option, refs and flag choose how the mesh of a session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves
+ * in the parameter plane. .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl.
+ * The file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
 
 /* Gets n bytes of a file from `position` on. Returns 0, or any other value to end the call. */
 typedef int32_t (*carreau_bytes_fn)(int64_t position, int64_t n, const void* bytes, void* user);
 /* Gives the bytes that carreau_mesh_write would write to a file with this suffix (".meshb"), in ascending positions, to
- * `sink`: for files that the host writes itself. Not ".exr". Of a part (carreau_mesh_generate_part) ".meshb" alone: what this process
- * has of the file of the whole mesh, each byte of which is one process's. Errors: ARGUMENT (suffix, refs); CALLBACK (what sink
- * returned). */
+ * `sink`: for files that the host writes itself. Not ".exr". A part (carreau_mesh_generate_part) has ".meshb" alone: the bytes of
+ * this process in the file of the whole mesh. Each byte of that file belongs to one process. Errors: ARGUMENT (suffix, refs);
+ * CALLBACK (the result of sink). */
 CARREAU_API carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* suffix, carreau_bytes_fn sink, void* user);
 
 /* ---- Meshes in parts ---- */
 
-/* carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its part: the mesh
- * that one process makes, bit for bit, which no process ever has as a whole. `part` (carreau_mesh_create) becomes that part: the
- * triangles of the faces that this process has meshed and, behind them, ghosts: those of other processes that touch them in a vertex.
- * Vertices that this process owns come first. Its faces are those of the whole mesh; carreau_mesh_encode gives ".meshb" what this process
- * has of the file of the whole mesh; other functions take it as a mesh of its own. The mesh of the session stays what it was.
- * What needs the whole mesh is refused: gradation, elements other than p1, patches=independent, cracks, faces that narrow_faces=collapse lets vanish, measure,
- * surfaces given as triangles.
- * Errors: those of carreau_mesh_generate, on all processes; carreau_last_error has the sentence. ARGUMENT (no team; what needs
- * the whole mesh; part is NULL or a session's). */
+/* Runs carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its part. The parts together
+ * are identical to the mesh of one process; no process ever has the whole mesh. `part` (carreau_mesh_create) becomes the part of this
+ * process: the triangles of the faces that it has meshed and, behind them, ghosts. Ghosts are triangles of other processes that touch them
+ * in a vertex. Vertices that this process owns come first. The faces of the part are the faces of the whole mesh. carreau_mesh_encode
+ * writes the bytes of this process in the ".meshb" of the whole mesh; other functions treat the part as a complete mesh. The mesh of the
+ * session does not change. Options that need the whole mesh are rejected: gradation, elements other than p1, patches=independent, cracks,
+ * faces that narrow_faces=collapse lets vanish, measure, surfaces given as triangles.
+ * Errors: as carreau_mesh_generate, on all processes; carreau_last_error has the sentence. ARGUMENT (no team; an option that needs the
+ * whole mesh; part is NULL or a session's). */
 CARREAU_API carreau_status carreau_mesh_generate_part(carreau_session* session, carreau_mesh* part);
 
 /* Numbers of a mesh in parts. */
@@ -834,13 +839,13 @@ typedef struct carreau_part_counts {
   int64_t all_edges;                      /* on curves */
   int64_t crossings;                      /* pairs of triangles of the whole mesh that cross; -1: they were not looked for */
 } carreau_part_counts;
-/* Tells them. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
+/* Gives the counts of a part. Errors: ARGUMENT (out_counts, struct_size), SEQUENCE (the mesh is no part). */
 CARREAU_API carreau_status carreau_mesh_part_count(carreau_mesh* part, carreau_part_counts* out_counts);
 /* Copy results into arrays with room for `capacity` rows, one for each vertex or triangle of the part (carreau_mesh_count). Any array may
  * be NULL. Errors: ARGUMENT (capacity), SEQUENCE (the mesh is no part).
- *   numbers   in the whole mesh, from 0: ascending for own ones, then for others
- *   owners    ranks; of a vertex on curves the least rank that keeps a face of one of its curves
- *   rows      numbers of the same vertices in which those of each rank are consecutive */
+ *   numbers   in the whole mesh, from 0: ascending for owned vertices, then for ghosts
+ *   owners    ranks; for a vertex on curves the lowest rank that keeps a face of one of its curves
+ *   rows      numbers of the same vertices, consecutive on each rank */
 CARREAU_API carreau_status carreau_mesh_part_vertices(carreau_mesh* part, int64_t capacity, int64_t out_numbers[], int32_t out_owners[],
                                                       int64_t out_rows[]);
 CARREAU_API carreau_status carreau_mesh_part_triangles(carreau_mesh* part, int64_t capacity, int64_t out_numbers[],
@@ -850,7 +855,7 @@ CARREAU_API carreau_status carreau_mesh_part_triangles(carreau_mesh* part, int64
  * ARGUMENT, SEQUENCE (no mesh). */
 CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
                                               int64_t* out_edges, int64_t* out_faces);
-/* Tells the dimension: 3, or 2 when the mesh was read from a plane one. Errors as above. */
+/* Gives the dimension: 3, or 2 when the mesh was read from a plane mesh. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
 
 /* Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
@@ -860,9 +865,9 @@ CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* o
  *   vertex_sizes    n          prescribed size, model length; mesh of a session only
  *   triangles       m x 3      vertices, counterclockwise in (u, v); face by face in the order of the model
  *   triangle_refs   m          reference of the face
- *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle, or, when the mesh is independent of its
- *                              patches (parameter patches), in that of corner_faces; mesh of a session, or of arrays with it
- *   corner_faces    m x 3      reference of the face that corner_uv is of; mesh of a session only
+ *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle, or, in a cross-patch mesh (parameter
+ *                              patches), in the face of corner_faces; mesh of a session, or of arrays with it
+ *   corner_faces    m x 3      reference of the face of corner_uv; mesh of a session only
  *   edges           k x 2      vertices, along each curve from its first end to its second
  *   edge_refs       k          reference of the curve */
 CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double out_xyz[]);
@@ -875,11 +880,11 @@ CARREAU_API carreau_status carreau_mesh_corner_faces(carreau_mesh* mesh, int64_t
 CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
 CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 
-/* Elements (parameter element): kinds, the number of nodes of each, and their order, which is that of VTK's cells 5, 22,
- * 9, 23 and of Gmsh's elements 2, 9, 3, 16: corners counterclockwise, then the nodes of the edges 01, 12, 20, or 01, 12,
- * 23, 30. A mesh of p1 has elements of the first kind, which are its triangles. Of other meshes carreau_mesh_triangles
- * gives straight triangles between the same corners, a quadrilateral being two of them; carreau_mesh_vertices gives all
- * nodes: corners first, then nodes on edges, whose reference is 0. */
+/* Elements (parameter element): kinds, the number of nodes of each, and their order. The order agrees with VTK's cells
+ * 5, 22, 9, 23 and Gmsh's elements 2, 9, 3, 16: corners counterclockwise, then the nodes of the edges 01, 12, 20, or 01,
+ * 12, 23, 30. A mesh of p1 has elements of the first kind, which are its triangles. For other meshes
+ * carreau_mesh_triangles gives straight triangles between the same corners, two for a quadrilateral.
+ * carreau_mesh_vertices gives all nodes: corners first, then nodes on edges, whose reference is 0. */
 enum {
   CARREAU_CELL_TRIANGLE3 = 1, /* 3 nodes: straight triangle */
   CARREAU_CELL_TRIANGLE6 = 2, /* 6: P2 */
@@ -893,8 +898,8 @@ CARREAU_API carreau_status carreau_mesh_cell_count(carreau_mesh* mesh, int32_t k
  * faces. Errors as above, and ARGUMENT for a capacity (rows) that is too small. */
 CARREAU_API carreau_status carreau_mesh_cells(carreau_mesh* mesh, int32_t kind, int64_t capacity, int32_t out_nodes[],
                                               int32_t out_refs[]);
-/* u v of each node of each element of a kind in its face, or, when the mesh is independent of its patches (parameter
- * patches), in that of carreau_mesh_cell_faces, in the same order; mesh of a session only. Errors as above. */
+/* Gives u v of each node of each element of a kind in its face, in the order of the elements. In a cross-patch mesh
+ * (parameter patches) the face is in carreau_mesh_cell_faces. Mesh of a session only. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t capacity, double out_uv[]);
 /* For each node of each element of a kind the reference of the face that carreau_mesh_cell_uv is of, in the same order;
  * mesh of a session only. Errors as above. */
@@ -903,10 +908,10 @@ CARREAU_API carreau_status carreau_mesh_cell_faces(carreau_mesh* mesh, int32_t k
 /* For each edge of carreau_mesh_edges the node between its ends; -1: the edge is straight. Errors as there. */
 CARREAU_API carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
 
-/* What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides
- * that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular polygon;
- * both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of the Jacobian
- * over its mean: 1 for triangles of p1, positive for a valid element. */
+/* The quality of the elements. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides
+ * that meet (HDR sec. 1.1.1). scaled_jacobian is the least sine of an element's angles over the sine of the regular
+ * polygon's angle. Both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein
+ * coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element. */
 typedef struct carreau_cell_quality {
   size_t struct_size;
   int64_t triangles3, triangles6, quads4, quads8; /* elements by kind */
@@ -916,15 +921,16 @@ typedef struct carreau_cell_quality {
   double least_jacobian_mean, least_jacobian_min;
   double angle_min, angle_max; /* degrees, between tangents of curved sides */
   double area;                 /* of the curved elements */
-  double triangle_share;       /* of the area, that of triangles */
+  double triangle_share;       /* share of the area of triangles */
 } carreau_cell_quality;
 
 /* Measures the elements. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_quality* out_quality);
 
-/* The status of a face. A `mended` face is meshed, but something was repaired, or triangles are turned over; `why` says
- * which. A `failed` face has no triangles. A `collapsed` face has vanished between its neighbours: it is narrow
- * (parameter narrow_faces), and they share one curve in its place, or its borders mean nothing (parameter patches). */
+/* The status of a face. A `mended` face is meshed, but something was repaired, or triangles are turned over; `why`
+ * holds the reason. A `failed` face has no triangles. A `collapsed` face has vanished between its neighbours: it is
+ * narrow (parameter narrow_faces), and they share one curve in its place, or its borders mean nothing (parameter
+ * patches). */
 enum {
   CARREAU_FACE_NOT_MESHED = 0,
   CARREAU_FACE_MESHED = 1,
@@ -933,20 +939,20 @@ enum {
   CARREAU_FACE_COLLAPSED = 4
 };
 
-/* What became of a face. */
+/* The result of meshing a face. */
 typedef struct carreau_face {
   size_t struct_size;
   int32_t ref;       /* reference of the face */
   int32_t status;    /* CARREAU_FACE_... */
-  int64_t triangles; /* their number; they follow those of the faces before. Of parts (carreau_model_part_of_face) all;
-                        the face has failed when one of them has */
+  int64_t triangles; /* their number; they follow the triangles of the previous face. For a face of parts
+                        (carreau_model_part_of_face) the sum; the face has failed when one part has */
   const char* why; /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
   const char* name; /* given by carreau_model_name_face, else ""; lives as `why` does */
   int32_t rgb;      /* given by carreau_model_color_face, 0xRRGGBB, or -1 */
 } carreau_face;
 
-/* Tells of face `index`, from 0. The faces of a mesh from a file are its triangle references, ascending, and others
- * that the file tells of. Errors: ARGUMENT, SEQUENCE. */
+/* Describes face `index`, from 0. The faces of a mesh from a file are its triangle references, ascending, and other faces that the
+ * file describes. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
 
 /* Counts the pairs of entities that periodicities carry onto each other, and their pairs of nodes. Errors: ARGUMENT. */
@@ -963,8 +969,8 @@ CARREAU_API carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t f
  * such entity. It lives until the next call on the mesh. NULL: no mesh. */
 CARREAU_API const char* carreau_mesh_entity_name(carreau_mesh* mesh, int32_t dimension, int32_t ref);
 
-/* The shapes and sizes of the triangles. q1 = 2 sqrt(3) inradius / longest edge and q2 = 4 sqrt(3) area / sum of
- * squared edges (HDR eq. 1.5, 1.6) are 1 for an equilateral triangle. p1 is the first percentile. */
+/* The shapes and sizes of the triangles. Both q1 = 2 sqrt(3) inradius / longest edge (HDR eq. 1.5) and q2 = 4 sqrt(3)
+ * area / sum of squared edges (HDR eq. 1.6) are 1 for an equilateral triangle. p1 is the first percentile. */
 typedef struct carreau_quality {
   size_t struct_size;
   int64_t vertices, triangles, edges; /* all edges of triangles */
@@ -979,22 +985,22 @@ typedef struct carreau_quality {
 
 /* Measures the triangles. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
-/* The same of the whole mesh of which a part is one, as all processes have measured it together: sums are rounded otherwise than in one
- * process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
+/* Gives the quality of the whole mesh to which a part belongs, as all processes have measured it together: sums are rounded otherwise
+ * than in one process. Errors: ARGUMENT, SEQUENCE (the mesh is no part). */
 CARREAU_API carreau_status carreau_mesh_part_quality(carreau_mesh* part, carreau_quality* out_quality);
 
-/* Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area or
- * twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that are not
- * in their faces. With closed = 1 an edge with one triangle is a defect too. *out_count tells how many were found, at
- * most `limit` (> 0). *out_text has one sentence a line, and lives until the next call on the mesh. Finding defects is
- * CARREAU_OK.
+/* Looks for defects that make a mesh unusable: indices out of range, numbers that are not finite, triangles without
+ * area or duplicates, vertices without a triangle, edges of more than two triangles away from curves, and curves that
+ * are not in their faces. With closed = 1 an edge with one triangle is a defect too. *out_count is the number of
+ * defects found, at most `limit` (> 0). *out_text has one sentence a line, and lives until the next call on the mesh.
+ * Finding defects is CARREAU_OK.
  * Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
                                                 const char** out_text);
 
 /* Looks for pairs of triangles that cross: with a point in common that is on no vertex and no edge of both. Decided
  * exactly. Vertices at one place count as one; triangles without area are passed over. threads: at work, 0: all
- * processors; the result does not depend on it. *out_count: all such pairs. Of the first `capacity` pairs, ascending,
+ * processors; the result does not depend on it. *out_count: all such pairs. For the first `capacity` pairs, ascending,
  * out_triangles has the indices of both triangles (rows of 2) and out_xyz a place (rows of 3); both may be NULL. A
  * capacity below *out_count is no error. Finding pairs is CARREAU_OK. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity,
@@ -1002,15 +1008,15 @@ CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_
 
 /* ---- Fields as images (OpenEXR) ---- */
 
-/* The groups of channels. They are 32-bit reals where nothing else is said.
+/* The groups of channels. They are 32-bit reals unless another type is given.
  *   SIZE        size.h                       prescribed size: sqrt(h1 h2); model length
  *               size.h1 size.h2 size.angle   sizes along the axes of the prescribed metric, h1 <= h2, and the
  *                                            direction of h1 in the tangent plane, from Su to Sv; degrees, 0 to 180
  *   INDUCED     induced.e .f .g              Su.Su, Su.Sv, Sv.Sv
  *   TARGET      target.m11 .m12 .m22         metric of the parameter plane that the mesher used, as its control space
  *                                            holds it; 1 / parameter^2
- *   CURVATURE   curvature.k1 .k2             principal curvatures, k1 >= k2; 1 / model length; those that bend
- *                                            towards the normal are positive
+ *   CURVATURE   curvature.k1 .k2             principal curvatures, k1 >= k2; 1 / model length; positive where the
+ *                                            surface bends towards the normal
  *   POSITION    position.x .y .z             model length
  *   NORMAL      normal.x .y .z               unit, along Su x Sv
  *   DEVIATION   deviation.a0 .a1             of the pixel's triangle: largest distance from the surface (model length)
@@ -1025,8 +1031,8 @@ CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_
  *               geometric.h .h1 .h2 .angle   the geometric one; NaN where it is ignored (hgeo_flag = 0), as is the
  *                                            physical one by hphy_flag = 0
  *               governs                      unsigned integer: CARREAU_GOVERNS_...; 4294967295: not known
- * A pixel stands for the point of the parameter plane at its centre. What is not known there is NaN: outside the domain
- * all but the mask and the preview, and inside it whatever the host fails to give. */
+ * A pixel stands for the point of the parameter plane at its centre. Unknown values are NaN: outside the domain all but
+ * the mask and the preview, and inside it the values that the host fails to give. */
 enum {
   CARREAU_EXR_SIZE = 1,
   CARREAU_EXR_INDUCED = 2,
@@ -1040,8 +1046,8 @@ enum {
   CARREAU_EXR_PREVIEW = 512,
   CARREAU_EXR_GOVERNS = 1024
 };
-/* What makes the least size of a place what it is: the physical size; the geometric one; the smaller of both, moved by
- * hphymin, hphymax, hgeomin or hgeomax; or the gradation, from a place beside. */
+/* The origin of the smallest size at a place: the physical size; the geometric size; the smaller of both, moved by
+ * hphymin, hphymax, hgeomin or hgeomax; or the gradation, from a neighbouring place. */
 enum {
   CARREAU_GOVERNS_PHYSICAL = 0,
   CARREAU_GOVERNS_GEOMETRIC = 1,
@@ -1066,24 +1072,24 @@ typedef struct carreau_exr_options {
   int32_t reserved;    /* 0 */
 } carreau_exr_options;
 
-/* Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images. From
- * "a/x.exr" it makes the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns go from the
- * smallest u to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low, uv.high),
- * the reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>), the first
- * triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the version of
- * the library. `options` may be NULL, which means all zero.
+/* Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
+ * images. From "a/x.exr" it makes the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns
+ * go from the smallest u to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low,
+ * uv.high), the reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>),
+ * the first triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the
+ * version of the library. `options` may be NULL, which means all zero.
  *
  * From "a/x.png" it makes pictures a/x.face.<ref>.png, or a/x.png with `face`: the preview over white, 8 bits of sRGB.
- * They need no OpenEXR; a library that was built without it refuses .exr files (FILE).
+ * They need no OpenEXR; a library that was built without it rejects .exr files (FILE).
  *
- * The fields are those of the session's mesh. When there is no mesh, when the last carreau_mesh_generate has failed,
- * for faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain, as far as its
- * curves are known: positions, derivatives, sizes. There are then no triangles, and no target unless the mesher had
- * sampled it. A host that fails at some points leaves NaN there, and a warning; its sentence is no error of this call.
+ * The fields belong to the session's mesh. Without a mesh, after a failed carreau_mesh_generate, for failed faces, and
+ * if `raw` is 1, they are the answers of the geometry: positions, derivatives and sizes in the domain, as far as its
+ * curves are known. There are then no triangles, and no target unless the mesher had sampled it. A host that fails at
+ * some points leaves NaN there, and a warning; its sentence is no error of this call.
  *
- * The call asks the geometry at every pixel of the domain, from the caller's thread, and for CARREAU_EXR_DEVIATION at
- * some 20 points a vertex of the mesh. It never touches the mesh. Each file is complete, or as it was before. Errors:
- * ARGUMENT, SEQUENCE (no geometry, no model), MODEL, FILE, CANCELLED, MEMORY. */
+ * The call evaluates the geometry at every pixel of the domain, from the caller's thread, and for CARREAU_EXR_DEVIATION
+ * at some 20 points a vertex of the mesh. It never touches the mesh. Each file is complete, or as it was before.
+ * Errors: ARGUMENT, SEQUENCE (no geometry, no model), MODEL, FILE, CANCELLED, MEMORY. */
 CARREAU_API carreau_status carreau_write_exr(carreau_session* session, const char* path,
                                              const carreau_exr_options* options);
 
@@ -1097,14 +1103,14 @@ typedef struct carreau_curve {
   int64_t point_count;     /* 2 or more */
   int64_t metric_count;    /* 2 or more */
   const double* points;    /* point_count x dimension */
-  const double* abscissae; /* metric_count: usual lengths from the first point, ascending from 0 to that of the curve */
+  const double* abscissae; /* metric_count: usual lengths from the first point, ascending from 0 to the length of the curve */
   const double* metrics;   /* metric_count x 3 (xx xy yy) or x 6 (xx xy xz yy yz zz), positive definite */
   double lss;              /* largest length of a trapezoid in the metric, as parameter LSS; 0: 0.5 */
 } carreau_curve;
 
 /* Cuts a curve into edges of equal length in the metric, as near to 1 as a whole number of edges allows (RR-2818 sec.
  * 4). *out_edges is n. *out_length is the length of the whole curve in the metric, so that each edge has out_length /
- * n. out_abscissae gets n + 1 usual lengths from the first point, or nothing when capacity is 0: ask for n first. Each
+ * n. out_abscissae gets n + 1 usual lengths from the first point, or nothing when capacity is 0: request n first. Each
  * may be NULL. The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT
  * (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
 CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
@@ -1114,7 +1120,8 @@ CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const c
 
 /* For n metrics of one dimension, 2 or 3, at once: rows of 3 numbers (xx xy yy) or of 6 (xx xy xz yy yz zz), in 1 / model
  * length^2, positive definite. A vector d has the length sqrt(d^T M d), and a size h along it is d / length for |d| = 1.
- * The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT (also a metric that is not positive definite, with its rank from 0). */
+ * The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT (also a
+ * metric that is not positive definite, with its rank from 0). */
 
 /* Gives sizes along the axes of each metric, the smallest first, n x dimension; and unit axes, n x dimension x dimension,
  * one after another, or nothing when out_axes is NULL. */
@@ -1145,13 +1152,13 @@ CARREAU_API carreau_status carreau_metric_reduce(carreau_session* session, int32
 CARREAU_API carreau_status carreau_metric_lengths(carreau_session* session, int32_t dimension, int32_t law, int64_t n,
                                                   const double edges[], const double metrics[], double out_lengths[]);
 
-/* ---- What was delivered ---- */
+/* ---- The delivered mesh ---- */
 
-/* These functions measure the latest mesh of a session on the surface that the callbacks describe, against the sizes
- * and metrics that they prescribe, and not against what the library had sampled of them. The first call of one of them
- * measures the mesh; with the parameter measure at 1, the run does. It takes about 24 evaluations a vertex, by the
- * callbacks that made the mesh: what they use must still be there. Messages tell the result (levels SUMMARY and
- * WARNING). .vtu files written from then on hold the values, on triangles and vertices, and with flag = 1 on all edges.
+/* These functions measure the latest mesh of a session on the surface of the callbacks, against the sizes and metrics
+ * that they prescribe. They do not use the samples of the run. The first call of one of them measures the mesh; with
+ * the parameter measure at 1, the run does. It takes about 24 evaluations a vertex, by the callbacks that made the
+ * mesh: their data must still exist. Messages report the result (levels SUMMARY and WARNING). .vtu files written from
+ * then on hold the values, on triangles and vertices, and with flag = 1 on all edges.
  *
  *   kind                            of         unit
  *   CARREAU_MEASURE_LENGTH          edges      length of the edge's image on the surface in the prescribed metric, by
@@ -1166,19 +1173,20 @@ CARREAU_API carreau_status carreau_metric_lengths(carreau_session* session, int3
  *   CARREAU_MEASURE_A1              triangles  largest angle between its normal and the surface's, degrees, 0 to 180
  *   CARREAU_MEASURE_CURVE_A0        edges      of edges of curves: distance of the curve's arc to it, model length
  *   CARREAU_MEASURE_CURVE_A1        edges      of edges of curves: largest angle with tangents of its arc, degrees
- *   CARREAU_MEASURE_VERTEX_ANGLE    triangles  largest angle between its normal and those of the surface at its vertices,
- *                                              degrees: what angle_mesh limits (RT-0232 sec. 3.3)
+ *   CARREAU_MEASURE_VERTEX_ANGLE    triangles  largest angle between its normal and the normals of the surface at its vertices,
+ *                                              degrees: angle_mesh limits it (RT-0232 sec. 3.3)
  *   CARREAU_MEASURE_A0_BOUND        triangles  upper bound of A0 over the whole triangle, of first order; model length
  *   CARREAU_MEASURE_A1_BOUND        triangles  upper bound of A1 over the whole triangle, of first order; degrees
  *   CARREAU_MEASURE_BOUND_SHARE     triangles  the larger of both over its tolerance: eps_chord and angle_mesh where they govern,
  *                                              else 0.3 of the size and 52 degrees
- *   CARREAU_MEASURE_INPUT_BOUND     triangles  of a surface given as triangles, of first order: upper bound of the distance from any
- *                                              point of it to those; model length. NaN with the parameter measure_distances at 0
+ *   CARREAU_MEASURE_INPUT_BOUND     triangles  of a surface given as triangles, of first order: upper bound of the distance from any point
+ *                                              of it to them; model length. NaN with the parameter measure_distances at 0
  *
- * Bounds suppose that over each part of a triangle second derivatives of the surface differ from a constant by at most the
- * largest second difference of the places seen; triangles are cut into parts until that decides. They take 16 evaluations a vertex and more.
- * By the parameter measure_bounds 0 never, 1 meshes free of patches and of triangles, 2 all meshes have them; else they are NaN.
- * A value is NaN where it has no meaning (sizes at a singular point, curves of edges inside faces). */
+ * Bounds assume that over each part of a triangle second derivatives of the surface are almost constant: they differ from a constant by at
+ * most the largest second difference of the samples. Triangles are cut into parts until the bounds decide. They take 16 evaluations a
+ * vertex and more. The parameter measure_bounds chooses the meshes with bounds: 0 none, 1 cross-patch meshes and meshes of triangulated
+ * surfaces, 2 all. Without bounds the values are NaN. A value is NaN where it has no meaning (sizes at a singular point, curves of edges
+ * inside faces). */
 enum {
   CARREAU_MEASURE_LENGTH = 1,
   CARREAU_MEASURE_EDGE_ANGLE = 2,
@@ -1197,10 +1205,10 @@ enum {
   CARREAU_MEASURE_BOUND_SHARE = 15,
   CARREAU_MEASURE_INPUT_BOUND = 16
 };
-/* What a measure has one value for. */
+/* The entities of a measure. */
 enum { CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3 };
 
-/* What a mesh delivers, as a whole. */
+/* Totals of a delivered mesh. */
 typedef struct carreau_delivered {
   size_t struct_size;
   int64_t vertices, edges, triangles;
@@ -1212,9 +1220,9 @@ typedef struct carreau_delivered {
                                       met; lives until the next call on the session */
   int64_t surf0_calls, surf1_calls, surf2_calls, size_calls; /* of the measure, not of the run */
   double seconds;
-  /* Of a surface given as triangles, NaN otherwise and with the parameter measure_distances at 0: the largest distance from the
-     mesh to those lies between input_distance and input_bound, that from those to the mesh between the next two. Model
-     length. */
+  /* For a surface given as triangles; NaN otherwise and with the parameter measure_distances at 0. The largest distance from
+     the mesh to these triangles lies between input_distance and input_bound, the largest distance from them to the mesh between
+     the next two. Model length. */
   double input_distance, input_bound;
   double input_back_distance, input_back_bound;
 } carreau_delivered;
@@ -1231,16 +1239,16 @@ typedef struct carreau_measure {
   int32_t entity;    /* CARREAU_OF_... */
   int32_t classes;   /* of the histogram */
   int64_t values;    /* number of entities */
-  int64_t count;     /* of those whose value is not NaN; the spread is theirs, and zero when there are none */
+  int64_t count;     /* entities whose value is not NaN; the spread is over them, and zero when there are none */
   double mean, min, p1, p99, max; /* p1, p99: percentiles */
-  double limit;                   /* what was asked: no value above this; infinity if nothing was */
+  double limit;                   /* the prescribed limit: no value above this; infinity if there is none */
   int64_t beyond;                 /* values above it (gradation: by more than 2 %) */
-  int64_t forced; /* of those: angles of edges as short as hgeomin lets them be (sqrt(2) times as long at most) and
-                     of triangles with such edges alone,
-                     gradations of edges that cross a face from a vertex of a curve to another one */
+  int64_t forced; /* forced among them: angles of edges as short as hgeomin allows (at most sqrt(2) times as long) and
+                     of triangles with such edges only; gradations of edges that cross a face from a vertex of a curve
+                     to another vertex of a curve */
 } carreau_measure;
 
-/* Tells the spread of a kind. */
+/* Gives the spread of a kind. */
 CARREAU_API carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind,
                                                      carreau_measure* out_measure);
 

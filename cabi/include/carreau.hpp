@@ -11,7 +11,7 @@
 ///     session.mesh().write("part.vtu");
 ///
 /// A function has the name of its C function without prefix, and its rules: arguments, units, errors and lifetimes are in carreau.h.
-/// What differs is told here. Structs of results are those of the C interface; their struct_size is set already.
+/// Comments here describe differences. Results use the structs of the C interface; their struct_size is set already.
 #ifndef CARREAU_HPP
 #define CARREAU_HPP
 

@@ -7,7 +7,7 @@
  *   carreau_add_atlas(session, atlas);                            // a geometry like any other: carreau_mesh_generate
  *
  * The rules of carreau.h hold for every function. Vertices, triangles, clusters and charts count from 0 in arrays; sentences count
- * vertices from 1. A handle is used by one thread at a time; carreau_..._last_error tells what went wrong in the last call on it.
+ * vertices from 1. A handle is used by one thread at a time; carreau_..._last_error returns the sentence of its last failed call.
  */
 #ifndef CARREAU_ATLAS_H
 #define CARREAU_ATLAS_H
@@ -46,7 +46,8 @@ CARREAU_API carreau_status carreau_loop_points(carreau_loop* loop, int64_t n, co
 /* phi, from 0 to 2 pi, of n points of the loop. Errors: ARGUMENT (one is further from the loop than `tolerance`), SEQUENCE. */
 CARREAU_API carreau_status carreau_loop_invert(carreau_loop* loop, int64_t n, const double xy[], double tolerance, double out_phi[]);
 
-/* The pivots (x y), inside and outside by turns, and their number; capacity 0 asks for the number alone. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The pivots (x y), inside and outside by turns, and their number; capacity 0 requests the number alone. Errors: ARGUMENT (capacity),
+ * SEQUENCE. */
 CARREAU_API carreau_status carreau_loop_pivots(carreau_loop* loop, int64_t capacity, double out_xy[], int64_t* out_count);
 
 /* ---- Annuli ---- */
@@ -74,9 +75,9 @@ CARREAU_API void carreau_annulus_free(carreau_annulus* annulus); /* Frees it. NU
 /* Returns the sentence of the last call on the annulus, "" after success. It lives until the next call on it. */
 CARREAU_API const char* carreau_annulus_last_error(const carreau_annulus* annulus);
 
-/* Describes the annulus between two polygons, both counterclockwise (n x 2, m x 2). Where no pivots see all of it, its outer border
- * comes nearer. `star`: 1 lets one pivot do where it sees the whole inner border. Errors: ARGUMENT, DOMAIN (as carreau_loop_build; an annulus without
- * width). */
+/* Describes the annulus between two polygons, both counterclockwise (n x 2, m x 2). If no pivots see all of it, its outer border comes
+ * nearer. `star`: 1 allows a single pivot if it sees the whole inner border. Errors: ARGUMENT, DOMAIN (as carreau_loop_build; an annulus
+ * without width). */
 CARREAU_API carreau_status carreau_annulus_build(carreau_annulus* annulus, int64_t n, const double inner_xy[], int64_t m,
                                                  const double outer_xy[], int32_t border, int32_t star);
 
@@ -85,21 +86,25 @@ CARREAU_API carreau_status carreau_annulus_build(carreau_annulus* annulus, int64
 CARREAU_API carreau_status carreau_annulus_points(carreau_annulus* annulus, int64_t n, const double tau_phi[], double out_xy[],
                                                   double out_derivatives[]);
 
-/* Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of those in the annulus; of others 0. An array may be NULL. Errors: ARGUMENT, SEQUENCE. */
+/* Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of points in the annulus, 0 for others. An array may be NULL. Errors: ARGUMENT,
+ * SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_invert(carreau_annulus* annulus, int64_t n, const double xy[], double out_tau_phi[],
                                                   int32_t out_zones[]);
 
 /* The pivots (x y) of an annulus, and their number; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_pivots(carreau_annulus* annulus, int64_t capacity, double out_xy[], int64_t* out_count);
 
-/* The polygon (x y) that was described as outer border, and the number of its vertices; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The polygon (x y) that was described as outer border, and the number of its vertices; as carreau_loop_pivots. Errors: ARGUMENT
+ * (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_outer_border(carreau_annulus* annulus, int64_t capacity, double out_xy[], int64_t* out_count);
 
-/* The edges (x y x y) of the pseudo-skeleton of the inner border, and their number; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The edges (x y x y) of the pseudo-skeleton of the inner border, and their number; as carreau_loop_pivots. Errors: ARGUMENT (capacity),
+ * SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capacity, double out_edges[], int64_t* out_count);
 
 /* Writes an OpenEXR file of `width` pixels a row: channels tau and phi (NaN outside of the annulus), and zone (CARREAU_ZONE_...),
- * over the box of the outer border, y upwards. Errors: ARGUMENT (a width below 2 or above 65536), SEQUENCE, FILE (a library without OpenEXR, too). */
+ * over the box of the outer border, y upwards. Errors: ARGUMENT (a width below 2 or above 65536), SEQUENCE, FILE (a library without
+ * OpenEXR, too). */
 CARREAU_API carreau_status carreau_annulus_write_exr(carreau_annulus* annulus, const char* path, int32_t width);
 
 /* ---- Atlases of closed triangulated surfaces ---- */
@@ -114,13 +119,13 @@ typedef struct carreau_atlas_options {
   int32_t reach;  /* of clusters that the library makes, in edges: 1 (0 is the same) for the smallest, 2, 3 for larger ones */
 } carreau_atlas_options;
 
-/* What an atlas consists of. */
+/* The numbers of the charts and other entities of an atlas. */
 typedef struct carreau_atlas_counts {
   size_t struct_size;
   int64_t vertices, triangles; /* of the triangulation covered: the one given, or its division */
   int64_t charts;
   int64_t triples;    /* places where three charts meet */
-  int64_t mended;     /* charts whose annulus has pivots beside its vertices: those of the skeleton did not serve */
+  int64_t mended;     /* charts whose annulus has pivots beside its vertices, since the pivots of the skeleton fail */
 } carreau_atlas_counts;
 
 /* The plane of a chart: its place (x, y) lies at origin + x u + y v. */
@@ -138,13 +143,13 @@ CARREAU_API void carreau_atlas_free(carreau_atlas* atlas); /* Frees it. NULL is 
 CARREAU_API const char* carreau_atlas_last_error(const carreau_atlas* atlas);
 
 /* Covers a closed surface of n vertices (n x 3) and m triangles (m x 3, indices from 0, counterclockwise from outside). clusters: the
- * cluster of each vertex, from 0 without gaps, each a disc; NULL, or -1 at vertex 0: the library makes them, and divides triangles in four where they
- * are too coarse. On an error the atlas is as before. Errors: ARGUMENT (the triangulation has a border, or is turned differently in
- * places), DOMAIN (a cluster that is no disc, or far from a plane). */
+ * cluster of each vertex, from 0 without gaps, each a disc; NULL, or -1 at vertex 0: the library makes them, and divides triangles in four
+ * where they are too coarse. On an error the atlas is as before. Errors: ARGUMENT (the triangulation has a border, or is turned differently
+ * in places), DOMAIN (a cluster that is no disc, or far from a plane). */
 CARREAU_API carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_options* options, int64_t n, const double xyz[], int64_t m,
                                                const int32_t triangles[], const int32_t clusters[]);
 
-/* Count what the atlas consists of, and tell of chart `chart`. Errors: ARGUMENT, SEQUENCE (nothing was built). */
+/* Count the entities of the atlas, and describe chart `chart`. Errors: ARGUMENT, SEQUENCE (nothing was built). */
 CARREAU_API carreau_status carreau_atlas_count(carreau_atlas* atlas, carreau_atlas_counts* out_counts);
 CARREAU_API carreau_status carreau_atlas_chart_info(carreau_atlas* atlas, int64_t chart, carreau_atlas_chart* out_chart);
 
@@ -156,8 +161,8 @@ CARREAU_API carreau_status carreau_atlas_annulus_points(carreau_atlas* atlas, in
 CARREAU_API carreau_status carreau_atlas_zones(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[], int32_t out_zones[],
                                                double out_weights[]);
 
-/* Transition from chart i to chart j: places (n x 2) in j of n places of i. out_found: 1 where both charts have the place, else 0, and the place
- * is left alone. Errors: ARGUMENT, SEQUENCE. */
+/* Transition from chart i to chart j: places (n x 2) in j of n places of i. out_found: 1 where both charts have the place, else 0, and the
+ * place is left alone. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_atlas_transition(carreau_atlas* atlas, int64_t i, int64_t j, int64_t n, const double xy[], double out_xy[],
                                                     int32_t out_found[]);
 
@@ -166,8 +171,9 @@ CARREAU_API carreau_status carreau_atlas_transition(carreau_atlas* atlas, int64_
 CARREAU_API carreau_status carreau_atlas_points(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[], double out_xyz[],
                                                 double out_derivatives[]);
 
-/* Adds the blended surface to a session: chart k is face k + 1. The session keeps what it needs: the atlas may be freed or built anew.
- * The sentence of an error is the session's. Errors: ARGUMENT, SEQUENCE (nothing was built; see carreau_geometry_begin). */
+/* Adds the blended surface to a session: chart k is face k + 1. The session copies the data that it needs: the atlas may be freed or
+ * built anew. The sentence of an error is the session's. Errors: ARGUMENT, SEQUENCE (nothing was built; see
+ * carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_atlas(carreau_session* session, const carreau_atlas* atlas);
 
 #ifdef __cplusplus

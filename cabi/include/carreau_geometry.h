@@ -20,16 +20,16 @@ extern "C" {
 /* ---- Several geometries in one session ---- */
 
 /* A session has the host's own geometry (carreau_set_cad or carreau_set_cad_m, with faces by carreau_model_add_face),
- * and any number of others, which the functions below add. Each counts its faces, curves and points from 1. In the
- * session those numbers are moved behind all that it has: carreau_geometry_info tells where. So the faces of the first
- * geometry of an empty session keep their numbers. Faces that the host adds himself later on must have larger
- * references than those, curves and points too.
+ * and any number of others, which the functions below add. Each counts its faces, curves and points from 1. The session
+ * moves these numbers behind all its previous numbers: carreau_geometry_info gives the new ones. So the faces of the
+ * first geometry of an empty session keep their numbers. Faces that the host adds himself later on must have larger
+ * references than these, curves and points too.
  *
  * Geometries do not touch, unless the parameter glue_open is 1: curves that one face only has are then compared in
  * space, in all geometries, and become one within eps_glue (or eps_glue_open). The mesh of a geometry that touches no
- * other one is, for the same sizes, that of a session of its own, bit for bit. Parameters that are relative to the
- * diagonal see the box of all. Faces are meshed by several threads at a time when all geometries allow it: those that
- * the library evaluates itself do.
+ * other geometry is, for equal sizes, identical to its mesh in a separate session. Parameters that are relative to the
+ * diagonal use the box of all. Several threads mesh faces at a time when all geometries allow it: geometries that the
+ * library evaluates itself allow it.
  *
  * carreau_model_clear drops them all. */
 enum {
@@ -53,19 +53,19 @@ typedef struct carreau_geometry {
   int32_t first_point, last_point;
 } carreau_geometry;
 
-/* Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
+/* Count the geometries that were added, and describe geometry `index`, from 0, in the order of adding.
  * Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_geometry_count(carreau_session* session, int64_t* out_count);
 CARREAU_API carreau_status carreau_geometry_info(carreau_session* session, int64_t index,
                                                  carreau_geometry* out_geometry);
 
-/* Begins a geometry of callbacks beside what the session has. Until carreau_geometry_end, the functions
+/* Begins a geometry of callbacks beside the geometries of the session. Until carreau_geometry_end, the functions
  * carreau_model_... are about its faces alone. They take, and callbacks get, its own references; sentences and results
- * have those of the session. With carreau_geometry_cancel the session is as it was before; carreau_last_error keeps
- * the sentence of the call before. Calls that need the whole model fail in between (SEQUENCE). Errors of
+ * have the references of the session. With carreau_geometry_cancel the session is as it was before; carreau_last_error
+ * keeps the sentence of the call before. Calls that need the whole model fail in between (SEQUENCE). Errors of
  * carreau_geometry_begin: ARGUMENT, as carreau_set_cad, SEQUENCE; of carreau_geometry_end: SEQUENCE, MODEL (no face, a
- * reference that is negative, or too large); the session is then as before carreau_geometry_begin. What else is wrong
- * with the faces is told when they are meshed. */
+ * reference that is negative, or too large); the session is then as before carreau_geometry_begin. Runs report all
+ * other faults of the faces. */
 CARREAU_API carreau_status carreau_geometry_begin(carreau_session* session, const carreau_cad* callbacks);
 CARREAU_API carreau_status carreau_geometry_end(carreau_session* session);
 CARREAU_API carreau_status carreau_geometry_cancel(carreau_session* session);
@@ -82,19 +82,19 @@ typedef struct carreau_bezier {
   const int32_t* degrees;  /* patch_count x 2: m, n, from 1 to CARREAU_BEZIER_DEGREE */
   const double* controls;  /* for each patch (m + 1)(n + 1) control points x y z, model length; v runs fastest */
   const int32_t* side_refs; /* patch_count x 4, of the sides v = 0, u = 1, v = 1, u = 0: positive, and the same for
-                               sides that are one curve; NULL: what meets within eps_glue is found when a mesh is made */
+                               sides that are one curve; NULL: sides that meet within eps_glue are found when a mesh is made */
 } carreau_bezier;
 
-/* Adds Bezier patches to a session: patch k is face k + 1, and its normal is along Su x Sv. Evaluation and derivatives
- * are exact, and so are the radii of curvature that hgeo_flag = 2 asks for. Errors: ARGUMENT (a degree, a number that
- * is not finite, no patch), SEQUENCE (see carreau_geometry_begin). */
+/* Adds Bezier patches to a session: patch k is face k + 1, and its normal is along Su x Sv. Evaluation, derivatives and
+ * the radii of curvature for hgeo_flag = 2 are exact. Errors: ARGUMENT (a degree, a number that is not finite, no
+ * patch), SEQUENCE (see carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_bezier(carreau_session* session, const carreau_bezier* bezier);
 
-/* The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are found
- * when a mesh is made. Errors: those above, FILE (with the line). */
+/* Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides that
+ * meet are found when a mesh is made. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_bezier(carreau_session* session, const char* path);
 
-/* Tells the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
+/* Gives the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref, int32_t out_degrees[2]);
 
 /* ---- Molecules ---- */
@@ -103,7 +103,7 @@ CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int3
 enum {
   CARREAU_VWS = 1, /* van der Waals: the boundary of the union of the atoms' balls */
   CARREAU_SAS = 2, /* solvent accessible: the same with the radius of a probe added to all radii */
-  CARREAU_SES = 3  /* solvent excluded: the boundary of what no probe outside the balls reaches */
+  CARREAU_SES = 3  /* solvent excluded: the boundary of the space that no probe outside the balls reaches */
 };
 
 /* Which surface of a molecule, and by which probe. */
@@ -115,70 +115,70 @@ typedef struct carreau_molecule_options {
   const char* radii;     /* file of lines "symbol radius", in place of the table's radii; NULL: none */
 } carreau_molecule_options;
 
-/* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
- * the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
- * faces of their own, with references behind those of all balls. Of balls that are equal, concentric or one inside the
- * other, those inside have no face; spheres that only touch do not meet. Where rounding hides how spheres meet (four of
- * them in one point), radii are moved by some 1e-9 of themselves, and a message tells it. Errors: ARGUMENT (a radius
- * that is not positive, n below 1), SEQUENCE (see carreau_geometry_begin). */
+/* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball,
+ * from 1; other parts of the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
+ * separate faces, with references behind the references of all balls. A ball that equals another ball, or lies inside it, has no face;
+ * spheres that only touch do not meet. If rounding hides how spheres meet (four of them in one point), radii change by some 1e-9 of
+ * themselves, and a message reports it. Errors: ARGUMENT (a radius that is not positive, n below 1), SEQUENCE (see
+ * carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
-/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are those of Bondi,
- * for elements that he lacks those of Alvarez and others (cpp/io/molecule/elements.h);
+/* Adds the surface of the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are Bondi's,
+ * for elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h);
  * waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
  * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
- * Errors: those above, FILE. */
+ * Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                  const char* path);
 
-/* Of the surface, exactly: no mesh is needed. */
+/* Exact measures of the surface: no mesh is needed. */
 typedef struct carreau_molecule_measures {
   size_t struct_size;
   double area;
   double volume; /* inside the surface, without cavities */
   int64_t atoms;
   int64_t exposed_atoms; /* with an area */
-  int64_t shells;        /* connected parts of the surface; of CARREAU_SES those of CARREAU_SAS */
-  int64_t cavities;      /* those of them that bound a hole */
+  int64_t shells;        /* connected parts of the surface; for CARREAU_SES the parts of CARREAU_SAS */
+  int64_t cavities;      /* shells that bound a hole */
   int64_t euler_number;  /* of the surface: of a closed mesh, vertices - triangles / 2 */
   int64_t moved_radii;   /* see carreau_add_molecule */
   double convex_area;    /* of parts of balls; of CARREAU_VWS and CARREAU_SAS, the area */
-  double torus_area;     /* of what a probe sweeps that touches two balls; CARREAU_SES */
+  double torus_area;     /* swept by a probe that touches two balls; CARREAU_SES */
   double concave_area;   /* of parts of probes that touch three balls; CARREAU_SES */
 } carreau_molecule_measures;
 
 /* Measures the molecule that the session was given last. Errors: SEQUENCE (none was). */
 CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecule_measures* out_measures);
 
-/* Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+/* Gives reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
  * Errors: SEQUENCE, ARGUMENT (capacity).
  */
 CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
                                                   double out_areas[]);
 
-/* Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on its side
- * of the plane in which the probe's centre moves; a third of each concave part that touches it. The sums are those of
- * carreau_molecule_measures; but for CARREAU_SES the latter two are 0. An array may be NULL. Errors: SEQUENCE,
+/* Gives the full area of each atom: of its convex parts, as above; its share of the torus parts beside it; a third of
+ * each concave part that touches it. The share lies on its side of the plane in which the probe's centre moves. The sums
+ * are in carreau_molecule_measures; except for CARREAU_SES the latter two are 0. An array may be NULL. Errors: SEQUENCE,
  * ARGUMENT (capacity). */
 CARREAU_API carreau_status carreau_molecule_atom_areas(carreau_session* session, int64_t capacity, double out_convex[],
                                                        double out_torus[], double out_concave[]);
 
-/* Tells the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
+/* Gives the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
  * no such atom. */
 CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom);
 
 /* ---- Plane domains ---- */
 
-/* What is the domain where neither a side nor a seed says so. */
+/* The extent of the domain if neither a side nor a seed determines it. */
 enum {
   CARREAU_REST_PARITY =
-      0, /* what curves enclose; inside of it a loop that nothing joins to it bounds a hole, and so on */
+      0, /* the inside of curves; inside of it a loop that nothing joins to it bounds a hole, and so on */
   CARREAU_REST_INSIDE = 1, /* all that curves enclose, but for holes */
   CARREAU_REST_OUTSIDE = 2 /* nothing else */
 };
 
-/* What a curve of a plane domain is between its points. */
+/* The shape of a curve of a plane domain between its points. */
 enum {
   CARREAU_SEGMENTS = 0, /* straight; all of its points are vertices */
   CARREAU_SPLINE = 1,   /* a spline of Catmull and Rom */
@@ -187,8 +187,8 @@ enum {
                            whole circle, of which the point between is the opposite one, counterclockwise. */
 };
 
-/* A domain of the plane. Indices of points and curves count from 0. An array may be NULL where this says so. References
- * are the caller's: 0 is none, and several entities may have the same. */
+/* A domain of the plane. Indices of points and curves count from 0. An array may be NULL where its comment allows it.
+ * References are the caller's: 0 means no reference, and several entities may share one. */
 typedef struct carreau_plane_domain {
   size_t struct_size;
   int32_t rest;     /* CARREAU_REST_... */
@@ -197,7 +197,7 @@ typedef struct carreau_plane_domain {
   const double* points;      /* point_count x 2 */
   const int32_t* point_refs; /* point_count; NULL: none */
   const int32_t* imposed;    /* point_count: 1 makes a point a vertex wherever it lies; NULL: ends of curves only */
-  const double* sizes;       /* point_count, wanted at points and along curves between them; 0: none; NULL: none */
+  const double* sizes;       /* point_count, prescribed at points and along curves between them; 0: none; NULL: none */
   const double* metrics;     /* point_count x 3 (xx xy yy), in place of sizes; 0 0 0: none; NULL: none */
   const int64_t*
       curve_starts; /* curve_count + 1: curve c passes curve_points[curve_starts[c] .. curve_starts[c + 1] - 1] */
@@ -214,33 +214,31 @@ typedef struct carreau_plane_domain {
   const int32_t* seed_refs;  /* seed_count: the reference of the subdomain, or -1 for a hole */
 } carreau_plane_domain;
 
-/* Makes a plane domain the only geometry of a session that has no model: see carreau_model_clear. Its faces are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
- * 0, or stands for several entities, the model has a number behind the largest in its place; results show the caller's.
- * Sizes at points hold along curves; inside, hphydef counts (hphy_flag 1) or what the curves around have (hphy_flag 2).
- * Messages tell pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves that cross, touch or make a loop;
- * points at one place or beside the domain; an open boundary; a side on which the domain would be unbounded; two
- * references for one subdomain; nothing enclosed). */
+/* Makes a plane domain the only geometry of a session that has no model: see carreau_model_clear. Its faces are the subdomains, in the
+ * plane z = 0 with u = x and v = y; files of its mesh have dimension 2. If a reference is 0, or stands for several entities, the model has
+ * a number behind the largest in its place; results show the caller's. Sizes at points hold along curves; inside, hphydef counts (hphy_flag
+ * 1) or the sizes of the curves around (hphy_flag 2). Messages report pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves
+ * that cross, touch or make a loop; points at one place or beside the domain; an open boundary; a side on which the domain would be
+ * unbounded; two references for one subdomain; nothing enclosed). */
 CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
 
-/* The same from a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
- * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
- * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
- * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between
- * vertices without one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of
- * the file; NULL or "": none. When the file has triangles they are a background mesh: see carreau_set_background_mesh.
- * One that is set later replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE
- * (with the line).
- */
+/* Adds the plane domain of a file: .poly and .node (Triangle; segments that cross are divided), .dat (airfoils), .mesh, .meshb or .bl2d of
+ * dimension 2, whose edges and ends of triangles are the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle
+ * above 0 (degrees), polygons become splines that end where they turn by more, where other curves end, and where references change. With 0
+ * they stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between vertices without
+ * one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of the file; NULL or "": none. When the
+ * file has triangles they are a background mesh: see carreau_set_background_mesh. One that is set later replaces the sizes at points; all
+ * subdomains lie in its one plane. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
                                                      double corner_angle);
 
-/* Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was. Errors:
- * ARGUMENT. */
+/* Gives 1 if the plane domain that the session got last has sizes or metrics at its points; 0 without such a domain.
+ * Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
 
 /* ---- Structured grids ---- */
 
-/* What the nodes of a grid were measured as, and so what smoothing moves. */
+/* The measured quantity of the nodes of a grid, which smoothing moves. */
 enum {
   CARREAU_MEASURED_POINTS = 0,  /* all coordinates */
   CARREAU_MEASURED_HEIGHTS = 1, /* z, at regular x and y */
@@ -264,33 +262,33 @@ typedef struct carreau_grid_options {
   double smoothing_inward, smoothing_outward; /* its weights, both between 0 and 1; both 0: .06 and .061 */
   int32_t lengths;  /* 1: parameters are cumulated lengths of edges, for abrupt steps of a grid; 0: the integers */
   int32_t orient;   /* 1: blocks are turned over, their columns running backwards, so that normals agree across common
-                       borders: those of the first block count, and point outwards where blocks enclose a volume */
+                       borders: normals of the first block count, and point outwards where blocks enclose a volume */
   double join_angle; /* degrees: blocks get one tangent plane along borders where their normals differ by less; 0: none */
   double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
-  double step; /* of heights and scans whose file does not tell it; 0: 1 */
-  int32_t fill; /* 1: holes that no side of a block touches are filled, and a message tells it; 0: they stay */
+  double step; /* of heights and scans whose file does not give it; 0: 1 */
+  int32_t fill; /* 1: holes that no side of a block touches are filled, and a message reports it; 0: they stay */
   int32_t reserved; /* 0 */
 } carreau_grid_options;
 
-/* Adds a surface through the nodes of n structured grids to a session. Block b has counts[2 b] columns and counts[2 b + 1] rows, and its nodes (x, y, z) lie behind those of block b - 1,
- * columns running fastest. A node with a NaN is missing, and with it the cells around. Each block is a face, whose
- * reference is its rank from 1; it is bicubic on each cell and C1 between cells (HDR eq. 4.87-4.91). Where missing nodes cut a
- * block in two, all its parts have its reference in results, and a message tells it. Common nodes of borders glue
- * blocks, and the sides of one; a side may be one point. Messages tell cells that fold and cells without area, which
- * are left out. Errors: ARGUMENT (counts below 2, infinite coordinates, options), SEQUENCE (see carreau_geometry_begin), MODEL (no cell
- * at all, blocks that overlap), CANCELLED. */
+/* Adds a surface through the nodes of n structured grids to a session. Block b has counts[2 b] columns and counts[2 b + 1] rows, and its
+ * nodes (x, y, z) lie behind the nodes of block b - 1, columns running fastest. A node with a NaN is missing, and with it the cells around.
+ * Each block is a face, whose reference is its rank from 1; it is bicubic on each cell and C1 between cells (HDR eq. 4.87-4.91). If missing
+ * nodes cut a block in two, all its parts have its reference in results, and a message reports it. Common nodes of borders glue blocks, and
+ * the sides of one block; a side may be one point. Messages report cells that fold and cells without area, which are left out. Errors:
+ * ARGUMENT (counts below 2, infinite coordinates, options), SEQUENCE (see carreau_geometry_begin), MODEL (no cell at all, blocks that
+ * overlap), CANCELLED. */
 CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
                                             const int32_t counts[], const double nodes[]);
 
-/* The same from a file: PLOT3D (text or binary, any byte order and precision, with or without IBLANK), heights (ASCII grids
- * of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes; docs/how-to/grid.md has the
- * layouts. Errors: those above, FILE (with the line or byte, and the block). */
+/* Adds a surface through the grids of a file: PLOT3D (text or binary, any byte order and precision, with or without
+ * IBLANK), heights (ASCII grids of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes;
+ * docs/how-to/grid.md has the layouts. Errors: as above, FILE (with the line or byte, and the block). */
 CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
                                              const char* path, int32_t format);
 
 /* ---- Surfaces given as triangles ---- */
 
-/* What of a surface given as triangles is a line. NULL stands for all members 0. */
+/* The lines of a surface given as triangles. NULL stands for all members 0. */
 typedef struct carreau_triangles_options {
   size_t struct_size;
   double sharp_angle;        /* degrees: edges whose two triangles differ by more start a line; 0: found between 20 and 45,
@@ -314,30 +312,29 @@ typedef struct carreau_triangles {
   const int32_t* edges;         /* edge_count x 2 vertices, from 0, that are of lines; NULL when edge_count is 0 */
 } carreau_triangles;
 
-/* Adds triangles to a session: they are a geometry like others (see carreau_geometry_begin), whose faces have no curves of a parameter plane. A smooth surface goes
- * through their vertices, with tangent planes that agree but on lines: borders, edges with three triangles or more,
- * edges of triangles that differ by more than the sharp angle and those over which such a line goes on. Its faces are
- * the regions between lines, or the references of the triangles where they have several (moved up when one is not
- * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place,
- * drops repeated triangles and triangles without area (a corner on a longest side divides that side in the
- * neighbours), and turns triangles that run against their neighbours; messages report it.
- * carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as
- * their least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
- * that is not finite, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
+/* Adds triangles to a session: they are a geometry like others (see carreau_geometry_begin), whose faces have no curves of a parameter
+ * plane. A smooth surface goes through their vertices, with tangent planes that agree except on lines. Lines are borders, edges with three
+ * triangles or more, edges of triangles that differ by more than the sharp angle, and edges that continue such a line. Its faces are the
+ * regions between lines, or the references of the triangles where they have several (moved up when one is not positive). Curves are the
+ * lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and triangles without
+ * area (a corner on a longest side divides that side in the neighbours), and turns triangles that run against their neighbours; messages
+ * report it. carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as their
+ * least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate that is not
+ * finite, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
  *
- * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are
- * one line, and the mesh conforms there; triangles of two surfaces stay those of the first one. Each has faces, lines and angles of its own, and
- * nothing is smooth from one to the other. The functions below are about all of them. Curves and corners of the mesh are numbered from 1 over all of them,
- * where other geometries are beside them behind the references of those; with these they have nothing in common. Such a session has no
- * fields over parameter domains. */
+ * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are one
+ * line, and the mesh conforms there. A triangle of two surfaces belongs to the first. Each surface has its own faces, lines and angles, and
+ * nothing is smooth from one to the other. The functions below are about all of them. Curves and corners of the mesh are numbered from 1
+ * over all of them, or behind the references of other geometries in the session. They share nothing with other geometries. Such a session
+ * has no fields over parameter domains. */
 CARREAU_API carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                  const carreau_triangles* triangles);
 
-/* The same of a file that carreau_mesh_read reads. Errors: those above, FILE. */
+/* Adds the triangles of a file that carreau_mesh_read reads. Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                   const char* path);
 
-/* What was found in the triangles of a session. */
+/* Findings in the triangles of a session. */
 typedef struct carreau_triangles_report {
   size_t struct_size;
   int64_t vertices, triangles, edges; /* that are left */
@@ -351,20 +348,20 @@ typedef struct carreau_triangles_report {
   int64_t sharp_edges, lines, corners, regions;
   int64_t dropped_edges;   /* sharper than the angle, but of no line */
   int64_t prolonged_edges; /* flatter, but lines go on over them */
-  int64_t faded_ends;      /* of lines, on no other one */
+  int64_t faded_ends;      /* ends of lines on no other line */
   int64_t unfolded;        /* tangents that turned back around a vertex, and were turned */
-  int64_t folded;          /* those that still do */
+  int64_t folded;          /* tangents that still turn back */
   double diagonal;         /* of the box of the vertices */
   double deviation;        /* no point of the smooth surface is farther from the triangles, nor the other way round */
   double sharp_angle;      /* degrees: the angle given, or found */
 } carreau_triangles_report;
 
-/* Tells of the triangles that the session was given. Errors: SEQUENCE (none were), ARGUMENT. */
+/* Gives the report on the triangles of the session. Errors: SEQUENCE (none were), ARGUMENT. */
 CARREAU_API carreau_status carreau_triangles_measure(carreau_session* session, carreau_triangles_report* out_report);
 
 /* Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it by
- * more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made. Depth 0:
- * the triangles as they are mended. Edges are those of lines. Errors: SEQUENCE (no triangles were given), ARGUMENT, LIMIT
+ * more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made. Depth 0: the
+ * repaired triangles. Edges are the edges of lines. Errors: SEQUENCE (no triangles were given), ARGUMENT, LIMIT
  * (max_triangles). */
 CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, double angle, int32_t depth,
                                                     carreau_mesh* mesh);
@@ -374,11 +371,12 @@ CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, do
  * triangles, no mesh), ARGUMENT. */
 CARREAU_API carreau_status carreau_triangles_distances(carreau_session* session, double out_distances[2]);
 
-/* The same over all points of both: the largest distance from the mesh to the triangles lies between out_bounds[0] and out_bounds[1], rounding included,
- * that from the triangles to the mesh between out_bounds[2] and out_bounds[3]. The upper ones are larger than the lower ones by no more than the share and
- * a millionth of the diagonal, unless that takes too long. `share`: 0 stands for .01. The mesh has straight triangles.
- * carreau_session_delivered tells the same with those of each triangle. A message warns, with the place, when the mesh is farther from the triangles than a
- * tenth of its edges there. Errors: SEQUENCE (no triangles, no mesh), ARGUMENT (a share
+/* Bounds the distances over all points of both. The largest distance from the mesh to the triangles lies between out_bounds[0] and
+ * out_bounds[1], rounding included; the largest distance from the triangles to the mesh lies between out_bounds[2] and out_bounds[3]. The
+ * upper ones are larger than the lower ones by no more than the share and a millionth of the diagonal, unless that takes too long. `share`:
+ * 0 stands for .01. The mesh has straight triangles. carreau_session_delivered reports these bounds with the bounds of each triangle. A
+ * message warns, with the place, when the mesh is farther from the triangles than a tenth of its edges there. Errors: SEQUENCE (no
+ * triangles, no mesh), ARGUMENT (a share
  * that is negative or not finite, other elements), CANCELLED. */
 CARREAU_API carreau_status carreau_triangles_bounds(carreau_session* session, double share, double out_bounds[4]);
 

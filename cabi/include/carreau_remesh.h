@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-/* What a vertex or an edge of the boundary is: its reference in the mesh. On tool k, from 0, it is CARREAU_NODE_BOUND + k. */
+/* The reference in the mesh of a vertex or an edge of the boundary. On tool k, from 0, it is CARREAU_NODE_BOUND + k. */
 enum {
   CARREAU_NODE_INSIDE = 0,
   CARREAU_NODE_FREE = 1,    /* deformed by stresses */
@@ -27,19 +27,19 @@ enum {
   CARREAU_NODE_BOUND = 3    /* on a tool */
 };
 
-/* How a value in triangles goes to the next mesh: as the mean over what a triangle covers (bounded; constants stay), or
- * as a density whose integral over the piece stays, but for rounding. */
+/* How a value in triangles goes to the next mesh: as the mean over the area of a triangle (bounded; preserves
+ * constants), or as a density whose integral over the piece stays, except for rounding. */
 enum { CARREAU_ELEMENT_MEAN = 0, CARREAU_ELEMENT_CONSERVED = 1 };
 
 /* Curves through free nodes between corners: splines of class C2, with tangents at their ends by four nodes or without
  * curvature there; or straight edges. */
 enum { CARREAU_SPLINE_TANGENT = 0, CARREAU_SPLINE_NATURAL = 1, CARREAU_POLYGON = 2 };
 
-/* Which error of interpolation asks for sizes. */
+/* The error of interpolation that determines sizes. */
 enum { CARREAU_ERROR_NONE = 0, CARREAU_ERROR_HESSIAN = 1, CARREAU_ERROR_CURVATURE = 2, CARREAU_ERROR_DEFORMATION = 3 };
 
-/* How close the new boundary came to what was asked: as asked; runs near places where new edges crossed each other keep
- * their nodes; all do; bound nodes have not moved to the tools either. */
+/* How close the new boundary came to the request: as requested; runs near places where new edges crossed each other
+ * keep their nodes; all runs keep them; bound nodes have not moved to the tools either. */
 enum {
   CARREAU_BOUNDARY_SMOOTH = 0,
   CARREAU_BOUNDARY_PARTLY = 1,
@@ -47,7 +47,7 @@ enum {
   CARREAU_BOUNDARY_AS_GIVEN = 3
 };
 
-/* State in. Indices count from 0; an array may be NULL where this says so. Lengths are model lengths. */
+/* State in. Indices count from 0; an array may be NULL where its comment allows it. Lengths are model lengths. */
 typedef struct carreau_remesh_input {
   size_t struct_size;
   int64_t vertex_count, triangle_count;
@@ -70,7 +70,7 @@ typedef struct carreau_remesh_input {
   const int32_t* element_kinds; /* element_components: CARREAU_ELEMENT_...; NULL: means */
 
   double h_min, h_max;         /* bounds of sizes */
-  double step;                 /* delta of HDR eq. 3.1: what is as near to a tool is bound; at most h_min */
+  double step;                 /* delta of HDR eq. 3.1: vertices as near to a tool are bound; at most h_min */
   double damage_limit;         /* elements of this damage are removed; 0: 1 */
   double gradation;            /* largest ratio of sizes one edge apart, above 1; 0: 1.3 */
   double corner_angle;         /* the boundary has a corner where it turns by more, degrees; 0: 45 */
@@ -89,7 +89,7 @@ typedef struct carreau_remesh_input {
                                   tool by less in an increment never comes off */
 } carreau_remesh_input;
 
-/* What happened. */
+/* The events of a remeshing. */
 typedef struct carreau_remesh_summary {
   size_t struct_size;
   int64_t vertices, triangles, boundary_edges;
@@ -108,12 +108,12 @@ typedef struct carreau_remesh_summary {
 } carreau_remesh_summary;
 
 /* Meshes a piece anew after an increment, and puts the result into a mesh that carreau_mesh_create has made: dimension
- * 2; references of vertices and edges are CARREAU_NODE_...; edges are those of the boundary, with the piece on their
- * left; references of triangles are parts, from 1. `out_summary` may be NULL. The same input gives the same mesh, bit
- * for bit. On an error the mesh and the summary stay as they were. Errors: ARGUMENT (counts, indices, numbers that are
- * not finite; a triangle that the displacement has turned over; a displacement or a step larger than h_min; damage
- * outside [0, 1]; a tool deeper than the step in the piece, or the piece in a tool; radii that do not fit; nothing is
- * left of the piece; mesh of a session), DOMAIN (the piece overlaps itself), LIMIT, MEMORY. */
+ * 2; references of vertices and edges are CARREAU_NODE_...; edges are the boundary, with the piece on their left;
+ * references of triangles are parts, from 1. `out_summary` may be NULL. Equal input gives an identical mesh. On an
+ * error the mesh and the summary stay as they were. Errors: ARGUMENT (counts, indices, numbers that are not finite; a
+ * triangle that the displacement has turned over; a displacement or a step larger than h_min; damage outside [0, 1]; a
+ * tool deeper than the step in the piece, or the piece in a tool; radii that do not fit; nothing is left of the piece;
+ * mesh of a session), DOMAIN (the piece overlaps itself), LIMIT, MEMORY. */
 CARREAU_API carreau_status carreau_remesh(carreau_mesh* mesh, const carreau_remesh_input* input,
                                           carreau_remesh_summary* out_summary);
 
@@ -123,7 +123,7 @@ CARREAU_API carreau_status carreau_remesh_nodal_values(carreau_mesh* mesh, int64
 CARREAU_API carreau_status carreau_remesh_element_values(carreau_mesh* mesh, int64_t capacity, double out_values[]);
 CARREAU_API carreau_status carreau_remesh_damage(carreau_mesh* mesh, int64_t capacity, double out_damage[]);
 
-/* Adds a field to a mesh that is no session's, for carreau_mesh_write to .vtu: `components` numbers for each vertex, or
+/* Adds a field to a mesh outside of sessions, for carreau_mesh_write to .vtu: `components` numbers for each vertex, or
  * each triangle. A field of the same name is replaced. Errors: ARGUMENT, SEQUENCE (the mesh is empty). */
 CARREAU_API carreau_status carreau_mesh_add_field(carreau_mesh* mesh, const char* name, int32_t on_vertices,
                                                   int32_t components, const double values[]);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes what the package carreau knows of the C interface: _declarations.py (ctypes) and _records.py (results as tuples
+"""Writes the C interface for the package carreau: _declarations.py (ctypes) and _records.py (results as tuples
 with names).
 
     generate.py            writes the modules
-    generate.py --check    fails when they are not what it would write
+    generate.py --check    fails when they are out of date
 
 It reads all headers of cabi/include, and carreau_cad.h.
 
@@ -45,7 +45,7 @@ class Interface:
         self.callbacks = {name for header in self.headers for name in header.callbacks}
 
     def argument(self, c_type):
-        """Of a function."""
+        """The type of an argument of a function."""
         const, base = c_type.startswith("const "), c_type.replace("const ", "")
         if base in self.callbacks or base in PLAIN:
             return base if base in self.callbacks else PLAIN[base]
@@ -126,11 +126,11 @@ def python_type(c_type):
 
 def records(interface):
     """The text of _records.py."""
-    lines = [NOTICE.format("What the library tells, as tuples with names. Lengths are model lengths, angles degrees, times seconds."),
+    lines = [NOTICE.format("Results of the library, as tuples with names. Lengths are model lengths, angles degrees, times seconds."),
              "from __future__ import annotations\n", "from typing import Any, NamedTuple\n", "from . import _declarations as c\n"]
     pairs = []
     for struct, header in results(interface).items():
-        said = header.comments.get(struct) or "What the C interface calls " + struct + "."
+        said = header.comments.get(struct) or "The struct " + struct + " of the C interface."
         members = [(c_type, name) for c_type, name in header.structs[struct] if name not in ("struct_size", "reserved")]
         rows = "".join(f"    {name}: {python_type(c_type)}{IGNORED if name == 'count' else ''}\n" for c_type, name in members)
         lines.append(f'\nclass {record_name(struct)}(NamedTuple):\n    """{said}"""\n\n{rows}')
@@ -149,7 +149,7 @@ def main():
             continue
         with open(path, encoding="utf-8") as file:
             if file.read() != text:
-                sys.exit(f"{os.path.normpath(path)} is not what the headers say. Refresh it: python3 cabi/python/generate.py")
+                sys.exit(f"{os.path.normpath(path)} does not match the headers. Refresh it: python3 cabi/python/generate.py")
 
 
 main()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The wheel of carreau: Python, and the library inside (carreau/lib), so that it serves every Python 3.
 
-The library comes from a build that is there (CARREAU_BUILD names its folder), or is built here by CMake without what other
-machines may lack (oneTBB, OpenEXR). CARREAU_SOURCE names the project when this folder is a copy.
+The library comes from an existing build (CARREAU_BUILD names its folder), or is built here by CMake without libraries
+that other machines may lack (oneTBB, OpenEXR). CARREAU_SOURCE names the project when this folder is a copy.
 """
 import glob
 import os
@@ -18,7 +18,7 @@ SOURCE = os.environ.get("CARREAU_SOURCE", os.path.dirname(os.path.dirname(HERE))
 
 
 def built(folder):
-    """Where the library is built."""
+    """The folder in which the library is built."""
     given = os.environ.get("CARREAU_BUILD")
     if given:
         return given
@@ -38,7 +38,7 @@ class WithLibrary(build_py):
         subprocess.run(["cmake", "--install", built(work), "--prefix", tree, "--component", "wheel"], check=True)
         inside = os.path.join(self.build_lib, "carreau", "lib")
         os.makedirs(inside, exist_ok=True)
-        # By their names without versions of the project, which is what the loader looks for; readers of CAD files by their only name.
+        # The loader looks for names without versions of the project; readers of CAD files have only one name.
         for name in ("libcarreau*.so.[0-9]", "libcarreau_cad_*.so"):
             for path in glob.glob(os.path.join(tree, "carreau", "lib", name)):
                 shutil.copyfile(path, os.path.join(inside, os.path.basename(path)))

@@ -50,7 +50,7 @@ const SurfaceMesh& mesh_of(const carreau_session& handle) {
   return handle.session.mesh();
 }
 
-/// Throws unless `n` is the number of nodes of the mesh, or that of its corners.
+/// Throws unless `n` is the number of nodes or the number of corners of the mesh.
 std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
   const std::size_t nodes = carreau::node_count(mesh), corners = mesh.vertices.size();
   if (n >= 0 && (std::uint64_t(n) == nodes || std::uint64_t(n) == corners)) return static_cast<std::size_t>(n);
@@ -217,7 +217,7 @@ carreau_status carreau_estimate(carreau_session* session, const carreau_estimato
     const std::size_t rows = checked_nodes(n, mesh_of(*session), "mesh");
     const EstimatorOptions options = options_of(estimator);
     if (out_sizes == nullptr && out_metrics == nullptr)
-      throw InvalidArgument("neither out_sizes nor out_metrics is given: there is no place for the result");
+      throw InvalidArgument("out_sizes and out_metrics are both NULL: the result has no place");
     if (options.shape != carreau::ErrorShape::isotropic && out_metrics == nullptr)
       throw InvalidArgument("the shape of the estimator gives metrics, but out_metrics is NULL");
     session->monitor.begin_run();

@@ -20,7 +20,7 @@ using namespace carreau::abi;
 
 namespace {
 
-/// What all three handles hold.
+/// The common content of the three handles.
 template <typename Content>
 struct Handle {
   std::atomic<bool>& busy_flag() noexcept { return busy; }

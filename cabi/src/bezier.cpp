@@ -18,7 +18,7 @@ namespace {
 
 BezierPatch patch_of(const carreau_bezier& given, std::int64_t k, const double*& next) {
   BezierPatch patch{.m = given.degrees[2 * k], .n = given.degrees[2 * k + 1], .control = {}};
-  for (const int degree : {patch.m, patch.n})  // before they say how far the points reach
+  for (const int degree : {patch.m, patch.n})  // checked before they determine how far the points reach
     if (degree < 1 || degree > CARREAU_BEZIER_DEGREE)
       throw InvalidArgument("a degree of Bezier patch " + std::to_string(k) + " is " + std::to_string(degree) +
                             "; it must be from 1 to " + std::to_string(CARREAU_BEZIER_DEGREE));
@@ -70,6 +70,6 @@ carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref
       out_degrees[0] = patch.m, out_degrees[1] = patch.n;
       return;
     }
-    throw InvalidArgument("face " + std::to_string(face_ref) + " is no Bezier patch");
+    throw InvalidArgument("face " + std::to_string(face_ref) + " is not a Bezier patch");
   });
 }

@@ -67,7 +67,7 @@ HostTable table_of(const carreau_cad& callbacks) {
           .failure = callbacks.failure};
 }
 
-/// Obeys a stop after each callback: a host may be slow, and the engine asks for many points at a time.
+/// Obeys a stop after each callback: a host may be slow, and the engine requests many points at a time.
 class StoppableCad : public HostCad {
  public:
   StoppableCad(const carreau_cad_m& routines, const Monitor& monitor)
@@ -107,7 +107,7 @@ class StoppableCad : public HostCad {
   const Monitor& monitor_;
 };
 
-/// Says to the host when his callbacks are no longer of use.
+/// Notifies the host when its callbacks are no longer of use.
 class ReleasedCad final : public StoppableCad {
  public:
   ReleasedCad(const carreau_cad& callbacks, const Monitor& monitor)

@@ -79,7 +79,7 @@ void add(carreau_session& session, const FlatMesh& mesh, const Options& options)
     for (const std::string& sentence : *sentences) session.monitor.message(Level::warning, sentence);
   auto surface = std::make_shared<const discrete::DiscreteSurface>(std::move(triangulation), std::move(lines));
   carreau::BuiltGeometry built = discrete_geometry(surface);
-  // Names and colours of a file are those of its references.
+  // Names and colours of a file belong to its references.
   if (surface->mesh().refs.front() == face_refs(*surface).front())
     for (carreau::Face& face : built.model.faces)
       for (const carreau::FlatFace& known : mesh.faces)
@@ -109,7 +109,7 @@ FlatMesh mesh_of_triangles(const carreau_session& session) {
 
 }  // namespace
 
-// The faces that are new have the references behind those that the session has.
+// New faces have references behind the previous references of the session.
 void carreau_session::add_triangles(std::shared_ptr<const discrete::DiscreteSurface> surface,
                                     carreau::BuiltGeometry built) {
   refuse_plane();
@@ -122,7 +122,7 @@ void carreau_session::add_triangles(std::shared_ptr<const discrete::DiscreteSurf
   const std::set<std::int32_t> left(refs.begin(), refs.end());
   std::erase_if(built.model.faces,
                 [&](const carreau::Face& face) { return !left.contains(face.ref + all.back().first_face - 1); });
-  if (built.model.faces.empty()) throw InvalidArgument("all triangles are those of surfaces that the session has");
+  if (built.model.faces.empty()) throw InvalidArgument("all triangles belong to surfaces of the session already");
   for (const std::string& sentence : sentences) monitor.message(Level::warning, sentence);
   add_geometry(CARREAU_GEOMETRY_TRIANGLES, together, std::move(built.model));
   surfaces.push_back(std::move(all.back()));

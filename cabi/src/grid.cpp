@@ -18,7 +18,7 @@ using namespace carreau::abi;
 
 namespace {
 
-/// What the caller knows of carreau_grid_options; without them, the values of carreau_grid_options_init.
+/// The options that the caller set in carreau_grid_options; without them, the values of carreau_grid_options_init.
 struct Asked {
   carreau::grid::Options options;
   std::int32_t measured = CARREAU_MEASURED_POINTS;
@@ -73,7 +73,7 @@ carreau::grid::Measured measured_of(std::int32_t given) {
     case CARREAU_MEASURED_RADII:
       return carreau::grid::Measured::radii;
     default:
-      throw InvalidArgument("what a grid has measured is " + std::to_string(given) + "; it must be 0, 1 or 2");
+      throw InvalidArgument("the kind of measured values of a grid is " + std::to_string(given) + "; it must be 0, 1 or 2");
   }
 }
 

@@ -50,8 +50,7 @@ class BusyScope {
   bool owned_;
 };
 
-/// Runs body() and gives the status of what it throws.
-/// `on_error(sentence, where)` keeps the sentence; it may throw.
+/// Runs body() and returns the status of its exception. `on_error(sentence, where)` keeps the sentence; it may throw.
 template <typename Body, typename OnError>
 carreau_status status_of(Body&& body, OnError&& on_error) noexcept {
   const auto fail = [&](carreau_status status, const char* sentence, const Where& where) noexcept {
@@ -91,7 +90,7 @@ carreau_status status_of(Body&& body, OnError&& on_error) noexcept {
   }
 }
 
-/// What every function of the interface that has a handle does: refuses NULL and calls from inside a callback, runs
+/// The frame of every function of the interface that has a handle: rejects NULL and calls from inside a callback, runs
 /// body(), keeps the error.
 template <typename Handle, typename Body>
 carreau_status guarded(Handle* handle, Body&& body) noexcept {
@@ -104,7 +103,7 @@ carreau_status guarded(Handle* handle, Body&& body) noexcept {
   return status_of(body, [&slot](const char* sentence, const Where& where) { slot.keep(sentence, where); });
 }
 
-/// Faces of a mesh that is no session's: references of triangles, and what is known of faces.
+/// Faces of a mesh outside of sessions: references of triangles, and the known properties of faces.
 std::vector<carreau_mesh::FaceOfFile> faces_of(const FlatMesh& flat);
 
 /// A mesh that lacks faces is there, but the caller must know: throws CARREAU_ERR_PARTIAL then.

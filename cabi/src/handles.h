@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the opaque handles of carreau.h hold.
+// The content of the opaque handles of carreau.h.
 #pragma once
 
 #include <algorithm>
@@ -57,12 +57,12 @@ class HostMonitor final : public Monitor {
   [[nodiscard]] bool hears(Level level) const override {
     return message_ != nullptr && int(level) <= (*parameters_)->integer("verb");
   }
-  /// A call that tells progress of its own.
+  /// Begins a call that reports its own progress.
   void begin_run() {
     clear_stop();
     reached_ = 0;
   }
-  /// What a part of a run does again, or in another order, does not take back what was told.
+  /// Reported progress never decreases when a part of a run is repeated, or comes in another order.
   void progress(Phase phase, int entity, double fraction) override {
     if (phase == Phase::idle && fraction < 1) return;  // a part has ended, the run has not
     reached_ = fraction = std::max(reached_, fraction);
@@ -97,7 +97,7 @@ struct carreau_mesh {
     carreau::FlatFace face;
     std::int64_t triangles = 0;
   };
-  std::vector<FaceOfFile> flat_faces;  // ascending references: of triangles of `flat`, and of faces that it tells of
+  std::vector<FaceOfFile> flat_faces;  // ascending references: of triangles of `flat`, and of faces that it describes
   bool filled = false;                 // of `flat`
   std::vector<double> corner_uv;       // of `flat`, 6 a triangle, or empty
   std::optional<carreau::abi::RemeshedFields> remeshed = {};  // of `flat`
@@ -116,7 +116,7 @@ struct AddedGeometry {
   GeometryRange range;
 };
 
-/// Callbacks as the engine asks them. Throws InvalidArgument.
+/// Callbacks in the form that the engine calls. Throws InvalidArgument.
 std::shared_ptr<Cad> cad_of(const carreau_cad* callbacks, const Monitor& monitor);
 
 /// Between carreau_geometry_begin and carreau_geometry_end: the model of the geometry is the draft of the session.
@@ -150,9 +150,9 @@ struct carreau_session {
 
   /// Throws when carreau_geometry_begin has no end yet.
   void refuse_begun() const;
-  /// Puts a geometry behind what the session has. Its model has references from 1.
+  /// Puts a geometry behind the geometries of the session. Its model has references from 1.
   void add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, carreau::Model part);
-  /// The same for a surface given as triangles, beside those that it has.
+  /// Adds a surface given as triangles, beside the previous ones.
   void add_triangles(std::shared_ptr<const carreau::discrete::DiscreteSurface> surface, carreau::BuiltGeometry built);
   /// Throws when the session has a plane domain.
   void refuse_plane() const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large arrays of the library ask for pages of 2 MiB where Linux gives them on request (transparent_hugepage/enabled is
-// madvise): an array that is new costs a fault for each of its pages, and one that is old a miss of the processor's table.
+// Large arrays of the library request pages of 2 MiB where Linux gives them on request (transparent_hugepage/enabled is
+// madvise). A new array costs a fault for each of its pages, and an old array a miss of the processor's table.
 //
-// The linker turns the calls of operator new in this library into those of the function below (--wrap); memory comes from
+// The linker turns the calls of operator new in this library into calls of the function below (--wrap). Memory comes from
 // the host's operator new and goes to its operator delete, as before.
 #include <sys/mman.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
 
-/// The whole large pages within an array. A kernel that has none says so, and nothing is lost.
+/// The whole large pages within an array. A kernel without large pages returns an error, and nothing is lost.
 void advise(void* begin, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   const auto from = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) & ~(page - 1);

@@ -27,7 +27,7 @@ void check_counts(const carreau_mesh_arrays& given) {
   if (given.edge_count > 0) required(given.edges, "arrays->edges");
 }
 
-/// Rows of N vertices; refuses those that are none.
+/// Rows of N vertices; rejects indices out of range.
 template <std::size_t N>
 std::vector<std::array<std::int32_t, N>> rows_of(const std::int32_t* indices, std::int64_t count, std::int64_t vertices,
                                                  const char* what) {

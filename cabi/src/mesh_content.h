@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh handle holds, whether a session made it or a file.
+// The content of a mesh handle, whether a session made it or a file.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace carreau::abi {
 /// Throws when the mesh has no content.
 void require_content(const carreau_mesh& mesh);
 
-/// Of a session's mesh.
+/// The surface mesh of a session's mesh.
 inline const SurfaceMesh& surface_of(const carreau_mesh& mesh) { return mesh.session->session.mesh(); }
 inline FlatMesh flat_of(const carreau_mesh& mesh) { return flatten(surface_of(mesh), false); }
 /// Throws where a file has made it; `what`: "corners".

@@ -13,7 +13,7 @@ using namespace carreau::abi;
 namespace {
 
 const carreau::PartMesh& part_of(const carreau_mesh& mesh) {
-  if (!mesh.part) throw StatusError(CARREAU_ERR_SEQUENCE, "the mesh is no part: carreau_mesh_generate_part makes one");
+  if (!mesh.part) throw StatusError(CARREAU_ERR_SEQUENCE, "the mesh is not a part: carreau_mesh_generate_part makes parts");
   return *mesh.part;
 }
 

@@ -9,7 +9,7 @@
 namespace carreau::abi {
 
 /// Reads the face, curve, point, (u, v) and t of the part of a sentence that Where::prefix() has written; it starts at
-/// "face ". All 0 or absent when there is none.
+/// "face ". All are 0 or absent without such a part.
 Where place_in_sentence(std::string_view sentence);
 
 }  // namespace carreau::abi

@@ -119,7 +119,7 @@ void add_error(const carreau_remesh_input& given, variable::RemeshInput& input) 
 void add_options(const carreau_remesh_input& given, variable::RemeshInput& input) {
   input.h_min = given.h_min, input.h_max = given.h_max, input.step = given.step;
   if (choice(given.has_reach, 1, "has_reach") != 0) {
-    if (!(given.reach >= 0)) throw InvalidArgument("input->reach is negative or no number");
+    if (!(given.reach >= 0)) throw InvalidArgument("input->reach is negative or not a number");
     input.reach = given.reach;
   }
   const auto unless_zero = [](double& option, double value) {

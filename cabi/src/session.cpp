@@ -91,7 +91,7 @@ carreau_status carreau_set_error(carreau_session* session, carreau_status error,
   const bool known = std::string(carreau_status_name(error)) != "CARREAU_UNKNOWN_STATUS";
   return guarded(session, [&] {
     if (error == CARREAU_OK || !known)
-      throw carreau::InvalidArgument("the status " + std::to_string(error) + " is not that of an error");
+      throw carreau::InvalidArgument("the status " + std::to_string(error) + " is not the status of an error");
     throw StatusError(error, sentence != nullptr ? sentence : "");
   });
 }

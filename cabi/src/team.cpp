@@ -47,7 +47,7 @@ class HostLink final : public carreau::TeamLink {
  private:
   void check(const char* callback, std::int32_t returned) const {
     if (returned == CARREAU_ERR_MEMORY)
-      throw carreau::LimitError("some rank has not enough memory for what the ranks tell each other");
+      throw carreau::LimitError("a rank has not enough memory for the messages between ranks");
     if (returned != 0)
       throw carreau::CallbackError(std::string("the callback ") + callback + " of the team has returned " +
                                    std::to_string(returned) + " on rank " + std::to_string(team_.rank));

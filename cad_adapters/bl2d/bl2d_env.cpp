@@ -54,7 +54,7 @@ Env read_env(const std::string& path) {
     if (words >> more) throw Failure(where + "'" + more + "' follows the value of '" + setting.name + "'");
     take(setting, where, env);
   }
-  if (env.base.empty()) throw Failure(path + ": it does not say the base name of the files (base)");
+  if (env.base.empty()) throw Failure(path + ": it does not give the base name of the files (base)");
   if (env.steps.empty()) env.steps.push_back(0);
   return env;
 }

@@ -23,7 +23,7 @@ struct Env {
   std::string path, folder;  ///< folder: of the file, with a slash at its end, or ""
   std::string base;
   int geometry = 0;
-  std::vector<int> steps;         ///< values of `adapt`, in their order; 0 when there is none
+  std::vector<int> steps;         ///< values of `adapt`, in their order; 0 if not given
   bool writes_sizes = false;      ///< file_h 1
   bool writes_bl2d = true;        ///< the format knows element p1 only
   std::vector<Setting> settings;  ///< other names: parameters of the library

@@ -28,14 +28,14 @@ struct carreau_cad_file {
   carreau_occ::ShapeFile shape;
   std::unique_ptr<carreau_occ::BrepHost> host;  // nullptr: nothing was read
   std::vector<std::pair<int, std::string>> left_out;
-  std::optional<std::vector<carreau_occ::FaceFigures>> figures;  // once asked for
+  std::optional<std::vector<carreau_occ::FaceFigures>> figures;  // once computed
   std::optional<carreau_occ::ShapeReport> report;                // the last one
   std::vector<std::string> sentences;                            // of its dangers
   std::optional<carreau_occ::Solids> solids;
   std::string notes;  // a line each
   bool loose_edges = false;
   std::vector<carreau_occ::SmallFeature> features;
-  std::string feature_faces;  // of the last one that was asked for
+  std::string feature_faces;  // of the last one that was requested
   std::string error;
 };
 
@@ -46,7 +46,7 @@ struct Failure : std::runtime_error {
   carreau_status status;
 };
 
-/// Runs body() and gives the status of what it throws; keep(sentence) may throw.
+/// Runs body() and returns the status of its exception; keep(sentence) may throw.
 template <typename Body, typename Keep>
 carreau_status status_of(Body&& body, Keep&& keep) noexcept {
   const auto fail = [&](carreau_status status, const char* sentence) noexcept {

@@ -107,7 +107,7 @@ carreau_status carreau_cad_inspect(carreau_cad_file* file, double tiny, carreau_
   return guarded_call(file, [&] {
     const BrepHost& host = host_of(*file);
     if (!(tiny >= 0)) throw Failure(CARREAU_ERR_ARGUMENT, "tiny must not be negative");
-    if (out_report != nullptr) write_struct(carreau_cad_report{}, out_report, "out_report");  // a wrong size is told first
+    if (out_report != nullptr) write_struct(carreau_cad_report{}, out_report, "out_report");  // reports a wrong size first
     constexpr double usual = 1e-3;
     ShapeReport report = inspect(file->shape, tiny > 0 ? tiny : usual);
     add_contacts(file->shape, report);

@@ -17,29 +17,28 @@
 
 namespace carreau_occ {
 
-/// A tree of items as OpenCASCADE's own documents (XDE) have it, so that files mean here what they mean there; those
-/// bring a viewer and a window system. An item is a shape, a part of one, an assembly, or one of those placed
-/// somewhere. Edges and vertices are none, since nothing of theirs has a name or a colour in a mesh.
+/// A tree of items with the meaning that OpenCASCADE's own documents (XDE) give to files; XDE requires a viewer and a
+/// window system. An item is a shape, a part of a shape, an assembly, or a placed item. Edges and vertices have no
+/// items, since a mesh has no names and colours of edges and vertices.
 class Document {
  public:
   static constexpr int none = -1;
 
-  /// The item of a shape, which is made if there is none. One that is placed refers to the item of the shape at its
+  /// Returns the item of a shape, and makes it if necessary. A placed shape refers to the item of the shape at its
   /// origin.
   int add(const TopoDS_Shape& shape);
-  /// The same for a compound, with a component for each shape in it, and so on below.
+  /// Adds a compound with a component for each shape in it, and so on below.
   int add_expanded(const TopoDS_Shape& shape);
   int add_assembly();
   /// `part` at a place in an assembly.
   int add_component(int assembly, int part, const TopLoc_Location& place);
-  /// A solid, a shell or a face of an item, whatever its place in it: the same one each time. none: it holds no such
-  /// shape.
+  /// The item of a solid, a shell or a face of an item, whatever its place in it: the same item at each call. none: the
+  /// item does not hold such a shape.
   int add_inside(int item, const TopoDS_Shape& shape);
 
-  /// The item of a shape: its own, the first component at its place, or, if asked for, what add_inside() makes of
-  /// it.
+  /// The item of a shape: its own, the first component at its place, or, if `inside`, the result of add_inside().
   int find(const TopoDS_Shape& shape, bool inside);
-  /// A component at the shape's place, or else its part; what is inside of parts is not looked at.
+  /// A component at the shape's place, or else its part; shapes inside parts are not searched.
   [[nodiscard]] int find_component_or_part(const TopoDS_Shape& shape) const;
 
   [[nodiscard]] TopoDS_Shape shape(int item) const;
@@ -52,20 +51,20 @@ class Document {
   void set_colour(int item, Colour kind, const Quantity_ColorRGBA& colour);
   /// A colour that the file has: later ones that differ from it by no more than a rounding error are this one.
   Quantity_Color known_colour(const Quantity_ColorRGBA& colour);
-  /// Parts without a colour get that of the assembly that holds them.
+  /// Gives parts without a colour the colour of the assembly that holds them.
   void hand_down_colours();
 
-  /// All shapes that nothing else refers to, and what is known of them.
+  /// Writes all top shapes with their names and colours.
   void write(ShapeFile& file);
 
  private:
   struct Item {
-    TopoDS_Shape shape;          // null where it is that of a part
-    int part = none;             // what a placed item refers to
-    TopLoc_Location place;       // where that is
+    TopoDS_Shape shape;          // null where the part has it
+    int part = none;             // the part of a placed item
+    TopLoc_Location place;       // of the part
     int above = none;            // none: it is in no other item
     bool assembly = false;       // of the items below
-    bool assembled = false;      // the shape is that of all below
+    bool assembled = false;      // the shape holds all shapes below
     std::vector<int> below;      // in the order in which they were made
     std::vector<int> placed_as;  // items that refer to this one
     std::string name;
@@ -91,7 +90,7 @@ class Document {
 
   std::vector<Item> items_;
   TopTools_DataMapOfShapeInteger tops_;     // items that are in no other, by the shape that they have
-  TopTools_DataMapOfShapeInteger known_;    // of what was added
+  TopTools_DataMapOfShapeInteger known_;    // items by added shape
   TopTools_DataMapOfShapeInteger holders_;  // the last item that holds a shape
   std::map<int, Inside> insides_;
   std::vector<Quantity_ColorRGBA> colours_;

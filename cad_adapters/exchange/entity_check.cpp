@@ -30,8 +30,8 @@ std::string nonsense(const Spline& spline) {
   return "";
 }
 
-/// OpenCASCADE takes a default where it does not know a word, and an empty text where there is none; all else leaves
-/// something unset.
+/// OpenCASCADE takes a default for an unknown word, and an empty text for a missing one; other errors leave something
+/// unset.
 bool is_harmless(const std::string& error) {
   return error.find("numeration") != std::string::npos || error.find("not a quoted String") != std::string::npos;
 }
@@ -82,7 +82,7 @@ void EntityCheck::find_errors() {
   }
 }
 
-/// The faces that an entity is a part of have its error; if there is none, it has it itself.
+/// Gives the error of an entity to the faces that it is a part of; without such faces the entity has it itself.
 void EntityCheck::blame(int number, const std::string& why, std::map<int, std::string>& faces,
                         std::map<int, std::string>& rest) const {
   const Interface_Graph& graph = session_->Graph();
@@ -105,7 +105,8 @@ void EntityCheck::blame(int number, const std::string& why, std::map<int, std::s
   if (!found) rest.emplace(number, why);
 }
 
-/// Entities with an error that no face has, those of the translation included; `faces` gets the faces of the latter.
+/// Entities with an error that no face has, including errors of the translation. `faces` gets faces with errors of the
+/// translation.
 std::map<int, std::string> EntityCheck::errors_beside_faces(std::map<int, std::string>& faces) const {
   std::map<int, std::string> rest = rest_;
   const Handle(Transfer_TransientProcess) process = session_->TransferReader()->TransientProcess();

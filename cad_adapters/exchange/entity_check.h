@@ -14,21 +14,20 @@
 
 namespace carreau_occ {
 
-/// Looks at the entities of a file, once it is read, for what makes their translation fail, crash or never end.
+/// Finds entities of a file, once it is read, that make their translation fail, crash or never end.
 class EntityCheck {
  public:
-  /// The session of a reader that has read a file and translated nothing yet; the kinds live longer. Faces of STEP
-  /// shells with numbers that are missing, not finite or without sense (knots that descend, weights that are not
-  /// positive) are taken out, so that OpenCASCADE never sees them.
+  /// Takes the session of a reader that has read a file and translated nothing yet; the kinds live longer. Removes
+  /// faces of STEP shells with numbers that are missing, not finite or without sense (knots that descend, weights that
+  /// are not positive), so that OpenCASCADE never sees them.
   EntityCheck(const Handle(XSControl_WorkSession) & session, const EntityKinds& kinds);
 
-  /// After the translation: a sentence for each face of the file that no shape came from, for each placement that
-  /// scales, and for each entity that carries faces and has an error that no such face explains. "#123 ADVANCED_FACE:
-  /// ...".
+  /// After the translation: a sentence "#123 ADVANCED_FACE: ..." for each face of the file that gave no shape, and for
+  /// each placement that scales. Also for each entity that carries faces and has an error that no such face explains.
   [[nodiscard]] std::vector<std::string> losses() const;
 
   /// After the translation: one sentence about all entities with an error that carry no face (annotations, texts); "":
-  /// there is none.
+  /// all are sound.
   [[nodiscard]] std::string passed_over() const;
 
   /// After the translation: faces that were made although an entity below them has an error, with the sentence of it.

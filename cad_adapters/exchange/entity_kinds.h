@@ -36,7 +36,8 @@ class EntityKinds {
   [[nodiscard]] virtual bool is_face(const Entity& entity) const = 0;
   /// Entities of which a shape is made. Other entities (styles, notes, persons) may be wrong.
   [[nodiscard]] virtual bool is_geometry(const Entity& entity) const = 0;
-  /// Whether faces may be missing or misplaced when this entity cannot be read. Annotations, texts and curves carry none.
+  /// True if faces may be missing or misplaced when this entity cannot be read; false for annotations, texts and
+  /// curves.
   [[nodiscard]] virtual bool carries_faces(const Entity& entity, const Interface_Graph& graph) const = 0;
   [[nodiscard]] virtual Spline spline(const Entity& entity) const = 0;
   /// Numbers that could not be read hold anything, and OpenCASCADE searches without end where coordinates are not

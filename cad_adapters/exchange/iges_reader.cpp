@@ -29,8 +29,8 @@
 namespace carreau_occ {
 namespace {
 
-/// OpenCASCADE takes details below the resolution of an IGES file for points: holes vanish silently.
-/// Some writers claim absurd ones (that of OpenCASCADE 7.6 when it is given several shapes, 1e43 for instance).
+/// OpenCASCADE takes details below the resolution of an IGES file for points: holes vanish silently. Some writers give
+/// absurd resolutions (OpenCASCADE 7.6 writes 1e43, for instance, for several shapes).
 void mend_resolution(IGESData_IGESModel& model) {
   constexpr double largest = 1e-3, usual = 1e-5;  // shares of the largest coordinate; the latter is HDR's eps1
   IGESData_GlobalSection header = model.GlobalSection();

@@ -42,7 +42,7 @@ void set(std::array<double, 13>& numbers, std::size_t from, const gp_XYZ& value)
   for (int i = 0; i < 3; ++i) numbers[from + static_cast<std::size_t>(i)] = value.Coord(i + 1);
 }
 
-/// Null: there is none, it is placed, or neither a line nor a circle.
+/// Null if the edge has no curve, or if the curve is placed, or neither a line nor a circle.
 SpaceCurve curve_of(const BRep_TEdge& edge) {
   SpaceCurve space;
   for (BRep_ListIteratorOfListOfCurveRepresentation it(edge.Curves()); it.More(); it.Next()) {
@@ -68,13 +68,13 @@ SpaceCurve curve_of(const BRep_TEdge& edge) {
   return {};
 }
 
-/// An edge's curve in the parameters of a plane, for BRep_Tool::CurveOnSurface() alone, which asks for that of a given
-/// surface. To all that looks for the curves that an edge has this is none, so that nothing is made of it, and it is
-/// none for good when the edge gets another curve in space. Each answer is a curve of its own, which the asker may
-/// change, as those are that are made for the question.
+/// An edge's curve in the parameters of a plane, visible only to BRep_Tool::CurveOnSurface() with this surface. Other
+/// functions that go through the curves of an edge do not see it, and so they do not derive anything from it. It
+/// becomes invisible for good when the edge gets another curve in space. Each answer is a copy, which the caller may
+/// change, as it may change curves that OpenCASCADE makes.
 class KnownCurve final : public BRep_CurveOnSurface {
  public:
-  /// None, whoever asks.
+  /// Makes a curve that is never visible.
   KnownCurve(const Handle(Geom2d_Curve) & curve, const Handle(Geom_Surface) & plane)
       : BRep_CurveOnSurface(curve, plane, TopLoc_Location()) {}
   KnownCurve(const BRep_TEdge& edge, const SpaceCurve& space, const Handle(Geom2d_Curve) & curve,
@@ -94,11 +94,11 @@ class KnownCurve final : public BRep_CurveOnSurface {
     answer_ = Handle(Geom2d_Curve)::DownCast(BRep_CurveOnSurface::PCurve()->Copy());
     return answer_;
   }
-  /// It has no points of its own that have to follow its range.
+  /// It has no points that must follow its range.
   void Update() override {}
-  /// In a copy of the edge it is none.
+  /// A copy of the edge does not see it.
   [[nodiscard]] Handle(BRep_CurveRepresentation) Copy() const override;
-  /// Wherever it is, it is none from now on.
+  /// Makes it invisible from now on.
   void forget() { edge_ = nullptr; }
 
  private:
@@ -136,7 +136,7 @@ class KnownCurvesOfShape {
   KnownCurvesOfShape(const KnownCurvesOfShape&) = delete;
   KnownCurvesOfShape& operator=(const KnownCurvesOfShape&) = delete;
 
-  /// Edges that healing made of those that had them.
+  /// Removes known curves from edges that healing made of edges with known curves.
   void take_from(const TopoDS_Shape& healed) {
     if (given_.empty() || healed.IsNull()) return;
     TopTools_IndexedMapOfShape edges;
@@ -160,7 +160,7 @@ class KnownCurvesOfShape {
       given_.push_back({edge, known});
       inner.ChangeCurves().Append(known);
     } catch (const Standard_Failure&) {
-      return;  // whoever asks gets the same exception
+      return;  // other callers get the same exception
     }
   }
 

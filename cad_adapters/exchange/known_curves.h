@@ -6,7 +6,7 @@
 namespace carreau_occ {
 
 /// While one of these lives, OpenCASCADE finds curves of edges in the parameters of planes once for each shape that it
-/// heals, and not at each question. The healed shape stays identical. One at a time in the whole process.
+/// heals, and not at each call. The healed shape stays identical. One at a time in the whole process.
 class KnownCurves {
  public:
   KnownCurves();

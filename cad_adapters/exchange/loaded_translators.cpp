@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Translators in libraries beside this one, loaded when a file asks for one: OpenCASCADE's toolkits for STEP take
-// longer to load than many a BREP file to mesh.
+// Translators in libraries beside this one, loaded when a file needs one: OpenCASCADE's toolkits for STEP take longer
+// to load than many a BREP file to mesh.
 #include <dlfcn.h>
 
 #include "translator.h"

@@ -51,10 +51,11 @@ constexpr std::array<unsigned char, 256> kinds = kinds_of_characters();
 
 bool is_of(char c, unsigned kind) { return (kinds[static_cast<unsigned char>(c)] & kind) != 0; }
 
-/// The records of a file as OpenCASCADE's parser makes them: lists before what holds them, numbered within each entity.
-/// Accepted is what that parser takes in one way only; where its lexer has rules for more (numbers and names that run
-/// into each other, lower case, scopes, user's types, binary numbers), the file is not plain; nor where two entities have one number or none has
-/// one that is referred to.
+/// The records of a file as OpenCASCADE's parser makes them: lists before their owners, numbered within each entity.
+/// Accepts syntax that this parser takes in one way only.
+/// A file is not plain where the parser's lexer has more rules: numbers and names that run into each other, lower case,
+/// scopes, user's types, binary numbers. It is not plain either where two entities have one number, or where a number
+/// that is referred to is missing.
 class PlainStep {
  public:
   struct Argument {
@@ -453,7 +454,7 @@ bool PlainStepLibrary::read_plain(Standard_CString path, Handle(Interface_Interf
   PlainStep plain(text);
   if (step.IsNull() || !plain.parse()) return false;
   Handle(StepData_StepModel) read = model_of(plain, step);
-  // A reader stops at the first attribute that it cannot read, so that mending it shows the next one.
+  // A reader stops at the first unreadable attribute: each repair reveals the next one.
   std::set<std::string> all;
   for (int round = 0; mended != nullptr && round < most_mending_rounds; ++round) {
     const std::set<std::string> now = plain.mend_attributes(errors_of(*read));
@@ -477,7 +478,7 @@ std::string PlainStepLibrary::note() const {
   std::string list;
   for (std::size_t i = 0; i < mended_.size() && i < most_listed; ++i) list += (i > 0 ? ", " : "") + mended_[i];
   return "the names or counts of attributes of " + std::to_string(mended_.size()) +
-         (mended_.size() == 1 ? " entity are wrong and were mended: " : " entities are wrong and were mended: ") + list +
+         (mended_.size() == 1 ? " entity are wrong and were repaired: " : " entities are wrong and were repaired: ") + list +
          (mended_.size() > most_listed ? ", ..." : "");
 }
 

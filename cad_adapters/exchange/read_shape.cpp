@@ -60,13 +60,13 @@ Format format_by_content(std::string_view head) {
   const auto has = [head](std::string_view text) { return head.find(text) != std::string_view::npos; };
   if (has("ISO-10303-21")) return Format::step;
   if (has("DBRep_DrawableShape") || has("CASCADE Topology")) return Format::brep;
-  // Column 73 of the first line says S (start section).
+  // Column 73 of the first line is S (start section).
   if (head.size() > 73 && head[72] == 'S') return Format::iges;
   return Format::unknown;
 }
 
-/// OpenCASCADE writes to std::cout what it meets, through its messengers and, where it reads BREP files, by itself;
-/// nobody asked for that.
+/// OpenCASCADE writes its findings to std::cout, through its messengers and, for BREP files, directly. This removes
+/// them.
 class Silence {
  public:
   Silence() : printers_(Message::DefaultMessenger()->Printers()), buffer_(std::cout.rdbuf(nullptr)) {
@@ -74,7 +74,7 @@ class Silence {
   }
   ~Silence() {
     Message::DefaultMessenger()->ChangePrinters() = printers_;
-    std::cout.rdbuf(buffer_);  // clears what went wrong without one
+    std::cout.rdbuf(buffer_);  // clears errors of writing without a buffer
   }
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
@@ -84,7 +84,7 @@ class Silence {
   std::streambuf* buffer_;
 };
 
-/// Hands on how far a translation is.
+/// Hands on the progress of a translation.
 class Indicator final : public Message_ProgressIndicator {
  public:
   explicit Indicator(const ReadingProgress& progress) : progress_(progress) {}
@@ -99,8 +99,8 @@ class Indicator final : public Message_ProgressIndicator {
   std::atomic<bool> stopped_{false};
 };
 
-// OpenCASCADE's reader of BREP files looks for words without end when there is nothing left to read; and it goes on
-// with what it had when a number is none.
+// OpenCASCADE's reader of BREP files looks for words without end behind the end of the file. It also goes on with the
+// previous value when a number is unreadable.
 void read_brep(std::istream& stream, const std::string& name, const Message_ProgressRange& progress, ShapeFile& file) {
   const bool binary = is_binary_brep([&stream] {
     std::string head(head_size, '\0');
@@ -118,9 +118,9 @@ void read_brep(std::istream& stream, const std::string& name, const Message_Prog
     else
       BRepTools::Read(file.shape, stream, builder, progress);
   } catch (const std::ios_base::failure&) {
-    refuse(name, "is not a readable BREP file: it is cut off, or a number in it is none");
+    refuse(name, "is not a readable BREP file: it is cut off, or a number in it is unreadable");
   }
-  // Here only: other formats say the bounds of each face, and one whose bounds could not be read is not the whole.
+  // Here only: other formats give the bounds of each face, and a face with unreadable bounds is not the whole surface.
   if (!file.shape.IsNull()) add_natural_bounds(file.shape);
 }
 
@@ -145,7 +145,7 @@ ShapeFile read_by(const Read& read, const std::string& name, const ReadingProgre
   } catch (const UnknownUnit& error) {
     refuse(name, error.what());
   }
-  if (indicator->stopped()) refuse(name, "was not read to its end: it was asked to stop");
+  if (indicator->stopped()) refuse(name, "was not read to its end: the host stopped the call");
   return file;
 }
 
@@ -229,9 +229,9 @@ ShapeFile read_shape(const std::string& path, const ReadingProgress& progress, c
   stream.close();
   Format format = format_by_suffix(path);
   if (format == Format::unknown) format = content;
-  if (format == Format::unknown) refuse(path, "is no STEP, IGES or BREP file");
+  if (format == Format::unknown) refuse(path, "is not a STEP, IGES or BREP file");
   if (content != format)
-    refuse(path, std::string("is not what its suffix says: it does not begin like ") + a_format(format) + " file");
+    refuse(path, std::string("does not fit its suffix: it does not begin like ") + a_format(format) + " file");
   ShapeFile file = read_by([&](const Message_ProgressRange& range, ShapeFile& into) { read_as(format, path, range, into); },
                            path, progress, lengths);
   if (!is_empty(file)) return file;
@@ -244,8 +244,8 @@ ShapeFile read_shape(std::string_view bytes, const std::string& format, const st
   const Format content = format_by_content(bytes.substr(0, head_size));
   const Format given = format_by_name(format);
   if (given == Format::unknown && !format.empty())
-    refuse(name, "the format is '" + format + "', which is none of step, iges and brep");
-  if (content == Format::unknown) refuse(name, "the bytes are no STEP, IGES or BREP file");
+    refuse(name, "the format is '" + format + "', which is not step, iges or brep");
+  if (content == Format::unknown) refuse(name, "the bytes are not a STEP, IGES or BREP file");
   if (given != Format::unknown && given != content)
     refuse(name, std::string("the bytes do not begin like ") + a_format(given) + " file");
   ShapeFile file = read_bytes(content, bytes, name, progress, lengths);
@@ -264,7 +264,7 @@ std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const Re
   } catch (const Standard_Failure& failure) {
     file.losses.push_back(std::string("no small feature is removed: OpenCASCADE: ") + failure.GetMessageString());
   }
-  if (indicator->stopped()) throw std::runtime_error("small features are not removed: it was asked to stop");
+  if (indicator->stopped()) throw std::runtime_error("small features are not removed: the host stopped the call");
   return features;
 }
 
@@ -276,7 +276,7 @@ void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& pro
   } catch (const Standard_Failure& failure) {
     file.losses.push_back(std::string("the parts are not imprinted: OpenCASCADE: ") + failure.GetMessageString());
   }
-  if (indicator->stopped()) throw std::runtime_error("the parts are not imprinted: it was asked to stop");
+  if (indicator->stopped()) throw std::runtime_error("the parts are not imprinted: the host stopped the call");
 }
 
 }  // namespace carreau_occ

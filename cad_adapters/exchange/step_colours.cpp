@@ -31,7 +31,7 @@ struct Style {
   }
   bool found = false;
 
-  /// That of rendering before that of the surface.
+  /// The colour of rendering, or else the colour of the surface.
   [[nodiscard]] std::optional<Quantity_ColorRGBA> of_surface() const {
     if (!rendered.IsNull()) return decoded(rendered, static_cast<float>(1 - transparency));
     if (!surface.IsNull()) return decoded(surface, 1);
@@ -44,7 +44,7 @@ struct Style {
   }
 };
 
-/// The representation by which a style says where it holds.
+/// The representation that is the scope of a style.
 Handle(StepShape_ShapeRepresentation) context_of(const StepVisual_StyledItem& item) {
   for (int i = 1; i <= item.NbStyles(); ++i) {
     const auto style = Handle(StepVisual_PresentationStyleByContext)::DownCast(item.StylesValue(i));
@@ -65,7 +65,8 @@ Handle(StepRepr_AssemblyComponentUsage) use_of(const Handle(Standard_Transient) 
   return Handle(StepRepr_AssemblyComponentUsage)::DownCast(shape->Definition().ProductDefinitionRelationship());
 }
 
-/// The scope of a style of a component. False: in one place of a part that is in several assemblies, which is not told.
+/// The scope of a style of a component. False: one place of a part that is in several assemblies; its style is ignored
+/// silently.
 bool find_component(const StepVisual_StyledItem& item, const StepParts& parts, TopoDS_Shape& shape) {
   const Handle(StepShape_ShapeRepresentation) context = context_of(item);
   if (context.IsNull()) return true;

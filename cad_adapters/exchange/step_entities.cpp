@@ -112,11 +112,11 @@ bool StepEntities::mend_numbers(const Entity& entity) const {
 std::string StepEntities::lost_scale(const Entity& entity) const {
   const auto place = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
   if (place.IsNull() || !place->HasScale() || place->Scale() == 1) return "";
-  return "its scale of " + printed(place->Scale()) + " is not applied: what it places has the size of its part";
+  return "its scale of " + printed(place->Scale()) + " is not applied: the placed part keeps its size";
 }
 
-/// A surface knows the images of edges on it, which belong to the edges: those have neighbours that are sound; a faulty
-/// image is a fault of its surface.
+/// A surface knows the images of edges on it, which belong to the edges. These have sound neighbours: a faulty image is
+/// a fault of its surface.
 std::vector<Entity> StepEntities::wholes_of(const Entity& entity, const Interface_Graph& graph) const {
   if (const auto image = Handle(StepGeom_Pcurve)::DownCast(entity); !image.IsNull()) return {image->BasisSurface()};
   std::vector<Entity> wholes;
@@ -134,7 +134,7 @@ void StepEntities::take_out(const Handle(Interface_InterfaceModel) & model, cons
     std::vector<Handle(StepShape_Face)> good;
     for (const Handle(StepShape_Face) & face : *shell->CfsFaces())
       if (faces.count(face) == 0) good.push_back(face);
-    // Arrays of OpenCASCADE are never empty: of a shell without a good face the translation makes what it can.
+    // Arrays of OpenCASCADE are never empty: a shell without a good face stays as it is.
     if (good.empty() || static_cast<int>(good.size()) == shell->NbCfsFaces()) continue;
     const Handle(StepShape_HArray1OfFace) left = new StepShape_HArray1OfFace(1, static_cast<int>(good.size()));
     std::copy(good.begin(), good.end(), left->begin());

@@ -34,7 +34,7 @@ namespace {
 
 using Text = Handle(TCollection_HAsciiString);
 
-/// The first of texts that says something, or else the last one.
+/// The first text with a content, or else the last text.
 std::string first_of(std::initializer_list<Text> texts) {
   for (const Text& text : texts)
     if (!text.IsNull() && text->UsefullLength() > 0) return utf8(text->String());
@@ -73,12 +73,12 @@ Handle(StepShape_ShapeRepresentation) representation_of(const StepParts::Product
   return nullptr;
 }
 
-/// Names what one product's item holds.
+/// Names the shapes in the item of one product.
 class Inside {
  public:
   Inside(const StepParts& parts, int item) : parts_(parts), item_(item) {}
 
-  /// Its items, and those of representations that are said to be a part of it.
+  /// Takes its items, and the items of representations that the file calls a part of it.
   void take(const Handle(StepShape_ShapeRepresentation) & representation) {
     if (!seen_.insert(representation.get()).second) return;
     if (const auto items = representation->Items(); !items.IsNull())

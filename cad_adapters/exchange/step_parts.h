@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of STEP files: what the shapes that were translated are in a document, and what the file calls and colours
-// them.
+// Parts of STEP files: the items of translated shapes in a document, with names and colours of the file.
 #pragma once
 
 #include <StepBasic_ProductDefinition.hxx>

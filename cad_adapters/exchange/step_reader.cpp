@@ -41,7 +41,7 @@ int StepParts::item_of(const Handle(Standard_Transient) & entity) const {
 
 namespace {
 
-/// Whether all bytes of a file above 127 are parts of characters of UTF-8.
+/// True if all bytes of a file above 127 are parts of characters of UTF-8.
 bool is_utf8(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> block(1 << 16);
@@ -60,7 +60,7 @@ bool is_utf8(const std::string& path) {
 
 TopoDS_Shape at_origin(const TopoDS_Shape& shape) { return shape.Located(TopLoc_Location()); }
 
-/// A shape and, of compounds, what is in them, without places.
+/// Maps a shape and, for compounds, the shapes in it, without places.
 void map_compounds(const TopoDS_Shape& shape, TopTools_MapOfShape& map) {
   map.Add(at_origin(shape));
   if (shape.ShapeType() != TopAbs_COMPOUND) return;
@@ -87,12 +87,12 @@ bool is_step(const std::string& name, const TCollection_AsciiString& format) {
   return are_one_word(format, "STEP AP203") || are_one_word(format, "STEP AP214") || are_one_word(format, "STEP AP242");
 }
 
-/// Translates files into a document: one, and those that it refers to.
+/// Translates a file, and the files that it refers to, into a document.
 class StepReader {
  public:
   explicit StepReader(Document& document) : document_(document) {}
 
-  /// Roots of a file and all that they refer to. False: there is none, or it was stopped.
+  /// Translates roots of a file and all that they refer to. False: no roots, or it was stopped.
   bool translate(STEPControl_Reader& reader, const Message_ProgressRange& progress, int* first_item = nullptr);
 
   /// Losses of the files to which the first file refers.
@@ -242,8 +242,8 @@ int StepReader::add_compound(const TopoDS_Shape& shape, const StepParts& parts) 
   return item;
 }
 
-/// Texts of STEP are ASCII, with escapes for other characters (ISO 10303-21); what writers put there beside is UTF-8,
-/// or the code of their machine, of which that of Western Europe is the most common.
+/// Texts of STEP are ASCII, with escapes for other characters (ISO 10303-21). Other characters that writers put there
+/// are UTF-8, or in the code of their machine, most often the code of Western Europe.
 void choose_encoding(const std::string& path) {
   Interface_Static::SetCVal("read.step.codepage", is_utf8(path) ? "UTF8" : "CP1252");
 }

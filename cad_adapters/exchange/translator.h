@@ -15,7 +15,8 @@ namespace carreau_occ {
 /// Standard_Failure.
 using Translator = void(const std::string& path, const Message_ProgressRange& progress, ShapeFile& file);
 
-/// That of this program, or of a library that is loaded for it. Throws std::runtime_error when there is none.
+/// The translator of this program, or of a library that is loaded for it. Throws std::runtime_error when both are
+/// missing.
 Translator& step_translator();
 Translator& iges_translator();
 
@@ -23,7 +24,7 @@ Translator& iges_translator();
   throw std::runtime_error(path + ": " + why);
 }
 
-/// Throws when a STEP file that gave no face has tessellated ones: OpenCASCADE 7.6 translates none of them.
+/// Throws when a STEP file without other faces has tessellated faces: OpenCASCADE 7.6 does not translate these.
 inline void refuse_tessellated(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   for (std::string line; std::getline(stream, line);)

@@ -27,7 +27,7 @@ namespace {
 
 using Vertex = Handle(StepShape_Vertex);
 
-/// Coordinates that differ by rounding of what was printed.
+/// True for coordinates that differ by rounding of the printed numbers.
 bool at_one_place(const Handle(StepGeom_CartesianPoint) & p, const Handle(StepGeom_CartesianPoint) & q) {
   constexpr double rounding = 1e-13;
   if (p.IsNull() || q.IsNull() || p->NbCoordinates() != 3 || q->NbCoordinates() != 3) return false;

@@ -6,10 +6,10 @@
 
 namespace carreau_occ {
 
-/// Takes edges without length out of the loops of a model that is not translated yet, and makes the vertices at their
-/// ends one: lines, and other curves that are a point, whose ends have the same coordinates. OpenCASCADE makes no curve
-/// of some of them (a line along a vector of no length), and then loses their faces. A loop keeps its last edge. Models
-/// of other formats stay as they are.
+/// Removes edges without length from the loops of a model that is not translated yet, and merges the vertices at their
+/// ends. These are lines, and other curves that are a point, whose ends have the same coordinates. OpenCASCADE makes no
+/// curve of some of them (a line along a vector of no length), and then loses their faces. A loop keeps its last edge.
+/// Models of other formats stay as they are.
 void take_out_zero_edges(const Handle(Interface_InterfaceModel) & model);
 
 }  // namespace carreau_occ

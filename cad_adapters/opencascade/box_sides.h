@@ -20,7 +20,7 @@ inline gp_Vec direction(int side) {
   return d;
 }
 
-/// How far a box reaches on each side; a void one is at minus infinity.
+/// Largest coordinate of a box on each side; a void box is at minus infinity.
 inline BoxSides sides_of(const Bnd_Box& box) {
   BoxSides sides;
   sides.fill(-std::numeric_limits<double>::infinity());

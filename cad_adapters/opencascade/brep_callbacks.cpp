@@ -18,7 +18,7 @@ namespace {
 void store(const gp_Pnt& p, double* to) { to[0] = p.X(), to[1] = p.Y(), to[2] = p.Z(); }
 void store(const gp_Vec& v, double* to) { to[0] = v.X(), to[1] = v.Y(), to[2] = v.Z(); }
 
-/// Calls use(i) for n points, some at a time; of these, those of one polynomial one after the other.
+/// Calls use(i) for n points, some at a time. Points of a polynomial in such a set follow each other.
 template <typename Use>
 void for_each_by_patch(const Evaluators::Surface& surface, int64_t n, const double* uv, bool swapped, const Use& use) {
   if (!surface.has_patches()) {

@@ -37,7 +37,7 @@ namespace carreau_occ {
 
 namespace {
 
-/// Whether two curves of the parameter plane are one, but for rounding; those of a seam are a period apart.
+/// True if two curves of the parameter plane are one, but for rounding. The curves of a seam are a period apart.
 bool coincide(const EdgeImage& a, const EdgeImage& b) {
   constexpr double rounding = 1e-9;  // of coordinates
   constexpr int pieces = 8;
@@ -51,8 +51,8 @@ bool coincide(const EdgeImage& a, const EdgeImage& b) {
   return true;
 }
 
-/// An edge along which a wire goes to and fro, as from an outer border to that of a hole, has the face on both sides:
-/// it is a curve inside.
+/// Makes edges internal along which a wire goes to and fro, as from an outer border to the border of a hole: they have
+/// the face on both sides.
 void make_returns_internal(std::vector<EdgeImage>& images) {
   std::unordered_map<const TopoDS_TShape*, std::size_t> ways;  // the last use of each edge
   std::vector<bool> back(images.size(), false);
@@ -81,8 +81,8 @@ bool has_no_range(const EdgeImage& image) {
   return std::abs(image.last - image.first) <= rounding * std::max(1.0, std::abs(image.first));
 }
 
-/// Images of all edges of each wire, null where there is none, without edges of no length. On planes OpenCASCADE makes
-/// them when it is asked, which takes long: so once.
+/// Images of all edges of each wire, null if missing, without edges of no length. OpenCASCADE computes images on planes
+/// at each call, which takes long: so they are kept.
 std::vector<std::vector<EdgeImage>> wires_of(const TopoDS_Face& face) {
   std::vector<std::vector<EdgeImage>> wires;
   for (TopExp_Explorer w(face, TopAbs_WIRE); w.More(); w.Next()) {
@@ -126,7 +126,7 @@ struct Enclosed {
   double sum = 0;      ///< of all; outer loops are counterclockwise
 };
 
-/// No value where a loop is not in order or does not close, or where there is none.
+/// No value if a loop is not in order or does not close, or without loops.
 std::optional<Enclosed> enclosed_by(const std::vector<std::vector<EdgeImage>>& loops) {
   constexpr double rounding = 1e-9, closing = 1e-2;  // of the box of the loop
   constexpr double coordinate_rounding = 1e-12;      // of coordinates
@@ -281,7 +281,7 @@ void BrepHost::State::collect_face(int number) {
   refuse_unusable(forward, loops);
 }
 
-// An edge that does not name one of its ends has it at another vertex of its own that lies there, or at a new one.
+// If an edge does not name one of its ends, returns its vertex that lies there, or a new one.
 int BrepHost::State::end_of(const EdgeImage& image, bool last) {
   const TopoDS_Vertex named =
       last ? TopExp::LastVertex(image.edge, Standard_False) : TopExp::FirstVertex(image.edge, Standard_False);

@@ -49,7 +49,7 @@ struct EdgeCut {
 class KinkCutter {
  public:
   struct Result {
-    std::vector<HostFace> faces;  // those of the shape, then parts
+    std::vector<HostFace> faces;  // faces of the shape, then parts
     std::vector<Images> images;
     std::vector<PartBox> boxes;
     std::vector<char> changed;  // by face
@@ -98,7 +98,7 @@ class KinkCutter {
           measure(bent);
           found.push_back(bent);
         });
-      } catch (const Standard_Failure&) {  // meshing it will tell
+      } catch (const Standard_Failure&) {  // meshing reports it
       }
     }
     return found;
@@ -133,8 +133,8 @@ class KinkCutter {
         uses_of_[host(f).curves[c].edge].emplace_back(f, static_cast<int>(c));
     for (const Bent& bent : wanted)
       for (std::size_t c = 0; c < host(bent.face).curves.size(); ++c) collect_cuts(bent, static_cast<int>(c), cuts);
-    // Two curves of one edge must agree on the order of its cuts; an edge where they do not stays whole, and so do the
-    // faces that need it cut, as these find out.
+    // Two curves of one edge must agree on the order of its cuts. Otherwise the edge stays whole, and so do the faces
+    // that need it cut.
     std::erase_if(cuts, [](const auto& each) { return each.second.empty(); });
     for (auto& [edge, list] : cuts)
       std::sort(list.begin(), list.end(), [](const EdgeCut& a, const EdgeCut& b) { return a.t < b.t; });
@@ -181,7 +181,7 @@ class KinkCutter {
         }
   }
 
-  /// As near to an end on the line as its vertex says that curves may miss it: the line goes through that.
+  /// True if an end on the line is as near as its vertex lets curves miss it: then the line passes through this end.
   [[nodiscard]] bool at_an_end(const EdgeCut& cut, const Bent& bent, bool of_u, double at) {
     const HostCurve& curve = host(cut.face).curves[static_cast<std::size_t>(cut.curve)];
     if (BRep_Tool::Degenerated(TopoDS::Edge(edges_(curve.edge)))) return false;
@@ -280,7 +280,7 @@ class KinkCutter {
     return Divided{face, std::move(curves), std::move(all)};
   }
 
-  /// A piece that is to be glued: how long it is, and how far its new end is from the edge. An edge that OpenCASCADE
+  /// Records the length of a piece for gluing, and the distance of its new end from the edge. An edge that OpenCASCADE
   /// has computed across a bend is farthest from its faces there.
   void note_free(const TopoDS_Edge& edge, const gp_Pnt& from, const gp_Pnt& to) {
     result_.shortest_free_piece = std::min(result_.shortest_free_piece, from.Distance(to));

@@ -38,8 +38,8 @@ BrepHost::BrepHost(const ShapeFile& file, bool loose_edges) : state_(std::make_s
 
 BrepHost::~BrepHost() = default;
 
-// The curve that gives the orientation is kept by the engine however small it is: the first one that is not tiny beside
-// the others in the parameter plane. 0: none.
+// The curve that gives the orientation; the engine keeps it however small it is. It is the first one that is not tiny
+// beside the others in the parameter plane. 0: none.
 int BrepHost::seed_curve(int number) const {
   constexpr double tiny = 1e-3;  // of the longest
   const HostFace& face = state_->host_faces[static_cast<std::size_t>(number - 1)];

@@ -13,13 +13,14 @@
 
 namespace carreau_occ {
 
-/// Faces, edges and vertices of a shape, numbered from 1 as OpenCASCADE's maps of the shape number them: those numbers
-/// are the references of faces, curves and points. Faces that bend inside (kinks.h) are cut there into parts, which
-/// have no bend: the first one keeps the number, the others, and edges and vertices that this makes, have numbers
-/// behind all others; in meshes all parts are the face, or edge, of the shape. A face that is reversed gets u and v
-/// exchanged, so that triangles, which are counterclockwise in (u, v), look outwards of a solid. Edges of no face are
-/// wires of one curve each, with references of faces behind all others. Callbacks may come from several threads at a
-/// time.
+/// Faces, edges and vertices of a shape, numbered from 1 as OpenCASCADE's maps of the shape number them. These numbers
+/// are the references of faces, curves and points.
+/// Faces that bend inside (kinks.h) are cut there into parts, which have no bend. The first part keeps the number;
+/// other parts, new edges and new vertices have numbers behind all others. In meshes all parts are the face, or edge,
+/// of the shape.
+/// A face that is reversed gets u and v exchanged, so that triangles, which are counterclockwise in (u, v), look
+/// outwards of a solid. Edges of no face are wires of one curve each, with references of faces behind all others.
+/// Callbacks may come from several threads at a time.
 class BrepHost {
  public:
   /// The shape and the names of its faces are kept. Without `loose_edges` the edges of no face of a shape with faces are
@@ -30,25 +31,25 @@ class BrepHost {
   BrepHost& operator=(const BrepHost&) = delete;
 
   /// Adds geometry and model to a session (carreau_geometry_begin), which may outlive this object. A status of
-  /// carreau.h; the sentence is in the session, which is then as before. When a callback fails later on, it names the
-  /// face and says what OpenCASCADE did.
+  /// carreau.h; after an error the session is as before, and has the sentence. If a callback fails later, it names the
+  /// face and the error of OpenCASCADE.
   carreau_status add_to(carreau_session* session);
-  /// The same in place of all that the session has.
+  /// Replaces the geometry and model of a session.
   carreau_status give_to(carreau_session* session);
-  /// Something that lives as long as this object or a session that asks its callbacks.
+  /// Keeps an object as long as this object or a session that calls its callbacks.
   void keep(std::shared_ptr<void> companion);
 
-  /// Size wanted on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
-  /// size of its faces. Before give_to. False: there is no such face.
+  /// Sets the size on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the
+  /// smallest size of its faces. Before give_to. False: there is no such face.
   bool set_face_size(const std::string& face, double size);
-  /// The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
+  /// Sets the size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
   bool set_size(int dimension, int number, double size);
 
-  /// Faces that give_to leaves out of meshes: those that OpenCASCADE fails on, those whose data has an error or reaches
-  /// too far. Ascending, with the reason.
+  /// Faces that give_to leaves out of meshes: OpenCASCADE fails on them, or their data has an error or reaches too far.
+  /// Ascending, with the reason.
   [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const;
 
-  /// Own name of a face, or that of the smallest part that holds it; "": none. Numbers from 1.
+  /// Own name of a face, or the name of the smallest part that holds it; "": none. Numbers from 1.
   [[nodiscard]] const std::string& face_name(int number) const;
   /// 0xRRGGBB, -1: none. Numbers from 1.
   [[nodiscard]] int face_colour(int number) const;
@@ -73,22 +74,22 @@ class BrepHost {
   [[nodiscard]] int vertex_count() const noexcept;
   /// Diagonal of the box of the faces that are not left out.
   [[nodiscard]] double diagonal() const;
-  /// How far apart edges of one face only may be that are one in space: what the tolerances of the file's own edges and
-  /// vertices allow. 0: there is no such edge, or only one.
+  /// Bounds of the distance between edges in space that are one although each belongs to one face: the tolerances of
+  /// the file's own edges and vertices. 0: no such edge, or only one.
   struct GlueTolerances {
     double of_all = 0;   ///< no more than a tenth of the shortest such edge (parameters glue_open and eps_glue)
-    double of_each = 0;  ///< whatever the lengths (eps_glue_open, which looks at those of each pair)
+    double of_each = 0;  ///< whatever the lengths (eps_glue_open, which checks the lengths of each pair)
   };
   [[nodiscard]] GlueTolerances glue_tolerances() const;
-  /// How far faces may be from the edges and vertices that they share (parameter eps_match).
+  /// Largest distance between faces and the edges and vertices that they share (parameter eps_match).
   [[nodiscard]] double match_tolerance() const;
   /// No edge has one face alone (a seam has its face twice).
   [[nodiscard]] bool is_closed() const noexcept;
-  /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has
-  /// there (uv[2]; exchanged when the face is reversed). False: OpenCASCADE fails.
+  /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters of its surface in the file
+  /// (uv[2]; exchanged when the face is reversed). False: OpenCASCADE fails.
   bool locate(int face, double u, double v, double* xyz, double* uv) const noexcept;
-  /// Edges of the curves of a face, as far as they are known, and (u, v) (uv[2]) as callbacks get them at a share of
-  /// curve number ic, from 1. False: OpenCASCADE fails.
+  /// Edges of the curves of a face, as far as they are known. on_curve(): (u, v) (uv[2]) as callbacks get them at a
+  /// share of curve number ic, from 1. False: OpenCASCADE fails.
   [[nodiscard]] std::vector<std::int32_t> curves(int face) const;
   bool on_curve(int face, int ic, double share, double* uv) const noexcept;
   /// The message of OpenCASCADE for a callback that failed on this face; "": none.

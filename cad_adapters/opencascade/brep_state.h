@@ -36,7 +36,7 @@ struct HostFace {
   std::vector<HostCurve> curves;
   std::string name;
   int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
-  double size = 0;     // 0: no size of its own
+  double size = 0;     // 0: not set
   std::string broken;  // why it cannot be meshed; "": it can
   bool known = false;  // the evaluators have it
 };
@@ -49,33 +49,33 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   std::shared_ptr<void> companion;  // goes last
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges, vertices;
-  std::vector<HostFace> host_faces;  // face number - 1; behind all faces the parts of those that were cut
-  std::vector<LooseEdge> wires;      // edges of no face: their references are behind those of all faces and parts
+  std::vector<HostFace> host_faces;  // face number - 1; behind all faces the parts of faces that were cut
+  std::vector<LooseEdge> wires;      // edges of no face: their references are behind the references of all faces and parts
   LooseCurves wire_curves;
-  std::vector<int> uses;                             // of each edge, by its number - 1; behind all edges those of cuts
-  int file_edges = 0, file_vertices = 0;             // without those that mending added
+  std::vector<int> uses;                             // of each edge, by its number - 1; behind all edges the pieces of cut edges
+  int file_edges = 0, file_vertices = 0;             // without edges and vertices that repairs added
   Solids solids;
-  std::vector<std::string> notes;                    // what was mended
+  std::vector<std::string> notes;                    // repairs
   std::map<std::pair<int, bool>, int> missing_ends;  // vertices of edges that do not name them, by edge and last end
-  int vertex_total = 0;                              // those of the shape and of cuts
+  int vertex_total = 0;                              // vertices of the shape and of cuts
   std::map<int, int> whole_edge;                     // of the numbers behind all edges that are pieces of one
   double shortest_free_piece = std::numeric_limits<double>::infinity();  // of edges of one face that were cut
-  double free_gap = 0;                         // how far from such edges they were cut, at most
+  double free_gap = 0;                         // largest distance between such edges and their cuts
   std::vector<int> bent;                       // faces that bend inside and could not be cut, ascending
-  std::optional<double> diagonal;              // once asked for
+  std::optional<double> diagonal;              // once computed
   std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
   std::map<int, double> own_edge_sizes, own_vertex_sizes;  // by number
   Evaluators evaluators;
-  std::mutex mutex;                     // of what follows: callbacks come from several threads
+  std::mutex mutex;                     // of the next members: callbacks come from several threads
   std::map<int, std::string> failures;  // by face
-  int sessions = 0;                     // that ask the callbacks
+  int sessions = 0;                     // sessions that use the callbacks
   std::shared_ptr<State> self;          // while there are some
-  // Indexed by number - 1: faces whose surface, or curves, failed or could not be had. Not asked again, since a fault may have
+  // Indexed by number - 1: faces whose surface, or curves, failed. They are not evaluated again, since a fault may have
   // left locks behind.
   std::unique_ptr<std::atomic<bool>[]> surface_failed, curves_failed;
 
   void collect();
-  /// Own name and colour of each face, or those of the smallest part that holds it and has some.
+  /// Own name and colour of each face, or the name and colour of the smallest part that holds it and has some.
   void collect_names(const ShapeFile& file);
   void collect_doubts(const ShapeFile& file);
   void collect_face(int number);
@@ -87,7 +87,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   void collect_wires(bool beside_faces);
   /// Boxes of known faces.
   void let_evaluate();
-  /// The edge of a reference that is that of a wire; nullptr: of a face.
+  /// The edge of a reference that belongs to a wire; nullptr: the reference belongs to a face.
   [[nodiscard]] const LooseEdge* wire(int reference) const noexcept;
 
   static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
@@ -102,7 +102,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   static int32_t point_size(int32_t point, double* value, void* user) noexcept;
   void collect_sizes();
   [[nodiscard]] GlueTolerances glue_tolerances() const;
-  /// Runs it; what it throws fails the face, and sets `failed`.
+  /// Runs it; an exception fails the face, and sets `failed`.
   template <typename Evaluate>
   int32_t answer_guarded(int32_t face, std::atomic<bool>& failed, const Evaluate& evaluate) noexcept;
   static const char* failure(int32_t face, void* user) noexcept;

@@ -25,7 +25,7 @@ struct Node {
   gp_Pnt2d uv;
 };
 
-/// Whether a point is inside closed polylines, by the sides that a ray along u meets.
+/// True if a point is inside closed polylines, by the sides that a ray along u meets.
 class Inside {
  public:
   void add(const std::vector<gp_Pnt2d>& polyline) { polylines_.push_back(&polyline); }
@@ -90,13 +90,13 @@ class Cutter {
           if (std::abs(across(direction, p) - at) <= near)
             add_node(direction, k, {coordinate_along(direction, p), last ? arc.end2 : arc.end1, p});
         }
-        // Beside its ends it may be off by what vertices tolerate.
+        // Beside its ends it may be off by the tolerances of vertices.
         constexpr double most = 0.8, astray = 16;
         bool above = high > -low;
         if (static_cast<double>(on_line) > most * static_cast<double>(arc.samples.size())) {
           const double from = coordinate_along(direction, arc.samples.front()), to = coordinate_along(direction, arc.samples.back());
           covered_[direction][k].push_back(std::minmax(from, to));
-          // Small u lies on the left of what goes up, large v on the left of what goes right.
+          // Small u lies on the left of rising curves, large v on the left of curves to the right.
           above = ((from < to) == arc.forward) == (direction == 1);
           if (arc.internal) on_both_sides = direction, left_is_above = above;
         } else if (std::min(high, -low) > astray * near) {
@@ -123,7 +123,7 @@ class Cutter {
   }
 
   void add_crossings() {
-    constexpr double aside = 1e-5;  // of the extent: not on what lies along the lines
+    constexpr double aside = 1e-5;  // of the extent: avoids polylines that lie along the lines
     double extent[2] = {0, 0};
     for (const int direction : {0, 1}) {
       double low = HUGE_VAL, high = -HUGE_VAL;
@@ -151,7 +151,7 @@ class Cutter {
 
   /// The pieces of a line that are inside the domain.
   void add_edges(int direction, std::size_t k) {
-    constexpr double somewhere = 0.4371;  // of a piece: beside what symmetry puts into its middle
+    constexpr double somewhere = 0.4371;  // of a piece: not its middle, where symmetric curves cross
     std::vector<Node>& nodes = nodes_[direction][k];
     std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.along < b.along; });
     for (std::size_t i = 1; i < nodes.size(); ++i) {
@@ -261,7 +261,7 @@ class Cutter {
     struct Place {
       int vertex = 0;
       gp_Pnt2d uv;
-      int balance = 0;  // curves that leave it, less those that arrive
+      int balance = 0;  // leaving curves less arriving curves
       std::size_t top = 0;
     };
     constexpr double apart = 0.01;  // of the cell: images of one vertex that a seam or a pole has

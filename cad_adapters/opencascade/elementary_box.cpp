@@ -21,9 +21,9 @@
 namespace carreau_occ {
 namespace {
 
-/// A coordinate of a plane, a cylinder or a cone has no extreme inside a face that its boundary does not have, too:
-/// where it is stationary it is so along a whole line. That of a sphere or a torus has its own where the normal is
-/// along the axis. OpenCASCADE's search (particle swarms for tori) takes hundreds of times as long.
+/// Box of an elementary face. Coordinates of planes, cylinders and cones have their extremes on the boundary of the
+/// face, since they are stationary only along whole lines. Coordinates of spheres and tori also have an extreme where
+/// the normal is along the axis. OpenCASCADE's search (particle swarms for tori) takes hundreds of times as long.
 class ElementaryBox {
  public:
   ElementaryBox(const TopoDS_Face& face, const Bnd_Box& known, Bnd_Box& box)

@@ -12,7 +12,7 @@
 
 namespace carreau_occ {
 
-/// Nothing, where the surface is of another kind. The values are those of the adaptor.
+/// Empty if the surface is of another kind. Values are identical to the adaptor's.
 class ElementarySurface {
  public:
   ElementarySurface() = default;
@@ -69,7 +69,7 @@ class ElementarySurface {
   std::variant<std::monostate, gp_Pln, gp_Cylinder, gp_Cone, gp_Sphere, gp_Torus> of_;
 };
 
-/// The same of a curve in a parameter plane.
+/// A curve in a parameter plane by closed forms; empty if it is of another kind.
 class ElementaryCurve {
  public:
   ElementaryCurve() = default;

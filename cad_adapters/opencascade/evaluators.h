@@ -17,9 +17,9 @@
 
 namespace carreau_occ {
 
-/// The parameter at which the next polynomial begins. An adaptor keeps the polynomial that it used last, and takes it again
-/// for a parameter that lies a rounding error before its end, where a new search would take the next one: results would
-/// depend on what was asked before. So such parameters are moved onto the end.
+/// The parameters at which polynomials begin. An adaptor keeps its last polynomial, also for a parameter a rounding
+/// error before the end, where a new search would take the next polynomial. So results would depend on earlier calls.
+/// Such parameters are therefore moved onto the end.
 class Breaks {
  public:
   Breaks() = default;
@@ -82,7 +82,7 @@ class Evaluators {
       smooth_d2(u, v, p, su, sv, suu, svv, suv);
     }
 
-    /// Whether it is made of several polynomials, each of which an adaptor prepares again when it comes back to it.
+    /// True if the surface has several polynomials, each of which an adaptor prepares again when it comes back to it.
     [[nodiscard]] bool has_patches() const noexcept { return !closed_ && (u_.several() || v_.several()); }
     /// Equal for points of one polynomial, different for others.
     [[nodiscard]] std::size_t patch_of(double u, double v) const noexcept {
@@ -104,10 +104,10 @@ class Evaluators {
     const BRepAdaptor_Surface* adaptor_;  // nullptr: closed_ has it
     const ElementarySurface& closed_;
     const Breaks &u_, &v_;
-    const PartBox* box_;  // nullptr: there is none
+    const PartBox* box_;  // nullptr: no bounds
   };
   [[nodiscard]] Surface surface(std::size_t face);
-  /// Whether it is evaluated by closed forms, which cannot fail.
+  /// True if the surface is evaluated by closed forms, which cannot fail.
   [[nodiscard]] bool is_closed_form(std::size_t face) const noexcept { return bool(faces_[face].closed); }
 
   class Curve {

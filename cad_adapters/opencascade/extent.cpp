@@ -42,9 +42,9 @@ Bnd_Box box_by(Add&& add, const TopoDS_Shape& face) {
   return box.IsVoid() || usable(std::sqrt(box.SquareExtent())) ? box : Bnd_Box();
 }
 
-/// Box of a free-form face: of its boundary and of a grid inside it, whose extremes climb to those of the face where
-/// they may reach out of what is known of the shape. OpenCASCADE's own search (particle swarms) takes a tenth of a
-/// second a face.
+/// Box of a free-form face, made of its boundary and of a grid inside. Extremes of the grid climb to extremes of the
+/// face if they may reach out of the known box. OpenCASCADE's own search (particle swarms) takes a tenth of a second a
+/// face.
 class FaceBox {
  public:
   FaceBox(const TopoDS_Face& face, const Bnd_Box& known, Bnd_Box& box)
@@ -110,7 +110,7 @@ class FaceBox {
         highest_[side].value = value;
       }
   }
-  // The highest sample that is inside, if the face may rise above what is known within a step of it.
+  // Takes the highest sample that is inside, if the face may rise above the known box within a step of it.
   void take_highest(int side, double step, const std::vector<Sample>& samples) {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < samples.size(); ++k)
@@ -178,7 +178,7 @@ bool holds(const Bnd_Box& outer, const Bnd_Box& inner) {
 
 }  // namespace
 
-// Exact boxes cost much more than wide ones: only for faces whose wide box reaches out of what is known. Large faces
+// Exact boxes cost much more than wide ones: only for faces whose wide box reaches out of the known box. Large faces
 // first.
 double diagonal_of(const TopoDS_Shape& shape) {
   const auto wide = [](const TopoDS_Shape& face, Bnd_Box& box) { BRepBndLib::Add(face, box, Standard_False); };

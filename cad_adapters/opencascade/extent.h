@@ -6,7 +6,7 @@
 
 namespace carreau_occ {
 
-/// Diagonal of the box of the faces of a shape that OpenCASCADE can evaluate; 0: there is none. Exact to rounding for
+/// Diagonal of the box of the faces of a shape that OpenCASCADE can evaluate; 0: no such face. Exact to rounding for
 /// planes and quadrics, to a millionth or so for others.
 double diagonal_of(const TopoDS_Shape& shape);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the numbers of a face are such that anything can be computed from them.
+// Checks that the numbers of a face allow computations.
 #pragma once
 
 #include <TopoDS_Face.hxx>
@@ -10,8 +10,8 @@
 
 namespace carreau_occ {
 
-/// Coordinates beyond this are no geometry: nine digits would be left of a metre in them, and OpenCASCADE's own
-/// tolerance of 1e-7 is then below the rounding of any number.
+/// Coordinates beyond this are rejected: nine digits would be left of a metre in them. OpenCASCADE's own tolerance of
+/// 1e-7 is then below the rounding of any number.
 constexpr double largest_coordinate = 1e15;
 
 /// Not for a number that is not finite either.

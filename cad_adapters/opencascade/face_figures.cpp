@@ -78,7 +78,7 @@ std::vector<FaceFigures> list_faces(const ShapeFile& file) {
     figures.number = number;
     try {
       guarded([&] { measure(TopoDS::Face(faces(number)), figures); });
-    } catch (const Standard_Failure&) {  // what is known so far is told
+    } catch (const Standard_Failure&) {  // the figures so far are kept
       if (figures.kind.empty()) figures.kind = "broken";
     }
     list.push_back(std::move(figures));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The faces of a shape, one by one: what a person knows a face by.
+// The faces of a shape, one by one, as a person identifies them.
 #pragma once
 
 #include <GeomAbs_SurfaceType.hxx>

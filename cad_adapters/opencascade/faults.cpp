@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard_ErrorHandler.hxx makes OCC_CATCH_SIGNALS do something only when asked.
+// Standard_ErrorHandler.hxx activates OCC_CATCH_SIGNALS only with this macro.
 #if !defined(OCC_CONVERT_SIGNALS)  // its packages define it for some configurations
 #define OCC_CONVERT_SIGNALS
 #endif
@@ -22,18 +22,18 @@ namespace {
 
 constexpr std::array trapped{SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
-// Actions of signals belong to the process, and so does what is known of them.
+// Actions of signals belong to the process, and so do these variables.
 std::mutex mutex;
 int traps = 0;                                     // guarded by the mutex
 std::atomic<bool> active{false};                   // traps > 0
 std::array<struct sigaction, trapped.size()> old;  // written while no fault is trapped
 
-/// Recursion without end uses up the stack: the handler needs one of its own.
+/// Recursion without end uses up the stack: the handler needs another stack.
 class HandlerStack {
  public:
   HandlerStack() {
     stack_t found{};
-    if (sigaltstack(nullptr, &found) != 0 || (found.ss_flags & SS_DISABLE) == 0) return;  // somebody has given one
+    if (sigaltstack(nullptr, &found) != 0 || (found.ss_flags & SS_DISABLE) == 0) return;  // another stack is set
     memory_ = std::make_unique<char[]>(size);
     stack_t own{};
     own.ss_sp = memory_.get(), own.ss_size = size;
@@ -67,8 +67,8 @@ Handle(Standard_Failure) failure_of(int signal) {
 }
 
 extern "C" void on_fault(int signal, siginfo_t* info, void* context) {
-  // A positive code: the processor's, not somebody's kill(). OpenCASCADE's list of handlers tells by the thread whether
-  // there is somewhere to go; if so, this does not return.
+  // A positive code comes from the processor, not from a kill(). OpenCASCADE's list of handlers knows if the thread has
+  // a place to jump to; if so, this does not return.
   if (info->si_code > 0 && Standard_ErrorHandler::IsInTryBlock()) failure_of(signal)->Jump();
   std::size_t i = 0;
   while (trapped[i] != signal) ++i;
@@ -113,15 +113,15 @@ void run_guarded(void (*body)(void*), void* data) {
     return;
   }
   thread_local const HandlerStack stack;
-  // The system enters a handler with the processor's own choice of what traps and how numbers are rounded. A whole
-  // environment would take longer to read than most calls take.
+  // The system enters a handler with the processor's default traps and rounding. A whole environment would take longer
+  // to read than most calls take.
   const int rounding = std::fegetround(), traps = fegetexcept();
   try {
     OCC_CATCH_SIGNALS
     body(data);
   } catch (const Standard_Failure&) {
     std::fesetround(rounding);
-    std::feclearexcept(FE_ALL_EXCEPT);  // what is to trap must not be pending
+    std::feclearexcept(FE_ALL_EXCEPT);  // traps must not be pending
     fedisableexcept(FE_ALL_EXCEPT);
     feenableexcept(traps);
     throw;

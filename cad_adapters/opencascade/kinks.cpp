@@ -21,8 +21,8 @@ struct Bend {
   bool torn = false;
 };
 
-/// Largest angle between the normals at both sides of a line; places without a normal say nothing. It is torn where the
-/// sides are farther apart than the way between them is long.
+/// Largest angle between the normals at both sides of a line, without places that have no normal. The surface is torn
+/// where the sides are farther apart than the way between them is long.
 Bend bend_at(const BRepAdaptor_Surface& surface, bool of_u, double before, double after, double from, double to) {
   constexpr double longer = 100, rounding = 1e-9;
   Bend bend;

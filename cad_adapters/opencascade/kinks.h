@@ -15,8 +15,8 @@ struct Kink {
   bool torn = false;  ///< the surface itself jumps: an offset of one that bends
 };
 
-/// Those above 2 degrees, by u and then v. Curvatures on both sides say nothing of them: sizes by an angle or a chord
-/// cut across. Throws what OpenCASCADE throws.
+/// Finds kinks above 2 degrees, by u and then v. Curvatures on both sides do not show them, and sizes by an angle or a
+/// chord cut across. Passes exceptions of OpenCASCADE on.
 std::vector<Kink> kinks_of(const TopoDS_Face& face);
 
 /// A face that goes once around a periodic surface, from a kink to itself: where its box begins and ends.
@@ -24,7 +24,7 @@ struct ClosingKink {
   bool of_u = false, of_v = false;  ///< there is one
   double low_u = 0, high_u = 0, low_v = 0, high_v = 0;
 };
-/// Throws what OpenCASCADE throws.
+/// Passes exceptions of OpenCASCADE on.
 ClosingKink closing_kink_of(const TopoDS_Face& face);
 
 }  // namespace carreau_occ

@@ -11,9 +11,9 @@ namespace carreau_occ {
 /// Points of a curve that follow it, both ends included: enough for each of its polynomials.
 std::vector<gp_Pnt2d> sampled(const Handle(Geom2d_Curve) & curve, double first, double last);
 
-/// Parameters, ascending and inside (first, last), where the curve goes from one side of the line to the other, touches
-/// it at a sample, or begins and ends to run along it, for more than `run`. On the line: within `near`. Ends of the
-/// curve on the line are no crossings.
+/// Parameters of crossings, ascending and inside (first, last). The curve crosses the line, touches it at a sample, or
+/// begins or ends to run along it, for more than `run`. On the line: within `near`. Ends of the curve on the line are
+/// no crossings.
 std::vector<double> crossings(const Handle(Geom2d_Curve) & curve, double first, double last, bool of_u, double at,
                               double near, double run);
 

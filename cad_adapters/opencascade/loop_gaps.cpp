@@ -99,7 +99,7 @@ class GapCloser {
   [[nodiscard]] TopoDS_Face forward(std::size_t f) const {
     return TopoDS::Face(loops_.shapes(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
   }
-  // The evaluators of a thread know the curves that a face had when it was first asked.
+  // The evaluators of a thread keep the curves that a face had at the first call.
   const BRepAdaptor_Surface& surface_of(std::size_t f) {
     std::unique_ptr<BRepAdaptor_Surface>& known = surfaces_[f];
     if (!known) known = std::make_unique<BRepAdaptor_Surface>(forward(f), Standard_False);
@@ -160,8 +160,8 @@ class GapCloser {
       if (ends[0].size() == ends[1].size()) join(f, vertex, ends[0], ends[1]);
   }
 
-  /// The nearest ones in space, and of those that are equally near the nearest ones in the parameter plane. An edge
-  /// goes on to itself where there is no other one, as a circle does.
+  /// Joins the nearest ends in space, and among equally near ends the nearest in the parameter plane. An edge goes on
+  /// to itself if there is no other edge, as a circle does.
   void join(std::size_t f, int vertex, std::vector<CurveEnd>& in, std::vector<CurveEnd>& out) {
     std::vector<std::tuple<bool, double, double, std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < in.size(); ++i)
@@ -180,7 +180,7 @@ class GapCloser {
     }
   }
 
-  /// How far curves end beyond the tolerance of their vertex.
+  /// Distance of the ends of curves beyond the tolerance of their vertex.
   [[nodiscard]] double off_vertex(const Joint& joint) const {
     const TopoDS_Vertex vertex = TopoDS::Vertex(loops_.vertices(joint.vertex));
     const gp_Pnt at = BRep_Tool::Pnt(vertex);
@@ -215,7 +215,7 @@ class GapCloser {
       if (is_open(joint) || is_wide(off_vertex(joint), 0)) curves[joint.face].insert({joint.in.curve, joint.out.curve});
     return curves;
   }
-  /// A side that is called a point and is none.
+  /// True for a side that the file calls a point although it has a length.
   bool is_false_pole(std::size_t f, std::size_t c) {
     const HostCurve& curve = face(f).curves[c];
     return is_pole(curve) && curve.end1 == curve.end2 && curve.end1 != 0 && !curve.internal && is_wide(length(f, c), 0);
@@ -276,7 +276,7 @@ class GapCloser {
     return made;
   }
 
-  /// How far the image is from the curve in space.
+  /// Distance of the image from the curve in space.
   double off(std::size_t f, const Handle(Geom2d_Curve) & made, const Geom_Curve& in_space, double first, double last) {
     double off = 0;
     for (int i = 0; i <= probes; ++i) {

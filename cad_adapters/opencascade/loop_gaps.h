@@ -20,11 +20,11 @@ struct LoopsOfFaces {
   std::vector<int>& uses;
 };
 
-/// Closes gaps between consecutive curves of a loop that are wide beside the shape or beside the curves. If the
-/// image of an edge is off its curve in space, and that curve lies on the surface, the image is made anew. Elsewhere the
+/// Closes gaps between consecutive curves of a loop that are wide beside the shape or beside the curves. If the image
+/// of an edge is off its curve in space, and that curve lies on the surface, the image is made anew. Elsewhere the
 /// vertex is divided, and a straight line of the parameter plane becomes an edge between its parts, which faces share
-/// that have this gap. A "degenerate" edge that is no point of space becomes such an edge, too. Returns a sentence
-/// about what was done, "": nothing. Faces on which OpenCASCADE fails stay as they are.
+/// that have this gap. A "degenerate" edge that has a length in space becomes such an edge, too. Returns a sentence
+/// about the changes, "": no change. Faces on which OpenCASCADE fails stay as they are.
 std::string close_loop_gaps(const LoopsOfFaces& loops);
 
 }  // namespace carreau_occ

@@ -24,13 +24,14 @@ struct LooseEdge {
   double first = 0, last = 1;
 };
 
-/// Those of a shape that can be meshed, ascending, by the maps of its edges and vertices. Without those that have no
-/// length, no end or no curve. Files often give each such edge vertices of its own: an end within the tolerances of
-/// another vertex has the smallest number of those, unless both ends would get one that the file keeps apart.
+/// Loose edges of a shape that can be meshed, ascending, by the maps of its edges and vertices. Leaves out edges that
+/// have no length, no end or no curve. Files often give each such edge separate vertices. So an end within the
+/// tolerances of another vertex gets the smallest number of these vertices, unless both ends would get a vertex that
+/// the file keeps apart.
 std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges,
                                         const TopTools_IndexedMapOfShape& vertices);
 
-/// Evaluates edges in space. Each thread has its own adaptors (evaluators.h tells why).
+/// Evaluates edges in space. Each thread has its own adaptors, for the reason in evaluators.h.
 class LooseCurves {
  public:
   void set(const std::vector<LooseEdge>& edges);

@@ -6,8 +6,8 @@
 
 namespace carreau_occ {
 
-/// Gives the edges of a face the curves in its parameter plane that they lack, by projecting their curves in space, and
-/// moves them by periods of the surface so that each wire closes. Changes the edges, wherever they are used; those that
+/// Gives the edges of a face their missing curves in its parameter plane, by projecting their curves in space. Moves
+/// the curves by periods of the surface so that each wire closes. Changes the edges, wherever they are used; edges that
 /// have all curves stay as they are. May throw Standard_Failure.
 void add_missing_curves(const TopoDS_Face& face);
 

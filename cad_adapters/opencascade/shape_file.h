@@ -13,7 +13,7 @@ namespace carreau_occ {
 
 struct SmallFeature;
 
-/// A shape, and what its file says about its parts.
+/// A shape, and the data of its file about its parts.
 struct ShapeFile {
   TopoDS_Shape shape;
   /// Name and colour of a part (a solid, a shell or a face), where the file has some.
@@ -43,12 +43,12 @@ struct Lengths {
   double scale = 1;  ///< factor of all coordinates, after the unit
 };
 
-/// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep; text or binary) as the suffix, or else the first bytes,
-/// say. Lengths are in millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. Throws
+/// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep; text or binary), by the suffix or else by the first
+/// bytes. Lengths are in millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. Throws
 /// std::runtime_error with a sentence that names the file.
 ShapeFile read_shape(const std::string& path, const ReadingProgress& progress = {}, const Lengths& lengths = {});
 
-/// The same from memory. `format` is "step", "iges" or "brep"; "": the bytes say it. Sentences call the file `name`.
+/// Reads from memory. `format` is "step", "iges" or "brep"; "": by the bytes. Sentences call the file `name`.
 ShapeFile read_shape(std::string_view bytes, const std::string& format, const std::string& name,
                      const ReadingProgress& progress = {}, const Lengths& lengths = {});
 

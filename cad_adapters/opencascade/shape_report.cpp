@@ -136,7 +136,7 @@ class Inspector {
     const double width = around > 0 ? 2 * std::abs(properties.Mass()) / around : report_.diagonal;
     if (!(width >= limit_)) add({"sliver face", number, 0, width, "about as narrow"});
     const BRepCheck_Analyzer check(face);
-    if (!check.IsValid()) add({"invalid face", number, 0, 0, "OpenCASCADE's own check refuses it"});
+    if (!check.IsValid()) add({"invalid face", number, 0, 0, "OpenCASCADE's own check rejects it"});
     look_for_kinks(number, face);
   }
 
@@ -156,7 +156,7 @@ class Inspector {
     const std::vector<int>& uses = uses_[static_cast<std::size_t>(number)];
     const double tolerance = BRep_Tool::Tolerance(edge);
     report_.largest_tolerance = std::max(report_.largest_tolerance, tolerance);
-    if (tolerance > limit_) add({"wide tolerance", 0, number, tolerance, "is how far its faces may miss the edge"});
+    if (tolerance > limit_) add({"wide tolerance", 0, number, tolerance, "is the tolerance of the edge"});
     if (BRep_Tool::Degenerated(edge)) {
       ++report_.poles;
       return;

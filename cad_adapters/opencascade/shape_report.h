@@ -28,16 +28,15 @@ struct ShapeReport {
   std::vector<Danger> dangers;                        ///< by kind, worst first
 };
 
-/// Edges below `tiny` times the diagonal and faces that are narrower are dangers; so are gaps above it between the
-/// curve of an edge and its images on the surfaces beside, and above the edge's own tolerance; tolerances above it; and
-/// bends inside faces (kinks_of). Costs some ten evaluations an edge. Faces that OpenCASCADE fails on are dangers too;
-/// nothing is thrown.
+/// Lists these dangers: edges below `tiny` times the diagonal, and narrower faces; gaps above it between the curve of
+/// an edge and its images on the surfaces beside, if they exceed the edge's own tolerance; tolerances above it; bends
+/// inside faces (kinks_of); and faces that OpenCASCADE fails on. Costs some ten evaluations an edge. Nothing is thrown.
 ShapeReport inspect(const ShapeFile& file, double tiny = 1e-3);
 
 /// Gaps between the curves of edges and their images on the faces beside, at ten places each.
 struct Gaps {
   double largest = 0;
-  int edge = 0, face = 0;  ///< where; 0: there is none
+  int edge = 0, face = 0;  ///< the place; 0: no gap
   int beyond = 0;          ///< edges with more than twice their own tolerance
 };
 

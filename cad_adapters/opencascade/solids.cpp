@@ -30,7 +30,7 @@ namespace {
 
 /// Points of each edge, both ends included.
 constexpr int edge_points = 9;
-/// Points of one solid that are classified against another one.
+/// Points of a solid that are classified against another solid.
 constexpr std::size_t points_of_pair = 24;
 /// Classifications in all: about two seconds.
 constexpr int most_classifications = 10'000;
@@ -65,7 +65,7 @@ class ContactFinder {
  private:
   struct Looked {
     Bnd_Box box;
-    std::vector<gp_Pnt> points;  // on edges; found when they are first asked for
+    std::vector<gp_Pnt> points;  // on edges; computed on first use
     bool sampled = false;
     std::unique_ptr<BRepClass3d_SolidClassifier> classifier;
   };
@@ -129,7 +129,7 @@ class ContactFinder {
     if (any) found_.contacts.push_back(contact);
   }
 
-  /// Whether a point of an edge of `from` lies on or in `to`.
+  /// True if a point of an edge of `from` lies on or in `to`.
   bool classify(int from, int to, SolidContact& contact) {
     Looked &mine = looked_[static_cast<std::size_t>(from)], &other = looked_[static_cast<std::size_t>(to)];
     if (!mine.sampled) sample(from);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solids of a shape, and those that touch or overlap.
+// The solids of a shape, and solids that touch or overlap.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Solids {
   /// For each face, from 0, the number, from 1, of the solid that its triangles look out of, and of the solid on the
   /// other side; 0: none.
   std::vector<std::array<int, 2>> of_face;
-  /// For each solid, from 0; "": none. Solids of one name are told apart by numbers: bolt, bolt_2.
+  /// For each solid, from 0; "": none. Solids of one name get numbers: bolt, bolt_2.
   std::vector<std::string> names;
 
   /// From 1.
@@ -28,7 +28,7 @@ struct Solids {
   }
 };
 
-/// Numbers are those of OpenCASCADE's map of solids. Nothing is thrown.
+/// Numbers follow OpenCASCADE's map of solids. Nothing is thrown.
 Solids solids_of(const ShapeFile& file);
 
 /// Two solids that have no face in common but common points.

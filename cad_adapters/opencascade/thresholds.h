@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of the adapter: what they are, in which unit, why, and what supports them.
+// Thresholds of the adapter: meaning, unit, reason and evidence.
 #pragma once
 
 namespace carreau_occ::thresholds {
@@ -18,8 +18,8 @@ inline constexpr double wrong_image = 0.1;
 
 // Tolerance of references (brep_host)
 
-/// Share of the diagonal. Uses of one edge, and ends of one vertex, may be so far apart: a shape of OpenCASCADE's own
-/// data with gaps of 5.6 per cent is meshed by Gmsh. [LoopGaps.FacesThatMissTheirEdgesAreMeshed]
+/// Share of the diagonal. Uses of one edge, and ends of one vertex, may be so far apart. Gmsh meshes a shape of
+/// OpenCASCADE's own data with gaps of 5.6 per cent. [LoopGaps.FacesThatMissTheirEdgesAreMeshed]
 inline constexpr double match_share = 0.06;
 
 // Parts that share faces (imprint)

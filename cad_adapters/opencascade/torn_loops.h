@@ -9,8 +9,8 @@ namespace carreau_occ {
 
 struct HostFace;
 
-/// Vertices of one face where odd numbers of its curves end, and which are one within their tolerances, become the one
-/// of the smaller number, in all faces; the nearest first.
+/// Merges vertices of a face where odd numbers of its curves end, and which are one within their tolerances. They
+/// become the vertex of the smaller number, in all faces; the nearest first.
 void close_torn_loops(std::vector<HostFace>& faces, const TopTools_IndexedMapOfShape& vertices);
 
 }  // namespace carreau_occ

@@ -73,9 +73,9 @@ void CurvedElements::number_corners() {
   for_corners([&](std::size_t c, std::int32_t row) { at_corner_[next[row]++] = static_cast<std::int32_t>(c); });
 }
 
-// Gauss and Newton's method for the point of the element nearest to p: in the plane the residual is 0 and the end
-// quadratic; on a surface it is as long as p is away. Coordinates are of degree 2 each, so that central differences are
-// exact.
+// Gauss and Newton's method for the point of the element nearest to p. In the plane the residual is 0 and convergence
+// is quadratic; on a surface the residual is the distance of p. Coordinates are of degree 2 each, so that central
+// differences are exact.
 CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bool in_space) const {
   const Cell& cell = cells_[c];
   const std::span<const Vec3> x = nodes_of(cell, in_space || uv_.empty() ? xyz_[c] : uv_[c]);
@@ -94,7 +94,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
     step = std::max(std::abs(place.s - s), std::abs(place.t - t));
     if (step < newton_rounding) break;
   }
-  // Far from p the element may fold on the way, and where it stops then p is not.
+  // Far from p the element may fold on the way; then Newton's method stops at a point that is not p.
   place.inside = step < newton_arrived ? least_coordinate(cell.kind, place.s, place.t) : -infinity;
   return place;
 }
@@ -109,7 +109,7 @@ void CurvedElements::interpolate(std::int32_t triangle, const Vec3& p, bool in_s
       if (const Place other = place_in(at_corner_[k], p, in_space); other.inside > best.inside) best = other;
   }
   const Cell& cell = cells_[best.cell];
-  // Beside the mesh: beyond a curved border, a little, the polynomial holds; farther away the nearest value does.
+  // Beside the mesh the polynomial holds slightly beyond a curved border; farther away the nearest value is used.
   double s = std::clamp(best.s, -most_beside, 1 + most_beside), t = std::clamp(best.t, -most_beside, 1 + most_beside);
   if (const double beyond = s + t - 1 - most_beside; corner_count(cell.kind) == 3 && beyond > 0)
     s -= beyond / 2, t -= beyond / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields on elements of second order: where a point lies in an element, and what the field is there.
+// Fields on elements of second order: location of points in an element, and interpolation there.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,22 @@
 
 namespace carreau {
 
-/// Elements of second order by the triangles that they are looked up with. References only.
+/// Elements of second order, each with the triangles that find it. References only.
 class CurvedElements {
  public:
   /// No elements.
   CurvedElements() = default;
-  /// Those of a face in its parameter plane, by its triangles. None where the face is straight.
+  /// Elements of a face in its parameter plane, by its triangles. Empty if the face is straight.
   CurvedElements(const SurfaceMesh& mesh, const FaceMesh& face);
-  /// Those of all faces in space, by their triangles, face by face.
+  /// Elements of all faces in space, by their triangles, face by face.
   explicit CurvedElements(const SurfaceMesh& mesh);
 
   [[nodiscard]] bool has(std::int32_t triangle) const noexcept {
     return static_cast<std::size_t>(triangle) < of_triangle_.size();
   }
-  /// The field at p by the shape functions of the element of `triangle`, or of one that shares a corner with it where p
-  /// lies in that one. `values`: of vertices, then of mid_vertices, `components` together; so `out`. Of elements in the
-  /// parameter plane p is (u, v, 0), or, `in_space`, a point of space.
+  /// The field at p by the shape functions of the element of `triangle`. If p lies in an element that shares a corner
+  /// with it, that element's shape functions are used. `values`: of vertices, then of mid_vertices, `components`
+  /// together; so `out`. For elements in the parameter plane, p is (u, v, 0); if `in_space`, p is a point of space.
   void interpolate(std::int32_t triangle, const Vec3& p, bool in_space, std::span<const double> values,
                    std::size_t components, double* out) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well elements of second order carry a field.
+// Interpolation errors of elements of second order.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ struct Place {
   double s, t;
 };
 
-/// Middles of edges and centres of the triangles of a reference that is cut in two along each side.
+/// Middles of edges and centres of the triangles of a reference; each side of the reference is halved.
 class Samples {
  public:
   explicit Samples(CellKind kind) {
@@ -32,7 +32,7 @@ class Samples {
       }
   }
   [[nodiscard]] const std::vector<std::array<Place, 3>>& triangles() const noexcept { return triangles_; }
-  /// Four of each triangle: the centre is the last.
+  /// Four places for each triangle: the centre is the last.
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return places_; }
 
  private:
@@ -47,7 +47,7 @@ class Samples {
   std::vector<Place> places_;
 };
 
-/// An element with what its nodes carry.
+/// An element with the values at its nodes.
 struct Loaded {
   Cell cell;
   std::array<Vec3, 8> x, value;
@@ -75,7 +75,7 @@ std::vector<Loaded> loaded_elements(const SurfaceMesh& mesh, std::span<const dou
   std::vector<Loaded> elements;
   for (const FaceMesh& face : mesh.faces)
     for (const Cell& cell : cells_of(mesh, face)) {
-      if (!is_quadratic(cell.kind)) throw InvalidArgument("a mesh has elements of first order beside those of second");
+      if (!is_quadratic(cell.kind)) throw InvalidArgument("a mesh has elements of first and second order");
       elements.emplace_back(mesh, values, cell);
     }
   if (elements.empty()) throw InvalidArgument("a field needs a mesh with one element at least");

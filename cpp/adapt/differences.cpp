@@ -58,7 +58,7 @@ std::vector<double> steps_of(const Refined& mesh) {
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
-      // Half edges: a quarter of the whole one. Shorter steps would be lost in rounding.
+      // Half edges: the step is a quarter of the whole edge. Shorter steps would be lost in rounding.
       const double step =
           std::max(0.5 * norm(mesh.vertices[b] - mesh.vertices[a]), largest_step * largest_step * diagonal);
       steps[a] = std::min(steps[a], step);
@@ -76,8 +76,8 @@ void require_same_function(std::span<const Vec3> points, const FieldFunction& ex
   LongChecksum sum;
   sum.add(some), sum.add(values);
   team.require_same<InvalidModel>("field", sum.text(), [](int rank) {
-    return "the field is another one on rank " + std::to_string(rank) +
-           " than on rank 0: its callback differs, or its parameters do";
+    return "the field differs on rank " + std::to_string(rank) +
+           " from rank 0: its callback differs, or its parameters do";
   });
 }
 
@@ -89,7 +89,7 @@ double length_along(const VertexPrescriptions& p, std::size_t vertex, const Vec3
 
 std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> points, std::span<const double> steps,
                                                      const FieldFunction& exact) {
-  // Rows of three times three points about each.
+  // Rows of 3 x 3 points about each point.
   std::vector<Vec3> stencil;
   stencil.reserve(9 * points.size());
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -20,19 +20,18 @@ using FieldFunction = std::function<void(std::span<const Vec3> points, std::span
 std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> points, std::span<const double> steps,
                                                      const FieldFunction& exact);
 
-/// Prescribes at each vertex of a mesh of the plane z = 0 by derivatives of the field itself: steps are 1e-4 of the
-/// mesh's diagonal, or a quarter of the shortest edge at the vertex where that is shorter. Where an edge is more than
-/// twice as long in the metric of its middle as in those of its ends, they do not see what is between them, and take
-/// the metric of the middle too (intersection). The crew shares the estimate; `exact` is asked from the calling thread for
-/// all points. Throws what estimate() throws.
+/// Prescribes at each vertex of a mesh of the plane z = 0 by derivatives of the field itself. Steps are 1e-4 of the mesh's diagonal, or a
+/// quarter of the shortest edge at the vertex if this is shorter. Each edge is measured in the metrics at its middle and at its ends. If
+/// the middle's length is more than twice the ends' length, the ends missed a front, and are intersected with the metric of the middle.
+/// Threads and processes share the estimate; the calling thread evaluates `exact` at all points. Throws the exceptions of estimate().
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
                                       const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew = {},
                                       Monitor* monitor = nullptr);
 
-/// The function whose values the processes of a team share: each asks its own for some of the points, and all get all. At
-/// some points each asks its own, too: InvalidModel names the rank whose values are others than those of rank 0. Without a
-/// team it is `exact` itself. References only. All processes call it together.
+/// Returns a function whose values the processes share: each evaluates its own `exact` at some of the points, and all receive all values.
+/// Each process also evaluates some compared points: InvalidModel names the rank if its values differ from the values of rank 0. For a
+/// single process it is `exact` itself. References only. All processes call it together.
 FieldFunction shared_function(const FieldFunction& exact, const Crew& crew, Monitor& monitor);
 
 }  // namespace carreau

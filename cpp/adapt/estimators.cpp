@@ -27,7 +27,7 @@ void check_options(const ScalarField& field, const EstimatorOptions& o) {
   if (!(o.ratio >= 1)) throw InvalidArgument("a ratio of sizes is at least 1; it is " + format_number(o.ratio));
   if (!(o.relative_floor > 0)) throw InvalidArgument("the floor of a relative error must be positive");
   if (o.source == ErrorSource::hessian && o.shape == ErrorShape::graph)
-    throw InvalidArgument("the Hessian says nothing about sizes in the tangent planes of the graph");
+    throw InvalidArgument("the Hessian gives no sizes in the tangent planes of the graph");
   if (o.source == ErrorSource::hessian) return;
   for (const Vec3& p : field.vertices)
     if (p.z() != 0) throw InvalidArgument("a graph is estimated over a mesh of the plane z = 0 only");
@@ -167,7 +167,7 @@ struct PlaneMetrics {
   std::vector<char> reliable;
 };
 
-/// Who makes rows by vertex.
+/// Distributes rows by vertex.
 struct Sharing {
   Sharing(const Crew& of, Monitor* told) : crew(of), monitor(told != nullptr ? *told : silent) {}
   Crew crew;
@@ -274,7 +274,7 @@ VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
     const ScalarField field{vertices, triangles, one};
     check_field(field);
     check_options(field, options);
-    derivatives = derivatives_of(field, options, sharing);  // frames are those of the mesh, whatever the field
+    derivatives = derivatives_of(field, options, sharing);  // frames do not depend on the field
     each.push_back(plane_metrics(field, derivatives, options, sharing));
   }
   return prescriptions_of(intersection_of(std::move(each), sharing), derivatives, options.shape);

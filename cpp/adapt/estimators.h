@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scalar field on a mesh to the sizes or metrics of a better mesh (HDR sec. 3.4.3).
+// Converts a scalar field on a mesh to the sizes or metrics of a better mesh (HDR sec. 3.4.3).
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace carreau {
 
-/// What the error is estimated from (HDR sec. 3.4.3 a.1, a.2, a.3).
+/// Source of the error estimate (HDR sec. 3.4.3 a.1, a.2, a.3).
 enum class ErrorSource : int {
   hessian = 0,      ///< interpolation error of the field: 2/9 M h^2 (eq. 3.3)
   curvature = 1,    ///< angle between edges and tangent planes of the graph z = field (a.2)
   deformation = 2,  ///< distance from the graph's tangent planes (a.3)
 };
 
-/// What is prescribed.
+/// Kind of prescription.
 enum class ErrorShape : int {
   isotropic = 0,    ///< a size: circles in the mesh's plane
   graph = 1,        ///< circles in the tangent planes of the graph, ellipses in the mesh's plane
   anisotropic = 2,  ///< by both principal values: ellipses in the mesh's plane and on the graph
 };
 
-/// How derivatives are found from values at vertices.
+/// Method that finds derivatives from values at vertices.
 enum class Recovery : int {
   fit = 0,         ///< quadratics through each vertex: recover_derivatives()
   projection = 1,  ///< the double L2 projection, of plane meshes: project_derivatives()
@@ -44,7 +44,7 @@ struct EstimatorOptions {
   Recovery recovery = Recovery::fit;
 };
 
-/// Sizes or metrics at the vertices of a mesh: the one that the shape asks for, the other is empty.
+/// Sizes or metrics at the vertices of a mesh: ErrorShape selects one of them, the other is empty.
 struct VertexPrescriptions {
   std::vector<double> sizes;
   /// In the direction normal to the mesh the size is the smaller of the two in its plane.
@@ -52,21 +52,21 @@ struct VertexPrescriptions {
   std::size_t unreliable = 0;  ///< vertices with too few neighbours for second derivatives; they have hmax
 };
 
-/// Prescribes at each vertex of field's mesh. Throws InvalidArgument unless 0 < hmin <= hmax, tolerance > 0 and
-/// ratio >= 1, and what check_field throws; for `curvature`, `deformation` and `graph` the mesh is in the plane z = 0.
-/// The same for any crew; `monitor` may be null.
+/// Prescribes at each vertex of field's mesh. Throws InvalidArgument unless 0 < hmin <= hmax, tolerance > 0 and ratio
+/// >= 1, and the exceptions of check_field. For `curvature`, `deformation` and `graph` the mesh is in the plane z = 0.
+/// The result does not depend on the crew; `monitor` may be null.
 VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Crew& crew = {},
                              Monitor* monitor = nullptr);
 
 /// For several fields on one mesh at once: the smallest of the sizes, or the intersection of the metrics in the mesh's
-/// plane (RR-2818 sec. 4.3.4). `values` holds vertex by vertex one value of each field. Tolerance and floor are those
-/// of each field by itself. Throws InvalidArgument when values are no multiple of `fields`, and as above.
+/// plane (RR-2818 sec. 4.3.4). `values` holds vertex by vertex one value of each field. Tolerance and floor apply to
+/// each field separately. Throws InvalidArgument when values are no multiple of `fields`, and as above.
 VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const std::array<std::int32_t, 3>> triangles,
                                  std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
                                  const Crew& crew = {}, Monitor* monitor = nullptr);
 
-/// The same from derivatives that are already known (an exact Hessian, project_derivatives()).
+/// Prescribes by derivatives that are already known (an exact Hessian, project_derivatives()).
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
                              const EstimatorOptions& options, const Crew& crew = {}, Monitor* monitor = nullptr);
 

@@ -38,7 +38,7 @@ VertexFrame frame_of(const Vec3& normal) {
   const double length = norm(normal);
   if (!(length > 0)) return {};
   VertexFrame f;
-  // Upwards, so that the frame of a mesh in the plane is (x, y) however its triangles turn.
+  // Upwards, so that the frame of a mesh in the plane is (x, y) for both orientations of its triangles.
   f.normal = (normal.z() < 0 ? -1 / length : 1 / length) * normal;
   // The axis that is least along the normal; in the plane (x, y) this gives the coordinates themselves.
   const Vec3 n = f.normal;
@@ -92,8 +92,8 @@ class Fitter {
   }
 
  private:
-  /// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes: stretched meshes are
-  /// fitted as well as others, and the fit turns with the mesh.
+  /// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes. So stretched meshes
+  /// are fitted as well as others, and the fit turns with the mesh.
   struct Whitening {
     Vec2 first, second;  // coordinates are the products with these
     [[nodiscard]] Vec2 of(const Vec2& d) const noexcept { return {dot(first, d), dot(second, d)}; }
@@ -181,7 +181,7 @@ std::vector<Vec2> projected_gradients(const ScalarField& field, const auto& valu
   return gradient;
 }
 
-/// A row of numbers: gradient, Hessian, whether it is reliable. Frames each process has.
+/// A row of numbers: gradient, Hessian, and a flag whether it is reliable. Each process has the frames.
 constexpr std::size_t row_width = 6;
 
 void put_row(const LocalDerivatives& d, double* row) {

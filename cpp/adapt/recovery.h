@@ -11,8 +11,8 @@
 
 namespace carreau {
 
-/// Plane in which derivatives at a vertex are meant: e1, e2 and the normal (of either sense) are orthonormal.
-/// On meshes of the plane z = 0 they are the axes x, y, z.
+/// Plane of the derivatives at a vertex: e1, e2 and the normal (of either sense) are orthonormal. On meshes of the
+/// plane z = 0 they are the axes x, y, z.
 struct VertexFrame {
   Vec3 e1{1, 0, 0}, e2{0, 1, 0}, normal{0, 0, 1};
   [[nodiscard]] Vec2 in_plane(const Vec3& d) const noexcept { return {dot(d, e1), dot(d, e2)}; }
@@ -26,17 +26,18 @@ struct LocalDerivatives {
   bool reliable = true;      ///< false: too few neighbours for a Hessian; it is zero
 };
 
-/// Quadratic polynomials through each vertex that fit its neighbours by least squares, the nearer the better; of two
-/// rings, or three, where one ring does not determine them (the boundary). Exact on quadratics. On smooth fields the
-/// error of the gradient is of order 2, that of the Hessian of order 1 (2 where neighbours lie symmetrically). The
-/// plane of a vertex is that of the mean of its triangles' normals weighted by area. The same for any crew. Throws what
-/// check_field throws, and Cancelled soon after `monitor`, which may be null, was asked to stop.
+/// Quadratic polynomials through each vertex that fit its neighbours by least squares, with larger weights for nearer
+/// ones. The neighbours are two rings, or three if two do not determine the polynomial (at the boundary). Exact on
+/// quadratics. On smooth fields the gradient has an error of order 2, the Hessian of order 1 (2 where neighbours lie
+/// symmetrically). The plane of a vertex is normal to the mean of its triangles' normals weighted by area. The result
+/// does not depend on the crew. Throws the exceptions of check_field, and Cancelled soon after a stop of `monitor`,
+/// which may be null.
 std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Crew& crew = {},
                                                   Monitor* monitor = nullptr);
 
 /// The integral of each triangle's gradient, averaged over the triangles of a vertex by area, twice: the double L2
 /// projection with lumped masses. Smoother than the fit; of order 1 on meshes that are nearly regular, biased on the
-/// boundary. Plane meshes only (the frame is that of (x, y)).
+/// boundary. Plane meshes only (the frame is (x, y)).
 std::vector<LocalDerivatives> project_derivatives(const ScalarField& field);
 
 }  // namespace carreau

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scalar field on a triangle mesh: what estimators and transfers start from.
+// A scalar field on a triangle mesh: the input of estimators and transfers.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their meaning, unit, reason and support.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace carreau::thresholds::adapt {
 
 // Recovery of derivatives
 /// Ratio of the smallest to the largest diagonal entry of the triangular factor, below which a fit is not determined.
-/// [Recovery.SaysWhereNeighboursAreTooFew]
+/// [Recovery.NamesThePlaceOfTooFewNeighbours]
 inline constexpr double least_pivot = 0.02;
 /// Rings of neighbours that a fit may take. [Recovery.IsExactOnQuadraticsUpToTheBorder]
 inline constexpr int most_rings = 3;
@@ -19,35 +19,35 @@ inline constexpr int most_rings = 3;
 // Functions of the host (differences)
 /// Share of the diagonal. Largest step of differences. [EstimateFunction.IsExactForQuadratics]
 inline constexpr double largest_step = 1e-4;
-/// Ratio. An edge so many times longer than what its ends see of the function is blind.
+/// Ratio. An edge is blind if the function makes it so many times longer at its middle than at its ends.
 /// [EstimateFunction.SeesBetweenVertices]
 inline constexpr double blind = 2;
 
 // Pieces of work that threads and processes share [time only]
-/// Rows at a time of `n`: at least so few that each of 64 takers has some, and so many that handing them out costs nothing.
+/// Rows at a time of `n`: few enough that each of 64 takers has some, and enough that handing them out costs nothing.
 inline constexpr std::size_t least_at_once = 256, most_at_once = 16384;
 inline constexpr std::size_t at_once(std::size_t n) noexcept { return std::clamp(n / 64, least_at_once, most_at_once); }
-/// Points of which one is asked of each process, so that functions that differ are found: 1.6 % more calls.
+/// One point of so many is evaluated by each process, so that different functions are found: 1.6 % more calls.
 inline constexpr std::size_t points_of_one_compared = 64;
 /// Vertices between two looks for a stop.
 inline constexpr std::size_t between_checkpoints = 256;
 
 // Transfer
-/// Ratio. What is linear in (u, v) is carried over exactly: the place in (u, v) counts while the triangles of the old
-/// mesh are not so many times as near elsewhere. The surface leaves them by an amount of second order, and so does
-/// this. [TransferField.IsOfSecondOrderAroundPoles]
+/// Ratio. Fields linear in (u, v) are carried over exactly: the place in (u, v) counts unless the old mesh has
+/// triangles so many times nearer elsewhere. The surface leaves them by an amount of second order, and so does this.
+/// [TransferField.IsOfSecondOrderAroundPoles]
 inline constexpr double as_near = 4;
-/// Share of coordinates. What is nearer is there. [TransferField.KeepsValuesAtVerticesThatStay]
+/// Share of coordinates. Nearer places count as equal. [TransferField.KeepsValuesAtVerticesThatStay]
 inline constexpr double place_rounding = 1e-14;
 /// Places in curved elements: steps of Newton's method at most, coordinates of the reference below which they end.
 /// [CurvedTransfer.IsExactForQuadraticsInAPlane]
 inline constexpr int most_newton_steps = 20;
 inline constexpr double newton_rounding = 1e-14;
-/// The same: a last step of more has not arrived. On surfaces steps shrink by a factor each, not quadratically.
-/// [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
+/// Coordinates: if the last step is larger, the method has not converged. On surfaces steps shrink by a factor each,
+/// not quadratically. [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
 inline constexpr double newton_arrived = 1e-3;
-/// Coordinates of the reference. So far beside its element the polynomial of a field is taken: the sagitta of a curved
-/// border, of which an edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
+/// Coordinates of the reference. Distance beside its element up to which a field's polynomial is taken: the sagitta of
+/// a curved border. An edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
 inline constexpr double most_beside = 0.2;
 
 }  // namespace carreau::thresholds::adapt

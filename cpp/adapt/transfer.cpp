@@ -30,12 +30,12 @@ using thresholds::size::outside_share;  // as for background meshes
 using Triangle = std::array<std::int32_t, 3>;
 
 /// From a triangle to the nearest one in space, step by step through triangles that share a vertex of the mesh, seams
-/// and poles included. What the steps do not reach, another sheet of the face, is not mixed up with it.
+/// and poles included. The steps do not reach another sheet of the face, so sheets are not mixed up.
 class Neighbourhood {
  public:
   /// Keeps references.
   Neighbourhood(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
-  /// The point where steps from triangle `start` end: none of the triangles around is nearer to p.
+  /// The point where steps from triangle `start` end: no triangle around is nearer to p.
   [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t start) const;
 
  private:
@@ -45,7 +45,7 @@ class Neighbourhood {
   [[nodiscard]] NearestOnMesh on(std::int32_t triangle, const Vec3& p) const;
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
-  std::vector<Corner> corners_;                    // vertex by vertex: a face has few of those of a mesh
+  std::vector<Corner> corners_;                    // vertex by vertex: a face has few of the mesh's vertices
   std::vector<std::array<std::int32_t, 3>> fans_;  // of each corner of a triangle the first one at its vertex
 };
 
@@ -130,7 +130,8 @@ std::unique_ptr<const Piece> piece_of(const SurfaceMesh& mesh, bool at_nodes) {
 /// Pieces that are being looked up in, made by the first thread that needs one.
 class Pieces {
  public:
-  /// make(i) is called once for a piece that is asked for, or again after one that has gone. `kept` are the most that are at hand at a time.
+  /// Calls make(i) once when piece i is first needed, and again if the piece has been discarded. `kept` are the most that are at hand at a
+  /// time.
   Pieces(std::function<std::unique_ptr<const Piece>(std::size_t)> make, std::size_t kept)
       : make_(std::move(make)), kept_(kept) {}
 
@@ -158,7 +159,7 @@ class Pieces {
   std::map<std::size_t, std::shared_ptr<Slot>> slots_;
 };
 
-/// A row of the new mesh: where it is looked up.
+/// A row of the new mesh, and the place at which it is looked up.
 struct Wanted {
   std::size_t row;
   Vec3 p;  // of the parameter plane or of space
@@ -193,7 +194,7 @@ class Transfer {
   }
 
  private:
-  // Each in the first face of both meshes that has it, or in space.
+  // Looks each row up in the first face of both meshes that has it, or in space.
   void list_rows() {
     const std::size_t all = at_nodes_ ? node_count(to_) : to_.vertices.size();
     std::vector<char> listed(all, 0);
@@ -204,7 +205,7 @@ class Transfer {
     std::map<int, const FaceMesh*> old_faces;
     for (const FaceMesh& face : from_.faces)
       if (!face.triangles.empty()) old_faces.emplace(face.ref, &face);
-    // Triangles of independent meshes may be none of (u, v): their vertices are looked up in space.
+    // Triangles of independent meshes may have no place in (u, v): their vertices are looked up in space.
     const bool by_faces = !from_.independent && !to_.independent;
     for (const FaceMesh& face : to_.faces) {
       const auto old = old_faces.find(face.ref);
@@ -227,7 +228,7 @@ class Transfer {
     return row < to_.vertices.size() ? to_.vertices[row] : to_.mid_vertices[row - to_.vertices.size()];
   }
 
-  /// Values, then the distance where the vertex is outside, and 0 where it is not.
+  /// Writes values, then the distance if the vertex is outside, else 0.
   void look_up_in(const Piece& piece, const Wanted& wanted, std::int32_t& guess, double* out) const {
     NearestOnMesh found = piece.tree.nearest(wanted.p, guess);
     guess = found.triangle;

@@ -31,7 +31,7 @@ class Annulus {
 
   [[nodiscard]] const Polygon& inner() const { return inner_; }
   [[nodiscard]] const Polygon& outer() const { return outer_; }
-  /// The outer border that was described in place of the given one; inside it.
+  /// The actual outer border, in place of the given one; inside it.
   [[nodiscard]] const Polygon& described_outer() const { return described_; }
   [[nodiscard]] const Pivots& pivots() const { return chosen_.pivots; }
   [[nodiscard]] PivotChoice pivot_choice() const { return chosen_.how; }
@@ -41,15 +41,15 @@ class Annulus {
   /// The point at (tau, phi), tau from 0 to 1, any phi.
   template <typename Number>
   [[nodiscard]] Pair<Number> at(const Number& tau, const Number& phi) const;
-  /// The parameters of a point, phi from that of the first pivot's joint on, over one period. Empty outside of the
+  /// The parameters of a point; phi starts at the joint of the first pivot and covers one period. Empty outside of the
   /// annulus.
   template <typename Number>
   [[nodiscard]] std::optional<Strata<Number>> find(const Pair<Number>& p) const;
-  /// Is p inside of the annulus' inner border, which is the smooth one (Atlas sec. 5.5.2.2)?
+  /// Returns whether p is inside of the annulus' inner border, which is the smooth one (Atlas sec. 5.5.2.2).
   [[nodiscard]] bool encloses(const Vec2& p) const;
 
  private:
-  /// The part that holds p, or none: parts.size().
+  /// The part that holds p; parts.size() if no part does.
   [[nodiscard]] std::size_t part_around(const Vec2& p) const;
 
   Polygon inner_, outer_, described_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pivots: one, those of the pseudo-skeleton with mends, or those beside each vertex.
+// Choice of pivots: one, the repaired pivots of the pseudo-skeleton, or pivots beside each vertex.
 #include <algorithm>
 
 #include "atlas/pivots.h"
@@ -33,7 +33,7 @@ bool drop_crossing(Pivots& pivots) {
   return false;
 }
 
-/// Outer pivots that are wrong, or whose neighbours are, slide towards the loop (Atlas fig. 5.9).
+/// Outer pivots that are wrong, or have wrong neighbours, slide towards the loop (Atlas fig. 5.9).
 void slide(Pivots& pivots, const std::vector<char>& wrong) {
   const std::size_t n = pivots.size();
   for (std::size_t k = 1; k < n; k += 2)

@@ -6,14 +6,14 @@
 
 namespace carreau::atlas {
 
-/// Position and slope at both ends of [x1, x2]. Slopes may depend on a parameter, and are then jets.
+/// Values and slopes at both ends of [x1, x2]. Slopes may depend on a parameter, and are then jets.
 template <typename Number>
 struct HermiteData {
   double x1, x2, y1, y2;
   Number slope1, slope2;
 
   [[nodiscard]] double middle() const { return (x1 + x2) / 2; }
-  /// Where both parabolas meet (Atlas, app. C.2).
+  /// Value where both parabolas meet (Atlas, app. C.2).
   [[nodiscard]] Number middle_value() const { return (y1 + y2) / 2 + (slope1 - slope2) * ((x2 - x1) / 8); }
   [[nodiscard]] Number first_coefficient() const {
     const double d = x2 - x1;

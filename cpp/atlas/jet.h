@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that carry their derivatives to order two by two parameters, so that one formula gives all of them exactly.
+// Numbers with derivatives to order two by two parameters: one formula gives value and derivatives exactly.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ inline Jet atan2(const Jet& y, const Jet& x) {
   return r;
 }
 
-/// The same to order one, for a third of the work; what both have is the same to the last bit.
+/// A number with derivatives to order one, for a third of the work; value and first derivatives are identical to Jet's.
 struct Slope {
   double f = 0, u = 0, v = 0;
 

@@ -26,10 +26,10 @@ class Loop {
   struct Place {
     Vec2 point{0, 0}, derivative{0, 0};
   };
-  /// Point and derivative by phi; at vertices that of the edge behind.
+  /// Point and derivative by phi; a vertex has the derivative of the edge behind it.
   [[nodiscard]] Place at(double phi) const;
-  /// phi, from 0 to 2 pi, of the point of the loop that p is seen at from its pivot; the nearest when there are
-  /// several. Throws InvalidArgument when p is further from the loop than `tolerance`.
+  /// phi, from 0 to 2 pi, of the point of the loop on the ray from p's pivot through p; of several points the nearest.
+  /// Throws InvalidArgument when p is further from the loop than `tolerance`.
   [[nodiscard]] double phi_of(const Vec2& p, double tolerance) const;
 
  private:

@@ -16,7 +16,7 @@ struct Beside {
 
 Vec2 unit(const Vec2& v) { return v / norm(v); }
 
-/// Unit vector that halves the angle below pi at a vertex. Of the two formulas the one without cancellation.
+/// Unit vector that halves the angle below pi at a vertex. Uses the formula without cancellation.
 Vec2 bisector(const Vec2& before, const Vec2& at, const Vec2& after, int side) {
   const Vec2 in = unit(at - before), out = unit(after - at);
   const Vec2 along = in + out, across = out - in;

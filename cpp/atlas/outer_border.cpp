@@ -10,7 +10,7 @@
 namespace carreau::atlas {
 namespace {
 
-/// What rays end at.
+/// A segment that stops rays.
 struct Obstacle {
   Vec2 a, b;
   double kept;  ///< the share of the way to it that the annulus may use
@@ -29,7 +29,7 @@ std::vector<Obstacle> obstacles_of(const Polygon& inner, const Polygon& outer, s
   return obstacles;
 }
 
-/// The view of one pivot on what lies beyond the inner border; of a pivot outside, on what lies before it.
+/// The view of one pivot beyond the inner border; a pivot outside looks at the near side of it.
 class View {
  public:
   View(const Part& part, std::span<const Obstacle> obstacles) : part_(part), obstacles_(obstacles) {}
@@ -44,7 +44,7 @@ class View {
       const double at_from = radius(sight, from), at_to = radius(sight, to);
       const double nearest = nearer(before, at_from);
       result.angle.push_back(from), result.radius.push_back(nearest);
-      // Where the view jumps, the border goes to the far side within a small part of the interval.
+      // If the view jumps, the border goes to the far side within a small part of the interval.
       constexpr double jump = 1.2, small_part = 0.1;
       const double after = k + 2 < knots.size() ? radius(look((to + knots[k + 2]) / 2), to) : at_to;
       const auto jumps = [&](double r, double limit) { return part_.side > 0 ? r > jump * limit : r * jump < limit; };
@@ -60,7 +60,7 @@ class View {
   }
 
  private:
-  /// What a ray meets: a line, or nothing.
+  /// The line that a ray meets, or nothing.
   struct Sight {
     const Obstacle* obstacle = nullptr;
     double radius = 0;
@@ -70,7 +70,7 @@ class View {
   [[nodiscard]] double nearer(double a, double b) const { return part_.side > 0 ? std::min(a, b) : std::max(a, b); }
   [[nodiscard]] double inner(double at) const { return radius_on(part_.line[interval_of(part_.angle, at)], at); }
 
-  /// The first obstacle behind the inner border, as seen from it.
+  /// The first obstacle behind the inner border, as seen from the pivot.
   [[nodiscard]] Sight look(double at) const {
     const Pair<double> d = part_.direction(at);
     const Vec2 u(d[0], d[1]);
@@ -89,7 +89,7 @@ class View {
     return best;
   }
 
-  /// Of the outer border in a direction beside the one of the sight.
+  /// Radius of the outer border in a direction near the direction of the sight.
   [[nodiscard]] double radius(const Sight& sight, double at) const {
     const double rho = inner(at);
     const double least = part_.side > 0 ? 0 : thresholds::nearest_to_pivot * rho;
@@ -99,7 +99,7 @@ class View {
     return std::max(least, rho + sight.obstacle->kept * (r - rho));
   }
 
-  /// Angles between which one obstacle is seen and the inner border is straight.
+  /// Angles between which one obstacle is visible and the inner border is straight.
   [[nodiscard]] std::vector<double> directions() const {
     std::vector<double> list = part_.angle;
     for (const Obstacle& o : obstacles_) {
@@ -179,7 +179,7 @@ class Border {
         pieces_[n].radius[k] = inner(n, k) + parts_[n].side * rooms_[n][k];
   }
 
-  /// Less room at the ends of edges that meet others.
+  /// Leaves less room at the ends of edges that meet others.
   bool shrink_crossings() {
     struct Edge {
       Vec2 a, b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outer border of an annulus as pivots see it: changed where it must be (Atlas sec. 5.3.2.3).
+// The outer border of an annulus in the view of the pivots, changed where necessary (Atlas sec. 5.3.2.3).
 #pragma once
 
 #include <span>
@@ -8,15 +8,15 @@
 
 namespace carreau::atlas {
 
-/// Of one part: an outer border of straight pieces between ascending angles. The border lies inside the given annulus.
+/// An outer border of one part: straight pieces between ascending angles. The border lies inside the given annulus.
 struct OuterPieces {
   std::vector<double> angle;   ///< with all knots of the part
   std::vector<double> radius;  ///< of the outer border there
   [[nodiscard]] Vec2 line(std::size_t k) const;
 };
 
-/// Pieces for all parts, which agree at joints, and together are a simple polygon. Throws DomainError where they cannot
-/// be.
+/// Pieces for all parts. They agree at joints, and together are a simple polygon. Throws DomainError where this is
+/// impossible.
 std::vector<OuterPieces> outer_pieces(const Polygon& inner, const Polygon& outer, std::span<const Part> parts);
 
 /// A point of a part.

@@ -6,7 +6,7 @@
 namespace carreau::atlas {
 namespace {
 
-/// A joint: where the segment from pivot k to the next crosses the loop.
+/// A joint: the crossing of the loop with the segment from pivot k to the next.
 struct Joint {
   std::size_t edge = 0;
   double share = 0;  ///< along the edge

@@ -20,8 +20,8 @@ struct Rounding {
   double radius = 0;
 };
 
-/// What one pivot describes. Angles are 0 at the first joint and increase along the loop, whatever the side of the
-/// pivot: this is the vartheta of Atlas sec. 5.2.3.2 but for a constant. Straight lines are g with 1 / rho = g . (cos,
+/// The part of a loop that one pivot describes. Angles are 0 at the first joint and increase along the loop, for pivots
+/// on both sides: the vartheta of Atlas sec. 5.2.3.2 up to a constant. Straight lines are g with 1 / rho = g . (cos,
 /// sin): d and o of Atlas eq. 5.8 without their singularities.
 struct Part {
   Vec2 pivot{0, 0};
@@ -52,7 +52,7 @@ struct Part {
   [[nodiscard]] HermiteData<Number> angle_data(std::size_t k, const Number& tau) const;
 };
 
-/// Index of the interval of ascending knots that holds x; the first or last one outside.
+/// Index of the interval of ascending knots that holds x; outside, the first or last interval.
 inline std::size_t interval_of(std::span<const double> knots, double x) {
   const auto inside = knots.subspan(1, knots.size() - 2);
   return static_cast<std::size_t>(std::upper_bound(inside.begin(), inside.end(), x) - inside.begin());
@@ -85,7 +85,7 @@ Pair<Number> Part::polar(const Pair<Number>& p) const {
   using std::atan2, std::sqrt;
   const Number dx = p[0] - pivot.x(), dy = p[1] - pivot.y();
   Number at = atan2(side * (start.x() * dy - start.y() * dx), start.x() * dx + start.y() * dy);
-  // Half of what the part leaves of the circle belongs to each of its ends.
+  // The part leaves a remainder of the circle: half of it belongs to each end.
   if (value_of(at) < total() / 2 - std::numbers::pi) at = at + 2 * std::numbers::pi;
   return {at, sqrt(dx * dx + dy * dy)};
 }

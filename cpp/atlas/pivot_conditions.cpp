@@ -11,7 +11,7 @@
 namespace carreau::atlas {
 namespace {
 
-/// Is the edge from a to b, relative to the pivot, seen under an angle, and not along itself?
+/// Returns whether the edge from a to b, relative to the pivot, is visible under an angle, and not along itself.
 bool well_seen(const Vec2& a, const Vec2& b, const Vec2& edge) {
   const double twice_area = std::abs(cross(a, edge));
   return std::abs(std::atan2(cross(a, b), dot(a, b))) > thresholds::least_angle &&
@@ -50,7 +50,7 @@ class Conditions {
     if (met != 1 || pivots_.crossed[k] == m_) wrong_[k] = wrong_[(k + 1) % n_] = 1, pivots_.crossed[k] = m_;
   }
 
-  /// The part of the loop that pivot k sees; how many edges it goes on.
+  /// Checks the part of the loop that pivot k sees; returns the number of its edges.
   std::size_t check_part(std::size_t k) {
     const std::size_t from = pivots_.crossed[(k + n_ - 1) % n_], to = pivots_.crossed[k];
     if (from == m_ || to == m_) return 0;
@@ -116,7 +116,7 @@ StarCentre star_centre(const Polygon& loop) {
     const Vec2 a = loop[i] - loop[0], b = loop[next_of(i, loop.size())] - loop[0];
     area += cross(a, b) / 2, centroid += (a + b) * (cross(a, b) / 6), reach = std::max(reach, norm(a));
   }
-  // The point that is furthest from the lines of all edges: steps away from the nearest line, ever smaller.
+  // Searches the point that is farthest from the lines of all edges: steps away from the nearest line, ever smaller.
   StarCentre best;
   double furthest = 0, step = reach / 4;
   Vec2 place = loop[0] + centroid / area;

@@ -25,7 +25,7 @@ std::string rank(std::size_t i) { return std::to_string(i + 1); }
   throw DomainError(Where{.uv = where}, name + rest);
 }
 
-/// Squares and products of coordinates must still be numbers.
+/// Squares and products of coordinates must not overflow.
 constexpr double largest_coordinate = 1e100;
 
 void require_edges(const Polygon& p, const std::string& name) {
@@ -87,7 +87,7 @@ void require_simple(const Polygon& polygon, const std::string& name) {
     for (std::size_t j = i + 2; j < n; ++j)
       if (next_of(j, n) != i && segments_meet(polygon[i], polygon[i + 1], polygon[j], polygon[next_of(j, n)]))
         fail(name,
-             " crosses or touches itself: its edge from vertex " + rank(i) + " meets the one from vertex " + rank(j),
+             " crosses or touches itself: its edge from vertex " + rank(i) + " meets the edge from vertex " + rank(j),
              polygon[i]);
   if (signed_area(polygon) <= 0)
     throw DomainError(name + " runs clockwise; vertex 1 and those after it must run counterclockwise");

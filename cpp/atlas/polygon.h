@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simple polygons: what a loop of the plane is given as. All decisions are exact.
+// Simple polygons: the representation of a loop of the plane. All decisions are exact.
 #pragma once
 
 #include <string>
@@ -12,21 +12,21 @@ namespace carreau::atlas {
 /// Vertices in counterclockwise order, the first one not repeated.
 using Polygon = std::vector<Vec2>;
 
-/// Throws DomainError with the vertices, from 1, where a polygon is not simple, or not counterclockwise. `name` is for
-/// the sentence: "the inner border".
+/// Throws DomainError with the vertices, from 1, if a polygon is not simple, or not counterclockwise. `name` is for the
+/// sentence: "the inner border".
 void require_simple(const Polygon& polygon, const std::string& name);
 /// Throws DomainError unless the inner polygon lies inside the outer one without touching it.
 void require_annulus(const Polygon& inner, const Polygon& outer);
 
-/// Do the closed segments ab and cd have a common point?
+/// Returns whether the closed segments ab and cd have a common point.
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
-/// Do they cross at one point that is no end of either?
+/// Returns whether they cross at one point that is no end of either.
 bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
 
 /// Is p strictly inside?
 bool is_inside(const Polygon& polygon, const Vec2& p) noexcept;
 
-/// Where two segments that cross do so, as a share of ab.
+/// The crossing of two segments that cross, as a share of ab.
 double crossing_share(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
 
 /// Index after i, and before it, in a cycle of n.

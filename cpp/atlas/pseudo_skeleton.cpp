@@ -51,12 +51,12 @@ std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
                        : no_ear;
       if (score[k] != no_ear && (best == n || score[k] > score[best])) best = k;
     }
-    if (best == n) break;  // what is left has no area
+    if (best == n) break;  // the remaining polygon has no area
     triangles.push_back({left[previous_of(best, n)], left[best], left[next_of(best, n)]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
     score.erase(score.begin() + static_cast<std::ptrdiff_t>(best));
     if (left.size() < 3) break;
-    // What was no ear may have become one: a vertex less may lie in it.
+    // A vertex that was no ear may have become one: its triangle may contain one vertex less.
     for (double& s : score)
       if (s == no_ear) s = unknown;
     score[best % score.size()] = score[previous_of(best % score.size(), score.size())] = unknown;

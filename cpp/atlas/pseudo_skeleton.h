@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pseudo-skeleton of a polygon: a wall inside it, and where pivots of the inside may stand (Atlas sec. 5.2.2.2).
+// The pseudo-skeleton of a polygon: a wall inside it, and places of inner pivots (Atlas sec. 5.2.2.2).
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 namespace carreau::atlas {
 
 /// Triangles without new points, corners counterclockwise, indices of vertices. The ear whose smallest angle is largest
-/// is cut first, so that ears are no slivers where they need not be. Polygons are simple (require_simple).
+/// is cut first, which avoids slivers if possible. Polygons are simple (require_simple).
 std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon);
 
 struct PseudoSkeleton {
   std::vector<std::array<std::size_t, 3>> triangles;
   std::vector<std::pair<Vec2, Vec2>> edges;
-  /// Of each edge of the polygon, the place that faces it: the barycentre of its ear, else the middle of the skeleton's
-  /// edge that is parallel to it.
+  /// For each edge of the polygon, the place that faces it: the barycentre of its ear. Without an ear, the middle of
+  /// the skeleton's edge that is parallel to it.
   std::vector<Vec2> facing;
   std::vector<std::size_t> ears;  ///< their tips, ascending
 };

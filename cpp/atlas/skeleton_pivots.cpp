@@ -19,7 +19,7 @@ struct Inner {
   std::size_t first = 0, last = 0;
 };
 
-/// What lies between an inner pivot and the next one: edges of the loop, all of whose turns are to one side.
+/// The edges of the loop between an inner pivot and the next one: all their turns are to one side.
 struct Walk {
   std::size_t from = 0, edges = 0;  ///< the first edge, and how many more
   bool right = false;
@@ -46,14 +46,14 @@ class SkeletonPivots {
 
  private:
   [[nodiscard]] const Vec2& vertex(std::size_t v) const { return loop_[v % m_]; }
-  /// Of the vertex between edge e and the next: +1 to the left.
+  /// The turn at the vertex between edge e and the next edge: +1 to the left.
   [[nodiscard]] int turn(std::size_t e) const { return orientation(vertex(e), vertex(e + 1), vertex(e + 2)); }
   [[nodiscard]] double turn_angle(std::size_t e) const {
     const Vec2 a = vertex(e + 1) - vertex(e), b = vertex(e + 2) - vertex(e + 1);
     return std::atan2(cross(a, b), dot(a, b));
   }
 
-  /// Half the length of the walk, from the middle of its first edge to that of its last.
+  /// The point half-way along the walk from the middle of its first edge to the middle of its last edge.
   [[nodiscard]] Vec2 middle(const Walk& w) const {
     const auto length = [&](std::size_t e) { return norm(vertex(e + 1) - vertex(e)); };
     double whole = 0;
@@ -106,7 +106,8 @@ class SkeletonPivots {
     return w;
   }
 
-  /// The nearest crossing of a ray with a border, as a multiple of the direction, beyond `least`; infinity: none.
+  /// The nearest crossing of a ray with a border, as a multiple of the direction, beyond `least`; infinity without
+  /// crossing.
   [[nodiscard]] static double nearest(const Polygon& border, const Vec2& from, const Vec2& direction, double least) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < border.size(); ++i) {

@@ -56,7 +56,7 @@ OuterPieces divided_where_steep(const Part& part, const OuterPieces& given) {
   return result;
 }
 
-/// One part: its polygonal borders, from which bounds follow.
+/// One part: its polygonal borders, from which bounds are computed.
 class PartBorders {
  public:
   PartBorders(Part& part, const OuterPieces& pieces) : part_(part), pieces_(pieces) {}
@@ -93,7 +93,7 @@ class PartBorders {
 
  private:
   [[nodiscard]] double outer(std::size_t k, double at) const { return radius_on(pieces_.line(k), at); }
-  /// The inner border on piece k, which no vertex divides.
+  /// The inner border on piece k, which contains no vertex inside.
   [[nodiscard]] double straight(double at, std::size_t k) const {
     const double middle = (pieces_.angle[k] + pieces_.angle[k + 1]) / 2;
     return radius_on(part_.line[interval_of(part_.angle, middle)], at);
@@ -116,7 +116,7 @@ class PartBorders {
     return r;
   }
 
-  /// Of the width that the polygons have around a vertex, half must be left.
+  /// Half of the width between the polygons must remain around a vertex.
   [[nodiscard]] bool leaves_room(const Rounding& r) const {
     double polygonal = part_.side > 0 ? std::numeric_limits<double>::infinity() : 0, rounded = polygonal;
     for (std::size_t k = 0; k + 1 < pieces_.angle.size(); ++k) {
@@ -144,7 +144,7 @@ void agree_at_joints(std::vector<Part>& parts) {
   }
 }
 
-/// Widths beside one another differ by no more than the steepest slope allows: less room where they do.
+/// Widths beside one another may differ by at most the steepest slope: otherwise the room is reduced.
 bool level(Part& part) {
   bool any = false;
   const auto lower = [&](std::size_t k, std::size_t beside) {
@@ -158,7 +158,7 @@ bool level(Part& part) {
   return any;
 }
 
-/// Lowering at joints goes round, at most once.
+/// Lowering at joints goes round at most once.
 void limit_slopes(std::vector<Part>& parts) {
   agree_at_joints(parts);
   for (std::size_t round = 0; round <= parts.size(); ++round) {

@@ -9,14 +9,14 @@
 
 namespace carreau::atlas {
 
-/// What is laid over the outer border, as a multiple of the inner one.
+/// Function over the outer border, as a multiple of the inner one.
 enum class OuterBorder {
   polygon,  ///< the straight pieces themselves; the annulus is C0 only
   spline,   ///< a cubic between two knots
   cubic     ///< one cubic a pivot: simpler, covers less
 };
 
-/// Rounds vertices of the inner border and lays the outer one, so that both stay between `pieces` and the polygon
+/// Rounds vertices of the inner border and constructs the outer one, so that both stay between `pieces` and the polygon
 /// inside.
 void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, OuterBorder kind);
 

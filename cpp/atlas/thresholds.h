@@ -8,25 +8,25 @@ namespace carreau::atlas::thresholds {
 /// sec. 5.4.2). It is halved where the arc would leave the annulus.
 inline constexpr double rounded_share = 1.0 / 3;
 
-/// The smooth outer border keeps this share of the room that the polygonal one leaves, so that rounding does not put it
-/// outside; one thousandth is far above the rounding errors, and cannot be seen.
+/// The smooth outer border keeps this share of the room of the polygonal border, so that rounding does not put it
+/// outside. One thousandth is far above the rounding errors, and invisible.
 inline constexpr double used_room = 0.999;
 
-/// An outer border comes no nearer to a pivot outside than this share of the inner border's distance: an angle must
-/// keep its meaning there, and derivatives grow as its inverse.
+/// An outer border comes no nearer to a pivot outside than this share of the inner border's distance. Otherwise angles
+/// lose their meaning there, and derivatives grow as the inverse of the distance.
 inline constexpr double nearest_to_pivot = 0.15;
 
-/// Where a ray meets the inner border again, or the polyline of pivots, the annulus keeps this share of the way: the
-/// other side has as much.
+/// If a ray meets the inner border again, or the polyline of pivots, the annulus keeps this share of the way. The other
+/// side keeps an equal share.
 inline constexpr double shared_gap = 0.45;
 
 /// Pivots outside slide this share of the way towards the loop where a condition fails, so many times; then other
-/// pivots are taken. Of random polygons hardly one needs more than six.
+/// pivots are taken. Hardly any random polygon needs more than six.
 inline constexpr double slide = 0.6;
 inline constexpr int slides = 12;
 
-/// Pivots near the loop come nearer by this factor where a condition fails. Two to the minus forty is below any width
-/// that doubles of one size can have in a polygon which is simple for practical purposes.
+/// Pivots near the loop move nearer by this factor if a condition fails. Two to the minus forty is below any width that
+/// doubles of one size can have in a polygon which is simple for practical purposes.
 inline constexpr double nearer = 0.5;
 inline constexpr int nearer_rounds = 40;
 
@@ -42,8 +42,8 @@ inline constexpr double on_border = 1e-9;
 /// leaves no angle; at 1e-6 angles keep nine digits.
 inline constexpr double least_angle = 1e-6;
 
-/// Sine of the angle between an edge and the ray to it: below, distances along the ray say little. Pivots that are
-/// barycentres of slivers are refused so.
+/// Sine of the angle between an edge and the ray to it: below, distances along the ray are too inaccurate. This rejects
+/// pivots that are barycentres of slivers.
 inline constexpr double least_slope = 1e-5;
 
 /// Radians: knots of the outer border that are nearer to one another are one.
@@ -54,8 +54,9 @@ inline constexpr double same_angle = 1e-9;
 inline constexpr double change_of_width = 0.2;
 inline constexpr int divisions = 8;
 
-/// Change of b by radian: above, it is a step in which charts of an atlas fold. Two thirds of the folds of joint.off
-/// are gone with 2; 1 covers no more than .63 of random annuli in place of .64, 0.09 of the worst in place of .13.
+/// Change of b by radian: above, it is a step in which charts of an atlas fold. The value 2 removes two thirds of the
+/// folds of joint.off. The value 1 covers at most .63 of random annuli in place of .64, and .09 of the worst in place
+/// of .13.
 inline constexpr double steepest_ratio = 2;
 
 }  // namespace carreau::atlas::thresholds

@@ -17,7 +17,7 @@ namespace carreau {
 inline constexpr std::size_t points_at_once = 512;
 
 /// Evaluates points of the face of reference `face` and calls use(first, uv, jets) for each batch, in order: `first` is
-/// the rank of its first point. Looks for a stop before each batch. Throws what the host throws, and Cancelled.
+/// the rank of its first point. Looks for a stop before each batch. Throws the host's exceptions, and Cancelled.
 template <typename Use>
 void for_batches(Cad& cad, int face, unsigned want, std::span<const Vec2> uv, Monitor& monitor, const Use& use) {
   std::vector<SurfaceJet> jets(std::min(points_at_once, uv.size()));
@@ -29,8 +29,8 @@ void for_batches(Cad& cad, int face, unsigned want, std::span<const Vec2> uv, Mo
   });
 }
 
-/// The same on up to `threads` threads, which may ask the host: batches come in any order, several at a time. What is
-/// thrown is that of the first batch that throws.
+/// Evaluates on up to `threads` threads, which may call the host: batches come in any order, several at a time. Throws
+/// the exception of the first batch that fails.
 template <typename Use>
 void for_batches(Cad& cad, int face, unsigned want, std::span<const Vec2> uv, int threads, Monitor& monitor,
                  const Use& use) {

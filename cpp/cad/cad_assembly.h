@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Geometries side by side, each with references of its own, as one.
+// Geometries side by side as one, each with its own references.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace carreau {
 
-/// Faces and points of part k are asked of it, by the references that it knows: those of the assembly less
-/// first_face - 1 and first_point - 1. All others are the host's. Errors of a part tell references of the assembly.
-/// Re-entrant when all parts are; gives what all parts give.
+/// Forwards calls about faces and points of part k to it, by its own references. They are the references of the
+/// assembly less first_face - 1 and first_point - 1. All others are the host's. Errors of a part name references of the
+/// assembly. Re-entrant when all parts are; gives the orders that all parts give.
 class CadAssembly final : public Cad {
  public:
   struct Part {
@@ -38,7 +38,7 @@ class CadAssembly final : public Cad {
  private:
   [[nodiscard]] const Part* part_of_face(int face) const noexcept;
   [[nodiscard]] Cad& host_of(int face) const;
-  /// ask(cad, face) of the part that has the face.
+  /// Calls ask(cad, face) with the part that has the face.
   template <typename Ask>
   auto of_face(int face, Ask&& ask);
   template <typename Visit>

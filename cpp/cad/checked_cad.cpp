@@ -41,7 +41,7 @@ bool is_usable(const SurfaceJet& jet, unsigned want) {
          ((want & want_second) == 0 || (is_usable(jet.suu) && is_usable(jet.suv) && is_usable(jet.svv)));
 }
 
-/// A size that a host gives; what means no answer has been sorted out.
+/// Checks a size of a host; values that mean no answer have been sorted out.
 void check_size(double h, const Where& where, const char* routine) {
   check_number(h, where, routine);
   if (!(h > 0))

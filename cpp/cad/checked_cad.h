@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host's geometry that can be trusted: every value is looked at before the engine sees it.
+// A host's geometry with verified values: every value is checked before the engine uses it.
 #pragma once
 
 #include "cad/call_counter.h"
 
 namespace carreau {
 
-/// Passes calls on and checks what comes back: positions, derivatives and sizes must be finite, radii may be infinite
-/// but not NaN, intervals must be finite with a < b. What is wrong is a CallbackError that names face, curve, (u, v)
-/// or t and the routine. Keeps a reference to `host`.
+/// Forwards calls and checks the results. Positions, derivatives and sizes must be finite; radii may be infinite but
+/// not NaN; intervals must be finite with a < b. Throws a CallbackError that names face, curve, (u, v) or t and the
+/// routine. Keeps a reference to `host`.
 class CheckedCad : public Cad {
  public:
   explicit CheckedCad(Cad& host) : host_(host), before_(host.counts()) {}
@@ -22,8 +22,8 @@ class CheckedCad : public Cad {
   std::optional<double> surface_radius(int face, Vec2 uv) override;
   std::optional<double> curve_radius(int face, int ic, double t) override;
   [[nodiscard]] bool reentrant() const noexcept override { return host_.reentrant(); }
-  /// Calls through this object: by the host's own count when it keeps one (finite differences included), else one call
-  /// for each routine wanted and point.
+  /// Calls through this object: the host's own count when it keeps one (finite differences included), else one call for
+  /// each requested routine and point.
   [[nodiscard]] CallCounts counts() const noexcept override;
   [[nodiscard]] unsigned surface_gives() const noexcept override { return host_.surface_gives(); }
   [[nodiscard]] unsigned curve_gives() const noexcept override { return host_.curve_gives(); }

@@ -17,14 +17,14 @@ namespace {
 
 // Steps, as shares of the parameter's range: the first one decides for a sound derivative.
 constexpr double coarse = 1e-3, fine = 1e-4;
-// Relative; hosts that approximate their derivatives are not wrong, a factor, a sign or a term that is missing is.
+// Relative. Hosts that approximate their derivatives are not wrong; a missing factor, sign or term is.
 constexpr double tolerance = 0.01;
 // Derivatives below this share of extent / range are zero.
 constexpr double negligible = 1e-3;
-// How far from a suspicious point the second opinion is sought; not along a parameter line or a diagonal.
+// Offset of the second check from a suspicious point; not along a parameter line or a diagonal.
 const Vec2 nearby{0.0131, 0.0073};
 
-/// Values along one parameter: up to two functions, each asked once at each offset.
+/// Values along one parameter: up to two functions, each evaluated once at each offset.
 class Line {
  public:
   using Values = std::array<Vec3, 2>;
@@ -42,10 +42,10 @@ class Line {
 struct Claim {
   const char* name;
   Vec3 given;
-  std::size_t slot;  // of Line::Values: what `given` is the derivative of
+  std::size_t slot;  // of Line::Values: the function whose derivative is `given`
 };
 
-/// What finite differences say when the claim is wrong; empty when it is right or nothing can be said.
+/// Returns the finite difference if it contradicts the claim; empty if the claim is right or cannot be decided.
 /// `scale`: the size that a derivative of this order has when it matters.
 std::optional<Vec3> contradiction(const Claim& claim, Line& line, double range, double scale) {
   const auto value = [&](double offset) { return line.at(offset)[claim.slot]; };
@@ -53,13 +53,13 @@ std::optional<Vec3> contradiction(const Claim& claim, Line& line, double range, 
   const Vec3 first = central(coarse * range);
   const auto off = [&](Vec3 difference, double uncertainty) {
     const double size = std::max({norm(claim.given), norm(difference), negligible * scale});
-    // Written so that what is not finite is not off.
+    // The comparison is written so that infinite and NaN values are not off.
     return norm(claim.given - difference) > std::max(tolerance * size, uncertainty);
   };
   if (!off(first, 0)) return {};
   const double h = fine * range;
   const Vec3 second = central(h);
-  // The differences converge to each other at least, or they say nothing.
+  // The differences must converge to each other; otherwise they decide nothing.
   const double uncertainty = 5 * norm(first - second);
   if (!off(second, uncertainty)) return {};
   const Vec3 here = value(0);
@@ -73,7 +73,7 @@ double shown(double value, double size) {
   return std::round(value * unit) / unit;
 }
 
-// `components`: 3 in space, 2 in the parameter plane. Six digits are enough of a finite difference.
+// `components`: 3 in space, 2 in the parameter plane. Six digits of a finite difference are enough.
 std::string text(const Vec3& v, int components, bool rounded) {
   const double size = norm(v);
   const auto number = [&](double x) { return format_number(rounded ? shown(x, size) : x); };
@@ -85,7 +85,7 @@ WrongDerivative wrong_at(const Where& where, const char* routine, const Claim& c
                      ", but finite differences give " + text(found, components, true)};
 }
 
-/// A claim and what it is judged by.
+/// A claim and the criteria for it.
 struct Test {
   Claim claim;
   Line& line;
@@ -139,7 +139,7 @@ std::optional<WrongDerivative> test_curve(Cad& cad, int face, int ic, double t, 
   return first_contradiction(tests, where, "curv2", 2);
 }
 
-/// A host may fail at a single point: nothing can be said there.
+/// A host may fail at a single point: the claim is not decided there.
 std::optional<WrongDerivative> where_defined(const std::function<std::optional<WrongDerivative>()>& test) {
   try {
     return test();

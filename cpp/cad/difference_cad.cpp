@@ -14,7 +14,7 @@ namespace {
 
 // Truncation step^2 against rounding eps / step: cube root of eps, a little wider for hosts that compute less well.
 constexpr double first_step = 1e-5;
-// The same with eps / step^2: fourth root of eps.
+// With eps / step^2: fourth root of eps.
 constexpr double second_step = 2e-4;
 // Points whose stencils are evaluated in one batch.
 constexpr std::size_t chunk = 512;
@@ -87,7 +87,7 @@ void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
 DifferenceCad::Box DifferenceCad::box_at(int face, const Vec2& uv) const {
   const auto it = boxes_.find(face);
   if (it != boxes_.end()) return it->second;
-  // Nothing is known: a box about the point, as wide as its parameters are large.
+  // Without a known box: a box about the point, as wide as its parameters are large.
   const Vec2 half = {std::max(1.0, std::abs(uv.x())) / 2, std::max(1.0, std::abs(uv.y())) / 2};
   return {uv - half, uv + half};
 }
@@ -144,7 +144,7 @@ bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, Diff
   return is_finite(out, task.missing);
 }
 
-// The host's domain ends near the point in a way that its box does not tell: every pair of sides that the box allows.
+// The host's domain ends near the point, inside of its box: every pair of sides that the box allows is evaluated.
 void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out) {
   const Box box = box_at(face, uv);
   DifferenceStep u = difference_step(uv.x(), box.low.x(), box.high.x(), task.relative),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derivatives that a host does not give, by finite differences of those that it gives.
+// Finite differences for derivatives that a host does not give.
 #pragma once
 
 #include <map>
@@ -12,12 +12,12 @@
 
 namespace carreau {
 
-/// Passes on what `source` gives and finds the rest by differences of second order of accuracy: first derivatives from
-/// positions (relative error near 1e-10 for smooth functions), second ones from first ones when they are given (1e-10),
-/// else from positions (1e-7). On curves the points stay in [a, b]; on surfaces they stay in the face's box when it is
-/// known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
-/// Where a point beside (u, v) is outside the host's domain (NaN, infinity or a failure there), one-sided formulas are
-/// tried; when none works the error is a CallbackError at (u, v).
+/// Passes on the derivatives of `source` and finds the rest by differences of second order of accuracy. First
+/// derivatives come from positions (relative error near 1e-10 for smooth functions). Second ones come from first ones
+/// when they are given (1e-10), else from positions (1e-7). On curves the points stay in [a, b]. On surfaces they stay
+/// in the face's box when it is known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
+/// If a point beside (u, v) is outside the host's domain (NaN, infinity or a failure there), one-sided formulas are
+/// used. If all fail the error is a CallbackError at (u, v).
 class DifferenceCad : public Cad {
  public:
   /// *_gives: the Want bits that `source` answers itself; want_position must be among them.
@@ -42,7 +42,7 @@ class DifferenceCad : public Cad {
   struct Box {
     Vec2 low, high;
   };
-  /// What is differenced to get the missing bits: derivatives of order `want` wanted, from `from`.
+  /// Plan of the differences for the missing bits: derivatives of order `want`, from order `from`.
   struct Task {
     unsigned missing = 0;
     unsigned from = want_position;

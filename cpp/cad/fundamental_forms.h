@@ -28,7 +28,7 @@ struct PrincipalFrame {
 
   [[nodiscard]] double mean() const noexcept { return (k1 + k2) / 2; }
   [[nodiscard]] double gauss() const noexcept { return k1 * k2; }
-  /// Largest |curvature|, that of the smallest radius.
+  /// Largest |curvature|, the inverse of the smallest radius.
   [[nodiscard]] double largest() const noexcept;
 };
 
@@ -36,15 +36,15 @@ struct PrincipalFrame {
 FirstForm first_form(const SurfaceJet& jet) noexcept;
 
 /// Su x Sv / |Su x Sv| (HDR eq. 4.68). Empty where the parametrisation is degenerate: Su or Sv is zero (or below 1e-12
-/// of the other: what rounding leaves of zero), they are parallel within 1e-10 radian, or something is not finite.
+/// of the other, which is rounding), they are parallel within 1e-10 radian, or a component is not finite.
 std::optional<Vec3> unit_normal(const SurfaceJet& jet) noexcept;
 
 /// From a jet with first and second derivatives. Empty where unit_normal is.
 std::optional<SecondForm> second_form(const SurfaceJet& jet) noexcept;
 
-/// Principal curvatures and directions from a jet with first and second derivatives (RR-2928 eq. 35-38; HDR
-/// sec. 4.4.2): those of a symmetric 2 x 2 matrix in an orthonormal frame of the tangent plane, so that neither planes
-/// nor umbilics are special. Empty where unit_normal is.
+/// Principal curvatures and directions from a jet with first and second derivatives (RR-2928 eq. 35-38; HDR sec.
+/// 4.4.2): eigenvalues and eigenvectors of a symmetric 2 x 2 matrix in an orthonormal frame of the tangent plane. So
+/// neither planes nor umbilics are special. Empty where unit_normal is.
 std::optional<PrincipalFrame> principal_frame(const SurfaceJet& jet) noexcept;
 
 /// Curvature of the normal section along x (parameter plane, not zero) (RR-2928 eq. 33). The first form must be

@@ -19,7 +19,7 @@ namespace {
 /// Points of one batch: bounds the memory of the arrays that cross.
 constexpr std::size_t batch_size = 4096;
 
-/// What a routine does not write must not pass for a value.
+/// A value that a routine does not write must not pass for a result.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Vec3 nan3{nan, nan, nan};
 
@@ -30,14 +30,14 @@ std::optional<double> answer_of(double value) {
   return value == no_answer ? std::nullopt : std::optional<double>(value);
 }
 
-// Other members of `out` may hold what differences found.
+// Other members of `out` may hold results of differences.
 void merge(const SurfaceJet& jet, unsigned want, SurfaceJet& out) {
   if ((want & want_position) != 0) out.s = jet.s;
   if ((want & want_first) != 0) out.su = jet.su, out.sv = jet.sv;
   if ((want & want_second) != 0) out.suu = jet.suu, out.suv = jet.suv, out.svv = jet.svv;
 }
 
-/// Of a module cad_m. Only what it gives is asked for: DifferenceCad sees to that.
+/// Host by a module cad_m. Only its own routines are called: DifferenceCad ensures this.
 class CadMHost : public Cad {
  public:
   explicit CadMHost(const CadMTable& table) : table_(table) {}
@@ -104,7 +104,7 @@ class CadMHost : public Cad {
   CallCounter counter_;
 };
 
-/// Of a C host.
+/// Host by C callbacks.
 class CHost : public Cad {
  public:
   explicit CHost(const HostTable& table) : table_(table) {}
@@ -207,7 +207,7 @@ class CHost : public Cad {
                                    std::to_string(status) + more +
                                    (why != nullptr && *why != '\0' ? " (" + std::string(why) + ")" : ""));
   }
-  /// A host that gives points alone often does not say so: a registration may have other orders by default.
+  /// A host with points alone often does not declare it: a registration may have other orders by default.
   static void check_written(const SurfaceJet& jet, unsigned want, const Where& where, const char* callback) {
     if ((want & want_position) != 0 && is_unset(jet.s)) return;  // nothing was written at all
     if ((want & want_first) != 0 && is_unset(jet.su) && is_unset(jet.sv)) fail_order(where, callback, 1);

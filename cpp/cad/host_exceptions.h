@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host throws although it must not.
+// Exceptions that a host throws although it must not.
 #pragma once
 
 #include <exception>
@@ -11,9 +11,8 @@
 
 namespace carreau {
 
-/// Result of `call`, which asks a host. An exception that is not the engine's own (a stop, a status of the host)
-/// becomes a CallbackError with its text, so that a host in C++ that lets one escape is told where. std::bad_alloc
-/// passes.
+/// Result of `call`, which calls a host. Another exception than the engine's own (a stop, a status of the host) becomes
+/// a CallbackError with its text. So the author of a C++ host learns where an exception escapes. std::bad_alloc passes.
 template <typename Call>
 decltype(auto) ask_host(const Where& where, const char* routine, Call&& call) {
   try {

@@ -20,7 +20,7 @@ namespace {
 /// Points of one batch: bounds the memory of the arrays that cross.
 constexpr std::size_t batch_size = 4096;
 
-/// What a callback does not write must not pass for a value.
+/// A value that a callback does not write must not pass for a result.
 struct Answer {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::int32_t kind = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wanted sizes and metrics that a host gives by plain function pointers, as the C ABI registers them.
+// Prescribed sizes and metrics that a host gives by plain function pointers, as the C ABI registers them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// What a callback of HostMetricTable answers: the meaning of `value`.
+/// Kind of answer of a callback of HostMetricTable: the meaning of `value`.
 enum class HostMetricKind : std::int32_t {
   none = 0,     ///< no answer
   size = 1,     ///< value[0] = h
@@ -27,7 +27,7 @@ struct HostMetricTable {
   void* user = nullptr;
   std::int32_t (*surface_metric)(std::int32_t face, double u, double v, std::int32_t* kind, double* value,
                                  void* user) = nullptr;
-  /// The same at n points: uv is n x 2, xyz n x 3, kind n, value n x host_metric_values, row by row. Used in place of
+  /// Evaluates n points: uv is n x 2, xyz n x 3, kind n, value n x host_metric_values, row by row. Used in place of
   /// `surface_metric` when given.
   std::int32_t (*surface_metric_batch)(std::int32_t face, std::int64_t n, const double* uv, const double* xyz,
                                        std::int32_t* kind, double* value, void* user) = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host some of whose curves are used in parts.
+// A host with curves that are used in parts.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ struct CurvePart {
   double a = 0, b = 1;
 };
 
-/// Passes everything on; curves (face, ic) in `parts` are those parts. Keeps a reference to `host`.
+/// Passes everything on; curves (face, ic) in `parts` are replaced by the parts. Keeps a reference to `host`.
 class PartCad final : public Cad {
  public:
   using Parts = std::map<std::pair<int, int>, CurvePart>;

@@ -13,11 +13,11 @@ namespace carreau {
 
 namespace {
 
-// Of Newton's method or bisection for an inverse: 2^-60 of a piece.
+// Steps of Newton's method or bisection for an inverse: 2^-60 of a piece.
 constexpr int most_steps = 60;
 constexpr std::size_t batch = 256;
 
-/// Slope between two pieces: the harmonic mean of theirs, the shorter piece counting for more.
+/// Slope between two pieces: the harmonic mean of their slopes, with more weight for the shorter piece.
 double slope_between(double h0, double s0, double h1, double s1) noexcept {
   const double a = (h0 + 2 * h1) / (3 * (h0 + h1));
   return s0 * s1 / ((1 - a) * s0 + a * s1);

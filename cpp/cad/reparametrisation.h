@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Other parameters for a face whose own run very unevenly.
+// Other parameters for a face whose own parameters run very unevenly.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,13 @@
 namespace carreau {
 
 /// An increasing function u(x) with a continuous derivative: the piecewise cubic of Fritsch and Butland (SIAM J. Sci.
-/// Stat. Comput. 5 (1984), 300-304) through given points. Ends are mapped onto ends to the last bit; beyond them it
-/// stays where it was.
+/// Stat. Comput. 5 (1984), 300-304) through given points. Ends are mapped exactly onto ends; values beyond them do not
+/// change.
 class MonotoneMap {
  public:
   /// u(x) = x on [0, 1].
   MonotoneMap() : MonotoneMap({0, 1}, {0, 1}) {}
-  /// Both strictly increasing, of the same length, at least two; else InvalidArgument.
+  /// Both arrays are strictly increasing, of equal length, at least two; else InvalidArgument.
   MonotoneMap(std::vector<double> x, std::vector<double> u);
 
   struct Jet {
@@ -36,7 +36,7 @@ class MonotoneMap {
   std::vector<double> x_, u_, slope_;
 };
 
-/// (u, v) of a host from parameters (x, y), each from one.
+/// (u, v) of a host from parameters (x, y), each by its own map.
 struct Reparametrisation {
   MonotoneMap u, v;
 
@@ -44,8 +44,8 @@ struct Reparametrisation {
   [[nodiscard]] Vec2 from_host(const Vec2& p) const noexcept { return {u.inverse(p.x()), v.inverse(p.y())}; }
 };
 
-/// The surface of one face as a function of (x, y), by the chain rule; what the host does not differentiate itself is
-/// differenced in (x, y). Sizes and radii are the host's. Curves, which nobody asks it for, stay in (u, v).
+/// The surface of one face as a function of (x, y), by the chain rule; derivatives that the host does not give are
+/// differenced in (x, y). Sizes and radii are the host's. Curves stay in (u, v), because no caller evaluates them here.
 /// Keeps references to both arguments. The parameters of CallbackErrors are the host's.
 std::unique_ptr<Cad> reparametrised(Cad& host, int face, const Reparametrisation& map);
 

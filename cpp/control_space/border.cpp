@@ -16,12 +16,11 @@ namespace {
 
 using namespace thresholds::control_space;
 
-// A root between these bounds of the eigenvalues of others, where it usually is: they are found only where it may not
-// be.
+// Clamps a root to bounds by the eigenvalues of `near`. The bounds are computed exactly only if it may be outside.
 template <class Samples>
 Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
-  // Of each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant over
-  // trace.
+  // Bounds for each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant
+  // over trace.
   double above = 0, below = infinity;
   for (const auto& s : near) {
     const double trace = s.root.a + s.root.c;
@@ -83,7 +82,7 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
         const Vec2 d = samples_[k].position - centre;
         if (std::max(std::abs(d.x()), std::abs(d.y())) <= reach) found.push_back(samples_[k]);
       }
-  // Far nodes of the finer of both grids would add little but time.
+  // Far nodes of the finer of both grids would cost time and add little.
   const double near = near_share * reach;
   const auto is_left_out = [&](std::int32_t i, std::int32_t j) {
     const bool fine = ((i | j) & spacing) != 0;
@@ -124,7 +123,7 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
   near.reserve(usual_neighbours);
   double scale = size;
   const double widest = 2.0 * std::max(lattice_.end().i, lattice_.end().j);
-  // At widened reaches the grid is looked at with the spacing of wider cells.
+  // At widened reaches the grid is read with the spacing of wider cells.
   std::int32_t spacing = std::max(size / 2, 1);
   collect(position, reach_in_sizes * scale, spacing, near);
   while (near.size() < enough_neighbours && scale < widest) {
@@ -132,7 +131,7 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
     if (spacing < lattice_.step()) spacing *= 2;
     std::vector<Sample> more;
     collect(position, reach_in_sizes * scale, spacing, more);
-    // A wider but sparser look may miss what is near.
+    // A wider but sparser neighbourhood may miss near samples.
     if (more.size() > near.size()) near.swap(more);
   }
   QuadraticFit equations;

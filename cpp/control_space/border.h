@@ -19,10 +19,10 @@ class BorderSamples {
   void set(std::size_t sample, Metric2 root) noexcept { samples_[sample].root = root; }
   [[nodiscard]] std::size_t size() const noexcept { return samples_.size(); }
 
-  /// The value at `position` of the quadratic polynomial that fits samples and sampled nodes in a neighbourhood of a
-  /// few times `size` (units of the finest grid), the nearer the better (moving least squares); the neighbourhood grows
-  /// until it holds something, and the degree falls where it holds too little. Positive definite when all samples are.
-  /// Needs at least one sample of either kind.
+  /// The value at `position` of a quadratic polynomial that fits samples and sampled nodes (moving least squares,
+  /// larger weights for nearer ones). The neighbourhood reaches a few times `size` (units of the finest grid). It grows
+  /// until it holds a sample, and the degree falls if it holds too few. Positive definite when all samples are. Needs
+  /// at least one sample of either kind.
   [[nodiscard]] Metric2 fit(Vec2 position, std::int32_t size);
 
  private:

@@ -58,7 +58,7 @@ double ControlSpace::largest_bend() const noexcept {
 
 ControlSpace ControlSpace::constant(Metric2 metric) {
   ControlSpace space;
-  // The root (0, 1; 1, 1) has the square (1, 1; 1, 2): at() gives back the very metric.
+  // The root (0, 1; 1, 1) has the square (1, 1; 1, 2): at() returns exactly the metric.
   space.unit_ = {metric.a, metric.b, 0.5 * metric.c};
   space.leaves_[0].c[0] = {0, 1, 1};
   return space;

@@ -18,28 +18,27 @@
 
 namespace carreau {
 
-/// Gives the true metric at points of the domain: finite; may be semi-definite (a degenerate side): it is clamped.
-/// Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
+/// Gives the true metric at points of the domain. It must be finite; a semi-definite metric (a degenerate side) is
+/// clamped. Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
-/// The same with the first derivatives of the surface, which tell lengths and directions in space.
+/// Sampler of metrics and first derivatives of the surface, for lengths and directions in space.
 using SurfaceSampler =
     std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric, std::span<SurfaceTangents> tangents)>;
 
 struct ControlSpaceOptions {
-  /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
-  /// the mesh.
+  /// Largest relative error of a length, where the space is checked and the cells are not much smaller than the mesh.
   double tolerance = 0.01;
   /// Samples for each vertex of the mesh to come, where errors are smaller than edges can show. From some thousand
-  /// vertices on it takes fewer.
+  /// vertices on fewer are taken.
   double samples_per_vertex = 1.5;
-  /// Samples as if the mesh were small, and the tolerance also holds in cells smaller than its edges: for gradation,
-  /// which promises something of every kink.
+  /// Samples as if the mesh were small, and the tolerance also holds in cells smaller than its edges. Gradation needs
+  /// this, because it bounds every kink.
   bool thorough = false;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
-  /// Points of the domain where the field is known to hide something: around them cells are split down to half an edge
-  /// of the mesh, whatever prediction says.
+  /// Points of the domain where the field has hidden details: around them cells are split down to half an edge of the
+  /// mesh, whatever prediction gives.
   std::span<const Vec2> probe_points = {};
 };
 
@@ -54,11 +53,11 @@ struct SampledDomain {
 class ControlSpace {
  public:
   /// Samples `sampler` inside `domain` and refines where prediction and sample disagree. Deterministic. Throws
-  /// DomainError when the domain has no area, what the sampler throws, and Cancelled.
+  /// DomainError when the domain has no area, the exceptions of the sampler, and Cancelled.
   static ControlSpace build(const SampledDomain& domain, const MetricSampler& sampler,
                             const ControlSpaceOptions& options, Monitor& monitor);
-  /// The same for sizes that are shrunk until none grows by more than `slope` times the distance in space from one
-  /// sample to the next ones: isotropic ones, or, `directed`, each along the line that joins the samples.
+  /// Shrinks sizes until none grows by more than `slope` times the distance in space from one sample to the next ones.
+  /// The sizes are isotropic, or, `directed`, each is taken along the line that joins the samples.
   static ControlSpace build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
                                    bool directed, const ControlSpaceOptions& options, Monitor& monitor);
   /// The same metric everywhere.
@@ -77,19 +76,20 @@ class ControlSpace {
             unit_.c * (root[1] * root[1] + root[2] * root[2])};
   }
 
-  /// With its derivatives, which jump from a leaf to the next by as little as the tolerance allows.
+  /// Also returns its derivatives, which jump between leaves by at most the tolerance.
   [[nodiscard]] MetricSlopes slopes_at(const Vec2& uv) const noexcept;
   /// Largest bend of shapes (metric/chart.h) at the middle of a leaf.
   [[nodiscard]] double largest_bend() const noexcept;
 
-  /// Lengths become so many times as large everywhere.
+  /// Multiplies all lengths by `factor`.
   void scale_lengths(double factor) noexcept;
 
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
-  /// What a mesh, of which `vertex` gives `count` vertices, has missed: the squares of leaves that hold some vertices
-  /// of a unit mesh but less than a quarter of them; of nested squares the smallest. Each as the centres of its leaves,
-  /// where sizes are smallest first; some may lie outside of the domain.
+  /// Regions where a mesh, whose `count` vertices are given by `vertex`, has too few vertices. They are squares of
+  /// leaves that hold some vertices of a unit mesh but less than a quarter of them in this mesh. The smallest of nested
+  /// squares is returned. Each as the centres of its leaves, where sizes are smallest first; some may lie outside of
+  /// the domain.
   [[nodiscard]] std::vector<std::vector<Vec2>> undersampled_regions(
       std::size_t count, const std::function<Vec2(std::size_t)>& vertex) const;
 
@@ -100,7 +100,8 @@ class ControlSpace {
            table_.capacity() * sizeof(std::int32_t) + children_.capacity() * sizeof(children_[0]);
   }
 
-  /// As bytes for another process, and back. The second throws Error for bytes that are no space.
+  /// Writes a space as bytes for another process, and reads it back. Reading throws Error for bytes that are not a
+  /// space.
   void put(PacketWriter& packet) const;
   static ControlSpace from(PacketReader& packet);
 
@@ -141,7 +142,7 @@ class ControlSpace {
 
   Vec2 low_{}, scale_{0, 0}, last_{0, 0};
   std::size_t columns_ = 1;
-  Metric2 unit_{1, 1, 1};                  ///< from the units of the roots to those of the parameters
+  Metric2 unit_{1, 1, 1};                  ///< from units of the roots to units of the parameters
   std::vector<std::int32_t> table_ = {0};  ///< a leaf, or ~index of children_
   std::vector<std::array<std::int32_t, 4>> children_;
   std::vector<Leaf> leaves_ = {Leaf{}};

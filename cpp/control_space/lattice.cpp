@@ -22,7 +22,8 @@ void BlockIndex::grow() {
 }
 
 bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept {
-  // Cheap and nearly always enough: the difference to the mean is small against a lower bound of its eigenvalues.
+  // A cheap test that nearly always suffices: the difference to the mean is small against a lower bound of its
+  // eigenvalues.
   const Metric2 twice = p + q, d = 2.0 * root + -1.0 * twice;
   const double bound = 0.25 * determinant(twice) / (twice.a + twice.c);
   if (bound > 0 && d.a * d.a + 2 * d.b * d.b + d.c * d.c < bound * bound) return true;
@@ -47,7 +48,7 @@ Vec2 Lattice::parameters(GridPoint p) const noexcept {
           p.j == end_.j ? high_.y() : low_.y() + y * (high_.y() - low_.y())};
 }
 
-// Of a node on a side of the box: off it by what points interpolated along a side may be.
+// Moves a node on a side of the box off it, by the error that points interpolated along a side may have.
 Vec2 Lattice::inward(GridPoint p) const noexcept {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   const Vec2 at = parameters(p);
@@ -130,7 +131,7 @@ Prediction Lattice::predict(std::int32_t node) {
     return {};
   }
   const bool odd_i = (p.i & spacing) != 0, odd_j = (p.j & spacing) != 0;
-  // Those of the same grid are centres of cells, which have been sampled or are not yet wanted.
+  // Nodes of the same spacing are centres of cells, which have been sampled or are not yet needed.
   const auto value_at = [&](GridPoint q, bool coarser) { return coarser ? valued_node(q) : sampled_node(q); };
   return predict_from(
       node, odd_i, odd_j,

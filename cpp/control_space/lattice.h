@@ -21,12 +21,13 @@ struct GridPoint {
   std::int32_t i = 0, j = 0;
 };
 
-/// Of a node; what is known about it before it exists.
+/// Place of a node, as far as it is known before the node exists.
 /// `by_border`: outside, but by no more than rounding.
 enum class Place : std::int8_t { unknown, inside, outside, by_border };
 
-/// From points to consecutive numbers of blocks: squares of 4 x 4 points of the same spacing, which is the largest
-/// power of two that divides both of a point's indices. Who asks for one will ask for those beside it.
+/// Map from points to consecutive numbers of blocks: squares of 4 x 4 points of equal spacing. The spacing is the
+/// largest power of two that divides both of a point's indices. Callers that need one point mostly need its neighbours
+/// too.
 class BlockIndex {
  public:
   struct Position {
@@ -36,7 +37,7 @@ class BlockIndex {
   static Position position(GridPoint p) noexcept {
     return position(p, std::countr_zero(static_cast<std::uint32_t>(p.i | p.j) | 1U << 30));
   }
-  /// Of a point that belongs to a coarser grid: where it would be among those of this spacing.
+  /// Position of a point of a coarser grid, as if it were a point of this spacing.
   static Position position(GridPoint p, int spacing) noexcept {
     const auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
     const std::uint64_t key = (static_cast<std::uint64_t>(j >> spacing >> 2) << 29 | i >> spacing >> 2) << 5 |
@@ -45,7 +46,7 @@ class BlockIndex {
   }
   /// -1 when absent.
   [[nodiscard]] std::int32_t find(const Position& p) const noexcept { return slots_[slot_of(p.key)].block; }
-  /// The number of the block, and whether it is new (then it is the next one).
+  /// Returns the number of the block, and whether it is new (then it is the next one).
   std::pair<std::int32_t, bool> insert(const Position& p);
 
  private:
@@ -66,14 +67,14 @@ class BlockIndex {
   std::int32_t size_ = 0;
 };
 
-/// A value predicted from others, with the order of the error's leading term (2 linear, 3 quadratic, 4 cubic
-/// interpolation; 1: extrapolation; 0: nothing is known).
+/// A predicted value with the order of the error's leading term (2 linear, 3 quadratic, 4 cubic interpolation; 1:
+/// extrapolation; 0: unknown).
 struct Prediction {
   Metric2 root{};
   int order = 0;
 };
 
-/// Whether `root` is definite and no larger than twice, no smaller than half of what is beside it.
+/// Returns whether `root` is definite, and at most twice and at least half of the values beside it.
 bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept;
 
 /// Square roots of metrics at the nodes of nested grids over a box, in units of the coarsest cells. Nodes that were not
@@ -89,9 +90,9 @@ class Lattice {
   [[nodiscard]] Vec2 low() const noexcept { return low_; }
   /// Extents of a coarsest cell.
   [[nodiscard]] Vec2 cell() const noexcept { return cell_; }
-  /// Parameters of a node; exact on the sides of the box, where hosts are often defined just so far.
+  /// Parameters of a node; exact on the sides of the box, because hosts are often undefined beyond.
   [[nodiscard]] Vec2 parameters(GridPoint p) const noexcept;
-  /// Where to sample a node inside the domain: its parameters, or a point as near as rounding tells.
+  /// The point at which to sample a node inside the domain: its parameters, or a point as near as rounding allows.
   [[nodiscard]] Vec2 sampling_point(std::int32_t node) const noexcept {
     return nodes_[node].place == Place::by_border ? inward(point(node)) : parameters(point(node));
   }
@@ -99,7 +100,7 @@ class Lattice {
   [[nodiscard]] Vec2 position(const Vec2& uv) const noexcept {
     return {(uv.x() - low_.x()) / cell_.x() * step_, (uv.y() - low_.y()) / cell_.y() * step_};
   }
-  /// The lower corner of the cell of the finest grid that holds a point; of the nearest one for points outside the box.
+  /// The lower corner of the cell of the finest grid that holds a point; for points outside the box, the nearest cell.
   [[nodiscard]] GridPoint unit_cell(const Vec2& uv) const noexcept {
     const Vec2 p = position(uv);
     const auto within = [](double x, std::int32_t end) {
@@ -113,9 +114,9 @@ class Lattice {
 
   /// The number of a node, created when new.
   std::int32_t node(GridPoint p, Place place = Place::unknown);
-  /// Of the nodes corner + {0, 1, 2, 3} x `spacing` in both directions, row by row, numbers of those that belong to no
-  /// coarser grid: the first node's, were it one of them, and on from there. `corner`: of a cell of four times the
-  /// spacing. They have yet to be created.
+  /// The block of the nodes corner + {0, 1, 2, 3} x `spacing` in both directions, row by row. Nodes that belong to no
+  /// coarser grid have consecutive numbers; the result is the first node's number, as if it were one of them. `corner`:
+  /// of a cell of four times the spacing. The nodes must be created later.
   std::int32_t block(GridPoint corner, std::int32_t spacing);
   /// Creates a node of a block when it is new.
   void create(std::int32_t node, Place place) {
@@ -139,7 +140,7 @@ class Lattice {
     nodes_[node].root = root;
     nodes_[node].pass = fixed;
   }
-  /// Whether value() tells something: a sample, a prediction since forget(), the last value.
+  /// Returns whether value() is available: a sample, a prediction since forget(), or the last value.
   [[nodiscard]] bool known(std::int32_t node) const noexcept {
     return nodes_[node].sampled || nodes_[node].pass >= pass_;
   }
@@ -151,12 +152,12 @@ class Lattice {
   }
   /// All nodes that were sampled, in the order in which they first were.
   [[nodiscard]] std::span<const std::int32_t> samples() const noexcept { return samples_; }
-  /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
+  /// Prediction of a node inside the domain from all present samples: predictions are remembered until forget().
   Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
-  /// The same where others know the neighbours: `row(k)` and `column(k)` are the numbers of the nodes at k = -3, -1, 1,
-  /// 3 times the spacing on the horizontal and the vertical line through this one, or -1 where they have no value().
-  /// `odd_i`, `odd_j`: whether those on the horizontal, on the vertical line belong to a coarser grid.
+  /// Prediction if the caller knows the neighbours: `row(k)` and `column(k)` are numbers of nodes on the horizontal and
+  /// the vertical line through this node, at k = -3, -1, 1, 3 times the spacing. They are -1 if the nodes have no
+  /// value(). `odd_i`, `odd_j`: whether the nodes on the horizontal, on the vertical line belong to a coarser grid.
   template <class Row, class Column>
   Prediction predict_from(std::int32_t node, bool odd_i, bool odd_j, const Row& row, const Column& column) {
     if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
@@ -172,11 +173,11 @@ class Lattice {
     remember(node, result);
     return result;
   }
-  /// The node itself when it has a value, sampled or predicted from two nodes at least; else -1.
+  /// The node itself when it has a value, sampled or predicted from at least two nodes; else -1.
   std::int32_t valued(std::int32_t node) {
     return nodes_[node].sampled || (inside(node) && predict(node).order >= 2) ? node : -1;
   }
-  /// The same of the node at a place, which is created when new: predictions are remembered in nodes.
+  /// As valued(), for the node at a place. It is created when new: predictions are remembered in nodes.
   std::int32_t valued_node(GridPoint p);
 
  private:
@@ -192,7 +193,7 @@ class Lattice {
     GridPoint corner;
     int spacing = 0;
   };
-  // Of the nodes of a block the first is 16 times the block's number.
+  // The first node of a block has the number 16 times the block's number.
   [[nodiscard]] std::int32_t find(GridPoint p) const noexcept {
     const BlockIndex::Position at = BlockIndex::position(p);
     const std::int32_t block = index_.find(at);

@@ -63,7 +63,7 @@ std::int32_t NodePredictor::middle_from_centre(const TreeCell& cell, int side, i
   return lattice_.valued_node(side < 2 ? GridPoint{p.i, p.j + d} : GridPoint{p.i + d, p.j});
 }
 
-// A centre from the middles of the sides and those of the cells beyond.
+// Predicts a centre from the middles of the sides of this cell and of the cells beyond.
 Prediction NodePredictor::predict_by_middles(const TreeCell& cell) {
   return lattice_.predict_from(
       cell.centre(), true, true, [&](int k) { return middle_from_centre(cell, k > 0 ? 3 : 2, k); },

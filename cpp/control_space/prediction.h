@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What samples say about the nodes of a cell. Private to the builder of control spaces.
+// Prediction of the nodes of a cell from samples. Private to the builder of control spaces.
 #pragma once
 
 #include "control_space/tree.h"
@@ -14,7 +14,7 @@ class NodePredictor {
 
   /// Lattice::predict() of node `k` of a cell, a rank in TreeCell::node.
   Prediction predict(const TreeCell& cell, int k);
-  /// A centre from the twelve nearest corners of a grid of cells, exact for cubics. False where some are not known.
+  /// A centre from the twelve nearest corners of a grid of cells, exact for cubics. Returns false if some are unknown.
   [[nodiscard]] bool predict_centre(const TreeCell& cell, Metric2& root) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace carreau::detail {
 
 /// Normal equations of a weighted fit by 1, x, y, x^2, x y, y^2, three right-hand sides. Only the constant term is
-/// wanted: an elimination that ends there is faster than Eigen's factors and solutions (`bench_algebra`).
+/// needed: an elimination that ends there is faster than Eigen's factors and solutions (`bench_algebra`).
 class QuadraticFit {
  public:
   void add(double x, double y, double weight, Metric2 value) noexcept {
@@ -25,7 +25,7 @@ class QuadraticFit {
     }
   }
 
-  /// Cholesky, U^T U of the reversed order; once only, it overwrites the equations.
+  /// Cholesky, U^T U of the reversed order; it overwrites the equations, so it may be called once only.
   Metric2 value_at_origin() noexcept {
     const double total = matrix_[0][0];
     for (std::size_t r = 1; r < terms; ++r)

@@ -18,13 +18,13 @@ namespace {
 
 using namespace thresholds::control_space;
 
-/// What both kinds of bounds share: all of them once, then, from small to large, those of samples that have changed;
-/// at last the metrics. Returns the samples that have changed. Of `bounds`:
-/// look_at(t)           bounds the corners of a triangle by each other, as far as that may be needed;
+/// Common steps of both kinds of bounds: applies all of them once, then, from small to large, the bounds of changed
+/// samples, and sets the metrics at the end. Returns the samples that have changed. Members of `bounds`:
+/// look_at(t)           bounds the corners of a triangle by each other, as far as necessary;
 /// by_corner(s, t)      bounds the other corners of t by s;
 /// bound(from, to)      bounds one end of a link by the other one; all of them push() samples that they lower;
-/// counts(size, s)      whether s still has the size with which it was pushed;
-/// apply(s)             gives the sample its metric; whether it has changed.
+/// counts(size, s)      returns whether s still has the size with which it was pushed;
+/// apply(s)             gives the sample its metric, and returns whether it has changed.
 template <typename Bounds>
 std::vector<std::int32_t> bound_all(Bounds bounds, SampledField& field, Monitor& monitor) {
   const Incidence triangles(field.samples.size(), field.triangles), links(field.samples.size(), field.links);
@@ -49,7 +49,7 @@ using Triangle = std::array<std::int32_t, 3>;
 class IsotropicBounds {
  public:
   IsotropicBounds(SampledField& field, double slope) : field_(field), slope_(slope) {
-    // The trace: where the parametrisation is degenerate the other direction still tells.
+    // The trace: it determines the size even if the parametrisation is degenerate in the other direction.
     for (const auto& s : field.samples) h_.push_back(std::sqrt((s.form.a + s.form.c) / (s.metric.a + s.metric.c)));
     before_ = h_;
   }
@@ -131,7 +131,7 @@ struct DirectedSample {
     set_ratio();
   }
   void set_ratio() noexcept { log_ratio = std::log(sizes.h2 / sizes.h1); }
-  /// Of TangentMetric::matched(), which is convex in the square of the cosine: the tangents at both ends.
+  /// Lower bound of TangentMetric::matched(), which is convex in the square of the cosine: the tangents at both ends.
   [[nodiscard]] double least(const Vec3& w) const noexcept {
     const double b = dot(w, sizes.d2), t = b * b;
     return std::max(sizes.h1 * (1 + t * log_ratio), sizes.h2 * (1 - (1 - t) * log_ratio));
@@ -200,8 +200,8 @@ class DirectedBounds {
     return at_[from].least(rolled(w, to, from));
   }
 
-  // `e`: the offset that leads to the sample from where the size along it is `along`; `told` are sizes of a direction
-  // there, `least` what they are at least, which costs less and mostly is enough.
+  // `e`: the offset that leads to the sample from where the size along it is `along`; `told` returns the size in a
+  // direction there. `least` returns a lower bound, which costs less and mostly suffices.
   template <typename Told, typename Least>
   void bound_by(std::int32_t to, Vec2 e, double along, Metric2 form, const Told& told, const Least& least) {
     TangentMetric& q = at_[to].sizes;
@@ -219,7 +219,7 @@ class DirectedBounds {
     queue_.push(key(to), to);
   }
 
-  // From the middle between two samples, where sizes are the means.
+  // Bounds from the middle between two samples, where sizes are means.
   void bound_by_middle(std::int32_t a, std::int32_t b, std::int32_t to) {
     if (!at_[a].sound || !at_[b].sound || !at_[to].sound) return;
     const auto &p = field_.samples[a], &q = field_.samples[b], &r = field_.samples[to];

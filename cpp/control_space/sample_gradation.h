@@ -17,30 +17,30 @@ struct SurfaceTangents {
   Vec3 su{}, sv{};
 };
 
-/// Samples of a field over a parameter plane, joined by triangles; links join samples that no triangle does.
+/// Samples of a field over a parameter plane, joined by triangles; links join samples that no triangle joins.
 struct SampledField {
   struct Sample {
     Vec2 uv;
     Metric2 metric;
     Metric2 form;                ///< J^T J: lengths in space
-    SurfaceTangents tangents{};  ///< what form is made of; not needed by bound_slopes()
+    SurfaceTangents tangents{};  ///< source of `form`; not needed by bound_slopes()
   };
   std::vector<Sample> samples;
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::array<std::int32_t, 2>> links;
 };
 
-/// Shrinks isotropic sizes to the largest that obey: at a corner of a triangle no size exceeds that at any point of the
-/// opposite side, along which sizes are linear, by more than `slope` times the distance in space. (Plane fronts are
-/// exact, those of one small sample up to 6 % steeper.) Returns the samples that have changed, in increasing order.
-/// Linear in the number of samples but for those that change.
+/// Shrinks isotropic sizes to the largest that obey the slope. At a corner of a triangle no size exceeds the size at
+/// any point of the opposite side by more than `slope` times the distance in space. Sizes are linear along the side.
+/// (Plane fronts are exact, fronts of one small sample up to 6 % steeper.) Returns the samples that have changed, in
+/// increasing order. Linear in the number of samples, except for the changed ones.
 std::vector<std::int32_t> bound_slopes(SampledField& field, double slope, Monitor& monitor);
 
-/// The same by direction, as between the places of a graph (size/metric_grading.h): from each end of a side to the
-/// other, and from the middle of a side to the opposite corner, sizes grow by the factor 1 + slope d / h, d being the
-/// distance and h the size along it where they come from; each size is bounded by that which belongs to its direction
-/// (TangentMetric::matched). Metrics keep their directions, and no size becomes smaller than the smallest of all.
-/// Samples where the parametrisation is degenerate neither bound nor change.
+/// Bounds slopes by direction, as between the places of a graph (size/metric_grading.h). The bounds act from each end
+/// of a side to the other, and from the middle of a side to the opposite corner. Sizes grow by the factor 1 + slope d /
+/// h, with the distance d and the size h along it at its start. Each size is bounded by the size that belongs to its
+/// direction (TangentMetric::matched). Metrics keep their directions, and no size becomes smaller than the smallest of
+/// all. Samples where the parametrisation is degenerate neither bound nor change.
 std::vector<std::int32_t> bound_slopes_by_direction(SampledField& field, double slope, Monitor& monitor);
 
 }  // namespace carreau

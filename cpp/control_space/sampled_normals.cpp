@@ -33,7 +33,7 @@ class SampledNormals::Fit {
     sum_ = sum_ + w * normal, sum_x_ = sum_x_ + (w * x) * normal, sum_y_ = sum_y_ + (w * y) * normal;
   }
   [[nodiscard]] int count() const noexcept { return count_; }
-  /// Whether samples do not lie on a line.
+  /// Returns whether the samples do not lie on a line.
   [[nodiscard]] bool is_sound() const noexcept {
     if (count_ < enough_normals) return false;
     const Moments m = moments();

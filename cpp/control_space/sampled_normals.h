@@ -14,11 +14,12 @@ namespace carreau {
 /// Collects samples; then, after index(), at() is safe from several threads.
 class SampledNormals {
  public:
-  /// `normal` of any length; zero, at poles, tells nothing. The first some thousand are kept: coarse grids come first.
+  /// `normal` of any length; a zero normal (at poles) is ignored. The first some thousand are kept: coarse grids come
+  /// first.
   void add(Vec2 uv, Vec3 normal);
-  /// Whether they are not all the same.
+  /// Returns whether at least two normals differ.
   [[nodiscard]] bool differ() const noexcept { return differ_; }
-  /// Call once, after all add(). `space` tells distances, and must outlive the object.
+  /// Call once, after all add(). `space` measures distances, and must outlive the object.
   void index(const ControlSpace& space);
   /// Unit normal at (u, v): linear least squares about it, of the samples around, the nearest of which weigh most.
   [[nodiscard]] Vec3 at(const Vec2& uv) const noexcept;

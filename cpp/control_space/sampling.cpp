@@ -17,7 +17,7 @@ namespace {
 
 using namespace thresholds::control_space;
 
-// Numbers of cells are made of metrics: one that is not finite would make none.
+// Numbers of cells are computed from metrics, which must be finite.
 void require_finite(Metric2 m, const Vec2& uv) {
   if (!std::isfinite(m.a) || !std::isfinite(m.b) || !std::isfinite(m.c))
     throw DomainError({.uv = uv}, "the metric of the parameter domain is not finite");
@@ -56,7 +56,7 @@ void ControlSpaceSampling::run() {
   look_at_probe_points();
 }
 
-// Tests leaves and splits what must be split, until nothing must.
+// Tests leaves and splits them until all pass.
 void ControlSpaceSampling::balance_cells(std::vector<std::int32_t> active) {
   while (!active.empty()) {
     test(active);
@@ -65,7 +65,7 @@ void ControlSpaceSampling::balance_cells(std::vector<std::int32_t> active) {
   }
 }
 
-// A probe point counts by its own metric too: all that the leaf knows may lie around what it hides.
+// The metric of a probe point counts too: the samples that the leaf has may all lie around the hidden detail.
 void ControlSpaceSampling::look_at_probe_points() {
   std::vector<Vec2> uv;
   for (const Vec2& p : options_.probe_points)
@@ -133,7 +133,7 @@ std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   return metric;
 }
 
-// In units of the coarsest cells, of a metric in those of the box.
+// Root in units of the coarsest cells, from a metric in units of the box.
 Metric2 ControlSpaceSampling::root_of_boxed(Metric2 m) const noexcept {
   return root_in_cells(clamp_eigenvalues(m, floor_, std::numeric_limits<double>::max()));
 }
@@ -145,7 +145,7 @@ Metric2 ControlSpaceSampling::root_in_cells(Metric2 boxed) const noexcept {
 
 Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept { return root_of_boxed(boxed(m)); }
 
-// Model lengths, not edges: the least metric is no bound here, or it would count in small models.
+// Model lengths, not edges: the least metric is no bound here, because it would matter in small models.
 Metric2 ControlSpaceSampling::root_of_form(Metric2 form) const noexcept { return root_in_cells(boxed(form)); }
 
 void ControlSpaceSampling::sample_roots() {
@@ -173,7 +173,7 @@ bool ControlSpaceSampling::is_much_stretched(Metric2 root) noexcept {
   return (root.a + root.c) * (root.a + root.c) > most * determinant(root);
 }
 
-// What the samples known so far say about node `k` of a cell.
+// Value expected at node `k` of a cell from the present samples.
 Metric2 ControlSpaceSampling::expected_at(const TreeCell& cell, int k) {
   const Prediction guess = predictor_->predict(cell, k);
   if (guess.order >= 3) return guess.root;
@@ -181,7 +181,7 @@ Metric2 ControlSpaceSampling::expected_at(const TreeCell& cell, int k) {
   return border_->fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size);
 }
 
-// Of the corners and the centre.
+// Number of corners and centres inside.
 int ControlSpaceSampling::nodes_inside(const TreeCell& cell) const noexcept {
   if (cell.edges_begin == cell.edges_end) return cell.relevant ? 5 : 0;
   int count = lattice_->inside(cell.centre()) ? 1 : 0;
@@ -213,7 +213,7 @@ std::vector<ControlSpaceSampling::BorderPoint> ControlSpaceSampling::border_poin
     tree_->vertices_in(cell, found);
     std::erase_if(found, [this](int v) { return vertex_sampled_[v] != 0; });
     if (found.empty()) continue;
-    // One in the middle, or two at the quarters.
+    // One vertex in the middle, or two at the quarters.
     const std::size_t n = found.size();
     const std::size_t picks[2] = {n >= 4 ? n / 4 : n / 2, n >= 4 ? 3 * n / 4 : n / 2};
     for (std::size_t k = 0; k < (n >= 4 ? 2 : 1); ++k) {
@@ -225,7 +225,7 @@ std::vector<ControlSpaceSampling::BorderPoint> ControlSpaceSampling::border_poin
   return points;
 }
 
-// Samples what tells whether cells need splitting, and finds their errors and numbers of vertices.
+// Samples the nodes that decide whether cells need splitting, and finds the cells' errors and numbers of vertices.
 void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   lattice_->forget();
   const std::vector<CentreProbe> centres = centres_of(cells);
@@ -240,7 +240,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
     (*tree_)[c].error = 0;
     (*tree_)[c].tested = true;
   }
-  // The centre, where there is one, says last how many vertices there are.
+  // The centre, if the cell has one, gives the last estimate of the number of vertices.
   for (std::size_t k = 0; k < points.size(); ++k) {
     TreeCell& cell = (*tree_)[points[k].cell];
     const Metric2 truth = root_of(metric[centres.size() + k]);
@@ -264,9 +264,9 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   }
 }
 
-// Whether samples amid its sides will do for a cell to be split: errors fall from a cell to its parts by a factor,
-// sixteen where the field is smooth, two at a kink, that its own error and that of the cell before tell. Cells split
-// for their crowd are explored, those at the border extrapolated.
+// Returns whether samples on its sides suffice for a cell to be split. Errors fall from a cell to its parts by a
+// factor: sixteen if the field is smooth, two at a kink. The factor comes from the errors of the cell and of its
+// parent. Cells split for their number of vertices are explored, cells at the border extrapolated.
 bool ControlSpaceSampling::can_be_filled(const TreeCell& cell) const noexcept {
   if (cell.filled || cell.edges_begin != cell.edges_end || cell.vertices > crowded * vertices_per_cell_) return false;
   const double expected = cell.decay * cell.error, parts = 0.25 * cell.vertices;
@@ -282,7 +282,7 @@ void ControlSpaceSampling::estimate_vertices() {
     if (cell.child >= 0 || !cell.relevant) continue;
     sum += cell.vertices * nodes_inside(cell) / 5;
   }
-  // Exploration is planned for the first estimate; it grows as much as that was too low.
+  // Exploration is planned for the first estimate; it grows if that was too low.
   if (sum > vertices_) vertices_per_cell_ *= std::sqrt(sum / vertices_);
   vertices_ = std::max(sum, 1.0);
 }
@@ -314,7 +314,7 @@ double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
   return options_.tolerance * std::max(1.0, plain_width * plain_width / width2);
 }
 
-// The cells that samples amid the sides stand for are the parts.
+// Samples on the sides stand for the parts of the cell.
 bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexcept {
   if (options_.thorough) return cell.error > std::max(allowed_error(cell.vertices), options_.tolerance);
   return cell.filled ? cell.decay * cell.error > tolerated_error(0.25 * cell.vertices)
@@ -326,9 +326,9 @@ double ControlSpaceSampling::samples_for_smooth_fields() const noexcept {
   return spare_samples + options_.samples_per_vertex * (vertices_ - (1 - share_of_others) * others);
 }
 
-// Cells to split, in their order: crowded ones as far as max_samples allows; those beyond the tolerance as far as there
-// are some samples a vertex; the others as far as samples_for_smooth_fields() allows. The worst first. `untested`:
-// cells that will cost samples anyway.
+// Cells to split, in their order. Crowded cells are split as far as max_samples allows, cells beyond the tolerance
+// within some samples a vertex. The others are split as far as samples_for_smooth_fields() allows. The worst first.
+// `untested`: cells that will cost samples anyway.
 std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int32_t> cells,
                                                            std::size_t untested) const {
   std::vector<std::int32_t> crowd, must, may;
@@ -343,7 +343,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     else if (cell.error > allowed)
       may.push_back(c);
   }
-  // As many as that pays for, the worst ones; of equal ones the first.
+  // Keeps the worst cells that the samples pay for; among equal ones the first.
   const auto cut = [this](std::vector<std::int32_t>& list, double samples, double cost) {
     if (samples / cost >= static_cast<double>(list.size())) return;
     const auto count = static_cast<std::size_t>(std::max(samples / cost, 0.0));
@@ -365,8 +365,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   return crowd;
 }
 
-// Fills or splits cells, and neighbours that turn out to be as bad; returns the new leaves that have points of the
-// domain.
+// Fills or splits cells, and neighbours with errors as large; returns the new leaves that have points of the domain.
 std::vector<std::int32_t> ControlSpaceSampling::refine(std::span<const std::int32_t> cells) {
   std::vector<std::int32_t> now(cells.begin(), cells.end()), fresh;
   while (!now.empty()) {
@@ -405,7 +404,7 @@ std::vector<ControlSpaceSampling::SideProbe> ControlSpaceSampling::middles_of(st
   return probes;
 }
 
-// The tested leaves on both sides of a side, or -1: those just made will be tested by their own centres.
+// The tested leaves on both sides of a side, or -1: new leaves will be tested by their own centres.
 std::array<std::int32_t, 2> ControlSpaceSampling::tested_beside(const SideProbe& probe) const noexcept {
   const TreeCell& own = (*tree_)[probe.cell];
   std::array<std::int32_t, 2> leaves{probe.cell, own.beside[probe.side]};
@@ -418,14 +417,14 @@ std::array<std::int32_t, 2> ControlSpaceSampling::tested_beside(const SideProbe&
   return leaves;
 }
 
-// Samples the middles of the sides of cells; returns the leaves beside those where prediction was wrong.
+// Samples the middles of the sides of cells; returns the leaves beside wrong predictions.
 std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const std::int32_t> cells) {
   lattice_->forget();
   std::vector<SideProbe> probes = middles_of(cells);
   std::vector<Vec2> uv;
   for (SideProbe& p : probes) {
     p.beside = tested_beside(p);
-    // Where nobody wants to know whether the prediction is right there is none.
+    // A node whose prediction is not verified has no expected value.
     if (p.beside[0] >= 0 || p.beside[1] >= 0) p.expected = expected_at((*tree_)[p.cell], middles_of_sides[p.side]);
     uv.push_back(lattice_->sampling_point(p.node));
   }

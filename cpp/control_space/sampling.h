@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides where a control space is sampled. Private to size/.
+// Decides the places at which a control space is sampled. Private to control_space/.
 #pragma once
 
 #include <array>
@@ -18,21 +18,21 @@
 
 namespace carreau::detail {
 
-/// Samples the field: coarse cells everywhere, finer ones where a cell holds many vertices of the mesh to come, and
-/// where prediction from coarser grids disagrees with a sample.
+/// Samples the field: coarse cells everywhere. Cells are finer if they hold many vertices of the mesh to come, or if
+/// prediction from coarser grids disagrees with a sample.
 class ControlSpaceSampling {
  public:
   /// The arguments must outlive the object.
-  /// `on_surface`: the sampler tells J^T J.
+  /// `on_surface`: the sampler returns J^T J.
   ControlSpaceSampling(const SampledDomain& domain, const SurfaceSampler& sampler, bool on_surface,
                        const ControlSpaceOptions& options, Monitor& monitor);
   /// Call once, before all others.
   void run();
-  /// Call once, after run(): carreau::bound_slopes(), or that by direction, for the samples, joined in each leaf. They
-  /// must be on_surface.
+  /// Call once, after run(): applies carreau::bound_slopes(), or its version by direction, to the samples, joined in
+  /// each leaf. The samples must be on_surface.
   void bound_slopes(double slope, bool directed);
   [[nodiscard]] bool bounds_slopes() const noexcept { return slope_ != 0; }
-  /// A value predicted at a node of a leaf, made to obey the slope between it and the leaf's samples.
+  /// A value predicted at a node of a leaf, bounded by the slope between it and the leaf's samples.
   [[nodiscard]] Metric2 within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const;
 
   [[nodiscard]] Tree& tree() noexcept { return *tree_; }
@@ -53,7 +53,7 @@ class ControlSpaceSampling {
     std::int32_t node, cell;
     Metric2 expected{};
   };
-  /// A node amid a side of a cell, with the tested leaves on both sides.
+  /// A node inside a side of a cell, with the tested leaves on both sides.
   struct SideProbe {
     std::int32_t node, cell;
     int side;
@@ -118,7 +118,7 @@ class ControlSpaceSampling {
   std::optional<NodePredictor> predictor_;
   std::vector<char> vertex_sampled_;
   std::size_t samples_ = 0;
-  // What a surface told: at the last points that it was asked at, at nodes and at samples of the border.
+  // Answers of a surface: at the points of its last call, at nodes and at samples of the border.
   struct OnSurface {
     Metric2 metric, form;
     SurfaceTangents tangents;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of sampling that is about gradation.
+// The part of sampling for gradation.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace carreau::detail {
 
 namespace {
 
-// The nodes of a cell but its centre, counterclockwise.
+// The nodes of a cell except its centre, counterclockwise.
 constexpr int around[8] = {0, 1, 2, 5, 8, 7, 6, 3};
 
 }  // namespace
@@ -19,7 +19,7 @@ double ControlSpaceSampling::size_of(const OnSurface& s) noexcept {
   return std::sqrt((s.form.a + s.form.c) / (s.metric.a + s.metric.c));
 }
 
-// `rank`: of the point among those last asked.
+// `rank`: index of the point in the last call.
 ControlSpaceSampling::OnSurface ControlSpaceSampling::told(Metric2 metric, std::size_t rank) const noexcept {
   const SurfaceTangents& t = last_tangents_[rank];
   return {metric, induced_metric(t.su, t.sv, 1), t};
@@ -36,7 +36,7 @@ void ControlSpaceSampling::keep_border(int vertex, Metric2 metric, std::size_t r
   if (on_surface_) at_border_.push_back({vertex, told(metric, rank)});
 }
 
-// Along the boundary the middles of sides are predicted from one side only, which is off where a field has kinks.
+// Along the boundary the middles of sides are predicted from one side only, which is inexact where a field has kinks.
 void ControlSpaceSampling::sample_along_border() {
   std::vector<std::int32_t> nodes;
   std::vector<Vec2> uv;
@@ -53,7 +53,7 @@ void ControlSpaceSampling::sample_along_border() {
   for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
 }
 
-// Polynomials between samples that obey exceed the slope by the tolerance, at kinks.
+// Polynomials between bounded samples exceed the slope by the tolerance, at kinks.
 void ControlSpaceSampling::bound_slopes(double slope, bool directed) {
   slope_ = (1 - options_.tolerance) * slope;
   directed_ = directed;
@@ -87,8 +87,8 @@ void ControlSpaceSampling::bound_slopes(double slope, bool directed) {
   lattice_->forget();
 }
 
-// Sizes may have kinks, which polynomials overshoot; the root of J^T J has none. Where both are wanted on a side of a
-// leaf that is no longer than an edge of the mesh, the latter is the mean of both ends.
+// Sizes may have kinks, which polynomials overshoot; the root of J^T J is smooth. If both are needed on a side of a
+// leaf no longer than an edge of the mesh, the root of J^T J is the mean of both ends.
 Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const {
   if (slope_ == 0 || directed_ || leaf.vertices * area_per_vertex > 1) return root;
   const auto side = std::find_if(std::begin(middles_of_sides), std::end(middles_of_sides),
@@ -113,7 +113,7 @@ Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& l
   return h > 0 ? (h / std::clamp(h, low, high)) * root : root;
 }
 
-// Triangles around the centre where that is known. Where too few nodes are, links.
+// Triangles around the centre if it is known. Links if too few nodes are known.
 void ControlSpaceSampling::join_leaf(const TreeCell& cell, std::span<const std::int32_t> rank,
                                      SampledField& field) const {
   int known[8], count = 0;

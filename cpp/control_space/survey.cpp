@@ -42,8 +42,8 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
   return points;
 }
 
-// How many points of that grid are inside. Row by row, from the crossings of the boundary with the row; points that are
-// too near to it for that are located.
+// Number of points of this grid that are inside. They are counted row by row, from the crossings of the boundary with
+// the row; points too near to it are located.
 int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLocator& locator, int n) {
   const Vec2 w = s.high - s.low;
   const auto at = [&](int k, double low, double width) { return low + (k + 0.5) / n * width; };
@@ -99,7 +99,7 @@ double change(Metric2 p, Metric2 q, double floor) {
   return std::sqrt(d.a * d.a + 2 * d.b * d.b + d.c * d.c) / std::min(r.a + r.c, s.a + s.c);
 }
 
-// Change of the field along u over that along v, from metrics on the regular inner grid.
+// Change of the field along u over change along v, from metrics on the regular inner grid.
 double ratio_of_changes(std::span<const Metric2> m, double floor) {
   constexpr int n = inner_points;
   double u = least_change, v = least_change;
@@ -146,7 +146,7 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
   s.vertices_in_box = density / static_cast<double>(uv.size()) / area_per_vertex;
   if (along_u > 0 && along_v > 0) s.aspect = along_u / along_v;
   if (!square && inner.size() == inner_points * inner_points) {
-    // Cells as long as the field allows, but not too far from what exploration wants.
+    // Cells as long as the field allows, but not too far from the shape that exploration needs.
     const double ratio = ratio_of_changes(std::span(s.metrics).subspan(s.vertices.size()), s.floor);
     s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);
   }

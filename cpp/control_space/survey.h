@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A first look at a domain and at the field over it, before there is a grid. Private to size/.
+// A first survey of a domain and of the field over it, before the grid is made. Private to control_space/.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@
 
 namespace carreau::detail {
 
-/// What a few dozen samples say.
+/// Summary of a few dozen samples.
 struct Survey {
   Vec2 low, high;                ///< the domain's box
   double share = 1;              ///< of the box that belongs to the domain, about; never 0
   double vertices_in_box = 1;    ///< that a mesh of the whole box would have
-  double aspect = 1;             ///< wanted number of columns of cells over that of rows
+  double aspect = 1;             ///< desired number of columns of cells over number of rows
   double floor = 0;              ///< smallest eigenvalue that a metric in units of the box may have
   std::vector<int> vertices;     ///< boundary vertices that were sampled
   std::vector<Metric2> metrics;  ///< there, in units of the box, as the sampler gave them
@@ -25,8 +25,8 @@ struct Survey {
 /// Area of the part of a unit mesh that belongs to a vertex, two equilateral triangles: sqrt(3) / 2.
 extern const double area_per_vertex;
 
-/// `ask` calls the sampler. `square`: cells are to be as square in the metric as they can. Throws DomainError when the
-/// domain has no boundary or its box has no area.
+/// `ask` evaluates the sampler. `square`: cells should be as square in the metric as possible. Throws DomainError when
+/// the domain has no boundary or its box has no area.
 Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
               const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask, bool square);
 

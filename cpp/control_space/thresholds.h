@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their meaning, unit, reason and support.
 #pragma once
 
 #include <cstddef>
@@ -7,54 +7,54 @@
 
 namespace carreau::thresholds::control_space {
 
-// In brackets: the tests that rest on it, of tests/cpp/control_space/control_space_test ("ControlSpace") and
+// In brackets: the tests of the threshold, in tests/cpp/control_space/control_space_test ("ControlSpace") and
 // limits_test ("Limits").
 
 // The first look at the field (survey)
 /// Points. Asked on the boundary. [SmoothFields.AreReproducedFromFewSamples]
 inline constexpr std::size_t most_border_points = 8;
-/// Points. Asked inside, along each side of the box. [as above]
+/// Points. Samples inside, along each side of the box. [as above]
 inline constexpr int inner_points = 3;
-/// Points. Along each side of the box, to find the domain's share of it; no sample is asked. [Limits.AThinSliver...]
+/// Points. Along each side of the box, to find the domain's share of it; no sample is taken. [Limits.AThinSliver...]
 inline constexpr int share_points = 16;
 /// Share of the box. Points so near to the height of a vertex are located one by one. [rounding]
 inline constexpr double same_height = 1e-9;
 /// Ratio. How far the cells may differ from squares of the metric where the field varies more in one direction.
 /// [Limits. AspectRatiosUpToAMillionAreKept]
 inline constexpr double most_stretch = 6;
-/// Relative change. Fields that vary less do not tell in which direction. [ControlSpace.ConstantGivesBackTheMetric]
+/// Relative change. Fields that vary less have no usable direction. [ControlSpace.ConstantGivesBackTheMetric]
 inline constexpr double least_change = 1e-3;
 /// Edges. Least length of the whole box in any direction: metrics are clamped where the parametrisation is degenerate
 /// (HDR sec. 4.5.4), [Limits.DegenerateSidesAreClamped]
 inline constexpr double least_box_length = 1e-2;
-/// Share of what is usual. or this, if that is less. [Limits.AWideBoxMuchShorterThanAnEdgeKeepsItsMetric]
+/// Share of the usual length. or this, if that is less. [Limits.AWideBoxMuchShorterThanAnEdgeKeepsItsMetric]
 inline constexpr double least_share_of_usual = 1e-3;
 
 // The tree (tree, sampling)
 /// Share of a cell's size. Cells are so much wider when they are compared with an edge: rounding must not lose one.
 /// [Limits.SidesThatWaverByRoundingAreSides]
 inline constexpr double widening = 1e-9;
-/// Points. Asked of the host at a time. [time only]
+/// Points. Samples in one call of the host. [time only]
 inline constexpr std::size_t asked_at_once = 4096;
 /// Vertices. A cell of the first grid for so many, [samples: SmoothFields.AreReproducedFromFewSamples, as all below]
 inline constexpr double usual_vertices_per_cell = 10;
 /// Vertices. beyond which the number of cells grows with the square root only.
 inline constexpr double many_vertices = 10'000;
-/// Cells. Of the first grid.
+/// Cells. Least number in the first grid.
 inline constexpr double least_cells = 25;
-/// Samples. What a cell of a uniform grid costs: a node, its centre, its share of the border.
+/// Samples. Cost of a cell of a uniform grid: a node, its centre, its share of the border.
 inline constexpr double samples_per_cell = 2.4;
-/// Cells. Along a side of the first grid.
+/// Cells. Number along a side of the first grid.
 inline constexpr int least_side = 3, most_side = 1024;
-/// Units of the finest grid. Of a side, and of a cell: places are whole numbers. [range of integers]
+/// Units of the finest grid. Length of a side, and of a cell: places are whole numbers. [range of integers]
 inline constexpr std::int32_t most_units = 1 << 29, most_step = 1 << 20;
-/// Vertices wanted of a cell. One that holds so many times more is split without asking.
+/// Vertices desired in a cell. A cell that holds so many times more is split without a test.
 inline constexpr double crowded = 1.6;
-/// Samples. What max_samples is at least. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed]
+/// Samples. Least value of max_samples. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed]
 inline constexpr std::size_t least_of_max_samples = 1000;
 /// Edges. Cells at probe points are split while they are wider. [surface: SteepPlaces]
 inline constexpr double probe_width = 0.5;
-/// Rounds. Of such splits; each halves a cell. [time only]
+/// Rounds. Number of such splits; each halves a cell. [time only]
 inline constexpr int most_looks = 24;
 
 // Errors (sampling)
@@ -63,105 +63,107 @@ inline constexpr double negligible_length = 0.03;
 /// Tolerances. The error allowed where prediction is checked, of cells wider than an edge of the mesh, than half an
 /// edge, than the least width.
 inline constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1;
-/// Edges. Smaller cells serve nobody. [ControlSpace.SharpSizesAreFollowedDownToTheEdgesOfTheMesh]
+/// Edges. Smaller cells serve no purpose. [ControlSpace.SharpSizesAreFollowedDownToTheEdgesOfTheMesh]
 inline constexpr double least_width = 0.25;
-/// Edges. The error that is refined for whatever it costs is the tolerance in cells so wide. Below it grows with the
-/// inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
+/// Edges. In cells at least so wide, errors above the tolerance are refined at any cost. Below, the tolerated error
+/// grows with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
 inline constexpr double plain_width = 2.5;
-/// Share. What is left of a cell's error when its centre is known: a cubic along a side errs by half as much as one for
-/// the centre, to which both directions contribute.
+/// Share. Remaining part of a cell's error when its centre is known. A cubic along a side errs by half as much as a
+/// cubic for the centre, to which both directions contribute.
 inline constexpr double left_by_centre = 0.5;
 /// Ratio of sizes. From here on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
 /// the shortest edges wide. [ControlSpace.SizesMayVaryAThousandfold]
 inline constexpr double much_stretched = 30;
-/// Share. A boundary sample is compared with an extrapolation that does not know it; later it takes part.
+/// Share. A boundary sample is compared with an extrapolation that does not contain it; later it takes part.
 inline constexpr double border_relief = 0.25;
-/// Shares. Errors of cells fall from a cell to its parts by at most and at least so much. [orders of a quadratic]
+/// Shares. Errors of cells fall from a cell to its parts by at most and at least this share. [orders of a quadratic]
 inline constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5;
-/// Share of the error allowed. Where less is expected a sample need not confirm it.
+/// Share of the error allowed. If the expected error is smaller, no sample need confirm it.
 inline constexpr double trusted = 0.25;
 
 // Budgets (sampling)
-/// Samples. What splitting a cell costs: usually, and at most (4 middles, 4 centres, 8 boundary vertices); what testing
-/// it does. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed, as all below]
+/// Samples. Cost of splitting a cell: usually, and at most (4 middles, 4 centres, 8 boundary vertices); cost of testing
+/// it. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed, as all below]
 inline constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
-/// Samples. May be used beyond those for each vertex where errors are no larger than edges can show;
+/// Samples. Allowance beyond the samples for each vertex where errors are no larger than edges can show;
 inline constexpr double spare_samples = 100;
 /// Vertices. in a large mesh only so many count,
 inline constexpr double vertices_that_count = 1500;
 /// Share. and this of the others. [surface: Calls.AreAtMostFiveAVertexWhenGeometric]
 inline constexpr double share_of_others = 1.0 / 12;
-/// Samples, and samples a vertex. The same where the tolerance is violated.
+/// Samples, and samples a vertex. Limits where the tolerance is violated.
 inline constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
-/// Samples a vertex. Gradation leaves more kinks, and promises something of each. [surface: GradedModel.
+/// Samples a vertex. Gradation leaves more kinks, and bounds each of them. [surface: GradedModel.
 /// ControlSpacesObeyTheGradation]
 inline constexpr double most_graded_samples_per_vertex = 6;
 
 // Along borders (border, quadratic_fit)
 /// Samples. Wanted before a quadratic is fitted, which has six coefficients. [QuadraticFit]
 inline constexpr std::size_t enough_neighbours = 10;
-/// Samples. As many as there usually are. [memory only]
+/// Samples. Usual number. [memory only]
 inline constexpr std::size_t usual_neighbours = 48;
-/// Nodes. So few are gone through faster than the places of a grid are looked up. [time only]
+/// Nodes. So few nodes are searched faster one by one than by the places of a grid. [time only]
 inline constexpr std::size_t few_nodes = 400;
 /// Sizes. Reach of the neighbourhood, [ControlSpace.IsDefiniteEverywhereInTheBoxAndTakesTheNearestValueOutside, as
 /// below]
 inline constexpr double reach_in_sizes = 2.2;
-/// Share of the reach, and squared reaches. and how much the weights prefer near samples.
+/// Share of the reach, and squared reaches. and share from which the weights prefer near samples.
 inline constexpr double near_share = 0.5, softness = 0.04;
-/// Ratio. Eigenvalues of the fit against those of the samples that it was made from,
+/// Ratio. Eigenvalues of the fit over eigenvalues of its samples,
 inline constexpr double most_extrapolation = 2;
 /// Share. but for rounding.
 inline constexpr double eigenvalue_rounding = 1e-6;
-/// Shares of the sum of weights. Regularisation of slopes and of curvatures: without effect where the samples determine
-/// the polynomial, and pulls what they do not determine to zero. [QuadraticFit.AConstantComesBackFromSamplesOnALine]
+/// Shares of the sum of weights. Regularisation of slopes and curvatures: has no effect if the samples determine the
+/// polynomial, and pulls undetermined coefficients to zero. [QuadraticFit.AConstantComesBackFromSamplesOnALine]
 inline constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 
 // Gradation of samples (sample_gradation)
-/// Share of a size. Smaller changes are rounding. [BoundSlopes.WhatObeysIsLeftAsItIs]
+/// Share of a size. Smaller changes are rounding. [BoundSlopes.GentleSizesStay]
 inline constexpr double size_rounding = 1e-6;
-/// The same by direction, far below what polynomials between the samples do. [BoundSlopesByDirection.WhatObeys...]
+/// Smaller changes by direction are rounding: far below the change by polynomials between the samples.
+/// [BoundSlopesByDirection.GentleSizesStay]
 inline constexpr double directed_rounding = 1e-4;
 
 // Normals at samples (sampled_normals)
-/// Samples. More tell no more of a reach. [SampledNormals.ConvergeAtSecondOrder, as all below]
+/// Samples. More do not extend the reach. [SampledNormals.ConvergeAtSecondOrder, as all below]
 inline constexpr std::size_t most_normals = 16'384;
-/// Sine. Of the angle between normals of a plane, which rounding leaves. [SampledNormals.ThoseOfAPlaneDoNotDiffer]
+/// Sine. Largest angle between normals of a plane, from rounding. [SampledNormals.DoNotDifferOnAPlane]
 inline constexpr double flat_angle = 1e-6;
-/// Samples. In a bucket of their grid. [time only]
+/// Samples. Number in a bucket of the grid. [time only]
 inline constexpr double samples_per_bucket = 2;
 /// Spacings of samples. First reach.
 inline constexpr double first_reach = 1;
-/// Ratio. From one reach to the next, which is tried when the samples are too few or on a line,
+/// Ratio. Ratio from one reach to the next, if the samples are too few or on a line,
 inline constexpr double reach_growth = 1.5;
 /// Times. so often.
 inline constexpr int most_growths = 8;
 /// Samples. Enough for a fit.
 inline constexpr int enough_normals = 6;
-/// Fourth power of reaches. Added to that of a distance, over which weights are: that of a sample at the place itself
-/// is finite, and outweighs all others. [SampledNormals.AreExactAtSamples]
+/// Fourth power of reaches. Added to the fourth power of a distance, by which weights are divided: a sample at the
+/// place itself has a finite weight, far above all others. [SampledNormals.AreExactAtSamples]
 inline constexpr double nearest_normal = 1e-12;
-/// Determinant of their second moments over the square of the trace: samples along a line tell nothing across it.
+/// Determinant of their second moments over the square of the trace: samples along a line do not determine the
+/// direction across.
 inline constexpr double least_spread = 1e-3;
 
 // Polynomials (writer)
-/// Share. Inner Bernstein coefficients have eigenvalues of at least so much of those of the values beside them: all
-/// coefficients being definite, so is the polynomial. [ControlSpace.IsDefiniteEverywhereInTheBox...]
+/// Share. Inner Bernstein coefficients have eigenvalues of at least this share of the eigenvalues beside them: if all
+/// coefficients are definite, the polynomial is. [ControlSpace.IsDefiniteEverywhereInTheBox...]
 inline constexpr double least_inner_share = 0.1;
-/// Steps. In which a side or a cell is straightened until it is so. [as above]
+/// Steps. Number of steps in which a side or a cell is straightened. [as above]
 inline constexpr int straightening_steps = 8;
 /// Entries of the table for each leaf, at most. [Limits.SmallMeshesTakeLittleMemory]
 inline constexpr std::size_t table_per_leaf = 2;
-/// Points. Along each side of a cut leaf, which tell which part of it is inside. [ControlSpace.MeasureIsTheArea...]
+/// Points. Number along each side of a cut leaf; they determine its part inside. [ControlSpace.MeasureIsTheArea...]
 inline constexpr int cut_leaf_points = 4;
 
 // Undersampled regions
-/// Vertices of a unit mesh. Smaller squares may well be without any. [surface: Verification, as all below]
+/// Vertices of a unit mesh. Smaller squares may contain none. [surface: Verification, as all below]
 inline constexpr double crowd = 4;
-/// Share of the vertices. A mesh whose edges are twice as long as asked has a quarter; where sizes change much within
+/// Share of the vertices. A mesh whose edges are twice as long as prescribed has a quarter; if sizes change much within
 /// an edge good meshes have half of them.
 inline constexpr double least_share = 0.25;
-/// Triangles. Of a unit mesh. [Euler]
+/// Triangles. Number in a unit mesh. [Euler]
 inline constexpr double triangles_per_vertex = 2;
 
 }  // namespace carreau::thresholds::control_space

@@ -62,7 +62,7 @@ bool Tree::meets(const TreeCell& cell, std::int32_t edge) const noexcept {
          std::abs(cross(d, middle)) <= half * (x + y) * (1 + widening);
 }
 
-// Finds the cell's edges and whether it is relevant; returns what that says of its nodes.
+// Finds the cell's edges and whether it is relevant; returns the resulting place of its nodes.
 Place Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole) {
   cell.edges_begin = static_cast<std::int32_t>(edges_.size());
   for (const std::int32_t e : candidates)
@@ -77,8 +77,8 @@ Place Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, P
   return cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
 }
 
-// The block of the nodes that a split of the cell adds: of those in its interior and on its lower and left sides, or of
-// those on its upper or right `side`.
+// The block of the nodes that a split of the cell adds. They are in its interior and on its lower and left sides, or on
+// its upper or right `side`.
 std::int32_t Tree::block_of(std::int32_t number, int side) {
   const TreeCell& cell = cells_[number];
   if (const std::int32_t beyond = cell.beside[side]; beyond >= 0 && cells_[beyond].size == cell.size)
@@ -95,13 +95,13 @@ std::int32_t Tree::block_of(std::int32_t number) {
 
 void Tree::split(std::int32_t number) {
   cells_[number].child = size();
-  // Those of the nodes on the upper and right side belong to the cells beyond.
+  // Nodes on the upper and right side belong to the cells beyond.
   const std::int32_t own = block_of(number), right = block_of(number, 3), above = block_of(number, 1);
   const TreeCell cell = cells_[number];
   const std::int32_t half = cell.size / 2;
   candidates_.assign(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
   const Place whole = !candidates_.empty() ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
-  // The 5 x 5 nodes of the parts, nine of which are those of the cell.
+  // The 5 x 5 nodes of the parts, nine of which are nodes of the cell.
   std::array<std::int32_t, 25> node;
   for (int r = 0; r < 5; ++r)
     for (int c = 0; c < 5; ++c) node[5 * r + c] = r == 4 ? above + c : c == 4 ? right + 4 * r : own + 4 * r + c;
@@ -121,12 +121,12 @@ void Tree::split(std::int32_t number) {
   join_parts(number);
 }
 
-// The parts of a cell and those beyond its sides get to know each other.
+// Makes the parts of a cell and the cells beyond its sides neighbours.
 void Tree::join_parts(std::int32_t number) {
   const TreeCell cell = cells_[number];
   for (int k = 0; k < 4; ++k)
     for (int side = 0; side < 4; ++side) {
-      const int axis = side < 2 ? 2 : 1;  // of the bit of k that tells on which side the part lies
+      const int axis = side < 2 ? 2 : 1;  // of the bit of k that selects the side of the part
       const bool outer = ((k & axis) != 0) == (side % 2 == 1);
       std::int32_t& beside = cells_[cell.child + k].beside[side];
       if (!outer) {
@@ -140,7 +140,7 @@ void Tree::join_parts(std::int32_t number) {
   for (int side = 0; side < 4; ++side) point_to_parts(number, side);
 }
 
-// All that is smaller than the cell beyond one of its sides.
+// All smaller cells beyond a side of the cell.
 void Tree::point_to_parts(std::int32_t number, int side) {
   const TreeCell cell = cells_[number];
   const std::int32_t beyond = cell.beside[side];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of a control space under construction. Private to size/.
+// The cells of a control space under construction. Private to control_space/.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct TreeCell {
   double vertices = 0;                          ///< that a mesh would have in the whole cell
   /// In the lattice, row by row: corners, middles of sides, centre.
   std::array<std::int32_t, 9> node{};
-  /// Beyond the lower, upper, left, right side: the smallest cell that is not smaller than this one; -1 none.
+  /// Beyond the lower, upper, left, right side: the smallest cell that is not smaller than this cell; -1: no cell.
   std::array<std::int32_t, 4> beside{-1, -1, -1, -1};
 
   [[nodiscard]] GridPoint point(int k) const noexcept { return {i + (k % 3) * (size / 2), j + (k / 3) * (size / 2)}; }
@@ -48,20 +48,20 @@ class Tree {
   /// Cells that are not children of others, row by row: numbers 0 .. columns() * rows() - 1.
   [[nodiscard]] int columns() const noexcept { return columns_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  /// A leaf of size 2 has no more nodes to give.
+  /// A leaf of size 2 cannot be divided further.
   [[nodiscard]] bool can_split(std::int32_t cell) const noexcept {
     return cells_[cell].child < 0 && cells_[cell].size >= 4;
   }
   void split(std::int32_t cell);
   /// The leaf that holds the unit cell [i, i + 1] x [j, j + 1] of the finest grid; -1 outside of the box.
   [[nodiscard]] std::int32_t leaf_at(GridPoint p) const noexcept;
-  /// The same where the leaf is `cell` or a part of it.
+  /// Searches the leaf in `cell` and its parts.
   [[nodiscard]] std::int32_t leaf_below(std::int32_t cell, GridPoint p) const noexcept;
   /// Boundary vertices in the closed cell, increasing indices in SampledDomain::vertices.
   void vertices_in(const TreeCell& cell, std::vector<int>& found) const;
 
  private:
-  /// `whole`: where all of the cell lies, when that is known.
+  /// `whole`: the place of the whole cell, when it is known.
   [[nodiscard]] Place complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole);
   std::int32_t block_of(std::int32_t number);
   std::int32_t block_of(std::int32_t number, int side);
@@ -75,7 +75,7 @@ class Tree {
   int columns_, rows_;
   SegmentedArray<TreeCell> cells_;
   std::vector<std::int32_t> edges_;
-  // Scratch of split() and point_to_parts(); here for its memory.
+  // Scratch of split() and point_to_parts(), kept for its memory.
   std::vector<std::int32_t> candidates_, todo_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a mesh has far fewer vertices than the field asks for.
+// Regions where a mesh has far fewer vertices than the field prescribes.
 #include <algorithm>
 
 #include "control_space/control_space.h"
@@ -14,7 +14,7 @@ using namespace thresholds::control_space;
 
 }  // namespace
 
-/// Goes through the squares that hold leaves, from small ones to those that hold them.
+/// Goes through the squares that hold leaves, from small squares to larger ones.
 class ControlSpace::UndersampledSearch {
  public:
   explicit UndersampledSearch(const ControlSpace& space) : space_(space), held_(space.leaves_.size(), 0) {}

@@ -24,9 +24,9 @@ double smaller_eigenvalue(Metric2 m) noexcept {
   return 0.5 * (m.a + m.c) - std::sqrt(half * half + m.b * m.b);
 }
 
-// Cheap and nearly always enough to tell that the smaller eigenvalue of `inner` exceeds least_inner_share of those of p
-// and q: it is larger than determinant over trace, those are no larger than half of a trace; a factor of two is left
-// for rounding.
+// A cheap sufficient test that the smaller eigenvalue of `inner` exceeds least_inner_share of the smaller eigenvalues of
+// p and q. A smaller eigenvalue exceeds determinant over trace and is at most half of the trace; the factor of two
+// remains for rounding.
 bool surely_definite(Metric2 inner, Metric2 p, Metric2 q) noexcept {
   const double trace = inner.a + inner.c;
   return trace > 0 && determinant(inner) > least_inner_share * std::min(p.a + p.c, q.a + q.c) * trace;
@@ -67,7 +67,7 @@ void ControlSpaceWriter::balance() {
     todo.pop_back();
     if (tree_[c].child >= 0) continue;
     for (int side = 0; side < 4; ++side) {
-      // What is larger than a cell and beside it is a leaf.
+      // A neighbour larger than the cell is a leaf.
       for (std::int32_t leaf = tree_[c].beside[side]; leaf >= 0 && tree_[leaf].size > 2 * tree_[c].size;
            leaf = tree_[c].beside[side]) {
         tree_.split(leaf);
@@ -77,7 +77,7 @@ void ControlSpaceWriter::balance() {
   }
 }
 
-// By size, those of the same size in the order of the tree.
+// Sorts by size; leaves of equal size stay in the order of the tree.
 void ControlSpaceWriter::sort_leaves() {
   constexpr std::size_t sizes = 32;
   const auto rank = [](const TreeCell& cell) {
@@ -92,11 +92,12 @@ void ControlSpaceWriter::sort_leaves() {
     if (tree_[c].child < 0) leaves_[begin[rank(tree_[c])]++] = c;
 }
 
-// Predicts what can be predicted. The rest has to wait until all predictions are made: it must not take part in them.
+// Predicts all values that can be predicted. The rest has to wait until all predictions are made: it must not take part
+// in them.
 void ControlSpaceWriter::predict_values() {
   lattice_.forget();
   std::size_t count = 0;
-  // From fine to coarse: a node outside is extrapolated from the nearest samples that there are.
+  // From fine to coarse: a node outside is extrapolated from the nearest available samples.
   for (auto leaf = leaves_.rbegin(); leaf != leaves_.rend(); ++leaf) {
     if (++count % 1024 == 0) monitor_.checkpoint();
     const TreeCell& cell = tree_[*leaf];
@@ -109,7 +110,7 @@ void ControlSpaceWriter::predict_values() {
     };
     predict(4);
     for (const int k : detail::corners_of_cell) predict(k);
-    // A side that is half of a coarser one takes its middle from there.
+    // A side that is half of a coarser side takes its middle from there.
     for (int side = 0; side < 4; ++side)
       if (coarser_beside(cell, side) < 0) predict(detail::middles_of_sides[side]);
   }
@@ -135,7 +136,7 @@ void ControlSpaceWriter::set_values() {
   }
 }
 
-// Far outside any continuation does: the mean of what is known in a leaf spreads from leaf to leaf.
+// Far outside any continuation suffices: the mean of the known values in a leaf spreads from leaf to leaf.
 void ControlSpaceWriter::fill_outside() {
   std::vector<std::int32_t> todo;
   for (const std::int32_t leaf : leaves_)
@@ -185,7 +186,7 @@ void ControlSpaceWriter::straighten_sides() {
   }
 }
 
-// Where a side is half of a coarser one its middle lies on that one's quadratic.
+// If a side is half of a coarser side, its middle lies on the quadratic of the coarser side.
 ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) const {
   Nine v;
   for (int k = 0; k < 9; ++k) v[k] = lattice_.value(cell.node[k]);
@@ -193,7 +194,7 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
     const std::int32_t other = coarser_beside(cell, side);
     if (other < 0) continue;
     const TreeCell& coarser = tree_[other];
-    // The same side as seen from beyond: lower and upper, left and right change places.
+    // The side as seen from beyond: lower and upper, left and right change places.
     const int facing = side ^ 1;
     const Metric2 low = lattice_.value(coarser.node[detail::ends_of_sides[facing][0]]);
     const Metric2 middle = lattice_.value(coarser.node[detail::middles_of_sides[facing]]);
@@ -261,7 +262,7 @@ std::int32_t ControlSpaceWriter::write_leaf(const TreeCell& cell) {
   return static_cast<std::int32_t>(space_.leaves_.size()) - 1;
 }
 
-// A cell of the tree no larger than those of the table, and all below it.
+// A cell of the tree no larger than cells of the table, and all below it.
 std::int32_t ControlSpaceWriter::write_cell(std::int32_t number) {
   const TreeCell cell = tree_[number];
   if (cell.child < 0) return write_leaf(cell);
@@ -289,7 +290,7 @@ void ControlSpaceWriter::write() {
   space_.measures_.clear();
   space_.leaves_.reserve(leaves_.size());
   space_.measures_.reserve(leaves_.size());
-  // Cells at least as large as those of the table, each with all entries that it covers; depth first, so that near
+  // Cells at least as large as cells of the table, each with all entries that it covers; depth first, so that near
   // leaves are near in memory.
   std::vector<std::int32_t> stack;
   for (std::int32_t c = tree_.columns() * tree_.rows(); c-- > 0;) stack.push_back(c);

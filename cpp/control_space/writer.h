@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From samples to the piecewise polynomial of a control space. Private to size/.
+// From samples to the piecewise polynomial of a control space. Private to control_space/.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace carreau {
 
-/// Balances the tree, gives a value to the nine nodes of every leaf (corners, middles of sides, centre), and writes
+/// Balances the tree, and gives a value to the nine nodes of every leaf (corners, middles of sides, centre). Writes
 /// biquadratic polynomials that are continuous and positive definite.
 class ControlSpaceWriter {
  public:

@@ -12,8 +12,8 @@ namespace {
 /// Turning of an edge beyond which its samples belong to no smooth arc.
 constexpr double smooth_turning = 0.2;
 
-/// Length of the arc over edge i. An arc of circle that turns by phi is longer than its chord by the factor
-/// (phi / 2) / sin(phi / 2) = 1 + phi^2 / 24 + O(phi^4): the polyline's error of second order is taken away.
+/// Length of the arc over edge i. An arc of circle that turns by phi is longer than its chord by the factor (phi / 2) /
+/// sin(phi / 2) = 1 + phi^2 / 24 + O(phi^4). This removes the polyline's error of second order.
 double arc_over(const CurveSupport& support, std::size_t i) {
   const Vec3 chord = support.xyz[i + 1] - support.xyz[i];
   const double c = norm(chord);
@@ -48,8 +48,8 @@ double derivative_at(const std::vector<double>& t, const std::vector<double>& s,
   return derivative;
 }
 
-/// dt/ds at sample i from five samples about it, or as many as are joined to it by edges that have a length; bounded
-/// so that the cubic is monotone (Fritsch and Carlson 1980: at most three times either secant).
+/// dt/ds at sample i from five samples about it, or fewer where edges of zero length separate them. The slope is
+/// bounded so that the cubic is monotone (Fritsch and Carlson 1980: at most three times either secant).
 double slope_at(const std::vector<double>& t, const std::vector<double>& s, std::size_t i) {
   std::size_t first = i, last = i;
   while (first > 0 && i - first < 2 && s[first - 1] < s[first]) --first;

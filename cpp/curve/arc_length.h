@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arc length along a sampled curve: the part of a support that needs no host.
+// Arc length along a sampled curve: the part of a support that does not evaluate the host.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A model's curves with their supports: what the curve steps work on.
+// A model's curves with their supports: the input of the curve steps.
 #pragma once
 
 #include <span>
@@ -22,16 +22,16 @@ struct CurveModel {
   [[nodiscard]] const CurveSupport& support(const CurveUse& use) const {
     return supports[static_cast<std::size_t>(use.face)][static_cast<std::size_t>(use.curve)];
   }
-  /// Reference of the face of a use, as the routines of the host want it.
+  /// Reference of the face of a use, as the routines of the host expect it.
   [[nodiscard]] int face_ref(const CurveUse& use) const { return model.faces[static_cast<std::size_t>(use.face)].ref; }
-  /// Length of the curve in space: of its first use, which defines it.
+  /// Length of the curve in space, defined by its first use.
   [[nodiscard]] double length(int index) const { return support(curve(index).uses.front()).length(); }
 };
 
 /// Parameter, in one use, of the point at fraction r of a curve's length (in the direction of the first use).
 double parameter_at(const CurveModel& model, const CurveUse& use, double r);
 
-/// The same for all uses of a curve.
+/// Parameters of this point in all uses of a curve.
 std::vector<double> parameters_at(const CurveModel& model, int curve, double r);
 
 }  // namespace carreau

@@ -18,17 +18,17 @@ namespace {
 constexpr double longest_interval = 4;      ///< times lss
 constexpr double shortest_interval = 0.5;   ///< times lss
 constexpr double steepest_interval = 1.15;  ///< ratio of the sizes at its ends
-/// The same where the field is known exactly along the curve: edges of RR-2818 sec. 6.2 are then equal within .2 %.
+/// Limits if the field is known exactly along the curve: edges of RR-2818 sec. 6.2 are then equal within .2 %.
 constexpr double shortest_exact = 0.005, steepest_exact = 1.003;
 constexpr int initial_intervals = 4;
 constexpr std::size_t most_samples = 20'000;
 constexpr double narrowest = 1e-7;  ///< of the curve's length
-/// Steep places of a source this near to a curve, over its extent, are looked at on the curve; and how far apart.
+/// Share of its extent within which steep places of a source are sampled on the curve; and their spacing.
 constexpr double beside_curve = 0.01, steep_spacing = 0.002;
 
-/// Two samples of sizes from curvature may lie on two inflections. An interval is halved where the curve turns by more
-/// than this between them, or where its mean radius asks for so many times the edges that the samples do; down to a
-/// share of the curve at kinks.
+/// Two samples of sizes from curvature may lie on two inflections. An interval is halved if the curve turns by more
+/// than this between them, down to a share of the curve at kinks. It is also halved if its mean radius requires so many
+/// times the edges of the samples.
 constexpr double most_turning = 90 * std::numbers::pi / 180;
 constexpr double most_missed = 2;
 constexpr double least_bent = 1. / 256;
@@ -66,8 +66,8 @@ bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double len
   return edges > shortest * lss && std::max(left.h, right.h) > steepest * std::min(left.h, right.h);
 }
 
-/// Fraction of the curve's length at the point of a use's support, given in the parameter plane or in space, that is
-/// nearest to a place there, or -1 when that is farther away than `reach`.
+/// Fraction of the curve's length at the nearest point of a use's support to a place. The support is given in the
+/// parameter plane or in space. Returns -1 when the point is farther away than `reach`.
 template <typename V>
 double fraction_near(const CurveSupport& support, const std::vector<V>& points, V place, double reach) noexcept {
   double best = reach * reach, fraction = -1;
@@ -113,7 +113,7 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
   return apart;
 }
 
-/// Fractions at which sources tell kinks of their fields along the curve.
+/// Fractions at which sources report kinks of their fields along the curve.
 std::vector<double> kink_fractions(const CurveModel& model, int curve, const SizeRules& rules) {
   std::vector<double> fractions;
   for (const CurveUse& use : model.curve(curve).uses) {
@@ -130,10 +130,10 @@ std::vector<double> kink_fractions(const CurveModel& model, int curve, const Siz
   return fractions;
 }
 
-/// How much a curve turns, by the support of its first use.
+/// The turning of a curve, by the support of its first use.
 class Turning {
  public:
-  /// `known` false: nothing is asked of it.
+  /// If `known` is false, the curve is not evaluated.
   Turning(const CurveModel& model, int curve, bool known) : known_(known) {
     if (!known) return;
     const CurveUse& use = model.curve(curve).uses.front();
@@ -170,7 +170,8 @@ class Turning {
   }
 
  private:
-  /// Of the tangent, in terms of the first one: that of each segment in its middle, and linear between.
+  /// Angle of the tangent to the first tangent: each segment's direction holds in its middle, and the angle is linear
+  /// between.
   [[nodiscard]] double direction_at(double r) const {
     const auto after = std::upper_bound(r_.begin() + 1, r_.end() - 1, r);
     const auto i = static_cast<std::size_t>(after - r_.begin());  // r_[i - 1] <= r < r_[i]
@@ -226,7 +227,7 @@ std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules,
 double parameter_at(const CurveModel& model, const CurveUse& use, double r) {
   const CurveSupport& support = model.support(use);
   const double fraction = use.reversed ? 1 - r : r;
-  // A use without length (one point of space) has nothing but its parameter to go by.
+  // A use without length (one point of space) can only use its parameter.
   if (!(support.length() > 0)) return (1 - fraction) * support.t.front() + fraction * support.t.back();
   return support.t_at_arc(fraction * support.length());
 }

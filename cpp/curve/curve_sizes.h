@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes along a whole curve, sampled so that interpolation between samples can stand for them.
+// Sizes along a whole curve, sampled densely enough for interpolation between samples.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace carreau {
 
-/// Which size holds at the two ends of a curve whose interior is answered. RT-0232 sec. 6.2 speaks of sizes on curves
+/// Which size holds at the two ends of a curve whose interior is answered. In RT-0232 sec. 6.2 sizes hold on curves
 /// "hors extremites": the size of the end point and the curve's own may differ by a jump.
 enum class EndSizes {
   of_curve,  ///< the curve's own sizes reach its ends: the end point has no influence on the spacing
@@ -25,7 +25,7 @@ struct CurveOptions {
   double lss = 0.5;
   /// Distance between two uses' images of a vertex, over its size, above which parameters are refined.
   double carry_tolerance = 1e-3;
-  /// Sizes that are known already: nothing is sampled, and sizes at the ends are these. Null: sample_sizes().
+  /// Known sizes: nothing is sampled, and these are also the sizes at the ends. Null: sample_sizes().
   const SizeSamples* known = nullptr;
 };
 
@@ -40,10 +40,10 @@ struct SizeSamples {
   [[nodiscard]] double physical_at(double at) const noexcept;
 };
 
-/// Samples the sizes of a curve. Two samples and no callback when the size is constant; two samples when nobody
+/// Samples the sizes of a curve. Two samples and no callback when the size is constant. Two samples when no source
 /// answers along the curve and curvature is ignored (the interpolation law is then exact). Otherwise intervals are
-/// halved until each is at most 4 lss unit edges long and its ends differ by at most 15 %, or it is shorter than
-/// lss / 2; where sizes come from curvature also until the curve turns by at most 90 degrees in each. Throws
+/// halved until each is at most 4 lss unit edges long and its ends differ by at most 15 %, or it is shorter than lss /
+/// 2. If sizes come from curvature, they are also halved until the curve turns by at most 90 degrees in each. Throws
 /// InvalidArgument unless lss is positive.
 SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 

@@ -91,7 +91,8 @@ std::vector<std::size_t> probes(const DiscreteCurve& d, const CurveModel& model,
   return chosen;
 }
 
-/// Measures how far use u puts a few vertices from where they are; refines all of its parameters when it is too far.
+/// Measures the distance of a few vertices from their images in use u; refines all of its parameters when it is too
+/// large.
 void check_use(DiscreteCurve& d, const CurveModel& model, std::size_t u, double tolerance) {
   const std::vector<std::size_t> at = probes(d, model, u);
   if (at.empty()) return;
@@ -148,7 +149,7 @@ std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double
   return cuts;
 }
 
-/// Prescribed parameters as shares of the first use's length, as far as supports know them.
+/// Prescribed parameters as shares of the first use's length, as far as supports determine them.
 std::vector<double> fractions(const CurveModel& model, const CurvePrescription& told, const Curve& curve) {
   const CurveUse& use = curve.uses[static_cast<std::size_t>(told.use)];
   const CurveSupport& support = model.support(use);
@@ -162,7 +163,8 @@ std::vector<double> fractions(const CurveModel& model, const CurvePrescription& 
   return r;
 }
 
-/// Images of all vertices in all uses, and those inside in space. `told`: the owner's parameters, where they are known.
+/// Computes images of all vertices in all uses, and inner vertices in space. `told`: the owner's parameters if they are
+/// known.
 void carry(DiscreteCurve& d, const CurveModel& model, double tolerance, const std::vector<double>& told = {}) {
   const std::vector<CurveUse>& uses = model.curve(d.curve).uses;
   carry_ends(d, model);
@@ -243,7 +245,7 @@ bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model, doubl
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const double left = d.t_of_use[u][k];
     const double right = d.t_of_use[u][k + 1];
-    // What refine_t changed at the neighbours holds between them too.
+    // The shift that refine_t made at the neighbours also holds between them.
     const double shift =
         (left - parameter_at(model, uses[u], d.r[k]) + right - parameter_at(model, uses[u], d.r[k + 1])) / 2;
     double middle = parameter_at(model, uses[u], r) + shift;

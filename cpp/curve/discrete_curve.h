@@ -13,18 +13,18 @@ namespace carreau {
 struct DiscreteCurve {
   int curve = 0;             ///< index in Topology::curves
   bool indivisible = false;  ///< one point of space: a single segment that is never split (HDR sec. 4.5.4)
-  bool prescribed = false;   ///< its edges are told (FaceCurve::edges): they are never split or moved
+  bool prescribed = false;   ///< its edges are given (FaceCurve::edges): they are never split or moved
   int owner = 0;             ///< the use on whose surface the vertices are; not 0 only where its edges are prescribed
   std::vector<double> r;     ///< fractions of the length in space, r.front() = 0, r.back() = 1
   std::vector<Vec3> xyz;     ///< on the owner's surface; the two ends are the corner points
   /// [use][vertex]: descending where the use is reversed.
   std::vector<std::vector<double>> t_of_use;
   std::vector<std::vector<Vec2>> uv_of_use;  ///< [use][vertex], exact values of curv0
-  std::vector<double> size;                  ///< wanted size at each vertex; at the ends that of the corner points
-  std::vector<double> physical;  ///< the physical part of it, what surfaces interpolate when the host is silent
+  std::vector<double> size;                  ///< desired size at each vertex; at the ends the size of the corner points
+  std::vector<double> physical;  ///< the physical part of it, which surfaces interpolate when the host does not answer
   SizeSamples sizes;             ///< along the curve
-  /// Largest distance found between a vertex and what another use's surface says about it, model length. Measured at
-  /// all vertices of the uses in `refined`, at the ends and a few vertices of the others.
+  /// Largest distance found between a vertex and its position on another use's surface, model length. Measured at all
+  /// vertices of the uses in `refined`, at the ends and a few vertices of the others.
   double gap = 0;
   int gap_use = 0;            ///< the use that it was found in
   std::vector<char> refined;  ///< [use]: parameters were improved by refine_t because interpolation was not enough
@@ -33,16 +33,16 @@ struct DiscreteCurve {
 };
 
 /// Discretises one curve and carries it. A closed curve has at least three segments, a curve that is one point of
-/// space exactly one. Throws what the host throws, LimitError.
+/// space exactly one. Throws the host's exceptions, LimitError.
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 
-/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. False, and nothing done,
-/// when the curve is one point of space, its edges are prescribed, or the segment cannot be divided in floating-point
-/// numbers.
+/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. Returns false, with no
+/// change, when the curve is one point of space, its edges are prescribed, or the segment cannot be divided in
+/// floating-point numbers.
 bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model, double share = 0.5);
 
-/// Puts the vertices inside a curve at other fractions of its length, ascending, strictly between 0 and 1, in every
-/// use. Nothing is done to a curve that is one point of space or whose edges are prescribed.
+/// Moves the vertices inside a curve to other fractions of its length, ascending, strictly between 0 and 1, in every
+/// use. A curve that is one point of space or whose edges are prescribed does not change.
 void place_vertices(DiscreteCurve& discrete, const std::vector<double>& inside, const CurveModel& model);
 /// The same at given parameters of the owner's use, also on curves whose edges are prescribed.
 void place_vertices_at(DiscreteCurve& discrete, const std::vector<double>& inside, const std::vector<double>& t,

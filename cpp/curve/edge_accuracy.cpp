@@ -10,7 +10,7 @@ namespace carreau {
 
 namespace {
 
-// A tangent at a vertex is that of the arc beside it, where the curve has a kink there.
+// If the curve has a kink at a vertex, the tangent belongs to the arc beside it.
 constexpr double beside = 1e-6;
 constexpr std::array<double, 9> shares{beside, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1 - beside};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How an edge of a discretised curve approximates its arc (HDR sec. 2.6).
+// Approximation of an arc by an edge of a discretised curve (HDR sec. 2.6).
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace carreau {
 
-/// Where the vertices of a discretised curve are on it.
+/// Parameters of the vertices of a discretised curve on it.
 struct CurveParameters {
   int face = 0, ic = 0;   ///< of the curve in one of its faces, as in the cad_m routines
   std::vector<double> t;  ///< by vertex; NaN: it is not on this curve. Empty: nothing is known
@@ -20,9 +20,9 @@ struct EdgeAccuracy {
   double angle_deg = 0;  ///< A1, E_1 of HDR eq. 2.28: largest angle between tangents of the arc and the edge
 };
 
-/// The arc S(C(t)) is that of curve (face, ic), t from t0 to t1. `nodes`: the ends of the edge, and its node between
-/// them where it is of second order. Both are measured at seven points inside; A1 at the ends, too, where the tangent is
-/// that of this arc. Nine evaluations. Throws what the host throws.
+/// The arc S(C(t)) belongs to curve (face, ic), t from t0 to t1. `nodes`: the ends of the edge, and its node between
+/// them where it is of second order. Both are measured at seven points inside; A1 also at the ends, with the tangent of
+/// this arc. Nine evaluations. Throws the host's exceptions.
 EdgeAccuracy edge_accuracy(Cad& cad, int face, int ic, double t0, double t1, std::span<const Vec3> nodes);
 
 }  // namespace carreau

@@ -11,15 +11,15 @@ namespace carreau {
 
 namespace {
 
-/// Points of the rule: exact to degree 9, and between two samples of a support a curve turns by about a degree.
+/// Points of the rule: exact to degree 9; between two samples of a support a curve turns by about a degree.
 constexpr int points = 5;
 /// Halvings of an interval: at a kink the rest is below 1e-3 of it.
 constexpr int most_halvings = 10;
-/// Newton's steps; where they would leave the bracket it is halved.
+/// Newton's steps; a step that would leave the bracket is replaced by halving.
 constexpr int most_steps = 60;
-// Halves that differ by less are equal: rounding, and what finite differences leave of a derivative.
+// Halves that differ by less are equal: rounding, and the remaining error of finite differences.
 constexpr double exact_tolerance = 1e-14, difference_tolerance = 1e-8;
-/// Share of the length below which nothing is missing.
+/// Share of the length below which an error is rounding.
 constexpr double rounding = 1e-15;
 
 }  // namespace

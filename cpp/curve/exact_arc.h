@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arc length of a curve of a face by quadrature (HDR eq. 2.3 and sec. 2.4), where that of a support is not exact
-// enough.
+// Arc length of a curve of a face by quadrature (HDR eq. 2.3 and sec. 2.4), for cases in which the support's length is
+// too inexact.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,13 @@
 
 namespace carreau {
 
-/// s(t), the integral of |d S(C(t)) / dt| (HDR eq. 2.3), and its inverse. On a curve without kinks to some 1e-14 of its
-/// length where the host gives first derivatives, to the accuracy of finite differences where it does not.
+/// s(t), the integral of |d S(C(t)) / dt| (HDR eq. 2.3), and its inverse. On a curve without kinks it is exact to some
+/// 1e-14 of its length if the host gives first derivatives, else to the accuracy of finite differences.
 class ExactArc {
  public:
-  /// Curve (face, ic), as in the cad_m routines. `t`: places between which the curve bends little, such as those of a
-  /// support: strictly increasing, two or more, the ends among them. `cad` outlives this. Throws what the host throws.
+  /// Curve (face, ic), as in the cad_m routines. `t`: places between which the curve bends little, such as the samples
+  /// of a support: strictly increasing, two or more, including the ends. `cad` outlives this. Throws the host's
+  /// exceptions.
   ExactArc(Cad& cad, int face, int ic, std::vector<double> t);
 
   [[nodiscard]] double length() const noexcept { return arc_.back(); }

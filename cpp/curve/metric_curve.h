@@ -18,15 +18,15 @@ namespace carreau {
 template <typename V, typename M>
 class MetricCurve {
  public:
-  /// `abscissae` ascend strictly from 0 to the length of the polyline (the last one within one part in a million of
-  /// it, and then moved there); metrics[i] holds at abscissae[i]. Throws InvalidArgument when the arrays do not fit, a
-  /// number is not finite, or a metric is not positive definite.
+  /// `abscissae` ascend strictly from 0 to the length of the polyline; the last one is within one part in a million of
+  /// the length, and moved there. metrics[i] holds at abscissae[i]. Throws InvalidArgument when the arrays do not fit,
+  /// a number is not finite, or a metric is not positive definite.
   MetricCurve(std::vector<V> points, std::vector<double> abscissae, std::vector<M> metrics, MetricLaw law);
 
   [[nodiscard]] V point_at(double s) const noexcept;
   /// Interpolated between the two metrics around s (RR-2818 sec. 4.3.3).
   [[nodiscard]] M metric_at(double s) const;
-  /// Length in the metric, and the points that finding it has cost.
+  /// Length in the metric, and the points that were evaluated for it.
   [[nodiscard]] MetricLengthTable gradation(double lss = 0.5) const;
   /// Abscissae of unit_edge_count() edges of equal metric length (algorithm (A) of RR-2818 sec. 4.1).
   [[nodiscard]] std::vector<double> split(double lss = 0.5) const;

@@ -15,12 +15,12 @@ namespace {
 
 constexpr double most_edges = 20e6;
 /// Largest change of a trapezoid by halving, unit edges. An edge of unit length has some four trapezoids, whose errors
-/// are a third of it: it is true to 0.3 %.
+/// are a third of it: its error is at most 0.3 %.
 constexpr double trapezoid_tolerance = 0.002;
 
 void check_count(double l) {
   if (l <= most_edges) return;
-  throw LimitError("the metrics along a curve ask for more than " + format_number(most_edges) + " edges");
+  throw LimitError("the metrics along a curve require more than " + format_number(most_edges) + " edges");
 }
 
 void check_breaks(std::span<const double> breaks, double lss) {
@@ -32,7 +32,7 @@ void check_breaks(std::span<const double> breaks, double lss) {
                             format_number(breaks[i]));
 }
 
-/// Distance from the start of an interval of width w at which the metric length reaches `length`: the root of
+/// Distance from the start of an interval of width w at which the metric length reaches `length`. It is the root of
 /// first d + (last - first) d^2 / (2 w) = length, in the form that does not cancel.
 double distance_within(double first, double last, double w, double length) noexcept {
   if (!(length > 0)) return 0;
@@ -66,7 +66,7 @@ class Measure {
       }
       const double f = speed_at(middle);
       const double whole = width * (left.f + right.f) / 2, halves = width * (left.f + 2 * f + right.f) / 4;
-      // The middle is kept in any case: what it has cost is spent.
+      // The middle is kept in any case: its evaluation is already paid for.
       if (whole <= lss_ && std::abs(halves - whole) <= trapezoid_tolerance) {
         add(left, {middle, f});
         add({middle, f}, right);
@@ -125,7 +125,7 @@ MetricLengthTable measure_curve(const PieceSpeed& speed, std::span<const double>
 }
 
 std::vector<double> split_equally(const MetricLengthTable& gradation, int n) {
-  if (n < 1) throw InvalidArgument("a curve has at least one edge; " + std::to_string(n) + " were asked for");
+  if (n < 1) throw InvalidArgument("a curve has at least one edge, not " + std::to_string(n));
   const auto& [s, l, first, last] = gradation;
   return equal_parts(s, l, n, [&, &first = first, &last = last, &s = s](std::size_t i, double length) {
     return distance_within(first[i], last[i], s[i + 1] - s[i], length);

@@ -24,15 +24,15 @@ struct MetricLengthTable {
 /// sqrt(T^t M T) at abscissa s of a piece, T the unit tangent there: finite and >= 0.
 using PieceSpeed = std::function<double(std::size_t piece, double s)>;
 
-/// Trapezoids, halved until none is longer than `lss` unit edges and halving it once more changes it by less than
-/// 0.002 (RR-2818 sec. 4.4 asks for the first condition only). The speed may jump between pieces: piece i runs from
-/// breaks[i] to breaks[i + 1] (strictly ascending). Each value of the speed is asked once a piece. Throws
+/// Trapezoids, halved until all are at most `lss` unit edges long and halving once more changes the length by less than
+/// 0.002. (RR-2818 sec. 4.4 has the first condition only.) The speed may jump between pieces: piece i runs from
+/// breaks[i] to breaks[i + 1] (strictly ascending). Each value of the speed is evaluated once a piece. Throws
 /// InvalidArgument when breaks or lss mean nothing or a speed is negative or not finite, LimitError beyond 20 million
 /// edges.
 MetricLengthTable measure_curve(const PieceSpeed& speed, std::span<const double> breaks, double lss);
 
-/// The n + 1 usual abscissae that cut a curve into n >= 1 edges of equal metric length, found between the points of the
-/// gradation without another evaluation (RR-2818 sec. 4.6).
+/// The n + 1 usual abscissae that cut a curve into n >= 1 edges of equal metric length (RR-2818 sec. 4.6). They are
+/// found between the points of the gradation without another evaluation.
 std::vector<double> split_equally(const MetricLengthTable& gradation, int n);
 
 }  // namespace carreau

@@ -16,14 +16,14 @@ namespace {
 
 /// Fewest edges of a curve that returns to its start: two would lie on each other.
 constexpr int least_closed = 3;
-/// Share. Ratios of the two uses of a curve that are the same but for rounding.
+/// Share. Ratios of the two uses of a curve that differ by less are equal.
 constexpr double same_ratio = 1e-12;
 
 const FaceCurve& face_curve(const CurveModel& model, const CurveUse& use) {
   return model.model.faces[static_cast<std::size_t>(use.face)].curves[static_cast<std::size_t>(use.curve)];
 }
 
-// Not the face, which would be left out for it where faces may fail: the curve can be meshed.
+// The error does not name the face, because the face would be left out where faces may fail; the curve can be meshed.
 [[noreturn]] void refuse(const CurveModel& model, const CurveUse& use, const std::string& why) {
   const Face& face = model.model.faces[static_cast<std::size_t>(use.face)];
   throw InvalidModel(Where{.curve = face_curve(model, use).ref},
@@ -61,7 +61,7 @@ int prescribing_use(const CurveModel& model, const Curve& curve) {
   return found;
 }
 
-/// Those of `given`; on a part of a curve, those inside it.
+/// The parameters of `given`; on a part of a curve, the parameters inside it.
 std::vector<double> given_parameters(const CurveModel& model, const CurveUse& use) {
   const FaceCurve& curve = face_curve(model, use);
   const CurveSupport& support = model.support(use);
@@ -101,7 +101,7 @@ std::vector<double> progression_shares(const PrescribedEdges& told) {
   const double l = std::log(q);
   const auto share = [&](double k) {
     if (told.progression == Progression::equal || q == 1 || told.edges == 1) return k / n;
-    // Lengths 1 + (q - 1) i / (n - 1), i < n: the sum of k of them over that of all.
+    // Lengths 1 + (q - 1) i / (n - 1), i < n: the sum of k of them over the sum of all.
     if (told.progression == Progression::arithmetic) return (2 * k + (q - 1) * k * (k - 1) / (n - 1)) / (n * (1 + q));
     // (q^k - 1) / (q^n - 1), without overflow.
     if (q > 1) return std::exp((k - n) * l) * (std::expm1(-k * l) / std::expm1(-n * l));

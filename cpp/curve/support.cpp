@@ -16,22 +16,22 @@
 namespace carreau {
 namespace {
 
-/// Deviations below these fractions of the curve's length do not matter: they end the refinement at a kink (across the
-/// edge) and where the speed of the parametrisation vanishes or is infinite (along the edge).
+/// Deviations below these fractions of the curve's length do not matter. They end the refinement at a kink (across the
+/// edge), and where the speed of the parametrisation vanishes or is infinite (along the edge).
 constexpr double across_floor = 1e-6;
 constexpr double along_floor = 2e-6;
 /// Deviations below this fraction of the coordinates are rounding errors.
 constexpr double rounding_floor = 1e-12;
 constexpr int initial_edges = 8;
-/// Into how many parts one pass may cut an edge. The first pass only learns the curve, the second goes straight to the
-/// number that a smooth curve needs; what still needs cutting then is not smooth, and is cut with care.
+/// Into how many parts one pass may cut an edge. The first pass only learns the curve, and the second goes straight to
+/// the number that a smooth curve needs. Edges that still need cutting then are not smooth, and are cut with care.
 constexpr int most_parts = 32;
 int most_parts_in(int pass) noexcept { return pass == 1 ? most_parts : 4; }
-/// Parts are planned a little too short, the more so the more there are (long chords underrate a curvature): one part
-/// too many costs one sample, a second cut doubles them all.
+/// Parts are planned a little too short, the more so the more there are, because long chords underrate a curvature. One
+/// part too many costs one sample, a second cut doubles them all.
 double with_margin(double parts) noexcept { return parts * (1.08 + 0.01 * parts); }
 constexpr int most_passes = 60;
-/// Edges are not made narrower than this fraction of [a, b].
+/// Edges are never narrower than this fraction of [a, b].
 constexpr double narrowest = 1e-13;
 
 /// Deterministic noise in [-1, 1] (splitmix64).
@@ -43,7 +43,7 @@ double noise(std::uint64_t seed) noexcept {
   return static_cast<double>(seed >> 11U) * 0x1p-52 - 1;
 }
 
-/// What the deviation of one edge is measured against, in one of the two spaces.
+/// Limits for the deviation of one edge in one of the two spaces.
 struct Tolerance {
   double relative = 0;           ///< times the chord
   double across = 0, along = 0;  ///< absolute, from below
@@ -75,8 +75,8 @@ Excess excess_of(V v, V chord, const Tolerance& tolerance) noexcept {
   return worst;
 }
 
-/// Whether all components of v are within the tolerance, beyond any doubt of rounding: what is true of nearly all edges of
-/// the last pass, without roots.
+/// Returns whether all components of v are within the tolerance, beyond any doubt of rounding. Nearly all edges of the last pass are, and
+/// the test needs no roots.
 template <typename V>
 bool surely_within(const V& v, const V& chord, const Tolerance& tolerance) noexcept {
   constexpr double sure = 1 - 1e-9;
@@ -94,9 +94,9 @@ class Builder {
       throw InvalidArgument("the angle of a curve's support must lie between 0 and 90 degrees; it is " +
                             format_number(options.angle_deg));
     }
-    // An arc of circle of chord c makes the angle theta with its chord at both ends, and leaves it by
-    // (c / 2) tan(theta / 2): the deviation that angle_smo allows (RT-0232 sec. 3.3). The same bound along the
-    // chord keeps t -> arc length close to linear, which (PL) wants beyond (PG) (HDR sec. 2.5).
+    // An arc of circle of chord c makes the angle theta with its chord at both ends, and leaves it by (c / 2) tan(theta
+    // / 2). This is the deviation that angle_smo allows (RT-0232 sec. 3.3). The bound along the chord keeps t -> arc
+    // length close to linear, which (PL) requires beyond (PG) (HDR sec. 2.5).
     const double theta = options.angle_deg * std::numbers::pi / 180;
     relative_ = std::tan(theta / 2) / 2;
     max_samples_ = static_cast<std::size_t>(std::max(options.max_samples, initial_edges + 1));
@@ -127,8 +127,8 @@ class Builder {
     return i;
   }
 
-  /// Ends and middles are uniform, the samples between them pseudo-random (HDR fig. 2.2): a periodic curve is not
-  /// mistaken for a straight one.
+  /// Ends and middles are uniform, the samples between them pseudo-random (HDR fig. 2.2), so that a periodic curve is
+  /// not mistaken for a straight one.
   void start(Interval interval) {
     std::vector<double> t;
     for (int i = 0; i <= initial_edges; ++i) {
@@ -143,7 +143,7 @@ class Builder {
 
   static double lerp_t(double a, double b, double w) noexcept { return std::clamp((1 - w) * a + w * b, a, b); }
 
-  /// Evaluates the parameters (ascending, none known yet) in one batch and merges them with the samples.
+  /// Evaluates the parameters (ascending, all new) in one batch and merges them with the samples.
   void insert(const std::vector<double>& added) {
     std::vector<Vec2> uv(added.size());
     std::vector<SurfaceJet> jets(added.size());
@@ -190,8 +190,8 @@ class Builder {
     return {relative_, std::max(across_floor * length, rounding), std::max(along_floor * length, rounding)};
   }
 
-  /// Deviation that the bends at both ends of edge i let expect, in one space. `bend`: that at its start, then at its end.
-  /// Where nothing is too large the ratio is not always told.
+  /// Deviation that the bends at both ends of edge i let expect, in one space. `bend`: the bend at its start, then at its end. If no
+  /// deviation is too large the ratio may be missing.
   template <typename V>
   Excess edge_excess(const std::vector<V>& points, std::size_t i, const Tolerance& tolerance, V& bend) const noexcept {
     const V chord = points[i + 1] - points[i];
@@ -205,7 +205,7 @@ class Builder {
     if (i > 0) left = excess_of<V>(at_start, chord, tolerance);
     if (i + 1 < last) right = excess_of<V>(at_end, chord, tolerance);
     Excess both = worse(left, right);
-    // The two ends tell different stories: no smooth arc, and halving is all that can be trusted.
+    // The two ends disagree: the arc is not smooth, and only halving can be trusted.
     if (i > 0 && i + 1 < last && 2 * std::min(left.ratio, right.ratio) < both.ratio) {
       both.parts = std::min(both.parts, 2);
     }
@@ -217,7 +217,7 @@ class Builder {
     Vec2 plane{0, 0};
     Vec3 space{0, 0, 0};
   };
-  /// The larger of both spaces; edges are to be asked one after the other, from the first one on.
+  /// The larger excess of both spaces; edges must be evaluated in order, from the first one on.
   Excess edge_excess(std::size_t i, const Tolerance& plane, const Tolerance& space, Bends& bends) const noexcept {
     const Excess in_plane = edge_excess(support_.uv, i, plane, bends.plane);
     return worse(in_plane, edge_excess(support_.xyz, i, space, bends.space));
@@ -230,7 +230,7 @@ class Builder {
     return width > narrowest * span && width > 8 * std::numeric_limits<double>::epsilon() * magnitude;
   }
 
-  /// New parameters that this pass has to add, ascending. `limited`: whether a deviation is too large.
+  /// New parameters for this pass, ascending. `limited`: set if a deviation is too large.
   [[nodiscard]] std::vector<double> wanted(int pass, bool& limited) const {
     std::vector<double> added;
     limited = false;
@@ -303,7 +303,7 @@ CurvePoint refine_t(Cad& cad, int face, int ic, const CurveSupport& support, dou
     if (!(squared > 0)) break;
     const double share = dot(target - best.xyz, chord) / squared;
     const double next = std::clamp(best.t + share * (support.t[i + 1] - support.t[i]), t_low, t_high);
-    // Another evaluation pays only when the step is a good part of the distance that remains.
+    // A further evaluation is worth its cost only when the step is a good part of the remaining distance.
     if (next == best.t || std::abs(share) * std::sqrt(squared) < 0.1 * best.distance) break;
     const CurvePoint candidate = evaluate(next);
     if (!(candidate.distance < best.distance)) break;

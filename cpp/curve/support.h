@@ -8,9 +8,9 @@
 
 namespace carreau {
 
-/// Polyline that stands for a curve both in the parameter plane and in space: between two samples,
-/// linear interpolation in t is close to both curves (property (PL), HDR sec. 2.5). All arrays have m >= 2 entries.
-/// All samples are exact values of the host.
+/// Polyline that approximates a curve both in the parameter plane and in space. Between two samples, linear
+/// interpolation in t is close to both curves (property (PL), HDR sec. 2.5). All arrays have m >= 2 entries. All
+/// samples are exact values of the host.
 struct CurveSupport {
   std::vector<double> t;  ///< strictly increasing, t[0] = a, t[m-1] = b
   std::vector<Vec2> uv;
@@ -45,17 +45,17 @@ struct SupportOptions {
 /// outside ]0, 90[.
 CurveSupport build_support(Cad& cad, int face, int ic, const SupportOptions& options);
 
-/// A point of a curve and what the host says about it.
+/// A point of a curve with the host's values there.
 struct CurvePoint {
   double t = 0;
   Vec2 uv;
   Vec3 xyz;
-  double distance = 0;  ///< from the point that was asked for
+  double distance = 0;  ///< from the requested point
 };
 
-/// The point of curve (face, ic) with t in [t_low, t_high] nearest to `target`, searched from the guess t by at most
-/// two Gauss-Newton steps whose tangent is the support's. Spends one to three surf0 calls. Never farther from
-/// `target` than the guess.
+/// The point of curve (face, ic) with t in [t_low, t_high] nearest to `target`. At most two Gauss-Newton steps from the
+/// guess t search it, with the support's tangent. Spends one to three surf0 calls. Never farther from `target` than the
+/// guess.
 CurvePoint refine_t(Cad& cad, int face, int ic, const CurveSupport& support, double t, double t_low, double t_high,
                     Vec3 target);
 

@@ -19,7 +19,7 @@ constexpr double most_edges = 20e6;
 
 void check_count(double l) {
   if (l <= most_edges) return;
-  throw LimitError("the sizes along a curve ask for " + format_number(std::ceil(l)) + " edges; the limit is " +
+  throw LimitError("the sizes along a curve require " + format_number(std::ceil(l)) + " edges; the limit is " +
                    format_number(most_edges));
 }
 

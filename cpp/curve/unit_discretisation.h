@@ -31,7 +31,7 @@ double normalised_length(std::span<const double> s, std::span<const double> h, S
 std::vector<double> split_by_sizes(std::span<const double> s, std::span<const double> h, SizeLaw law, int at_least = 1);
 
 /// The general case: `speed(w)` is sqrt(T^t M T) at abscissa w of [0, total], finite and >= 0; measured by
-/// measure_curve (metric_gradation.h; RR-2818 sec. 4.4-4.6). Returns n + 1 abscissae. Throws InvalidArgument when
+/// measure_curve (metric_length_table.h; RR-2818 sec. 4.4-4.6). Returns n + 1 abscissae. Throws InvalidArgument when
 /// total or lss is not positive or a speed is not finite, LimitError beyond 20 million edges.
 std::vector<double> split_by_metric(const std::function<double(double)>& speed, double total, double lss);
 

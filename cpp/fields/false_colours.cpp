@@ -8,7 +8,7 @@ namespace carreau {
 
 namespace {
 
-// As seen on a screen (sRGB), evenly spaced.
+// In the colours of a screen (sRGB), evenly spaced.
 constexpr std::array<std::array<double, 3>, 6> stops{{{0.84, 0.24, 0.22},
                                                       {0.96, 0.56, 0.26},
                                                       {0.98, 0.86, 0.42},

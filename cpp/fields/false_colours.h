@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of previews, in linear light (what EXR files hold).
+// Colours of previews, in linear light, as in EXR files.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ LinearColour false_colour(double t) noexcept;
 /// Place of a size in [low, high] on a logarithmic scale; 1/2 where the interval is (nearly) one value.
 double place_of_size(double h, double low, double high) noexcept;
 
-/// Where there should be a value, and is none.
+/// Colour of a missing value.
 constexpr LinearColour colour_of_nothing{0.7F, 0.0F, 0.6F};
 
 }  // namespace carreau

@@ -38,7 +38,7 @@ class FieldWriter {
       rules_.emplace(run.model, run.topology, cad, run.size);
       if ((options.groups & field_governs) != 0) origin_rules_.emplace(run.model, run.topology, cad, run.size);
     } catch (const InvalidArgument& error) {
-      // Parameters that contradict one another are why there is no mesh; the geometry can be shown all the same.
+      // Contradicting parameters are the reason for the missing mesh; the geometry can still be shown.
       if (run.result != nullptr) throw;
       monitor.message(Level::warning, std::string("the fields have no sizes: ") + error.what());
     }

@@ -16,12 +16,12 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Vec3 nowhere{nan, nan, nan};
 const SurfaceJet nothing{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
-// Points to evaluate at a time, as elsewhere.
+// Points evaluated at a time, as elsewhere.
 constexpr std::size_t batch = 1024;
-// A host that fails everywhere, by an exception at each point, would take seconds to say so: when it has failed at so
-// many points one by one, one of so many is asked.
+// A host that fails everywhere, by an exception at each point, would take seconds. After so many failures at single
+// points, one of so many points is evaluated.
 constexpr std::size_t most_in_vain = 1024, stride_in_vain = 31;
-// Below this difference of the sizes the direction is one of rounding errors.
+// Below this difference of the sizes the direction is determined by rounding errors.
 constexpr double isotropic = 1e-6;
 
 }  // namespace
@@ -99,7 +99,7 @@ bool FieldSampler::sample_one(Vec2 uv, SurfaceJet& jet, Metric2& metric) {
   return told;
 }
 
-// At one point of so many, and at none of the others. False, with nothing changed, when the host says something.
+// Evaluates one point of so many, and skips the others. Returns false, with nothing changed, when the host answers.
 bool FieldSampler::sample_some(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric) {
   const std::int64_t before = failures_;
   for (std::size_t k = 0; k < uv.size(); k += stride_in_vain)

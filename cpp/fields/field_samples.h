@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host says at points of a face, where it may fail.
+// The host's values at points of a face, where it may fail.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ struct TangentSizes {
   double angle = 0;       ///< of the direction of h1 from Su towards Sv, degrees in [0, 180[; 0 where h1 = h2
 };
 
-/// Of a metric of the parameter plane, from a jet with first derivatives. All NaN where one of both is degenerate or
-/// not finite.
+/// Sizes of a metric of the parameter plane, from a jet with first derivatives. All NaN where one of both is degenerate
+/// or not finite.
 TangentSizes tangent_sizes(const SurfaceJet& jet, Metric2 metric) noexcept;
 
-/// Asks at many points and goes on where the host fails: values that are missing are NaN. For one thread.
+/// Evaluates many points and goes on if the host fails: missing values are NaN. For one thread.
 class FieldSampler {
  public:
-  /// `want`: bits of the jets; those that `prescribed` (null: none) wants are added. Keeps references.
+  /// `want`: bits of the jets; the bits that `prescribed` (may be null) needs are added. Keeps references.
   FieldSampler(int ref, unsigned want, FaceMetric* prescribed, Cad& cad, Monitor& monitor);
 
-  /// Any size of batch. Metrics are NaN without `prescribed`. Throws Cancelled only. A host that has answered at none
-  /// of a thousand points is asked at some of those that follow only, until it answers.
+  /// Any size of batch. Metrics are NaN without `prescribed`. Throws Cancelled only. If a host fails at a thousand
+  /// points, only some of the following points are evaluated, until it answers.
   void sample(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric);
 
   [[nodiscard]] std::int64_t failures() const noexcept { return failures_; }
@@ -41,7 +41,7 @@ class FieldSampler {
   /// False when the host fails.
   bool evaluate(unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> jets);
   bool prescribe(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
-  /// False when the host says nothing at all.
+  /// Returns false when the host gives neither jet nor metric.
   bool sample_one(Vec2 uv, SurfaceJet& jet, Metric2& metric);
   bool sample_some(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric);
   void keep(const char* sentence);
@@ -54,7 +54,7 @@ class FieldSampler {
   std::int64_t failures_ = 0;
   bool failed_ = false;      // at the point at hand
   bool answered_ = false;    // at some point
-  std::size_t in_vain_ = 0;  // points asked one by one before that
+  std::size_t in_vain_ = 0;  // points evaluated one by one before the first answer
   std::string first_failure_;
 };
 

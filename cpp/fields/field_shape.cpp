@@ -11,7 +11,7 @@ namespace carreau {
 
 namespace {
 
-// Of a curve without support.
+// Samples of a curve without support.
 constexpr int samples_of_curve = 257;
 
 void set_box(FieldShape& shape) {
@@ -39,7 +39,7 @@ std::vector<Vec2> sampled(Cad& cad, int face, int ic) {
     for (int i = 0; i < samples_of_curve; ++i) try {
         const double w = static_cast<double>(i) / (samples_of_curve - 1);
         points.push_back(cad.curve(face, ic, want_position, (1 - w) * interval.a + w * interval.b).c);
-      } catch (const CallbackError&) {  // what is left of the curve will do
+      } catch (const CallbackError&) {  // the rest of the curve suffices
       }
   } catch (const CallbackError&) {
   }
@@ -65,7 +65,7 @@ class LoopCloser {
     shape_.loops.segments.emplace_back(ends_[i], ends_[j]);
   }
 
-  // Nearly all of them; the rest is few.
+  // Joins coincident ends: nearly all of them.
   void join_those_that_meet() {
     double extent = 0;
     for (const Vec2& p : shape_.loops.vertices) extent = std::max({extent, std::abs(p.x()), std::abs(p.y())});

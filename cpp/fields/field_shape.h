@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameter domain of a face whose fields are sampled, also of one that could not be meshed.
+// The parameter domain of a face whose fields are sampled, also if the face could not be meshed.
 #pragma once
 
 #include <span>
@@ -14,18 +14,18 @@
 namespace carreau {
 
 struct FieldShape {
-  PlaneSegments loops;  ///< closed: what DomainRaster wants
+  PlaneSegments loops;  ///< closed, as DomainRaster requires
   PlaneSegments lines;  ///< all curves, internal ones too
-  Vec2 low, high;       ///< box of the loops; both zero when there is none
+  Vec2 low, high;       ///< box of the loops; both zero without loops
   double gap = 0;       ///< longest segment (parameter units) that was needed to close the loops
 };
 
 /// The domain that was meshed.
 FieldShape shape_of(const PlaneDomain& domain);
 
-/// The domain as the host's curves bound it. `supports`: those of the curves of the face when they are known, else
-/// empty: then each curve is sampled at some hundred points, and those where the host fails are left out. Ends that do
-/// not meet are joined, the nearest first: parity needs closed loops. Throws Cancelled.
+/// The domain as the host's curves bound it. `supports`: the supports of the face's curves when they are known, else
+/// empty. Then each curve is sampled at some hundred points, except where the host fails. Ends that do not meet are
+/// joined, the nearest first: parity needs closed loops. Throws Cancelled.
 FieldShape shape_of(const Face& face, std::span<const CurveSupport> supports, Cad& cad, Monitor& monitor);
 
 }  // namespace carreau

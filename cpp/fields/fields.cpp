@@ -72,18 +72,18 @@ constexpr std::array channels{Channel{"size.h", field_size},
 constexpr int probe_columns = 32;
 // The shorter side of an image is not below this share of the longer one.
 constexpr double flattest = 1.0 / 16;
-// Lengths are those of a coarse sample: what differs less than this from a square is one.
+// Lengths come from a coarse sample: a shape that differs less than this from a square is taken as one.
 constexpr double nearly_square = 0.01;
 // Lines of previews, in pixels.
 constexpr double edge_width = 1.2, curve_width = 2.6;
 // Sides of triangles fade out where triangles are this many pixels high, and less.
 constexpr double visible_height = 7, hidden_height = 2;
 
-// The pixels of some rows, and what the host says there.
+// The pixels of some rows, and the host's values there.
 struct Block {
   int first = 0, rows = 0;
   std::vector<std::uint8_t> mask;
-  std::vector<std::uint32_t> pixel;  // those inside, as ranks in the block
+  std::vector<std::uint32_t> pixel;  // pixels inside, as ranks in the block
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
   std::vector<Metric2> prescribed;
@@ -103,7 +103,7 @@ PixelGrid grid_of(const FieldShape& shape, int width, int height) {
   return {.low = shape.low, .high = shape.high, .width = width, .height = height};
 }
 
-// Writes the channels of one block; those that are not wanted have no plane.
+// Writes the channels of one block; channels that are not requested have no plane.
 class Painter {
  public:
   Painter(unsigned groups, std::span<ExrPlane> planes) {
@@ -139,7 +139,7 @@ class Painter {
   std::array<std::size_t, 11> first_{};
 };
 
-// How dark the sides of a triangle make a pixel, 0 to 1.
+// Darkness of a pixel by the sides of a triangle, 0 to 1.
 double ink_of_triangle(const std::array<Vec2, 3>& corner, const Vec2& pixel) {
   double nearest = infinity, longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -241,7 +241,7 @@ void FieldImage::State::choose_grid(double length_u, double length_v) {
   if (width == 0) {
     const Vec2 box = source.shape.high - source.shape.low;
     double ratio = length_v / length_u;
-    if (!(ratio > 0 && std::isfinite(ratio))) ratio = box.y() / box.x();  // the host says nothing
+    if (!(ratio > 0 && std::isfinite(ratio))) ratio = box.y() / box.x();  // the host gives no usable value
     if (!(ratio > 0 && std::isfinite(ratio)) || std::abs(ratio - 1) < nearly_square) ratio = 1;
     ratio = std::clamp(ratio, flattest, 1 / flattest);
     const auto shorter = [&](double share) {
@@ -269,7 +269,7 @@ void FieldImage::State::make_rasters() {
   if (has(field_preview)) curves.emplace(source.shape.lines, curve_width, grid);
 }
 
-// What needs the caller's thread.
+// The part of the work that needs the caller's thread.
 std::shared_ptr<Block> FieldImage::State::sample(int first, int rows) {
   monitor.progress(Phase::writing, source.ref, static_cast<double>(first) / grid.height);
   auto block = std::make_shared<Block>();

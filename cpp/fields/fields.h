@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What governed the mesh of a face, sampled on a grid of its parameter box and written as images (EXR).
+// The prescriptions and results of the mesh of a face, sampled on a grid of its parameter box and written as images
+// (EXR).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ namespace carreau {
 
 /// Groups of channels; bits. Values are part of the C ABI.
 enum FieldGroup : unsigned {
-  field_size = 1,        ///< size.h, size.h1 size.h2 size.angle: what is prescribed; model length, degrees
+  field_size = 1,        ///< size.h, size.h1 size.h2 size.angle: prescribed sizes; model length, degrees
   field_induced = 2,     ///< induced.e .f .g: first fundamental form
   field_target = 4,      ///< target.m11 .m12 .m22: metric of the parameter plane that the mesher used
   field_curvature = 8,   ///< curvature.k1 .k2: principal ones, k1 >= k2; 1 / model length
@@ -31,13 +32,13 @@ enum FieldGroup : unsigned {
   field_triangle = 128,  ///< triangle: number of the pixel's triangle in the mesh
   field_mask = 256,      ///< mask: 1 in the domain, 0 outside
   field_preview = 512,   ///< R G B A
-  /// physical.h .h1 .h2 .angle, geometric.h .h1 .h2 .angle: each by itself, clamped; model length, degrees; governs: a
+  /// physical.h .h1 .h2 .angle, geometric.h .h1 .h2 .angle: each alone, clamped; model length, degrees; governs: a
   /// SizeOrigin
   field_governs = 1024,
   all_fields = 2047,
 };
 
-/// In the channel `triangle` where there is no triangle, in `governs` where nothing is known.
+/// In the channel `triangle` a pixel without triangle, in `governs` an unknown origin.
 constexpr std::uint32_t no_triangle = 0xFFFFFFFF;
 
 struct FieldOptions {
@@ -51,17 +52,17 @@ struct FieldOptions {
   ExrOptions file = {.threads = 0};  ///< threads 0: parameter threads
 };
 
-/// What is known of a face. Pointers may be null: the channels that need them have no value then.
+/// Data of a face. Pointers may be null: the channels that need them have no value then.
 struct FieldSource {
   int ref = 0;
   FieldShape shape;
   const FaceMesh* mesh = nullptr;
   std::uint32_t first_triangle = 0;      ///< number of its first triangle in the whole mesh
   std::span<const double> vertex_size;   ///< of the whole mesh
-  FaceMetric* prescribed = nullptr;      ///< asked from the caller's thread only
-  SizeOrigins* origins = nullptr;        ///< likewise; not without `prescribed`
-  const ControlSpace* space = nullptr;   ///< that of the mesher
-  std::vector<ExrAttribute> attributes;  ///< besides those of the image
+  FaceMetric* prescribed = nullptr;      ///< used by the caller's thread only
+  SizeOrigins* origins = nullptr;        ///< likewise; requires `prescribed`
+  const ControlSpace* space = nullptr;   ///< the mesher's space
+  std::vector<ExrAttribute> attributes;  ///< besides the attributes of the image
 };
 
 /// A0 and A1 of each triangle of the whole mesh; both empty: not known.
@@ -73,7 +74,7 @@ struct FieldDeviations {
 class FieldImage {
  public:
   /// Asks the geometry at about a thousand points. `deviations` is called when the first row is made, and only when its
-  /// channels are wanted. Keeps references to its arguments. Throws InvalidArgument for sizes that cannot be.
+  /// channels are requested. Keeps references to its arguments. Throws InvalidArgument for sizes that cannot be.
   FieldImage(const FieldSource& source, const FieldOptions& options, std::function<FieldDeviations()> deviations,
              Cad& cad, Monitor& monitor);
   ~FieldImage();
@@ -82,8 +83,8 @@ class FieldImage {
 
   [[nodiscard]] ExrPart part() const;
   [[nodiscard]] const PixelGrid& grid() const noexcept;
-  /// Makes the pixels; the geometry is asked by the thread that calls it, for pixels of the domain only. Where the host
-  /// fails there is NaN; only Cancelled is thrown.
+  /// Makes the pixels; the calling thread evaluates the geometry, for pixels of the domain only. Pixels at which the
+  /// host fails are NaN; only Cancelled is thrown.
   [[nodiscard]] ExrPrepare pixels();
   /// The preview over white as a PNG file: options.groups must be field_preview. Throws as pixels() does.
   [[nodiscard]] std::string png();
@@ -100,7 +101,7 @@ class FieldImage {
 /// or ".png".
 std::string field_file_of_face(const std::string& path, int ref);
 
-/// Throws InvalidArgument with a sentence on what cannot be.
+/// Throws InvalidArgument that describes the conflict.
 void check_field_options(const FieldOptions& options);
 
 }  // namespace carreau

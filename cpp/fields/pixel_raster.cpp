@@ -42,8 +42,8 @@ std::vector<std::pair<int, int>> rows_of(std::span<const Vec2> vertices,
   return rows;
 }
 
-// Where an edge crosses the line of a row; half-open, so that of two edges that meet on it one does. The same number
-// for both directions of the edge: neighbours share their pixels without gap or overlap.
+// The crossing of an edge with the line of a row. It is half-open, so that one of two edges that meet on the line
+// crosses it. The same number for both directions of the edge: neighbours share their pixels without gap or overlap.
 std::optional<double> crossing(const Vec2& p, const Vec2& q, double v) noexcept {
   if (q.y() < p.y()) return crossing(q, p, v);
   if (!(p.y() <= v && v < q.y())) return {};
@@ -153,7 +153,7 @@ void LineRaster::coverage(int first, int rows, std::span<float> out) const {
       if (from > to) continue;
       const auto [left, right] = std::minmax({lerp(a, b, from).x(), lerp(a, b, to).x()});
       const double last = grid_.width - 1.0;
-      if (!(right + reach_ >= 0 && left - reach_ <= last)) continue;  // also for what is not finite
+      if (!(right + reach_ >= 0 && left - reach_ <= last)) continue;  // also for infinite and NaN values
       const int begin = static_cast<int>(std::max(std::ceil(left - reach_), 0.0));
       const int end = static_cast<int>(std::min(std::floor(right + reach_), last));
       for (int column = begin; column <= end; ++column) {

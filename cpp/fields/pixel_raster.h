@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pixels of a grid over the parameter plane lie in a domain, in which triangle, and on which line.
+// Pixels of a grid over the parameter plane: in a domain, in triangles, and on lines.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct PixelGrid {
   [[nodiscard]] Vec2 in_pixels(const Vec2& uv) const noexcept {
     return {(uv.x() - low.x()) / pixel().x() - 0.5, (high.y() - uv.y()) / pixel().y() - 0.5};
   }
-  /// First column whose centre is at or right of u, `width` when there is none.
+  /// First column whose centre is at or right of u, `width` if no column is.
   [[nodiscard]] int first_column(double u) const noexcept;
 };
 
@@ -35,7 +35,7 @@ struct PixelGrid {
 class RowBands {
  public:
   static constexpr int band_rows = 16;
-  /// rows[i]: first and last row of item i; outside the image is allowed, and so is last < first (no row).
+  /// rows[i]: first and last row of item i; rows outside the image are allowed, and so is last < first (no row).
   RowBands(std::span<const std::pair<int, int>> rows, int height);
   /// Items of the band that holds a row, ascending.
   [[nodiscard]] std::span<const std::uint32_t> around(int row) const noexcept {
@@ -54,9 +54,9 @@ struct PlaneSegments {
   std::vector<std::pair<int, int>> segments;
 };
 
-/// The inside of closed loops, by the parity of crossings. A pixel is in when its centre is; a centre on an edge counts
-/// for the side on its right (above a horizontal one), as in TriangleRaster. Keeps a copy of its arguments; calls are
-/// safe from several threads.
+/// The inside of closed loops, by the parity of crossings. A pixel is inside when its centre is; a centre on an edge
+/// counts for the side on its right (above a horizontal one), as in TriangleRaster. Keeps a copy of its arguments;
+/// calls are safe from several threads.
 class DomainRaster {
  public:
   DomainRaster(PlaneSegments loops, const PixelGrid& grid);
@@ -69,7 +69,7 @@ class DomainRaster {
   RowBands bands_;
 };
 
-/// The triangles of a plane mesh. Where they tile a domain without overlap, each pixel of the domain belongs to exactly
+/// The triangles of a plane mesh. If they tile a domain without overlap, each pixel of the domain belongs to exactly
 /// one. Keeps references to its arguments; calls are safe from several threads.
 class TriangleRaster {
  public:
@@ -91,7 +91,7 @@ class TriangleRaster {
 class LineRaster {
  public:
   LineRaster(PlaneSegments lines, double width, const PixelGrid& grid);
-  /// How much of each pixel of rows [first, first + rows) a line covers, 0 to 1, approximately.
+  /// Share of each pixel of rows [first, first + rows) that lines cover, 0 to 1, approximately.
   void coverage(int first, int rows, std::span<float> out) const;
 
  private:

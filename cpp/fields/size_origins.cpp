@@ -17,9 +17,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr TangentSizes unknown{nan, nan, nan, nan};
 // Points at a time, as elsewhere.
 constexpr std::size_t batch = 1024;
-// Bounds so many times as wide bound nothing that a mesh can have; squares of their ratio are still far from overflow.
+// Bounds so many times as wide bound no size of a mesh; squares of their ratio are still far from overflow.
 constexpr double widening = 1e6;
-// Sizes that differ by a smaller share are one: metrics are decomposed to some 1e-12.
+// Sizes that differ by a smaller share are equal: metrics are decomposed to some 1e-12.
 constexpr double same_size = 1e-6;
 
 SizeParameters physical_of(SizeParameters size) {
@@ -42,7 +42,7 @@ SizeParameters widened(SizeParameters size) {
 
 bool differ(double a, double b) noexcept { return std::abs(a - b) > same_size * b; }
 
-/// The least size; infinity where nothing is asked for.
+/// The least size; infinity if no size is prescribed.
 double least(const TangentSizes& sizes) noexcept { return std::isnan(sizes.h1) ? infinity : sizes.h1; }
 
 }  // namespace
@@ -77,7 +77,7 @@ void SizeOrigins::ask(Part& part, std::span<const Vec2> uv, std::span<const Surf
       part.metric->at(uv.subspan(i, n), jets.subspan(i, n), std::span(metric).subspan(i, n));
     } catch (const Cancelled&) {
       throw;
-    } catch (const Error&) {  // told for what is prescribed
+    } catch (const Error&) {  // reported for the prescribed sizes
       return false;
     }
     for (std::size_t k = i; k < i + n; ++k) part.sizes[k] = tangent_sizes(jets[k], metric[k]);
@@ -87,7 +87,7 @@ void SizeOrigins::ask(Part& part, std::span<const Vec2> uv, std::span<const Surf
   for (std::size_t i = 0; i < uv.size(); ++i) known(i, 1);
 }
 
-/// Only a size on one of its bounds can have been moved there; elsewhere `any` says what `own` says.
+/// Only a size on one of its bounds can have been moved there; elsewhere `any` equals `own`.
 void SizeOrigins::ask_beyond(Part& any, const Part& own, double low, double high, std::span<const Vec2> uv,
                              std::span<const SurfaceJet> jets) {
   const bool on_bound = std::any_of(own.sizes.begin(), own.sizes.end(), [&](const TangentSizes& sizes) {

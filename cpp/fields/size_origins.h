@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the sizes of a face come from: physical, geometric, bounds or gradation.
+// Origin of the sizes of a face: physical, geometric, bounds or gradation.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace carreau {
 
-/// What makes the least size of a place what it is. Values are part of the C ABI (channel `governs`).
+/// The cause of the least size of a place. Values are part of the C ABI (channel `governs`).
 enum class SizeOrigin : std::uint32_t {
   physical = 0,   ///< the host, hphydef, a background mesh
   geometric = 1,  ///< the curvature
-  bounds = 2,     ///< the one of these two that is smaller, moved by hphymin, hphymax, hgeomin or hgeomax
+  bounds = 2,     ///< the smaller of these two, moved by hphymin, hphymax, hgeomin or hgeomax
   gradation = 3,  ///< a place beside
 };
 
-/// The rules of a run, apart. Each may be missing: that size is ignored.
+/// The rules of a run, separately. Each may be missing: its size is ignored.
 struct OriginRules {
-  /// Keeps references to its arguments. Throws what SizeRules throws.
+  /// Keeps references to its arguments. Throws the exceptions of SizeRules.
   OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
   std::optional<SizeRules> physical, geometric;          ///< clamped
@@ -31,7 +31,7 @@ struct OriginRules {
   SizeParameters size;
 };
 
-/// At one place. All members of sizes are NaN where they are ignored or not known.
+/// Origins at one place. All members of sizes are NaN if they are ignored or unknown.
 struct OriginsAt {
   TangentSizes physical, geometric;
   std::optional<SizeOrigin> governs;  ///< of the least size in any direction; empty: not known
@@ -40,12 +40,12 @@ struct OriginsAt {
 /// The origins of one face (index in Model::faces). Keeps references. For one thread.
 class SizeOrigins {
  public:
-  /// `graded`: what is prescribed may be smaller than what the rules say.
+  /// `graded`: prescribed sizes may be smaller than the sizes of the rules.
   SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, bool graded, Monitor& monitor);
 
-  /// `jets` hold what FaceMetric::wants() of the whole rules asks for; `prescribed`: what FaceMetric says there, with
-  /// its gradation. Asks the host for its sizes again; a failure of the host is a place that is not known. Throws
-  /// Cancelled only.
+  /// `jets` hold the derivatives that FaceMetric::wants() of all rules returns; `prescribed`: the metric of FaceMetric
+  /// there, with its gradation. Evaluates the host's sizes again; a place where the host fails has unknown origins.
+  /// Throws Cancelled only.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
           std::span<OriginsAt> origins);
 

@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// What every built-in geometry makes: an evaluator that may be called from several threads at once, with exact
-/// derivatives to order two, and a model whose faces, curves and points have references, names and nothing left to
+/// Result of every built-in geometry. The evaluator may be called from several threads at once, and has exact
+/// derivatives to order two. The model's faces, curves and points have references and names, and nothing is left to
 /// glue. References of faces and of points begin at 1.
 struct BuiltGeometry {
   std::shared_ptr<Cad> cad;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of domains as people see them: boundaries between two corners.
+// The sides of domains: boundaries between two corners.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// Numbers the boundaries of all faces by sides: edges that follow one another in a face and turn by less than 45
+/// Numbers the boundaries of all faces by sides. Edges that follow one another in a face and turn by less than 45
 /// degrees, in space, are of one side, whatever curves they belong to. `on_boundary[t]` has bit i set when the side of
 /// triangle t from corner i to the next one lies on a boundary.
 class BoundarySides {
@@ -20,9 +20,9 @@ class BoundarySides {
 
   /// Sides that meet at a place, one entry for each edge: both ends of a side that closes there.
   [[nodiscard]] std::span<const int> at_place(int place) const noexcept;
-  /// The same of all places of a vertex.
+  /// Sides at all places of a vertex.
   [[nodiscard]] const std::vector<int>& at_vertex(int vertex) const noexcept { return at_vertex_[vertex]; }
-  /// The one of the edge on a boundary between two places.
+  /// Side of the edge on a boundary between two places.
   [[nodiscard]] std::span<const int> of_edge(int a, int b) const noexcept;
 
  private:

@@ -10,12 +10,12 @@
 
 namespace carreau {
 
-/// The size at x is the least h(e) + slope |x - e| over edges e of space: what lets triangles grow from short edges of
-/// a boundary to the size prescribed inside (Borouchaki, Hecht, Frey, from edges in place of vertices). Straight
-/// distances: sizes are never larger than those of distances on the surface. at() is safe from several threads.
+/// The size at x is the least h(e) + slope |x - e| over edges e of space (Borouchaki, Hecht, Frey, from edges in place
+/// of vertices). So triangles grow from short edges of a boundary to the size prescribed inside. Straight distances:
+/// sizes are never larger than sizes by distances on the surface. at() is safe from several threads.
 class EdgeSizes {
  public:
-  /// An edge and the size wanted beside it.
+  /// An edge and the desired size beside it.
   struct Source {
     Vec3 a, b;
     double h = 0;
@@ -26,12 +26,12 @@ class EdgeSizes {
 
   [[nodiscard]] bool empty() const noexcept { return sources_.empty(); }
   [[nodiscard]] double smallest() const noexcept;
-  /// Unit triangles that growth from one edge after the other asks for within `extent` of it, in a plane: the area of
-  /// each ring over that of its triangles, which edges beside each other share. An upper bound.
+  /// Number of unit triangles in the growth zones within `extent` of each edge, in a plane. Each ring counts its area
+  /// over the area of its triangles; edges beside each other share rings. An upper bound.
   [[nodiscard]] double triangles_within(double extent) const noexcept;
-  /// The same edges with sizes of at least h.
+  /// Copies the edges with sizes of at least h.
   [[nodiscard]] EdgeSizes bounded_below(double h) const;
-  /// The size at p, or `most` where it is smaller. Logarithmic in the number of edges where few of them are near.
+  /// The smaller of the size at p and `most`. Logarithmic in the number of edges where few of them are near.
   [[nodiscard]] double at(const Vec3& p, double most = infinity) const noexcept;
 
  private:

@@ -44,7 +44,7 @@ class Facing {
   }
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
 
-  // Where the line through p along n meets a triangle.
+  // Intersection of a triangle with the line through p along n.
   [[nodiscard]] std::optional<FacingPlace> meet(int place, const Vec3& p, const Vec3& n, int t) const {
     const auto& c = graph_.triangles[t];
     std::array<Vec3, 3> x;

@@ -25,8 +25,8 @@ Vec3 resized(const Vec3& v, double length) noexcept {
   return l > 0 ? (length / l) * v : Vec3{};
 }
 
-/// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector: an edge away, the line
-/// is that vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
+/// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector. An edge away, the line
+/// is this vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
 /// through the inside of triangles as a plane wave.
 class Grading {
  public:
@@ -80,7 +80,7 @@ class Grading {
   }
 
  private:
-  /// What is known at a vertex: h = source_h + slope |line|.
+  /// Front at a vertex: h = source_h + slope |line|.
   struct Front {
     double h = infinity, source_h = infinity;
     Vec3 line;      // from the source, in the tangent plane of `place`
@@ -93,7 +93,7 @@ class Grading {
   [[nodiscard]] Vec3 normal(int place) const noexcept { return graph_.places[place].normal; }
   [[nodiscard]] Front& front_at(int place) noexcept { return front_[graph_.places[place].vertex]; }
 
-  /// The line of a vertex as another of its places sees it; false when the surface cannot be unfolded there.
+  /// Carries the line of a vertex to another of its places; returns false when the surface cannot be unfolded there.
   bool carry(int v, int to, Vec3& line) const noexcept {
     line = front_[v].line;
     return fans_.carry(front_[v].place, to, line);
@@ -244,7 +244,7 @@ GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<doub
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (sources[i].place < 0 || static_cast<std::size_t>(sources[i].place) >= graph.places.size())
       throw InvalidArgument("an index of a gradation's source is out of range");
-    // Numbers beyond those of vertices.
+    // Numbers after the numbers of vertices.
     grading.add(sources[i], static_cast<int>(graph.xyz.size() + i));
   }
   grading.run();

@@ -11,7 +11,8 @@
 namespace carreau {
 
 /// Triangles of all faces, joined where faces share a vertex. A vertex has one place for each time that a face holds it
-/// (twice along a seam): tangent planes on both sides of a crease differ, and so do the two sides of a Klein bottle.
+/// (twice along a seam). The tangent planes on both sides of a crease differ, and so do the two sides of a Klein
+/// bottle.
 struct GradationGraph {
   struct Place {
     int vertex = 0;  ///< index in `xyz`
@@ -24,7 +25,7 @@ struct GradationGraph {
   std::vector<std::array<int, 2>> segments;  ///< vertices joined by a curve, for curves without triangles; may be empty
 };
 
-/// How a size comes to a place: h = source_h + slope |line|.
+/// The path of a size to a place: h = source_h + slope |line|.
 struct GradationFront {
   double source_h = 0;
   Vec3 line;  ///< from the source, in the tangent plane of the place; zero where the size is the vertex's own
@@ -34,18 +35,18 @@ struct GradationFront {
 struct GradationFronts {
   std::vector<double> h;              ///< of vertices; +infinity where no size arrives
   std::vector<GradationFront> front;  ///< of places
-  /// Of vertices: the vertex that their size comes from; -1: none, or a source that is no vertex.
+  /// For each vertex, the vertex that its size comes from; -1: no vertex.
   std::vector<int> source;
 };
 
 /// ln(beta), the largest derivative of h along a path on the surface, for a ratio beta between sizes one unit edge
 /// apart. With the linear law, the unit length between sizes p and q at distance d is d ln(q / p) / (q - p) (RR-2818
-/// sec. 5.2), so (q / p)^(1 / length) <= beta says exactly q - p <= ln(beta) d: this is the h-correction
-/// h(Q) = h(P) (1 + ln(beta) length_P(PQ)) of Borouchaki, Hecht and Frey.
+/// sec. 5.2). So (q / p)^(1 / length) <= beta means q - p <= ln(beta) d. This is the h-correction h(Q) = h(P) (1 +
+/// ln(beta) length_P(PQ)) of Borouchaki, Hecht and Frey.
 double slope_of_gradation(double beta);
 
-/// The size at a place by those along a segment from a to b: the least size(p) + slope |place - p| over its points p.
-/// Sizes are linear along it. `edge`: from a to b; `d`: from a to the place. +infinity where a and b are one.
+/// The size at a place by the sizes along a segment from a to b: the least size(p) + slope |place - p| over its points
+/// p. Sizes are linear along it. `edge`: from a to b; `d`: from a to the place. +infinity where a and b are one.
 double size_from_segment(double h_a, double h_b, const Vec3& edge, const Vec3& d, double slope) noexcept;
 
 namespace detail {
@@ -60,11 +61,11 @@ struct GradationSource {
 };
 
 /// The largest field below `h` (one a vertex, +infinity: unknown) whose derivative along the surface is at most
-/// `slope`: h(x) = min over y of h(y) + slope * distance(x, y), and the line that brings the size to each place:
-/// between vertices the size is the smallest of source_h + slope |line + step| over the places around (GradedField).
-/// `sources`: sizes known elsewhere than at vertices, seen from the places around. Distances are those of straight
-/// lines on the unfolded triangles, within about 2 % on triangles that are not far from equilateral and turn by less
-/// than 30 degrees. Throws InvalidArgument unless slope > 0 and the arrays fit.
+/// `slope`. It is h(x) = min over y of h(y) + slope * distance(x, y). Also returns the line that brings the size to
+/// each place. Between vertices the size is the smallest of source_h + slope |line + step| over the places around
+/// (GradedField). `sources`: sizes known elsewhere than at vertices, seen from the places around. Distances are lengths
+/// of straight lines on the unfolded triangles. They are right within about 2 % on triangles that are not far from
+/// equilateral and turn by less than 30 degrees. Throws InvalidArgument unless slope > 0 and the arrays fit.
 GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h,
                              const std::vector<GradationSource>& sources, double slope, Monitor& monitor);
 

@@ -77,7 +77,7 @@ double GradedField::size(int face, const Vec2& uv, const Vec3& xyz, double presc
   const auto& t = f.triangles[place.triangle];
   const bool smooth = f.smooth[place.triangle] != 0;
   std::array<Vec3, 3> way;
-  // Where prescribed sizes do not count here, they count at the corners.
+  // If prescribed sizes do not count here, they count at the corners.
   double h = smooth ? prescribed : std::max({f.h[t[0]], f.h[t[1]], f.h[t[2]]}), linear = 0;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t v = t[i];
@@ -85,7 +85,7 @@ double GradedField::size(int face, const Vec2& uv, const Vec3& xyz, double presc
     h = std::min(h, f.front[v].source_h + slope_ * norm(f.front[v].line + way[i]));
     linear += place.weight[i] * f.h[v];
   }
-  // A front that has come to a corner across a side is seen from here too, or sizes would jump on that side.
+  // A front that has come to a corner across a side counts here too; otherwise sizes would jump on that side.
   for (const std::int32_t v : f.beyond[place.triangle])
     if (v >= 0)
       h = std::min(h,
@@ -116,7 +116,7 @@ TangentMetric GradedField::sizes(int face, const Vec2& uv, const Vec3& xyz, Tang
   }
   if (!std::isfinite(h1) || !std::isfinite(h2)) return prescribed;
   prescribed.h1 = h1, prescribed.h2 = h2;
-  // Means of corners are too large where a corner beside allows less: across a strip it is far nearer than they are.
+  // Means of corners are too large if a corner beside allows less: across a strip it is far nearer than they are.
   const auto bound = [&](std::int32_t v) {
     const TangentMetric& corner = f.metric[v];
     const Vec3 way = step_on_surface(f.normal[v], xyz - f.xyz[v]);

@@ -32,7 +32,7 @@ class MetricGrading {
 
   std::vector<TangentMetric> run() {
     for (std::size_t p = 0; p < sizes_.size(); ++p) enqueue(static_cast<int>(p));
-    // Not by the sizes that it was put there with: changes that are negligible come in between.
+    // Ignores the sizes at insertion: negligible changes come in between.
     queue_.run([this](double, int p) { return waits_[p] != 0; }, [this](int p) { leave(p); }, monitor_);
     return std::move(sizes_);
   }
@@ -46,8 +46,8 @@ class MetricGrading {
   }
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
 
-  /// Bounds the sizes at `to` by those at the other end of `way` (a tangent vector there, where the normal is n),
-  /// `along` being the sizes there.
+  /// Bounds the sizes at `to` by the sizes `along` at the other end of `way` (a tangent vector there, where the normal
+  /// is n).
   template <typename Along>
   bool bound(int to, Vec3 n, Vec3 way, const Along& along) {
     TangentMetric& q = sizes_[to];
@@ -79,7 +79,7 @@ class MetricGrading {
     carry_to_other_places(p);
   }
 
-  // From the middle of the edge (p, r), where sizes are the means.
+  // Bounds from the middle of the edge (p, r), where sizes are means.
   void from_middle(int p, int r, int q) {
     const Vec3 n = graph_.places[p].normal, m = graph_.places[r].normal, near = dot(n, m) < 0 ? -1 * m : m;
     const auto mean = [&, s = sizes_[p], t = sizes_[r]](Vec3 w) {
@@ -89,7 +89,7 @@ class MetricGrading {
     if (bound(q, n, step_on_surface(n, way), mean)) enqueue(q);
   }
 
-  // The other sides of a crease, a seam: the same metric, unfolded.
+  // Carries the metric, unfolded, to the other sides of a crease or a seam.
   void carry_to_other_places(int p) {
     for (int q = fans_.first(graph_.places[p].vertex); q >= 0; q = fans_.next(q)) {
       if (q == p) continue;
@@ -114,7 +114,7 @@ class MetricGrading {
 
 }  // namespace
 
-// The least change of the logarithms of both, to first order; then both by what is left.
+// Makes the least change of the logarithms of both, to first order; then scales both by the remainder.
 void TangentMetric::bound_along(Vec3 w, double h) noexcept {
   const double size = along(w);
   if (!(size > h) || !(dot(w, w) > 0)) return;
@@ -160,7 +160,7 @@ void bound_lean(const SurfaceJet& jet, double lean, TangentMetric& sizes) noexce
     return Vec2{(g * p - f * q) / area2, (e * q - f * p) / area2};
   };
   const Vec2 x = in_parameters(sizes.d1), y = in_parameters(sizes.d2);
-  // Second derivative along both, without its part along the edge.
+  // Second derivative along both, without its component along the edge.
   const auto aside = [&](Vec2 a, Vec2 b) {
     const Vec3 s = (a.x() * b.x()) * jet.suu + (a.x() * b.y() + a.y() * b.x()) * jet.suv + (a.y() * b.y()) * jet.svv;
     return norm(s - dot(s, sizes.d2) * sizes.d2);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places of a gradation's graph that belong to one vertex, and how vectors come from one to another. Private to the
-// gradations.
+// Places of a gradation's graph that belong to one vertex, and vectors carried between them. Private to the gradations.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 namespace carreau::detail {
 
-/// v, tangent where the normal is n, rolled to where it is m: the rotation about n x m, which at a crease is the
+/// Rolls v, tangent where the normal is n, to a place with normal m: the rotation about n x m, which at a crease is the
 /// curve's tangent. n . m > -1.
 Vec3 roll(const Vec3& v, const Vec3& n, const Vec3& m) noexcept;
 
@@ -23,8 +22,8 @@ class PlaceFans {
 
   [[nodiscard]] int first(int vertex) const noexcept { return first_[vertex]; }  ///< -1: none
   [[nodiscard]] int next(int place) const noexcept { return next_[place]; }      ///< -1: none
-  /// Carries a tangent vector from one place of a vertex to another; false when the surface cannot be unfolded there:
-  /// three places or more that are not one smooth surface.
+  /// Carries a tangent vector from one place of a vertex to another. Returns false when the surface cannot be unfolded
+  /// there: three places or more that are not one smooth surface.
   bool carry(int from, int to, Vec3& v) const noexcept;
   /// The other two places of each triangle at a place, in the triangle's order.
   [[nodiscard]] std::span<const std::pair<int, int>> triangles(int place) const noexcept {

@@ -98,14 +98,14 @@ class NarrowZones {
     fronts_ = grade_fronts(graph_, start, {}, 1, monitor_);
   }
 
-  /// Whether what is at a place comes from its boundary along the unit vector u.
+  /// Returns whether the front at a place comes from its boundary along the unit vector u.
   [[nodiscard]] bool comes_along(int place, const Vec3& u) const noexcept {
     const Vec3 line = fronts_.front[place].line;
     return dot(dot(line, line) > 0 ? unit(line) : inward_[place], u) > head_on;
   }
 
-  /// Whether two boundaries are near each other since they meet in the corner: what is on two of its sides. Where a
-  /// foot may be on several sides, on any two.
+  /// Returns whether two boundaries are near each other because they meet in the corner: the fronts come from two of
+  /// its sides. If a closest point may be on several sides, any two count.
   static bool both_meet(const Corner& corner, std::span<const int> sides, std::span<const int> others) {
     const auto count = [](std::span<const int> all, int side) { return std::count(all.begin(), all.end(), side); };
     for (const int p : sides)
@@ -114,7 +114,7 @@ class NarrowZones {
     return false;
   }
 
-  /// `foot`, `other`: on the two boundaries, about where what meets has left them.
+  /// `foot`, `other`: the approximate closest points on the two boundaries, from which the fronts come.
   void report(double gap, Vec3 across, Vec3 middle, Vec3 foot, Vec3 other, std::span<const int> sides,
               std::span<const int> others, std::array<int, 4> vertices) {
     bool at_end = false;
@@ -128,7 +128,7 @@ class NarrowZones {
     reports_.push_back({gap, across, sides, others, vertices, at_end});
   }
 
-  // A zone goes on to its ends, near corners of one of its sides; squares have ends only, and are none. One of its
+  // A zone goes on to its ends, near corners of one of its sides; squares have ends only, and are not zones. One of its
   // sides is enough: in the graph an arc may turn like a corner.
   void accept() {
     std::set<int> of_zones;
@@ -142,19 +142,19 @@ class NarrowZones {
         for (const int v : r.vertices)
           if (v >= 0) found_.push_back({v, r.gap, r.across});
   }
-  /// Sides that what is at a place comes from.
+  /// Sides that the front at a place comes from.
   [[nodiscard]] std::span<const int> origin(int place) const noexcept {
     if (on_boundary_[vertex(place)] != 0) return boundaries_.at_place(place);
     return source(place) < 0 ? std::span<const int>() : boundaries_.at_vertex(source(place));
   }
   [[nodiscard]] int source(int place) const noexcept { return fronts_.source[vertex(place)]; }
 
-  // Where what is at a place has left its boundary.
+  // The point of the boundary that the front at a place comes from.
   [[nodiscard]] Vec3 foot(int place) const noexcept {
     return graph_.xyz[source(place) < 0 ? vertex(place) : source(place)];
   }
 
-  // A side on the boundary, and what comes to the opposite corner from another one.
+  // A side on the boundary, and a front that comes to the opposite corner from another side.
   void from_side(int a, int b, int c) {
     const Vec3 p = position(b), d = position(c) - p, e = position(a) - p;
     const double l = dot(d, d);
@@ -180,8 +180,8 @@ class NarrowZones {
            {vertex(a), vertex(b), source(a), source(b)});
   }
 
-  // What the fronts have passed on their way from a foot to where they meet: between the feet and there sizes would
-  // grow again as the gradation lets them, and layers be missing.
+  // Adds the places that fronts have passed on their way from a closest point to their meeting point. Otherwise sizes
+  // would grow again between these points by the gradation, and layers would be missing.
   void fill_up() {
     std::sort(found_.begin(), found_.end(),
               [](const NarrowPlace& p, const NarrowPlace& q) { return p.vertex < q.vertex; });
@@ -201,9 +201,9 @@ class NarrowZones {
     }
   }
 
-  // A triangle on the end of a zone has a corner outside: its part inside would get sizes that grow towards that. And
-  // where another boundary ends the zone, its fronts come between; then all that is within a square of the gap's size
-  // has no more room than what is across it.
+  // A triangle on the end of a zone has a corner outside: its part inside would get sizes that grow towards that. If
+  // another boundary ends the zone, its fronts come between. Then all places within a square of the gap's size get the
+  // gap's room.
   void cover_ends() {
     std::sort(found_.begin(), found_.end(), [](const NarrowPlace& p, const NarrowPlace& q) {
       return p.vertex != q.vertex ? p.vertex < q.vertex : p.gap < q.gap;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Narrow zones: how near boundaries come to each other, measured in space along the surface (HDR sec. 1.1.2).
+// Narrow zones: distances between boundaries, measured in space along the surface (HDR sec. 1.1.2).
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct NarrowPlace {
 
 /// Looks for places where two boundaries face each other: `sides[t]` has bit i set when the side of triangle t from
 /// corner i to the next one lies on a boundary. Fronts leave the boundaries; where two meet head on, their ways add up
-/// to the gap. Corners of less than 100 degrees do not make a zone narrow: within two gaps of one nothing is reported
-/// between sides that meet in it, nor, when it is sharp, within `wanted`, one finite size a vertex: a wedge ends in one
-/// triangle. A vertex may be reported several times.
+/// to the gap. Corners of less than 100 degrees do not make a zone narrow: sides that meet in such a corner have no
+/// reported gap within two gaps of it. If the corner is sharp, they have none within `wanted`, one finite size a
+/// vertex: a wedge ends in one triangle. A vertex may be reported several times.
 std::vector<NarrowPlace> find_narrow_places(const GradationGraph& graph, const std::vector<std::uint8_t>& sides,
                                             const std::vector<double>& wanted, Monitor& monitor);
 

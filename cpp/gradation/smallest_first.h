@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dijkstra's order, in which all gradations hand sizes on.
+// Dijkstra's order, in which all gradations propagate sizes.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@
 
 namespace carreau {
 
-/// Places that wait to hand their sizes on: the smallest size first, of equal ones the lowest number. From small to
-/// large few sizes are bounded twice.
+/// Places that wait to propagate their sizes: the smallest size first, among equal sizes the lowest number. In
+/// ascending order few sizes are bounded twice.
 class SmallestFirst {
  public:
   void push(double size, int place) { queue_.emplace(size, place); }
 
-  /// Until none waits. `counts(size, place)`: whether the place still has that size to hand on; `leave(place)` does it
-  /// and pushes those whose sizes it has changed. Throws Cancelled.
+  /// Runs until no place waits. `counts(size, place)`: whether the place still has that size to hand on; `leave(place)`
+  /// hands it on and pushes places whose sizes it has changed. Throws Cancelled.
   template <typename Counts, typename Leave>
   void run(const Counts& counts, const Leave& leave, Monitor& monitor) {
     std::size_t steps = 0;

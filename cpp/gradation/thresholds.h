@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their meaning, unit, reason and support.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,12 @@
 
 namespace carreau::thresholds::gradation {
 
-// In brackets: the tests that rest on it, of tests/cpp/gradation and tests/cpp/surface/grade.
+// In brackets: the tests of the threshold, in tests/cpp/gradation and tests/cpp/surface/grade.
 
 // Fronts of one size (gradation, graded_field)
-/// Cosine. The line from a source to a vertex passes near the vertex before it when they see it within this angle: the
-/// six neighbours of a vertex of a good mesh leave at most 30 degrees. [Gradation.ConeOnATriangulationOfVaryingSize]
+/// Cosine. A front goes straight on over a vertex if the line from its source and the edge to the next vertex make at
+/// most this angle. The six neighbours of a vertex of a good mesh leave at most 30 degrees.
+/// [Gradation.ConeOnATriangulationOfVaryingSize]
 inline constexpr double seen_from_beside = 0.7;
 /// Cosine. Lines that agree so well are one wave from a line of sources, not two cones.
 /// [Gradation.RidgeBetweenTwoSourcesAndPlaneWaveFromALine]
@@ -24,16 +25,16 @@ inline constexpr double smooth_corner = 0.9;
 inline constexpr double least_unfolded = -0.999;
 
 // Metrics (metric_grading)
-/// Ratio. Paths run along edges and from the middles of edges: every 30 degrees, so that they are up to 1 / cos(15
-/// degrees) = 1.035 times too long. Half of that is taken from the slope. [Gradation.ByDirectionNoEdgeIsSteeper]
+/// Ratio. Paths run along edges and from the middles of edges, every 30 degrees. So they are up to 1 / cos(15 degrees)
+/// = 1.035 times too long. Half of that is taken from the slope. [Gradation.NoEdgeIsSteeperByDirection]
 inline constexpr double detour = 1.0175;
-/// Share of a size. Smaller changes are not followed. [Gradation.ByDirectionNoEdgeIsSteeper; far below the
+/// Share of a size. Smaller changes are not followed. [Gradation.NoEdgeIsSteeperByDirection; far below the
 /// roughness of surface/grade]
 inline constexpr double negligible = 1e-3;
 
 // Narrow zones and faces that face each other (boundary_sides, proximity, facing)
 /// Cosine. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
-/// polygons. [Proximity.NarrowZonesHoldTheLayersAskedFor]
+/// polygons. [Proximity.NarrowZonesHoldTheRequestedLayers]
 inline constexpr double straight_on = std::numbers::sqrt2 / 2;
 /// Cosine. Fronts, or normals of faces, that meet within this angle of head on. [as above]
 inline constexpr double head_on = 0.8;
@@ -45,25 +46,25 @@ inline constexpr double reach_of_corner = 2;
 /// Radians. Below, the reach in gaps does not hold the tip: there the gap is 2 tan(angle / 2) of the distance from it.
 /// [Proximity.WedgesEndInATriangle]
 inline constexpr double wedge = 28 * std::numbers::pi / 180;
-/// Ratio. Ways of fronts near corners may be shorter by it than those between their feet, which are vertices. [models:
-/// corners are no zones]
+/// Ratio. Ways of fronts near corners may be shorter by it than the ways between their closest points, which are
+/// vertices. [models: corners are no zones]
 inline constexpr double longer_between_feet = 1.05;
-/// Sides of a square. What fills up between ways that are a gap apart. [geometry]
+/// Sides of a square. Extent of the filling between ways that are a gap apart. [geometry]
 inline constexpr double half_diagonal = std::numbers::sqrt2 / 2;
 /// Weight. A normal that meets an edge between two triangles meets one of them. [rounding]
 inline constexpr double edge_rounding = 1e-9;
 
 // Places in a face (triangle_tree)
-/// Share of the extent. What rounding may make of the point of a triangle that is the point itself.
+/// Share of the extent. Rounding may move a triangle's point by so much, and it is still the same point.
 /// [TriangleTreePlaces.AtVerticesAndOnSides...]
 inline constexpr double point_rounding = 1e-14;
-/// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.AreThoseOfTheNearestTriangle]
+/// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.MatchTheNearestTriangle]
 inline constexpr double clearly_inside = 1e5;
 /// Triangles. Longer walks are left to the search. [time only]
 inline constexpr int longest_walk = 32;
 
 // Stops
-/// Vertices, places or triangles between two looks at the monitor. [GradedModel.TellsItsProgressAndStops]
+/// Vertices, places or triangles between two looks at the monitor. [GradedModel.ReportsItsProgressAndStops]
 inline constexpr std::size_t places_between_checks = 1 << 12;
 
 }  // namespace carreau::thresholds::gradation

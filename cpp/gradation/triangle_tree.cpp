@@ -68,7 +68,7 @@ void TriangleTree::join_sides(const std::vector<std::array<std::int32_t, 3>>& tr
   }
 }
 
-// A cell for each triangle, about; it holds the last centre in it, or what the cell before holds.
+// About one cell for each triangle; it holds the last centre in it, or the centre of the cell before.
 void TriangleTree::make_starts(Vec2 extent) {
   const double count = static_cast<double>(corners_.size());
   const double side = std::sqrt(std::max(extent.x() * extent.y() / count, 1e-300));

@@ -10,15 +10,15 @@
 
 namespace carreau {
 
-/// Where a point lies: a triangle and barycentric coordinates there. Outside all triangles: of the nearest point.
+/// Location of a point: a triangle and barycentric coordinates there. Outside all triangles: of the nearest point.
 struct TrianglePlace {
   std::int32_t triangle = -1;  ///< -1: there are no triangles
   std::array<double, 3> weight{};
   bool inside = false;  ///< within rounding
 };
 
-/// A TriangleSearch in units of the mean edge in u and in v, which may have nothing in common. Most points are found by
-/// a walk from a triangle nearby, before it is asked. find() is safe from several threads.
+/// A TriangleSearch in units of the mean edge in u and in v, which may have nothing in common. A walk from a triangle
+/// nearby finds most points, before the search is used. find() is safe from several threads.
 class TriangleTree {
  public:
   TriangleTree() = default;
@@ -26,7 +26,7 @@ class TriangleTree {
   TriangleTree(const std::vector<Vec2>& vertices, const std::vector<std::array<std::int32_t, 3>>& triangles,
                Monitor& monitor);
 
-  /// Deterministic: of triangles equally near, that of the lowest index.
+  /// Deterministic: returns the lowest index of triangles equally near.
   [[nodiscard]] TrianglePlace find(const Vec2& p) const noexcept;
 
  private:

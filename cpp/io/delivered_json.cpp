@@ -78,7 +78,7 @@ const char* status_name(FaceStatus status) {
   }
 }
 
-/// Those that are not meshed as they are: what has vanished, too.
+/// Faces that are not simply meshed, vanished ones included.
 Json other_faces(const SurfaceMesh& mesh) {
   Json list = Json::array();
   for (const WholeFace& each : whole_faces(mesh)) {

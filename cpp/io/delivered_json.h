@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The summary of what was delivered, as JSON.
+// The summary of the measures, as JSON.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace carreau {
 
 /// One object, indented, ending with a newline; keys always the same and in the same order. A number that is not finite
-/// (a limit that was not asked, the mean of nothing) is null. Times, which differ from run to run, stand last, in
+/// (a limit that was not requested, the mean of no values) is null. Times, which differ from run to run, stand last, in
 /// "seconds".
 std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const MeshEvaluation& delivered);
 

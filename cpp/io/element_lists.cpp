@@ -77,7 +77,7 @@ class EqualHalves {
  private:
   using Half = std::array<std::int32_t, 3>;
 
-  // Quadrilaterals that share three corners with another element, by whichever diagonal either is cut.
+  // Quadrilaterals that share three corners with another element, whatever their diagonals.
   void find_candidates() {
     std::vector<std::pair<Half, std::int32_t>> halves;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
@@ -98,7 +98,7 @@ class EqualHalves {
     candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   }
 
-  // The better diagonal, from its lower end; of two that are as good the one with the lowest end.
+  // The better diagonal, from its lower end; if both are equally good, the diagonal with the lowest end.
   void set_canonical(std::array<std::int32_t, 8>& n) const {
     while (n[0] != std::min({n[0], n[1], n[2], n[3]})) n = turned_once(n);
     if (worse_half(mesh_, turned_once(n)) > worse_half(mesh_, n)) turn(n);
@@ -131,7 +131,7 @@ class EqualHalves {
   std::map<Half, int> count_;
 };
 
-// The diagonal from corner 0 is the one that cuts.
+// The diagonal from corner 0 cuts a quadrilateral.
 void turn_quads(FlatMesh& mesh, std::size_t first_cell, std::size_t first_triangle) {
   for (std::size_t c = first_cell, t = first_triangle; c < mesh.cells.size(); ++c) {
     std::array<std::int32_t, 8>& n = mesh.cells[c].nodes;
@@ -206,7 +206,7 @@ void set_elements(const ElementLists& lists, FlatMesh& mesh) {
     // Two quadrilaterals that meet in two edges, as at the apex of a cone, may have one triangle as their better halves.
     EqualHalves(mesh).part();
   }
-  // Of straight and curved edges only the ends are kept.
+  // If straight and curved edges are mixed, only the ends are kept.
   const bool with_mids = lists.edges.nodes.empty();
   mesh.edges = lists.edges.nodes, mesh.edge_refs = lists.edges.refs;
   for (std::size_t e = 0; e < lists.edges3.nodes.size(); ++e) {

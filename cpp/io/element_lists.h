@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The elements of a mesh by kind, as formats with a section a kind want them.
+// The elements of a mesh by kind, for formats with a section for each kind.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct ElementLists {
 /// Every list of references is full. A mesh without cells has its triangles itself: they are not copied.
 ElementLists lists_of(const FlatMesh& mesh);
 
-/// The value of a Q2 element of eight nodes at its centre: that of the same element with nine nodes.
+/// The value of a Q2 element of eight nodes at its centre: the element with nine nodes has the same value.
 Vec3 centre_of(const FlatMesh& mesh, const std::array<std::int32_t, 8>& nodes) noexcept;
 
 /// With nine nodes a quadrilateral of second order, as the formats of Medit know it.
@@ -41,16 +41,16 @@ struct MeditElements {
   MeditElements& operator=(const MeditElements&) = delete;
 
   ElementLists lists;  ///< quads8 stays as it is
-  /// Straight ones: those of the mesh, whose references may be empty, or of the lists.
+  /// Straight triangles: from the mesh, whose references may be empty, or from the lists.
   const std::vector<std::array<std::int32_t, 3>>& triangles;
   const std::vector<std::int32_t>& triangle_refs;
   ElementList<9> quads9;      ///< the same with their centres
-  std::vector<Vec3> centres;  ///< the vertices behind those of the mesh
+  std::vector<Vec3> centres;  ///< the vertices that follow the vertices of the mesh
 };
 
-/// Fills the elements of a mesh of which the vertices are known. Where all are straight triangles FlatMesh::cells stays
-/// empty. Corners of quadrilaterals are turned so that their triangles have the better shape. Throws InvalidArgument,
-/// with a sentence for the reader to place, when elements of both orders are mixed.
+/// Fills the elements of a mesh whose vertices are known. If all are straight triangles, FlatMesh::cells stays empty.
+/// Corners of quadrilaterals are turned so that their triangles have the better shape. Throws InvalidArgument, with a
+/// sentence for the reader to place, when elements of both orders are mixed.
 void set_elements(const ElementLists& lists, FlatMesh& mesh);
 
 /// Appends quadrilaterals of nine nodes without their ninth node, the centre. Centres that no other element has leave

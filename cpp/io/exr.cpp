@@ -21,7 +21,7 @@ namespace {
 // Chunks of 2^31 bytes and more are beyond the format; this leaves room for some hundred channels of 32 rows.
 constexpr int most_pixels_a_side = 65536;
 
-// What the library's callbacks see.
+// The state for the library's callbacks.
 struct Sink {
   NewFile* file = nullptr;
   std::mutex mutex;
@@ -159,7 +159,7 @@ Packed ExrWriter::State::pack(int part, const exr_chunk_info_t& chunk, const Exr
   for (ExrPlane& plane : planes) plane.resize(pixels);
   fill(planes);
 
-  exr_encode_pipeline_t encoder{};  // what EXR_ENCODE_PIPELINE_INITIALIZER is, without Clang's warning
+  exr_encode_pipeline_t encoder{};  // the value of EXR_ENCODE_PIPELINE_INITIALIZER, without Clang's warning
   require(exr_encoding_initialize(context, part, &chunk, &encoder));
   const auto release = [&](exr_encode_pipeline_t* e) { exr_encoding_destroy(context, e); };
   const std::unique_ptr<exr_encode_pipeline_t, decltype(release)> guard(&encoder, release);

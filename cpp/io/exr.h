@@ -14,7 +14,7 @@
 
 namespace carreau {
 
-/// How a channel is stored: 32-bit real, 16-bit real (of pictures for the eye), unsigned 32-bit integer.
+/// The storage of a channel: 32-bit real, 16-bit real (of pictures for the eye), unsigned 32-bit integer.
 enum class ExrType { real, half, integer };
 
 struct ExrChannel {
@@ -49,7 +49,7 @@ using ExrPlane = std::vector<std::uint32_t>;
 /// Fills the planes of a block, in the order of ExrPart::channels, each rows x width entries. Called from any thread,
 /// several at a time.
 using ExrFill = std::function<void(std::span<ExrPlane>)>;
-/// Makes ready what a block of rows [first, first + rows) needs. Called from the caller's thread, in order of the rows.
+/// Prepares the data of a block of rows [first, first + rows). Called from the caller's thread, in order of the rows.
 using ExrPrepare = std::function<ExrFill(int first, int rows)>;
 
 /// A file of one or more parts. It appears under its name when complete, or not at all (io/files.h). Its bytes depend

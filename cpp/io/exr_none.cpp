@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of exr.cpp where OpenEXR is not built in.
+// Replaces exr.cpp if OpenEXR is not built in.
 #include "io/exr.h"
 #include "support/error.h"
 

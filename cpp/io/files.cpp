@@ -111,7 +111,7 @@ std::string read_file(const std::string& path, std::size_t limit) {
   if (!file) fail(path, "read", reason(errno));
   const auto too_large = [&] { fail(path, "read", "it is larger than " + std::to_string(limit) + " bytes"); };
   std::string content;
-  // The announced size is a hint only: files of /proc say 0, others can grow meanwhile.
+  // The announced size is a hint only: files of /proc report 0, others can grow meanwhile.
   if (const auto size = fs::file_size(path, error); !error) {
     if (size > limit) too_large();
     content.reserve(size);

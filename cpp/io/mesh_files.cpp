@@ -30,7 +30,7 @@ constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".me
                               {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply},
                               {".vtk", MeshFormat::vtk, read_mesh_vtk},    {".tri", MeshFormat::tri, read_mesh_tri}};
 
-/// That the suffix of a name tells. Throws InvalidArgument.
+/// The format of a name's suffix. Throws InvalidArgument.
 const Format& known_format(const std::string& path) {
   const std::string suffix = suffix_of(path);
   std::string known;
@@ -38,7 +38,7 @@ const Format& known_format(const std::string& path) {
     if (suffix == format.suffix) return format;
     known.append(known.empty() ? "" : ", ").append(format.suffix);
   }
-  throw InvalidArgument("'" + path + "' has none of the suffixes of a mesh file: " + known);
+  throw InvalidArgument("'" + path + "' does not have a suffix of mesh files: " + known);
 }
 
 void check_length(const char* what, std::size_t found, std::size_t expected) {

@@ -10,13 +10,11 @@
 
 namespace carreau {
 
-/// Medit ASCII (`.mesh`, version 2), its binary form (`.meshb`, GMF version 2; 3 when the file would exceed 2 GiB), VTK
-/// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only).
-/// Gmsh ASCII (`.msh`, version 4.1; `.msh2`, version 2.2; both with physical names).
-/// BL2D (`.bl2d`, meshes of the plane z = 0).
-/// Solvers: Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`), SU2 (`.su2`), with named sets.
-/// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary). VTK's legacy format (`.vtk`), Cart3D
-/// (`.tri`).
+/// Medit ASCII (`.mesh`, version 2), its binary form (`.meshb`, GMF version 2; 3 when the file would exceed 2 GiB). VTK
+/// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only). Gmsh ASCII (`.msh`,
+/// version 4.1; `.msh2`, version 2.2; both with physical names). BL2D (`.bl2d`, meshes of the plane z = 0). Solvers:
+/// Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`), SU2 (`.su2`), with named sets. Polygons: OFF
+/// (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary). VTK's legacy format (`.vtk`), Cart3D (`.tri`).
 enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply, vtk, tri };
 
 struct MeshFileOptions {
@@ -28,37 +26,37 @@ struct MeshFileOptions {
   bool curve_groups = true;
 };
 
-/// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing those
-/// known.
+/// Format by the suffix of `path`, in any case. Throws InvalidArgument for another suffix, listing the known ones.
 MeshFormat mesh_format_of(const std::string& path);
 
 /// The content of the file. Lists of references may be empty (all 0). A mesh of dimension 2 is written with z = 0 in
-/// vtu and stl. Throws InvalidArgument for a mesh that no reader would take: a list or field of the wrong length, an
-/// index out of range, a coordinate that is not finite (or, in binary STL, too large for single precision).
+/// vtu and stl. Throws InvalidArgument for a mesh that no reader would accept: a list or field of the wrong length, an
+/// index out of range, a coordinate that is not finite. Binary STL also excludes coordinates too large for single
+/// precision.
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
+/// Throws the exceptions of mesh_bytes, and FileError. The older file does not change then.
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Reads a file by its suffix: one of those of mesh_format_of(). Throws InvalidArgument for another suffix, FileError with
-/// file and line, or file and byte. Vertices, edges and triangles are taken, their references, names of faces and, of
-/// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files and BL2D's only.
+/// Reads a file by its suffix, see mesh_format_of(). Throws InvalidArgument for another suffix, FileError with file and
+/// line, or file and byte. Reads vertices, edges and triangles, their references, names of faces and, from .vtu, fields,
+/// if the format holds them. Only Medit's files and BL2D's give meshes of dimension 2.
 FlatMesh read_mesh(const std::string& path);
-/// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() tells them apart by
-/// the content. Quadrilaterals and elements of second order are taken (of nine nodes without the centre), and solids as
-/// their outer faces; mixed orders are errors, as are a word that is no section of the format (ASCII), and a section that
-/// comes twice. End may be missing from text that is whole. Other sections are skipped.
+/// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() distinguishes them by
+/// the content. Reads quadrilaterals and elements of second order (nine nodes: without the centre), and the outer faces
+/// of solids. Mixed orders, a word that is no section of the format (ASCII), and a repeated section are errors. End may
+/// be missing from text that is whole. Other sections are skipped.
 FlatMesh read_mesh_text(std::string_view text, const std::string& name);
 FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
-/// Gmsh, versions 4.1 and 2.2, ASCII and binary (either byte order). References are the numbers of entities (not of
-/// physical groups, unless an element has no other), names those of physical groups. Vertices have the order of their
-/// numbers. Solids without a surface are their outer faces; elements of surfaces are triangles and quadrilaterals of order 1 or 2 (types 2, 3, 9,
-/// 16), others and mixed orders are errors.
+/// Gmsh, versions 4.1 and 2.2, ASCII and binary (either byte order). References are the numbers of entities (or of physical groups, if an
+/// element has no entity), names the names of physical groups. Vertices have the order of their numbers. Solids without a surface are
+/// replaced by their outer faces. Elements of surfaces are triangles and quadrilaterals of order 1 or 2 (types 2, 3, 9, 16); other elements
+/// and mixed orders are errors.
 FlatMesh read_mesh_msh(std::string_view content, const std::string& name);
 /// STL, text or binary: corners of equal coordinates become one vertex. Solids of the text form are faces.
 FlatMesh read_mesh_stl(std::string_view content, const std::string& name);
-/// OFF (text), Wavefront OBJ, PLY (text, both binary forms): vertices, and polygons cut into triangles. Of OBJ groups and
-/// objects are faces, polylines edges; PLY needs the list vertex_indices. Colours, normals and textures are skipped.
+/// OFF (text), Wavefront OBJ, PLY (text, both binary forms): vertices, and polygons cut into triangles. In OBJ, groups
+/// and objects are faces, polylines edges; PLY needs the list vertex_indices. Colours, normals and textures are skipped.
 FlatMesh read_mesh_off(std::string_view content, const std::string& name);
 FlatMesh read_mesh_obj(std::string_view content, const std::string& name);
 FlatMesh read_mesh_ply(std::string_view content, const std::string& name);
@@ -68,13 +66,13 @@ FlatMesh read_mesh_inp(std::string_view text, const std::string& name);
 /// Nastran: GRID in any system, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL, CBAR, CBEAM, CROD; properties are references.
 FlatMesh read_mesh_bdf(std::string_view text, const std::string& name);
 /// I-DEAS: datasets 2411 and 781 (nodes), 2412 (shells, plane elements, beams as edges), 2467 and its sisters (groups). Groups
-/// of shells are faces ("face_7" has reference 7), those of beams curves; without groups properties are the references.
+/// of shells are faces ("face_7" has reference 7), groups of beams curves; without groups properties are the references.
 FlatMesh read_mesh_unv(std::string_view text, const std::string& name);
 /// SU2: of the plane elements and, as curves, markers; of space the markers, as faces.
 FlatMesh read_mesh_su2(std::string_view text, const std::string& name);
 /// BL2D: vertices, edges and triangles of the plane, with references.
 FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name);
-/// VTK's legacy format, ASCII or binary: POLYDATA and UNSTRUCTURED_GRID, cells as those of VTK XML.
+/// VTK's legacy format, ASCII or binary: POLYDATA and UNSTRUCTURED_GRID, with the cells of VTK XML.
 FlatMesh read_mesh_vtk(std::string_view content, const std::string& name);
 /// Cart3D's triangulations, ASCII: numbers of vertices and triangles, both, components of triangles as references.
 FlatMesh read_mesh_tri(std::string_view text, const std::string& name);

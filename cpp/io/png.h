@@ -10,8 +10,8 @@
 
 namespace carreau {
 
-/// Rows [first, first + rows) of an image, row by row from the upper one: red, green, blue of each pixel, linear light
-/// from 0 to 1 (beyond: clamped), over the ground.
+/// Rows [first, first + rows) of an image, row by row from the upper one. Each pixel has red, green and blue, linear
+/// light from 0 to 1 (beyond: clamped), over the ground.
 using PngRows = std::function<void(int first, int rows, std::span<std::array<float, 3>>)>;
 
 /// The whole file (PNG specification, ISO/IEC 15948). `rows` is called in order. Throws InvalidArgument for numbers

@@ -35,7 +35,7 @@ struct SolidFace {
   int face = 0;
 };
 
-/// Local corners of a face without those that repeat the corner before.
+/// Local corners of a face without repetitions of the previous corner.
 std::vector<int> corners_of(const LocalFace& face, std::span<const std::int32_t> nodes) {
   std::vector<int> corners;
   const auto node = [&](int k) { return nodes[static_cast<std::size_t>(k)]; };

@@ -24,7 +24,7 @@ constexpr std::size_t quadratic_count(SolidShape shape) noexcept {
   constexpr std::array<std::size_t, 4> nodes{10, 13, 15, 20};
   return nodes[static_cast<std::size_t>(shape)];
 }
-/// The shape of this many corners; nothing: there is none.
+/// The shape with this number of corners; empty: there is no such shape.
 constexpr std::optional<SolidShape> shape_of_corners(std::size_t corners) noexcept {
   for (const SolidShape shape : {SolidShape::tetrahedron, SolidShape::pyramid, SolidShape::prism, SolidShape::hexahedron})
     if (corner_count(shape) == corners) return shape;
@@ -42,7 +42,7 @@ struct SkinFace {
 /// edges.
 class SolidSkin {
  public:
-  /// Of fewer nodes than quadratic_count() the corners count alone.
+  /// If there are fewer nodes than quadratic_count(), only the corners count.
   void add(SolidShape shape, std::span<const std::int32_t> nodes, std::int32_t ref);
   [[nodiscard]] bool empty() const noexcept { return solids_.empty(); }
   /// The faces that one solid alone has, in the order of the solids; straight when a solid is. Corners that a solid has

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers of text files share.
+// Functions that the readers of text files share.
 #pragma once
 
 #include <cstddef>

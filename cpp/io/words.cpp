@@ -74,7 +74,7 @@ double Words::real_or_nan(const char* what) {
   const char* const before = p_;
   if (fast(value) && !std::isinf(value)) return value;
   p_ = before;
-  // The slow path knows Fortran's exponents and the plus sign, and finds out what is wrong.
+  // The slow path knows Fortran's exponents and the plus sign, and finds the error.
   const std::string_view found = number_word(what);
   if (!parse_number(found, value)) fail(found.data(), std::string(what) + " should be a number, not " + shown(found));
   if (std::isinf(value)) fail(found.data(), std::string(what) + " is not finite: " + shown(found));

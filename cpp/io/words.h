@@ -23,15 +23,15 @@ class Words {
   std::string_view word();
   /// A finite number; Fortran's exponents are taken too.
   double real(const char* what);
-  /// The same, but NaN is a number too.
+  /// Like real(), but NaN is a number too.
   double real_or_nan(const char* what);
   std::int32_t integer(const char* what);
   std::int64_t integer_64(const char* what);
   /// A number of entities of `words_each` words each: not negative, and no more than the rest of the text can hold.
   std::size_t count(const std::string& what, std::size_t words_each);
-  /// The same of a number that was read before. `at`: where it ends.
+  /// Checks a number that was read before. `at`: its end.
   std::size_t checked_count(std::int64_t n, const char* at, const std::string& what, std::size_t words_each) const;
-  /// What is left of the line, without blanks at both ends; goes to the next line.
+  /// The rest of the line, without blanks at both ends; goes to the next line.
   std::string_view rest_of_line();
 
   [[nodiscard]] const char* position() const noexcept { return p_; }
@@ -41,7 +41,7 @@ class Words {
 
  protected:
   void skip_blanks() noexcept;
-  /// What follows has no lines.
+  /// The rest has no lines.
   void count_bytes() noexcept { has_lines_ = false; }
 
  private:

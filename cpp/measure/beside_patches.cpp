@@ -8,7 +8,7 @@ namespace carreau {
 
 namespace {
 
-/// Where entities of a part are in the whole.
+/// Ranks in the whole of a part's entities.
 struct Ranks {
   std::vector<std::size_t> edge, vertex, triangle;
   [[nodiscard]] const std::vector<std::size_t>& of(EvaluationEntity entity) const {

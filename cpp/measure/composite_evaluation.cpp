@@ -31,7 +31,7 @@ EvaluationOptions evaluation_options(const CompositeOptions& options, const Comp
 MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, Cad& cad,
                                   const CompositeOptions& options, const CompositeResult& result, Monitor& monitor) {
   SizeRules rules(model, topology, cad, options.size);
-  // One face after the other is asked.
+  // The faces are evaluated one after the other.
   std::unique_ptr<FaceMetric> prescribed;
   int prescribed_face = -1;
   const SizeLimits limits{.field = result.graded.get()};

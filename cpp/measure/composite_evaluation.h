@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run delivered, against what it was asked.
+// Compares the mesh of a run with its prescriptions.
 #pragma once
 
 #include "measure/mesh_evaluation.h"
@@ -9,14 +9,14 @@
 
 namespace carreau {
 
-/// What every run says of its mesh: sizes and places along curves, the atlas, geometric limits. Refers to the result.
-/// `angle_slack`: of surface_tolerances().
+/// Options of every run for the measures of its mesh: sizes and places along curves, the atlas, geometric limits.
+/// Refers to the result. `angle_slack`: of surface_tolerances().
 EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result, double angle_slack = 1);
 
-/// Measures the mesh of mesh_composite(), called with the same arguments, against the sizes and metrics that its rules
-/// prescribe: asked again, from the host and from sources. With a gradation
-/// "prescribed" is what it left. Where the geometry governs, its angle or distance is the limit of edges or triangles;
-/// the gradation is that of edges, 1.6 times it that of the lengths at a vertex.
+/// Measures the mesh of mesh_composite() against the sizes and metrics that its rules prescribe; the arguments are
+/// equal to its arguments. Evaluates the host and the sources again. With a gradation, the graded sizes are
+/// "prescribed". If the geometry governs, its angle or distance is the limit of edges or triangles. The gradation
+/// limits edges, and 1.6 times the gradation the lengths at a vertex.
 MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, Cad& cad,
                                   const CompositeOptions& options, const CompositeResult& result, Monitor& monitor);
 

@@ -6,8 +6,8 @@
 
 namespace carreau {
 
-/// Fills curve_deviation and curve_angle: NaN inside faces, and where EvaluationOptions::curve_parameters does not know
-/// the place of an end. Throws what callbacks throw, and Cancelled.
+/// Fills curve_deviation and curve_angle: NaN inside faces, and if EvaluationOptions::curve_parameters does not know
+/// the place of an end. Throws the exceptions of callbacks, and Cancelled.
 void evaluate_curves(const SurfaceMesh& mesh, Cad& cad, std::span<const CurveParameters> parameters, Monitor& monitor,
                      MeshEvaluation& delivered);
 

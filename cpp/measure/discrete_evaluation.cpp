@@ -32,7 +32,7 @@ class PatchAtlas {
     for (std::int32_t t = 0; t < n; ++t) of_[index(fill[index(patch[index(t)])]++)] = t;
   }
 
-  /// Of (u, v).
+  /// The metric at a point of (u, v).
   [[nodiscard]] Metric2 metric(const Vec2& uv, const SurfaceJet& jet) const {
     const Foot foot = foot_at(uv);
     if (charts_.by_direction())

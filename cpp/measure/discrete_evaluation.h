@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of surfaces given as triangles, against what was asked.
+// Compares meshes of surfaces given as triangles with their prescriptions.
 #pragma once
 
 #include "geometry/discrete/discrete_cad.h"
@@ -10,23 +10,23 @@
 
 namespace carreau {
 
-/// What mesh_discrete() delivered, against the sizes that governed it: linear in the triangles of the atlas.
+/// Measures the mesh of mesh_discrete() against the sizes that governed it: linear in the triangles of the atlas.
 MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad, const CompositeOptions& options,
                                  const CompositeResult& result, Monitor& monitor);
 
-/// The distances between a mesh of straight triangles and those that the surface was given, both ways, are added; other
+/// Adds the distances between a mesh of straight triangles and the input triangles of the surface, both ways; other
 /// elements have none. Throws Cancelled.
 void bound_input_distances(const discrete::DiscreteSurface& surface, const SurfaceMesh& mesh, int threads,
                            Monitor& monitor, MeshEvaluation& delivered);
 
-/// A place where a mesh and the triangles that it was made of are apart.
+/// A place at which a mesh and its input triangles are apart.
 struct FarPlace {
   Vec3 at{};
   double distance = 0;
   double size = 0;  ///< mean length of the edges of the mesh's triangle there
 };
 
-/// Returns the place where the distance is the largest share of the size. `of_made`, `of_given`: by bound_distance().
+/// Returns the place whose distance is the largest share of the size. `of_made`, `of_given`: by bound_distance().
 FarPlace farthest_by_size(const TrianglesOfSpace& made, std::span<const FarPoint> of_made,
                           std::span<const FarPoint> of_given);
 

@@ -90,7 +90,7 @@ class ElementEvaluation {
     std::array<Vec3, 8> uv, xyz;
   };
 
-  // Those of (u, v), or those that are not.
+  // The quadrilaterals or triangles of (u, v), or the spread ones.
   [[nodiscard]] std::vector<Placed> elements(bool quad, bool spread) const {
     std::vector<Placed> placed;
     const auto corners = static_cast<std::int32_t>(face_->uv.size());
@@ -223,7 +223,7 @@ class ElementEvaluation {
     set(p, EvaluationKind::angle, std::max(of(EvaluationKind::angle)[p.triangle], angle));
   }
 
-  // Its corners in a plane where the metric of its middle is Euclidean.
+  // Its corners in a plane in which the metric of its middle is Euclidean.
   void judge_in_metric(const Placed& p, const Metric2& m) {
     const double a = std::sqrt(m.a), b = m.b / a, c = std::sqrt(std::max(0.0, m.c - b * b));
     std::array<Vec3, 4> flat;

@@ -6,8 +6,9 @@
 
 namespace carreau {
 
-/// Fills Delivery::forced once values beyond the limits are counted: angles of edges no longer than `shortest` (model
-/// length) and of triangles with such edges alone; gradations of edges inside faces that curves hold at both ends.
+/// Fills Delivery::forced after values beyond the limits are counted. Forced angles belong to edges no longer than
+/// `shortest` (model length) and to triangles with such edges alone; forced gradations belong to inner edges that
+/// curves hold at both ends.
 void count_forced(const SurfaceMesh& mesh, double shortest, MeshEvaluation& delivered);
 
 }  // namespace carreau

@@ -203,7 +203,7 @@ class Measurement {
     if (normal_[b] && !normal_[a]) p = arrival(a, b);
     return {p, q};
   }
-  // Of the way from vertex `a` at a pole.
+  // End point of the way from vertex `a` at a pole.
   [[nodiscard]] Vec2 arrival(std::int32_t pole, std::int32_t a) const {
     const AtVertex& from = at_vertex_[a];
     const Vec3 chord = position(pole) - position(a);
@@ -211,8 +211,8 @@ class Measurement {
     return degenerate_.arrival(pole, {there.su, there.sv}, face_->uv[a], {from.su, from.sv}, chord).value_or(face_->uv[pole]);
   }
 
-  // The corners of a triangle in (u, v). That at a pole lies between the arrivals of the ways from the other two: the
-  // end of the side that stands for the pole may be far away, with all kinds of normals between.
+  // The corners of a triangle in (u, v). A corner at a pole lies between the arrivals of the ways from the other two:
+  // the end of the side that represents the pole may be far away, with arbitrary normals between.
   [[nodiscard]] std::array<Vec2, 3> places(std::size_t t) const {
     const auto& c = face_->triangles[t];
     std::array<Vec2, 3> place{face_->uv[c[0]], face_->uv[c[1]], face_->uv[c[2]]};
@@ -277,10 +277,10 @@ class Measurement {
     }
   }
 
-  // What an edge adds to the comparison at its end `a`.
+  // Adds an edge to the comparison at its end `a`.
   void note_lengths(std::size_t t, std::int32_t a, std::int32_t b) {
     double l = norm(position(b) - position(a));
-    // At a singular vertex directions of (u, v) are none of space: lengths as they are.
+    // At a singular vertex, directions of (u, v) have no direction in space: the lengths are compared unscaled.
     const auto along = [&]() -> Vec2 {
       return face_->is_spread(t) ? offset_along(a, position(b) - position(a)) : Vec2(face_->uv[b] - face_->uv[a]);
     };
@@ -433,8 +433,8 @@ class Measurement {
         squares > 0 ? std::min(1.0, 4 * std::numbers::sqrt3 * area / squares) : 0;
   }
 
-  // The image of a triangle of (u, v) may reach beyond the triangle in space, by much at a pole: what lies there is
-  // above a neighbour, or its neighbour, as long as they come nearer.
+  // The image of a triangle of (u, v) may reach beyond the triangle in space, far beyond it at a pole. Such points lie
+  // above a neighbour, or its neighbour: walks while the distance decreases.
   [[nodiscard]] double distance_to_mesh(const Vec3& s, std::size_t triangle) const {
     double d = distance(s, triangle);
     for (bool nearer = true; nearer;) {
@@ -476,16 +476,16 @@ class Measurement {
     double area = 0.5 * cross(face_->uv[c[1]] - face_->uv[c[0]], face_->uv[c[2]] - face_->uv[c[0]]);
     double& quality = of(EvaluationKind::metric_quality)[first_ + t];
     area *= quality;
-    // At a pole the triangle of (u, v) is another one: that of the lengths stands for it (Heron's formula).
+    // At a pole the triangle of (u, v) differs: a triangle with these lengths replaces it (Heron's formula).
     if (!normal_[c[0]] || !normal_[c[1]] || !normal_[c[2]]) {
       const double s = (l[0] + l[1] + l[2]) / 2;
       area = std::sqrt(std::max(0.0, s * (s - l[0]) * (s - l[1]) * (s - l[2])));
     }
-    // HDR eq. 1.6 with the metric's area and lengths; in a metric that varies they may be those of no flat triangle.
+    // HDR eq. 1.6 with the metric's area and lengths; in a metric that varies no flat triangle may have them.
     quality = squares > 0 ? std::min(1.0, 4 * std::numbers::sqrt3 * area / squares) : 0;
   }
 
-  // What lies above an edge belongs to both triangles beside, and is as near as the nearer one.
+  // A point above an edge belongs to both triangles beside it: its distance is the smaller one.
   void share_deviations() {
     const std::size_t n = gauss_.node.size();
     for (std::size_t edge = 0; edge < beside_.size(); ++edge) {
@@ -523,7 +523,7 @@ class Measurement {
   std::vector<std::array<std::int32_t, 2>> beside_;    // by edge inside a face: its triangles, or -1
   std::vector<Vec3> above_;                            // by edge and Gauss point
   std::vector<double> shortest_, longest_;             // edges, by vertex
-  // Of the face at work.
+  // The current face.
   int face_index_ = 0;
   const FaceMesh* face_ = nullptr;
   std::size_t first_ = 0;  // triangle of the mesh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was delivered: lengths, shapes and deviations of a mesh, measured on the real surface.
+// Measures of a mesh: lengths, shapes and deviations, on the exact surface.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace carreau {
 
-/// What is prescribed inside faces: not what a control space holds of it.
+/// The prescribed metric inside faces: evaluated, not read from a control space.
 struct PrescribedMetric {
   /// Want bits that the jets must hold; first derivatives are always there.
   unsigned wants = want_first;
@@ -33,53 +33,52 @@ struct PrescribedMetric {
       at;
 };
 
-/// What is measured. Values are part of the C ABI.
+/// The kinds of measures. Values are part of the C ABI.
 enum class EvaluationKind : int {
-  /// Of an edge: length in the prescribed metric of the image of its segment of (u, v), by Gauss quadrature; 1 is as
+  /// An edge's length in the prescribed metric of the image of its segment of (u, v), by Gauss quadrature; 1 is as
   /// prescribed.
   length = 1,
-  /// Of an edge: the largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN where both
-  /// ends are singular.
+  /// An edge's largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN if both ends are
+  /// singular.
   edge_angle = 2,
-  /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
-  /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in
-  /// EvaluationOptions::spaces
-  /// where there are any. Edges shorter than a tenth of a unit are judged by the ratio of sizes alone, as if they were
-  /// that long. NaN where an end is singular.
+  /// An edge's max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
+  /// (Borouchaki, Hecht, Frey: H-shock of an edge). Inside a face, sizes and length are from EvaluationOptions::spaces
+  /// if there are any. Edges shorter than a tenth of a unit are judged by the ratio of sizes alone, as if they were
+  /// that long. NaN if an end is singular.
   gradation = 3,
-  /// Of a vertex: longest over shortest of its edges, lengths in space; where the metric has directions, each divided
-  /// by the size along it over the mean size, so that they compare. NaN without triangles.
+  /// A vertex's longest over shortest edge, lengths in space. If the metric has directions, each length is divided by
+  /// the size along it over the mean size, to make them comparable. NaN without triangles.
   length_ratio = 4,
-  /// Of a triangle: shapes in space (HDR eq. 1.5, 1.6).
+  /// A triangle's shapes in space (HDR eq. 1.5, 1.6).
   q1 = 5,
   q2 = 6,
-  /// Of a triangle: Q2 in the prescribed metric, 4 sqrt(3) area / sum of squared lengths, all in the metric; at most 1.
+  /// A triangle's Q2 in the prescribed metric, 4 sqrt(3) area / sum of squared lengths, all in the metric; at most 1.
   metric_quality = 7,
-  /// Of a triangle: A0 (HDR eq. 4.1), largest distance from sample points of the surface that its triangle of (u, v)
-  /// covers to it, or to the triangles of the same face around when they are nearer; model length.
+  /// A triangle's A0 (HDR eq. 4.1): largest distance of sample points of the surface that its triangle of (u, v)
+  /// covers. The distance is to it, or to nearer triangles of the face around; model length.
   deviation = 8,
-  /// Of a triangle: A1 (HDR sec. 4.3.4), largest angle between its normal and that of the surface at sample points and
-  /// at its vertices; degrees, 0 to 180.
+  /// A triangle's A1 (HDR sec. 4.3.4): largest angle between its normal and the normals of the surface at sample points
+  /// and at its vertices; degrees, 0 to 180.
   angle = 9,
-  /// Of an edge of a curve: its A0, largest distance of its arc to it (HDR eq. 2.26), model length; and its A1, largest
-  /// angle with the tangents of its arc (HDR eq. 2.28), degrees. NaN inside faces.
+  /// A curve edge's A0, largest distance of its arc to it (HDR eq. 2.26), model length; and its A1, largest angle with
+  /// the tangents of its arc (HDR eq. 2.28), degrees. NaN inside faces.
   curve_deviation = 10,
   curve_angle = 11,
-  /// Of a straight triangle: largest angle between its normal and the normals of the surface at its vertices (what
-  /// RT-0232 sec. 3.3 limits by angle_mesh); degrees, 0 to 180. NaN of other elements.
+  /// A straight triangle's largest angle between its normal and the normals of the surface at its vertices (limited by
+  /// angle_mesh, RT-0232 sec. 3.3); degrees, 0 to 180. NaN of other elements.
   vertex_angle = 12,
-  /// Of a straight triangle: upper bounds of A0 and A1 over all of it (measure/bounds), and the larger one of their shares of the
-  /// tolerances. NaN when they were not asked for, of other elements, and where nothing is known.
+  /// A straight triangle's upper bounds of A0 and A1 over all of it (measure/bounds), and the larger one of their shares of the
+  /// tolerances. NaN if not requested, for other elements, and if unknown.
   deviation_bound = 13,
   angle_bound = 14,
   bound_share = 15,
-  /// Of a straight triangle of a surface given as triangles: no point of it is farther from those (mesh/surface_distance); model length. NaN when
-  /// it was not asked for, and of other geometries.
+  /// A straight triangle's upper bound of the distance to the input triangles (mesh/surface_distance); model length. NaN if not requested,
+  /// and for other geometries.
   input_bound = 16,
 };
 inline constexpr std::size_t evaluation_kinds = 16;
 
-/// Of what one value is measured. Values are part of the C ABI.
+/// The kind of entity that a value measures. Values are part of the C ABI.
 enum class EvaluationEntity : int { edge = 1, vertex = 2, triangle = 3 };
 
 /// A row of the table of kinds.
@@ -100,26 +99,27 @@ struct EvaluationOptions {
   double gradation_limit = infinity;     ///< ratio
   double length_ratio_limit = infinity;  ///< ratio
   double deviation_limit = infinity;     ///< model length; of triangles and edges of curves
-  /// Edges of this length in space and shorter ones are as short as the smallest size lets them be, whatever angle they
-  /// exceed: at an apex, where there is no tangent plane, all do.
+  /// Edges up to this length in space are as short as the smallest size permits, whatever angle they exceed: at an
+  /// apex, which has no tangent plane, all edges exceed it.
   double shortest_for_angle = 0;
-  /// [curve of SurfaceMesh::curves][its vertex]: prescribed sizes along curves, which are another rule than those of
-  /// the faces beside them; between two vertices they are interpolated by `law`. A curve without entries, and all when
-  /// there are none: what the first face with the edge prescribes.
+  /// [curve of SurfaceMesh::curves][its vertex]: prescribed sizes along curves, which differ from the sizes of the
+  /// faces beside them; between two vertices they are interpolated by `law`. Edges of a curve without entries have the
+  /// sizes of their first face; so have all edges if there are no entries.
   std::span<const std::vector<double>> curve_size = {};
   SizeLaw law = SizeLaw::linear;
-  /// [curve of SurfaceMesh::curves]: where its vertices are; edges without are not compared with their curve.
+  /// [curve of SurfaceMesh::curves]: the places of its vertices; edges without places are not compared with their
+  /// curve.
   std::span<const CurveParameters> curve_parameters = {};
   /// [face]: the fields that governed the mesh, on which a gradation is to hold; may be empty.
   std::span<const std::optional<ControlSpace>> spaces = {};
-  /// Of a mesh that is independent of its patches. Triangles whose corners are of several charts are sampled over their
-  /// places in space; gradations of their edges are not measured.
+  /// For a cross-patch mesh. Triangles whose corners are of several charts are sampled over their places in space;
+  /// gradations of their edges are not measured.
   SpreadAtlas atlas = {};
-  /// Whether A0 and A1 are bounded, about 16 evaluations a vertex; and the tolerances of which bound_share is a share: of A0 the model length, or
-  /// where that is infinite a share of the mean size at the corners of a triangle; of A1 degrees.
+  /// True to bound A0 and A1, with about 16 evaluations a vertex. bound_share is a share of the tolerances. The tolerance of A0 is the
+  /// model length, or if that is infinite a share of the mean size at the corners of a triangle; the tolerance of A1 is in degrees.
   bool bounds = false;
   double deviation_tolerance = infinity, deviation_share = 0.3, angle_tolerance = 52;
-  std::span<const double> vertex_size = {};  ///< by vertex; may be empty: bound_share is NaN where it is needed
+  std::span<const double> vertex_size = {};  ///< by vertex; may be empty: bound_share is then NaN for tolerances that need it
   double bound_share_limit = infinity;
 };
 
@@ -140,22 +140,23 @@ struct Spread {
 /// Spread of the values that are not NaN. `inner`: the bounds of the histogram between its infinite ones, ascending.
 Spread spread_of(std::span<const double> values, std::span<const double> inner);
 
-/// One kind. Edges are in the order of MeshEdges; triangles in that of SurfaceMesh::faces and their triangles.
+/// One kind. Edges are in the order of MeshEdges; triangles in the order of SurfaceMesh::faces and their triangles.
 struct Delivery {
   std::vector<double> values;
   Spread spread;
-  double limit = infinity;  ///< asked; infinity: nothing was
+  double limit = infinity;  ///< the requested limit; infinity: none
   /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
   std::int64_t beyond = 0;
   double tolerance = 0;  ///< share of the limit that may be exceeded
-  /// Of those: angles of edges no longer than `shortest` and of triangles with such edges alone, gradations of inner edges between vertices of curves.
+  /// Number of violations that are forced: angles of edges no longer than `shortest` and of triangles with such edges alone, gradations of
+  /// inner edges between vertices of curves.
   std::int64_t forced = 0;
-  double shortest = 0;  ///< edges so long are as short as the smallest size lets them be; model length
+  double shortest = 0;  ///< edges of this length are as short as the smallest size permits; model length
 
   [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }
 };
 
-/// Largest distances between a mesh and the triangles that it stands for, model length: each lies between both figures. NaN: not measured.
+/// Largest distances between a mesh and the triangles that it represents, model length: each lies between both figures. NaN: not measured.
 struct InputDistances {
   double distance = std::numeric_limits<double>::quiet_NaN(), bound = distance;            ///< from the mesh to the triangles
   double back_distance = std::numeric_limits<double>::quiet_NaN(), back_bound = back_distance;
@@ -163,7 +164,7 @@ struct InputDistances {
 
 /// Triangles of a face whose bound of A0 or A1 is beyond its tolerance.
 struct BeyondInFace {
-  int ref = 0;  ///< that results speak of
+  int ref = 0;  ///< the reference in results
   std::int64_t triangles = 0;
   double worst = 0;  ///< the largest bound over its tolerance
 };
@@ -189,13 +190,13 @@ struct MeshEvaluation {
 void summarise(MeshEvaluation& delivered);
 
 /// Measures a mesh on the surface that `cad` gives. About 24 evaluations a vertex: 1 of surf1 there, 9 of surf0 and
-/// surf1 on edges, 14 inside triangles; and 9 an edge of a curve. Throws what callbacks throw, and Cancelled.
+/// surf1 on edges, 14 inside triangles; and 9 an edge of a curve. Throws the exceptions of callbacks, and Cancelled.
 MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
                              const EvaluationOptions& options, Monitor& monitor);
 
-/// Where EvaluationKind::bound_share has a limit: worst face first.
+/// Faces that exceed the limit of EvaluationKind::bound_share, worst face first.
 std::vector<BeyondInFace> beyond_in_faces(const SurfaceMesh& mesh, const MeshEvaluation& delivered);
-/// The same for a person; empty: none is.
+/// A sentence about them; empty if there are none.
 std::string describe(const std::vector<BeyondInFace>& beyond);
 
 /// For a person.

@@ -224,7 +224,7 @@ DeliveredText describe(const MeshEvaluation& d) {
     const Delivery& one = d[kind];
     if (one.beyond == 0) return;
     std::string said = part_of(one.beyond, one.spread.count, entities) + " " + rule +
-                       " more than the " + short_number(one.limit) + " asked; the worst has " +
+                       " more than the " + short_number(one.limit) + " prescribed; the worst has " +
                        short_number(one.spread.max);
     if (one.forced > 0)
       said += "; " + std::to_string(one.forced) +
@@ -247,7 +247,7 @@ DeliveredText describe(const MeshEvaluation& d) {
   if (d.folded_triangles > 0)
     text.not_met.push_back(
         part_of(d.folded_triangles, static_cast<std::int64_t>(d.edges.of_triangle.size()), "triangles") +
-        " a normal turned by more than 90 degrees against that of the surface");
+        " a normal turned by more than 90 degrees against the surface");
   return text;
 }
 

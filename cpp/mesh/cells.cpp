@@ -122,7 +122,7 @@ class EqualDiagonals {
   std::vector<Edge> edges_;  // ascending
   std::vector<Diagonal> diagonals_;
   std::vector<Quad> shared_;
-  std::map<Edge, std::ptrdiff_t> turned_;  // uses that have come, less those that have gone
+  std::map<Edge, std::ptrdiff_t> turned_;  // uses added, less uses removed
 };
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace carreau {
 
-/// What a mesh is made of. Values are part of the C ABI.
-/// Nodes are in the order of VTK's cells 5, 22, 9, 23 and of Gmsh's elements 2, 9, 3, 16: corners counterclockwise,
-/// then the nodes of the edges 01, 12, 20, or 01, 12, 23, 30.
+/// The kinds of elements. Values are part of the C ABI. Nodes are in the order of VTK's cells 5, 22, 9, 23 and of
+/// Gmsh's elements 2, 9, 3, 16. The corners come counterclockwise, then the nodes of the edges 01, 12, 20, or 01, 12,
+/// 23, 30.
 enum class CellKind : int {
   triangle3 = 1,  ///< straight triangle
   triangle6 = 2,  ///< P2: nodes on the edges
@@ -25,14 +25,15 @@ constexpr bool is_quadratic(CellKind kind) noexcept {
 }
 constexpr int node_count(CellKind kind) noexcept { return corner_count(kind) * (is_quadratic(kind) ? 2 : 1); }
 
-/// One element: the first node_count(kind) nodes count, the others are -1. What they number is told where cells are.
+/// One element: the first node_count(kind) nodes count, the others are -1. The container of the cells defines the
+/// meaning of the numbers.
 struct Cell {
   CellKind kind = CellKind::triangle3;
   std::array<std::int32_t, 8> nodes{-1, -1, -1, -1, -1, -1, -1, -1};
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// What is asked for (`element`, RT-0232 sec. 3.3, HDR fig. 3.6).
+/// The requested elements (`element`, RT-0232 sec. 3.3, HDR fig. 3.6).
 enum class Element : int {
   p1,    ///< straight triangles
   p2,    ///< curved triangles of six nodes

@@ -86,7 +86,7 @@ void EditableMesh::for_triangles(const Use& use) const {
 }
 
 void EditableMesh::know_around(std::span<const std::int32_t> centres, int rings) {
-  std::vector<int> ring(xyz_->size(), -1);  // how far a vertex is from a centre
+  std::vector<int> ring(xyz_->size(), -1);  // distance of a vertex to a centre, in rings
   for (const std::int32_t v : centres) ring[v] = 0;
   for (int k = 0; k < rings; ++k)
     for_triangles([&](Place, const Triangle& t) {

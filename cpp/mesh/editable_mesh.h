@@ -14,24 +14,24 @@
 
 namespace carreau {
 
-/// Triangles of a mesh in space whose corners are vertices of faces with their (u, v), kept in the host's own arrays,
-/// to which references are held; adjacency is kept up to date. Orientation is decided in (u, v), exactly. Edges of
-/// curves and imposed ones are never swapped or split; vertices that are kept neither move nor go.
+/// Triangles of a mesh in space whose corners are vertices of faces with their (u, v). Holds references to the host's
+/// arrays, and updates the adjacency. Orientation is decided in (u, v), exactly. Edges of curves and imposed ones are
+/// never swapped or split; vertices that are kept neither move nor go.
 ///
 /// A vertex is an index in the list of positions. A vertex of a face (`Vertex`: face and local index) has one (u, v); a
-/// vertex of space on a curve, a seam or at a pole is several of those.
+/// vertex of space on a curve, a seam or at a pole is several vertices of faces.
 class EditableMesh {
  public:
   using Triangle = std::array<std::int32_t, 3>;
-  /// The part of the mesh in one face. Arrays outlive the EditableMesh, and nobody else changes their sizes.
+  /// The part of the mesh in one face. Arrays outlive the EditableMesh, and only it changes their sizes.
   struct Face {
     std::vector<Vec2>* uv;                        ///< of local vertices
     std::vector<Triangle>* triangles;             ///< local vertices
-    std::vector<std::int32_t>* vertex = nullptr;  ///< local vertex -> vertex; null: the same numbers
-    /// By triangle. Null: edits stay inside the face. Else (several faces in one list, where borders between them mean
-    /// nothing) edges whose two triangles have other local vertices may be edited, too; marked triangles are those
-    /// whose corners have no (u, v) in common afterwards. They are judged in space: they must not turn over against
-    /// those they replace.
+    std::vector<std::int32_t>* vertex = nullptr;  ///< local vertex -> vertex; null: equal numbers
+    /// By triangle. Null: edits stay inside the face. Else (several faces in one list, whose borders do not count)
+    /// edges between triangles with different local vertices may be edited, too. Triangles whose corners have no common
+    /// (u, v) afterwards are marked. They are compared in space: they must not turn over against the triangles that
+    /// they replace.
     std::vector<char>* mixed = nullptr;
   };
   struct Place {
@@ -49,7 +49,7 @@ class EditableMesh {
 
     [[nodiscard]] std::array<Place, 2> places() const noexcept { return {Place{face, t}, Place{face, u}}; }
   };
-  /// Which part of a triangle that is split keeps its number; the other one is the last of its face.
+  /// The part of a split triangle that keeps its number; the other one is the last of its face.
   enum class Split {
     at_a,     ///< of both triangles that with the corner a of the edge
     at_start  ///< that with the corner at which the edge starts in the triangle: a in one, b in the other
@@ -60,11 +60,11 @@ class EditableMesh {
   EditableMesh(SurfaceMesh& mesh, std::span<const std::int32_t> centres, int rings);
   /// A patch in the plane, lifted to `xyz`. Vertices of the domain are kept, its edges imposed.
   EditableMesh(const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz);
-  /// The same of some triangles: others are not met, as if the mesh ended there.
+  /// For some triangles: the mesh ends at them.
   EditableMesh(const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
                std::span<const std::int32_t> triangles);
-  /// All triangles of `faces`. `imposed`: edges; their vertices are kept, but for collapses along them: so are those
-  /// where other than two of them meet, and `corners`.
+  /// All triangles of `faces`. `imposed`: edges; their vertices are kept, except in collapses along them. Vertices at
+  /// which more or fewer than two imposed edges meet are kept always, as are `corners`.
   EditableMesh(std::vector<Face> faces, std::vector<Vec3>& xyz, std::span<const std::array<std::int32_t, 2>> imposed,
                std::span<const std::int32_t> corners);
 
@@ -77,28 +77,28 @@ class EditableMesh {
   [[nodiscard]] Vec2 uv(Vertex v) const { return (*faces_[v.face].uv)[v.local]; }
   [[nodiscard]] Vec3 position(std::int32_t face, std::int32_t local) const { return (*xyz_)[global(face, local)]; }
 
-  /// Whether all triangles around v are known.
+  /// True if all triangles around v are known.
   [[nodiscard]] bool is_known(std::int32_t v) const { return rank_[v] >= 0; }
   /// Triangles around v, in an order that depends on the edits alone.
   [[nodiscard]] const std::vector<Place>& fan(std::int32_t v) const { return stars_[rank_[v]].fan; }
   /// Vertices around v, each once, in increasing order.
   [[nodiscard]] std::vector<std::int32_t> ring(std::int32_t v) const;
-  /// The same, and v at the end.
+  /// Like ring(), with v at the end.
   [[nodiscard]] std::vector<std::int32_t> with_ring(std::int32_t v) const;
   /// Rank of the vertex v among the corners of a triangle.
   [[nodiscard]] int rank_in(Place p, std::int32_t v) const;
   /// The vertex of a face that v is, if it is not kept and all around its neighbours is known.
   [[nodiscard]] std::optional<Vertex> inside(std::int32_t v) const;
-  /// Whether the edge is one of a curve, or imposed.
+  /// True if the edge is an edge of a curve, or imposed.
   [[nodiscard]] bool is_imposed(std::int32_t v, std::int32_t w) const;
-  /// Other ends of such edges.
+  /// Other ends of imposed edges.
   [[nodiscard]] const std::vector<std::int32_t>& imposed_around(std::int32_t v) const { return star(v).imposed; }
-  /// Whether no edit takes it away or moves it.
+  /// True if no edit removes or moves it.
   [[nodiscard]] bool is_corner(std::int32_t v) const { return kept_[v] == Kept::always; }
   /// On side `side` of a triangle, if that is not imposed, has two triangles in the face, and the four vertices are
   /// known.
   [[nodiscard]] std::optional<Quad> quad(Place p, int side) const;
-  /// The same on the edge from a to the local vertex b of its face.
+  /// Like quad(), on the edge from a to the local vertex b of its face.
   [[nodiscard]] std::optional<Quad> quad_between(Vertex a, std::int32_t b) const;
   /// The vertices a, b, c, d.
   [[nodiscard]] std::array<std::int32_t, 4> corners(const Quad& q) const;
@@ -106,45 +106,46 @@ class EditableMesh {
   /// Not of unit length.
   [[nodiscard]] Vec3 normal(Place p) const { return normal(p.face, at(p)); }
   [[nodiscard]] Vec3 normal(std::int32_t face, const Triangle& t) const;
-  /// Of unit length, unless it is zero: weighted by areas.
+  /// The unit normal, weighted by areas, or zero.
   [[nodiscard]] Vec3 mean_normal(std::span<const Place> places) const;
   /// Counterclockwise in (u, v), exactly.
   [[nodiscard]] bool is_positive(std::int32_t face, const Triangle& t) const;
 
-  /// The two triangles of the other diagonal: {a, d, c}, which takes the number of t, and {d, b, c}, that of u.
+  /// The two triangles of the other diagonal: {a, d, c}, which takes the number of t, and {d, b, c}, which takes the
+  /// number of u.
   [[nodiscard]] static std::array<Triangle, 2> swapped(const Quad& q) noexcept {
     return {Triangle{q.a, q.d, q.c}, Triangle{q.d, q.b, q.c}};
   }
   /// Both would be counterclockwise, and the new edge exists nowhere.
   [[nodiscard]] bool can_swap(const Quad& q) const;
-  /// Exchanges the diagonal. False where it cannot; then nothing is changed.
+  /// Exchanges the diagonal. If it cannot, returns false and changes nothing.
   bool swap(const Quad& q);
 
-  /// Whether all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.
+  /// True if all four triangles would be counterclockwise with a new vertex there. Never if one is mixed.
   [[nodiscard]] bool can_split(const Quad& q, const Vec2& uv) const;
   /// A new vertex on the edge, which is the last one of its face and of all. Tests nothing; parts of mixed triangles are
   /// mixed.
   Vertex split(const Quad& q, const Vec2& uv, const Vec3& xyz, Split keeps = Split::at_a);
 
-  /// Whether all triangles around stay counterclockwise when a vertex goes there.
+  /// True if all triangles around stay counterclockwise when a vertex moves there.
   [[nodiscard]] bool can_move(Vertex v, const Vec2& uv) const;
   /// Tests nothing.
   void move(Vertex v, const Vec2& uv, const Vec3& xyz);
 
-  /// Whether `gone` can become one with its neighbour `kept`: topology stays (the link condition: Dey, Edelsbrunner,
-  /// Guha, Nekhayev 1999), triangles stay counterclockwise, and no imposed edge vanishes but that between the two, when
-  /// the line that it is part of goes straight on at `gone`.
+  /// True if `gone` can merge with its neighbour `kept`. Topology must stay (the link condition: Dey, Edelsbrunner,
+  /// Guha, Nekhayev 1999), and triangles must stay counterclockwise. The edge between the two is the only imposed edge
+  /// that may vanish, if its line is straight at `gone`.
   [[nodiscard]] bool can_collapse(std::int32_t gone, std::int32_t kept) const;
-  /// False where it cannot; then nothing is changed. Triangles that go, and the vertex, keep their numbers (the corners
-  /// of such triangles are -1) until compact().
+  /// If it cannot, returns false and changes nothing. Triangles that go, and the vertex, keep their numbers (the
+  /// corners of such triangles are -1) until compact().
   bool collapse(std::int32_t gone, std::int32_t kept);
-  /// After the last edit: removes what collapses left. Lists of the host that go by vertex follow by the result: the
-  /// new number of each vertex, -1 where it is gone. Order stays. Nothing can be undone or edited after it.
+  /// After the last edit: removes the rests of collapses. The result updates the host's lists by vertex: the new number
+  /// of each vertex, -1 if it was removed. Order stays. Nothing can be undone or edited after it.
   std::vector<std::int32_t> compact();
 
   /// The number of edits so far that are not undone.
   [[nodiscard]] std::size_t edits() const noexcept { return edits_.size(); }
-  /// Back to so many edits: the mesh is the same bit for bit.
+  /// Undoes edits until `edits` are left: the mesh is identical to the mesh after these.
   void undo(std::size_t edits);
 
  private:
@@ -171,7 +172,7 @@ class EditableMesh {
     Vec2 uv{0, 0};
     Vec3 xyz{0, 0, 0};  // as they were
   };
-  /// For each local vertex of the one that goes, that of the other one.
+  /// For each local vertex of the removed vertex, the replacing local vertex.
   using Replacements = std::vector<std::pair<Vertex, std::int32_t>>;
   struct Replaced {
     Place place;
@@ -203,9 +204,9 @@ class EditableMesh {
   [[nodiscard]] bool keeps_topology(std::int32_t gone, std::int32_t kept) const;
   [[nodiscard]] bool keeps_lines(std::int32_t gone, std::int32_t kept) const;
   [[nodiscard]] Replacements replacements(std::int32_t gone, std::int32_t kept) const;
-  /// What becomes of the triangles around; none where one may not.
+  /// The triangles around after the collapse; none if one would be invalid.
   [[nodiscard]] std::optional<std::vector<Replaced>> collapsed(std::int32_t gone, std::int32_t kept) const;
-  /// The same; none where anything forbids it.
+  /// Like collapsed(); none if anything forbids the collapse.
   [[nodiscard]] std::optional<std::vector<Replaced>> what_collapses(std::int32_t gone, std::int32_t kept) const;
   void compact_face(std::int32_t face, const std::vector<std::int32_t>& number);
 

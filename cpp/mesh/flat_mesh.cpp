@@ -11,7 +11,7 @@ FlatFace flat_face(const FaceMesh& face) {
   return {.ref = face.shown_ref(), .status = face.status, .name = face.name, .why = face.why, .rgb = face.rgb};
 }
 
-/// How much a status says of a whole face when parts of it differ.
+/// Rank of a status in a whole face when its parts differ.
 int weight(FaceStatus status) {
   switch (status) {
     case FaceStatus::failed:

@@ -21,7 +21,7 @@ struct MeshField {
   std::vector<double> edge_values = {};  ///< of edges, when not on vertices. One list may be empty: NaN
 };
 
-/// What is known of a face beside its triangles, which have its reference.
+/// Data of a face besides its triangles, which have its reference.
 struct FlatFace {
   std::int32_t ref = 0;
   FaceStatus status = FaceStatus::not_meshed;
@@ -40,8 +40,8 @@ struct FlatMesh {
   std::vector<std::int32_t> edge_refs;
   std::vector<MeshField> fields;
   std::vector<FlatFace> faces = {};  ///< may be empty, or lack references of triangles
-  /// Elements in the order of their triangles: one of three corners is one triangle, a quadrilateral a, b, c, d the
-  /// two that follow each other, (a, b, c) and (a, c, d); references are those of the triangles. Nodes number vertices.
+  /// Elements in the order of their triangles: an element of three corners is one triangle, a quadrilateral a, b, c, d
+  /// two consecutive triangles, (a, b, c) and (a, c, d). Its triangles have its reference. Nodes number vertices.
   /// Empty: the triangles are the elements.
   std::vector<Cell> cells = {};
   std::vector<std::int32_t> edge_mids = {};  ///< node of each edge, index in vertices; empty: edges are straight
@@ -58,7 +58,7 @@ struct FlatMesh {
 /// Appends an element and its triangles, a quadrilateral as it is turned.
 void add_cell(FlatMesh& mesh, const Cell& cell, std::int32_t ref);
 
-/// What there is of a face and of its parts, which follow it.
+/// The data of a face and of its parts, which follow it.
 struct WholeFace {
   FlatFace face;              ///< failed when a part is, else mended when one is; `why` of the first such part
   std::size_t triangles = 0;  ///< of all parts
@@ -67,8 +67,8 @@ struct WholeFace {
 /// In order; parts of one face are one, and wires are none.
 std::vector<WholeFace> whole_faces(const SurfaceMesh& mesh);
 
-/// The whole mesh in space, faces in order, parts of one face as one; with_edges: the edges of all curves too, else of
-/// loose ones alone, which no triangle shows.
+/// The whole mesh in space, faces in order, parts of one face as one. with_edges: includes the edges of all curves,
+/// otherwise only edges of curves not on a face.
 FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges);
 
 }  // namespace carreau

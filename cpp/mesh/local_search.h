@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Local searches for a better mesh: in which order things are looked at, what is tried, and when it is enough.
+// Local searches for a better mesh: the order of the search, its edits, and its end.
 //
-// What is better is the caller's. Nothing here depends on time, threads or addresses: the same mesh gets the same
-// edits.
+// The caller defines "better". Nothing here depends on time, threads or addresses: equal meshes get equal edits.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@
 
 namespace carreau {
 
-/// What a search may still spend: evaluations of a surface, or edits.
+/// The remaining budget of a search: evaluations of a surface, or edits.
 class Budget {
  public:
   Budget() = default;
@@ -30,16 +29,16 @@ class Budget {
   std::int64_t left_ = 0;
 };
 
-/// How rings are looked at: as they were found, the same more than once; or in ascending order, each once, if it is
-/// still bad when the ring begins.
+/// The order of rings: as found, possibly with repetitions; or ascending, each element once, if it is still bad when
+/// the ring begins.
 struct Rings {
   bool ascending = false;
   int most = std::numeric_limits<int>::max();
 };
 
-/// Looks at `first` one after another; where `is_bad(x)` and `change(x)` could do something (true), what `around(x)`
-/// lists is of the next ring, which is looked at when all of this one has been. Ends when a ring is empty, after the
-/// most rings, or when the budget is spent. Returns all in these rings that is still bad, ascending, each once.
+/// Processes `first` one after another. If `is_bad(x)` and `change(x)` are true, adds `around(x)` to the next ring,
+/// which is processed after this one. Ends when a ring is empty, after the most rings, or when the budget is spent.
+/// Returns all in these rings that is still bad, ascending, each once.
 template <typename IsBad, typename Change, typename Around>
 std::vector<std::int32_t> improve_ring_by_ring(std::vector<std::int32_t> first, Rings rings, const Budget& budget,
                                                Monitor& monitor, const IsBad& is_bad, const Change& change,
@@ -67,8 +66,8 @@ std::vector<std::int32_t> improve_ring_by_ring(std::vector<std::int32_t> first, 
   return met;
 }
 
-/// Up to `most` times: what `list()` names, in its order (worst first, if it is sorted so), goes through `improve(x)`.
-/// Ends when a pass has improved nothing. Whether any has.
+/// Up to `most` times: calls `improve(x)` for each x of `list()`, in its order (worst first, if it is sorted so). Ends
+/// when a pass has improved nothing. Returns true if any pass improved something.
 template <typename List, typename Improve>
 bool improve_in_passes(int most, Monitor& monitor, const List& list, const Improve& improve) {
   bool any = false;
@@ -93,14 +92,14 @@ void for_placements(const UnitCircle& circle, const Use& use) {
     for (const Vec2& direction : six_directions) use(circle.vector(distance * direction));
 }
 
-/// Steps of one search, those that are halved included. A place that is so far off is no neighbour.
+/// Steps of one search, halved ones included. A place that is so far off is no neighbour.
 inline constexpr int most_steps_of_compass = 100;
 
-/// The place of the plane with the largest `value(place, best so far)` that is found from the origin, of value `start`,
-/// by steps in eight directions: to the best of them, or half as far when none is better, down to `last`. Places that
-/// are no better than the best so far may have any value that is not larger. For functions without a derivative, such
-/// as the worst of some shapes. Ends after `most_steps_of_compass`, too: what is turned over gets better for ever on
-/// the way to infinity.
+/// Returns the place of the plane with the largest `value(place, best so far)` found from the origin, whose value is
+/// `start`. Searches by steps in eight directions: moves to the best, or halves the step when no direction is better,
+/// down to `last`. Places that are no better than the best so far may have any value that is not larger. For functions
+/// without a derivative, such as the worst of some shapes. Ends after `most_steps_of_compass`, too: a turned triangle
+/// improves without end on the way to infinity.
 template <typename Value>
 Vec2 search_along_compass(double start, double first, double last, const Value& value) {
   static constexpr double d = 0.70710678118654752;

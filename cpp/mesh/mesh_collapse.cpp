@@ -15,7 +15,7 @@ using Edge = std::array<std::int32_t, 2>;
 
 Edge ordered(std::int32_t v, std::int32_t w) { return {std::min(v, w), std::max(v, w)}; }
 
-/// What is around a vertex.
+/// The neighbourhood of a vertex.
 struct Link {
   std::vector<std::int32_t> vertices;
   std::vector<Edge> edges;
@@ -55,7 +55,7 @@ int EditableMesh::triangles_on(std::int32_t v, std::int32_t w) const {
   }));
 }
 
-// The link of the edge is what the links of its ends have in common.
+// The link of the edge must equal the intersection of the links of its ends.
 bool EditableMesh::keeps_topology(std::int32_t gone, std::int32_t kept) const {
   const auto link_of = [this](std::int32_t v) {
     Link link;

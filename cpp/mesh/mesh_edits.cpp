@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EditableMesh: what changes the mesh, and how that is undone.
+// EditableMesh: edits and their reversal.
 #include <algorithm>
 
 #include "mesh/editable_mesh.h"

@@ -22,9 +22,9 @@ struct PlaneEdge {
   PlaneEdgeKind kind = PlaneEdgeKind::boundary;
   int curve = -1;    ///< index of the curve that it comes from (for messages and refinement)
   int segment = -1;  ///< rank of the edge on that curve
-  /// Of a degenerate edge: the least number of triangles that this domain must contribute around the point of space.
+  /// For a degenerate edge: the least number of triangles that this domain must contribute around the point of space.
   int least_fan = 1;
-  /// The same where none of the triangles becomes narrower than half as wide as it is high.
+  /// The least number for which all these triangles are at least half as wide as high.
   int wide_fan = 1;
 };
 

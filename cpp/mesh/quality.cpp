@@ -29,7 +29,7 @@ double q1_of(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noe
 
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
-// Of this many triangles: sums do not depend on the number of threads.
+// Triangles of a part: sums do not depend on the number of threads.
 constexpr std::size_t part_size = 4096;
 
 /// Sum of areas, and extreme angles, of some triangles.
@@ -53,8 +53,8 @@ struct Part {
     see({c - b, a - b, 0});
     see({a - c, b - c, 0});
   }
-  // Cotangents by one area differ from those of see() by far less than the margin where triangles are shapely; nearly
-  // all are then known to be no extreme ones.
+  // For triangles with good shapes, cotangents over one area differ from the cotangents of see() by far less than the
+  // margin. Nearly all triangles are then known to have no extreme angle.
   static constexpr double shapely = 1e-3, margin = 1e-9;
   [[nodiscard]] bool is_ordinary(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) const {
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
@@ -65,7 +65,7 @@ struct Part {
   }
   void see(Corner corner) {
     const double sine = norm(cross(corner.p, corner.q)), cosine = dot(corner.p, corner.q);
-    // Sides of a flat triangle: 0 or 180 degrees; as atan2 has it, 0 where a side has no length.
+    // Sides of a flat triangle: 0 or 180 degrees; as atan2 has it, 0 for a side without length.
     corner.cotangent = sine > 0 ? cosine / sine : std::copysign(std::numeric_limits<double>::max(), cosine);
     keep(corner);
   }
@@ -80,20 +80,20 @@ struct Part {
   }
 };
 
-/// The edges of all triangles, each once for each triangle, by their smaller vertex; those of one vertex in any order.
+/// The edges of all triangles, each once for each triangle, by their smaller vertex; edges of one vertex in any order.
 struct EdgesByVertex {
-  std::vector<std::size_t> start;   ///< those of vertex v are others[start[v] .. start[v + 1] - 1]
+  std::vector<std::size_t> start;   ///< vertex v has others[start[v] .. start[v + 1] - 1]
   UnfilledVector<std::int32_t> others; ///< their larger vertices
 
   EdgesByVertex(const TriangleLists& mesh, int threads) : start(mesh.nodes() + 1, 0), others(3 * mesh.size()) {
-    // Atomic sums take their time even where there is only one thread.
+    // Atomic sums are slow even with only one thread.
     const auto raise = [&](std::int32_t v, std::size_t by) {
       std::size_t& x = start[static_cast<std::size_t>(v)];
       return threads > 1 ? std::atomic_ref(x).fetch_add(by, std::memory_order_relaxed) : std::exchange(x, x + by);
     };
     for_each_side(mesh, threads, [&](std::int32_t low, std::int32_t) { raise(low, 1); });
     std::partial_sum(start.begin(), start.end(), start.begin());
-    // From the ends back: in the end they are where each vertex starts.
+    // Counts down from the ends: the results are the starts of the vertices.
     constexpr std::size_t one_less = static_cast<std::size_t>(-1);
     for_each_side(mesh, threads,
                   [&](std::int32_t low, std::int32_t high) { others[raise(low, one_less) - 1] = high; });
@@ -128,7 +128,7 @@ struct EdgeLengths {
   }
 };
 
-/// What threads count of vertices that several of them meet.
+/// Counts of threads at vertices that several threads meet.
 struct Degrees {
   std::vector<std::int32_t> degree;
   std::vector<std::int32_t> border; ///< 1: on an edge that has not two triangles

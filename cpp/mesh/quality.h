@@ -13,8 +13,8 @@ namespace carreau {
 
 /// 2 sqrt(3) inradius / longest edge (HDR eq. 1.5); 1 for an equilateral triangle, 0 for a flat one.
 double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
-/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6); 0 where all corners are one. Inline: searches ask for a hundred a
-/// vertex.
+/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6); 0 if all corners are one. Inline: searches call it a hundred
+/// times a vertex.
 inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) noexcept {
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
@@ -23,14 +23,14 @@ inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c, double twi
 inline double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   return quality_q2(a, b, c, norm(cross(b - a, c - a)));
 }
-/// A triangle of no more than this Q2 has no area: it is what rounding leaves of a flat one.
+/// A triangle of no more than this Q2 has no area: it is a flat one with rounding errors.
 inline constexpr double flat_quality = 1e-12;
 
 struct Distribution {
   double mean = 0, min = 0, p1 = 0, max = 0;  ///< p1: first percentile
 };
 
-/// Of any list, which it reorders; zeros when empty.
+/// The distribution of any list, which it reorders; zeros when empty.
 Distribution distribution_of(std::span<double> values);
 
 struct QualitySummary {
@@ -41,9 +41,9 @@ struct QualitySummary {
   double degree6 = 0;  ///< share of interior vertices of degree 6
 };
 QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);
-/// The same of triangles where they are. No figure depends on the number of threads.
+/// Summarises triangles without a copy. No figure depends on the number of threads.
 QualitySummary summarise_quality(const TriangleLists& mesh, int threads);
-/// Its two parts: without what is known of edges only, and that, added to the first.
+/// Its two parts: the figures that need no edges, and the figures of edges, added to the first.
 QualitySummary summarise_shapes(const TriangleLists& mesh, int threads);
 inline QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
   return summarise_shapes(TriangleLists(mesh), threads);

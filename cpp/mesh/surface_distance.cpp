@@ -81,15 +81,16 @@ std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i);
 
 /// Triangles of a task.
 constexpr std::size_t chunk = 1024;
-/// Pieces that a triangle is cut into at most, and more for each triangle of the other mesh near it: pieces that lie
-/// beside k triangles are some 5 k.
+/// Most pieces that a triangle is cut into, and pieces more for each triangle of the other mesh near it: some 5 k
+/// pieces lie beside k triangles.
 constexpr std::size_t most_pieces = 4096, pieces_of_each = 64;
-/// A piece so many times as long as the triangle beside it is halved: cuts beside a small one would leave slivers.
+/// A piece is halved if it is longer than the triangle beside it by this factor: cuts beside a small one would leave
+/// slivers.
 constexpr double halved_from = 3;
 /// Share of the length of a piece: a plane so near to its corners does not cut it.
 constexpr double clear_cut = 1e-9;
 
-/// A corner of a piece, and what is nearest to it.
+/// A corner of a piece, and its nearest triangle.
 struct Corner {
   Vec3 p;
   std::int32_t nearest = 0;
@@ -169,7 +170,7 @@ class DistanceBounder {
     return shared_rows(crew_, "bounds of distances", {.count = n, .width = 2, .at_once = chunk}, fill, monitor_);
   }
 
-  /// What is nearest to places by number; `place` is empty where nobody asks.
+  /// The corners with their nearest triangles, by number; an empty `place` is skipped.
   template <typename Place>
   [[nodiscard]] std::vector<Corner> corners(std::size_t n, const Place& place) const {
     const std::vector<double> found = pairs(n, [&](std::size_t k, const double* before, Monitor&) -> Pair {
@@ -220,8 +221,8 @@ class DistanceBounder {
     return {to_.vertices[index(a)], to_.vertices[index(b)], to_.vertices[index(c)]};
   }
 
-  /// Upper bound over a piece whose middle is known: the least of those by the triangles that are nearest to its corners, and by that of the
-  /// middle: distances grow by no more than the way to a place.
+  /// Upper bound over a piece whose middle is known: the least of the bounds by the triangles nearest to its corners, and of the bound by
+  /// its middle. A distance grows by at most the way between two places.
   [[nodiscard]] double upper_of(const Piece& piece, const Corner& middle) const {
     double radius = 0;
     for (const Corner& c : piece) radius = std::max(radius, norm(c.p - middle.p));
@@ -243,7 +244,7 @@ class DistanceBounder {
     return best;
   }
 
-  /// The largest height of the other mesh over a piece; infinite where the mesh does not cover it, or is higher than `enough`.
+  /// The largest height of the other mesh over a piece; infinite if the mesh does not cover it, or is higher than `enough`.
   [[nodiscard]] double height_over(const Piece& piece, const Vec3& normal, const Corner& middle, double enough) const {
     if (normal.isZero()) return infinity;
     std::vector<Vec3> polygon;
@@ -311,7 +312,7 @@ class DistanceBounder {
     return true;
   }
 
-  // By the planes that stand on the sides of the nearest triangle, else in halves.
+  // Cuts by the planes on the sides of the nearest triangle, otherwise in halves.
   void cut(Piece piece, const Corner& middle, std::vector<Piece>& parts) const {
     const Diagonal diagonal = longest(piece);
     const std::array<Vec3, 3> c = target(middle.nearest);

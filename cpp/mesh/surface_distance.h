@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far one mesh is from another.
+// The distance of one mesh from another.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ struct TrianglesOfSpace {
   std::span<const std::array<std::int32_t, 3>> triangles;
 };
 
-/// The largest distance from the vertices, the middles of edges and those of triangles of one mesh to the triangles of
-/// another one. 0 where one of them has none. The same for any crew.
+/// The largest distance to the triangles of the second mesh from the vertices, the middles of edges and the middles of
+/// triangles of the first mesh. 0 if one of them has no triangles. The result does not depend on the crew.
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
                         Monitor& monitor, const Crew& crew = {});
 
-/// The largest distance from all points of one mesh to another one lies between both, rounding included.
+/// Bounds of the largest distance from all points of one mesh to a second mesh, rounding included.
 struct DistanceBounds {
   double lower = 0, upper = 0;
 };
@@ -37,16 +37,17 @@ struct FarPoint {
   std::int32_t nearest = 0;  ///< triangle of the other mesh
 };
 
-/// How near bounds are to be.
+/// Required accuracy of the bounds.
 struct DistanceTolerance {
   double share = 0.01;   ///< of the distance
-  double length = 1e-6;  ///< and this, as a share of the diagonal of the box of `to`
+  double length = 1e-6;  ///< added to the share, as a share of the diagonal of the box of `to`
 };
 
 /// The distance to a single triangle is convex: over a convex polygon it is largest at a corner. Triangles are cut, beside
 /// the triangles that are nearest and then in halves, until one triangle of `to` shows of each piece that it is near
-/// enough. Where that takes too many pieces the upper bound is the one reached. `of_triangles`, unless it is null, gets
-/// an upper bound for each triangle, and `farthest` the farthest of its corners and its middle. Both 0 where one of the meshes has none. The same for any crew. Throws Cancelled.
+/// enough. If that takes too many pieces, returns the upper bound reached. `of_triangles`, unless it is null, receives an upper bound for
+/// each triangle, and `farthest` the farthest of its corners and its middle. Both 0 if one of the meshes has no triangles. The result does
+/// not depend on the crew. Throws Cancelled.
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
                               const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles = nullptr,
                               std::vector<FarPoint>* farthest = nullptr);

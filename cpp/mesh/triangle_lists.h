@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a mesh where they are: nothing is copied.
+// A view of the triangles of a mesh, without copies.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace carreau {
 
-/// Those of a surface mesh are numbered face after face, as flatten() has them. The mesh outlives the lists.
+/// Triangles of a surface mesh are numbered face after face, in the order of flatten(). The mesh outlives the lists.
 class TriangleLists {
  public:
   explicit TriangleLists(const FlatMesh& mesh) : vertices_(mesh.vertices), nodes_(mesh.vertices.size()) {
@@ -26,7 +26,7 @@ class TriangleLists {
     for (const FaceMesh& face : mesh.faces) add(face.triangles, face.vertex.data());
   }
 
-  /// Of corners; nodes on edges come after them.
+  /// Corners; nodes on edges follow them.
   [[nodiscard]] std::span<const Vec3> vertices() const noexcept { return vertices_; }
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -52,7 +52,7 @@ class TriangleLists {
   struct List {
     std::size_t first;
     std::span<const std::array<std::int32_t, 3>> triangles;
-    const std::int32_t* vertex;  // local -> whole; null: the same
+    const std::int32_t* vertex;  // local -> whole; null: equal
   };
 
   void add(std::span<const std::array<std::int32_t, 3>> triangles, const std::int32_t* vertex) {

@@ -25,23 +25,23 @@ struct NearestOnMesh {
 NearestOnMesh nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) noexcept;
 
 /// The triangles of space in a BoxTree. Plane meshes have z = 0: a point of one lies in the
-/// triangle that is nearest. Copies what it is given. nearest() is safe from several threads.
+/// triangle that is nearest. Copies its arguments. nearest() is safe from several threads.
 class TriangleSearch {
  public:
   TriangleSearch() = default;
   /// Indices lie in range, coordinates are finite. Flat triangles are segments or points. Throws Cancelled soon after
-  /// `monitor` was asked to stop; it may be null. The same for any number of threads.
+  /// `monitor` received a request to stop; it may be null. The tree does not depend on the number of threads.
   TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                  Monitor* monitor = nullptr, int threads = 1);
 
   [[nodiscard]] bool empty() const noexcept { return tree_.empty(); }
-  /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found
-  /// nearby), saves time and changes nothing. Not for an empty tree.
+  /// The nearest point; of equally near triangles, the lowest index is returned. `guess`, any triangle (one found
+  /// nearby), saves time and changes nothing. Requires a tree that is not empty.
   [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
-  /// Adds the triangles that a segment may meet: all those whose boxes it meets, and some others beside.
+  /// Adds the triangles that a segment may meet: all triangles whose boxes it meets, and some others beside.
   void beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const;
-  /// Adds triangles whose own boxes have a point in common with the closed box from `low` to `high`, each once: all but
-  /// some long ones that have no point in it themselves.
+  /// Adds triangles whose boxes have a point in common with the closed box from `low` to `high`, each once. May omit
+  /// long triangles that have no point in it themselves.
   void beside_box(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& triangles) const;
   /// Longest edge of a triangle.
   [[nodiscard]] double longest_edge(std::int32_t triangle) const noexcept;

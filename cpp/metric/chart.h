@@ -15,7 +15,7 @@ struct MetricSlopes {
 };
 
 /// y(p) = J (e + Gamma(e, e) / 2), e = p - origin, where J^T J is the metric and Gamma holds its Christoffel symbols at
-/// the origin: distances of the field between points nearby are those of the plane of y up to third order, where a
+/// the origin. Distances of the field between close points equal distances in the plane of y up to third order; a
 /// tensor alone errs in the first. Triangles keep their orientation near the origin.
 class Chart {
  public:
@@ -41,7 +41,7 @@ class Chart {
 
   /// J^-1 d: the offset that the tensor alone gives.
   [[nodiscard]] Vec2 offset(const Vec2& d) const noexcept { return {(d.x() - q_ * d.y() / r_) / p_, d.y() / r_}; }
-  /// The point at y, by Newton's method from one nearby, which is given back where the chart folds.
+  /// The point at y, by Newton's method from a point nearby, which is returned if the chart folds.
   [[nodiscard]] Vec2 point(const Vec2& y, const Vec2& near) const noexcept {
     constexpr int steps = 4;           // from within a unit length: 1e-8 after three
     constexpr double least_det = 0.1;  // of the derivative: 1 at the origin, 0 on the fold
@@ -56,7 +56,7 @@ class Chart {
     return origin_ + e;
   }
 
-  /// |Gamma / 2| in an orthonormal frame: what straight lines of unit length and geodesic ones are apart, at most.
+  /// |Gamma / 2| in an orthonormal frame: largest distance between straight and geodesic lines of unit length.
   [[nodiscard]] double bend() const noexcept {
     const Vec2 e{1 / p_, 0}, f{-q_ / (p_ * r_), 1 / r_};  // orthonormal
     const auto symbol = [&](Vec2 s, Vec2 t) { return to_frame({dot(u_, s, t), dot(v_, s, t)}); };
@@ -72,8 +72,7 @@ class Chart {
   Metric2 u_, v_;                 // the components of Gamma / 2
 };
 
-/// How much a field bends by the change of its shapes and directions alone: as if sizes were kept, the determinant
-/// constant.
+/// Bend of a field by the change of its shapes and directions alone: as if sizes were kept, the determinant constant.
 inline double bend_of_shapes(const MetricSlopes& s) noexcept {
   const Metric2 m = s.metric;
   const auto traceless = [&](Metric2 d) {

@@ -7,8 +7,8 @@
 namespace carreau {
 
 /// Length of the segment (p, q) in the field `at` (Vec2 to Metric2): trapezoids, halved until none is longer than `lss`
-/// (RR-2818 sec. 4.4; LSS of RT-0232 sec. 3.3, default 0.5) and, unlike there, at least once, because both ends may
-/// agree by symmetry where the middle does not. At most `depth` halvings. No memory is allocated.
+/// (RR-2818 sec. 4.4; LSS of RT-0232 sec. 3.3, default 0.5). Halves at least once, unlike there, because both ends may
+/// agree by symmetry if the middle does not. At most `depth` halvings. Allocates no memory.
 template <typename Field>
 double field_length(const Field& at, const Vec2& p, const Vec2& q, double lss = 0.5, int depth = 20) {
   const Vec2 d = q - p;
@@ -16,8 +16,7 @@ double field_length(const Field& at, const Vec2& p, const Vec2& q, double lss = 
   struct FieldPiece {
     double start, width, end_speed;
   };
-  // Left to right; what is still to do lies on the right, each piece at most as wide as the next: depth entries
-  // suffice.
+  // Left to right; the remaining pieces lie on the right, each at most as wide as the next: depth entries suffice.
   FieldPiece todo[64];
   depth = depth < 1 ? 1 : (depth > 60 ? 60 : depth);
   double narrowest = 1;

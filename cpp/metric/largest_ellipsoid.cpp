@@ -41,7 +41,7 @@ std::vector<Matrix<D>> basis() {
 }
 
 /// Maximises log det P under I - R_i P R_i^T > 0, where P is the inverse of the metric sought and R_i^T R_i = M_i, in
-/// coordinates in which the unit ball is inside: a path of barriers, each followed by Newton's method.
+/// coordinates in which the unit ball is inside. Follows a path of barriers, each by Newton's method.
 template <int D>
 class LargestInside {
  public:

@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// Symmetric positive definite tensor (a b; b c) (RR-2928 eq. 1): a vector d has length
-/// sqrt(a dx^2 + 2 b dx dy + c dy^2); unit: 1 / parameter^2, so lengths are in units of the wanted size.
+/// Symmetric positive definite tensor (a b; b c) (RR-2928 eq. 1): a vector d has length sqrt(a dx^2 + 2 b dx dy + c
+/// dy^2). Unit: 1 / parameter^2, so lengths are in units of the prescribed size.
 struct Metric2 {
   double a = 1, b = 0, c = 1;
   friend bool operator==(const Metric2&, const Metric2&) = default;
@@ -32,8 +32,8 @@ inline constexpr double half_root3 = 0.8660254037844386;
 inline const Vec2 six_directions[] = {{1, 0},  {0.5, half_root3},   {-0.5, half_root3},
                                           {-1, 0}, {-0.5, -half_root3}, {0.5, -half_root3}};
 
-/// Maps the unit circle to that of a metric, by the inverse of its Cholesky factor. Metrics that are singular up to
-/// rounding count as if their ratio were at most 1e6.
+/// Maps the unit circle to the unit circle of a metric, by the inverse of its Cholesky factor. Metrics that are
+/// singular up to rounding count as if their ratio were at most 1e6.
 class UnitCircle {
  public:
   explicit UnitCircle(Metric2 m) noexcept
@@ -48,8 +48,8 @@ class UnitCircle {
   double p_, q_, r_;
 };
 
-/// J^T J / h^2 (RR-2928 eq. 27 for an isotropic size h): the metric that a wanted size h in space
-/// induces on the parameter plane where the surface has first derivatives su, sv.
+/// J^T J / h^2 (RR-2928 eq. 27 for an isotropic size h): the metric that a prescribed size h in space induces on the
+/// parameter plane. su, sv: first derivatives of the surface.
 inline Metric2 induced_metric(const Vec3& su, const Vec3& sv, double h) noexcept {
   const double k = 1 / (h * h);
   return {k * dot(su, su), k * dot(su, sv), k * dot(sv, sv)};

@@ -49,7 +49,8 @@ Reduction reduce(Metric2 p, Metric2 q) noexcept {
   return r;
 }
 
-// The reduction starts from the better conditioned of the two, so that the order of the arguments does not matter.
+// The reduction starts from the better conditioned of the two, so that it does not depend on the order of the
+// arguments.
 bool better_conditioned(Metric2 p, Metric2 q) noexcept {
   const double tp = p.a + p.c, tq = q.a + q.c;
   const double left = accurate_determinant(p) * tq * tq, right = accurate_determinant(q) * tp * tp;
@@ -85,7 +86,7 @@ Metric2 compose(const Eigen2& e) noexcept {
 }
 
 Metric2 clamp_eigenvalues(Metric2 m, double low, double high) noexcept {
-  // det(M - low I) and det(high I - M) tell at once whether there is nothing to do.
+  // det(M - low I) and det(high I - M) show at once if the metric is within the bounds.
   if (m.a > low && m.c > low && (m.a - low) * (m.c - low) > m.b * m.b && m.a < high && m.c < high &&
       (high - m.a) * (high - m.c) > m.b * m.b)
     return m;
@@ -108,7 +109,7 @@ LengthRatios length_ratios(Metric2 m, Metric2 reference) noexcept {
   const Metric2 n = transformed_back(m, factor(reference));
   const double half = 0.5 * (n.a - n.c), mean = 0.5 * (n.a + n.c), radius = std::sqrt(half * half + n.b * n.b);
   const double major = mean + radius;
-  // Of two metrics that are much alike the difference is as accurate, and cheap.
+  // For similar metrics the difference is as accurate, and cheap.
   const double minor =
       2 * radius < mean ? mean - radius : accurate_determinant(m) / accurate_determinant(reference) / major;
   return {std::sqrt(std::max(minor, 0.0)), std::sqrt(major)};

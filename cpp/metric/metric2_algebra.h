@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decompositions, interpolation and intersection of plane metrics: what is not needed millions of times.
+// Decompositions, interpolation and intersection of plane metrics: functions that are not needed millions of times.
 #pragma once
 
 #include "metric/metric2.h"
@@ -45,12 +45,13 @@ enum class MetricLaw : int { linear = 0, geometric = 1, sinusoidal = 2 };
 /// Size at fraction t between 1 (t = 0) and h (t = 1).
 double size_between(double h, double t, MetricLaw law) noexcept;
 
-/// The metric at fraction t in [0, 1] between two positive definite ones (RR-2818 sec. 4.3.2): exact at both ends,
-/// positive definite between, and it turns and stretches with the coordinates. Symmetric: (p, q, t) is (q, p, 1 - t).
+/// The metric at fraction t in [0, 1] between two positive definite ones (RR-2818 sec. 4.3.2). It is exact at both
+/// ends, positive definite between, and turns and stretches with the coordinates. Symmetric: (p, q, t) is (q, p, 1 -
+/// t).
 Metric2 interpolate(Metric2 p, Metric2 q, double t, MetricLaw law) noexcept;
 
-/// The metric of the largest ellipse inside both unit circles that has their common conjugate axes (RR-2818
-/// sec. 4.3.4): no vector is shorter in it than in p or q. Both positive definite.
+/// The metric of the largest ellipse inside both unit circles that has their common conjugate axes (RR-2818 sec.
+/// 4.3.4): it makes no vector shorter than p or q does. Both positive definite.
 Metric2 intersection(Metric2 p, Metric2 q) noexcept;
 
 }  // namespace carreau

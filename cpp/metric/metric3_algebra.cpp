@@ -35,8 +35,8 @@ Factor3 factor(const Metric3& m) noexcept {
 
 using Columns = std::array<Vec3, 3>;
 
-/// One-sided Jacobi (Hestenes): rotates the columns until they are orthogonal, longest first. What is left is U S of
-/// A = U S V^T, each singular value with a small relative error.
+/// One-sided Jacobi (Hestenes): rotates the columns until they are orthogonal, longest first. The result is U S of A =
+/// U S V^T, each singular value with a small relative error.
 void orthogonalise(Columns& a) noexcept {
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     bool turned = false;
@@ -57,7 +57,7 @@ void orthogonalise(Columns& a) noexcept {
   std::stable_sort(a.begin(), a.end(), [](Vec3 p, Vec3 q) { return dot(p, p) > dot(q, q); });
 }
 
-/// Of the largest entry.
+/// Magnitude of the largest entry.
 double magnitude(const Metric3& m) noexcept {
   return std::max({std::abs(m.xx), std::abs(m.yy), std::abs(m.zz), std::abs(m.xy), std::abs(m.xz), std::abs(m.yz)});
 }
@@ -107,7 +107,8 @@ Eigen3 eigen(const Metric3& m) noexcept {
     e.value = {0, 0, 0};
     return e;
   }
-  // Of unit size. A tensor that has no triangular factor is shifted, which costs the relative accuracy of small values.
+  // Scaled to unit size. A tensor that has no triangular factor is shifted, which costs the relative accuracy of small
+  // values.
   Metric3 unit = scaled(1 / scale, m);
   double shift = 0;
   Factor3 l = factor(unit);
@@ -145,7 +146,7 @@ bool is_positive_definite(const Metric3& m) noexcept {
 
 bool is_positive_definite(Metric2 m) noexcept {
   if (!std::isfinite(m.a) || !std::isfinite(m.b) || !std::isfinite(m.c) || !(m.a > 0) || !(m.c > 0)) return false;
-  // Of units of u and v that may differ.
+  // Units of u and v may differ.
   const double b = m.b / std::sqrt(m.a) / std::sqrt(m.c);
   return 1 - std::abs(b) > 4 * epsilon;
 }
@@ -227,7 +228,7 @@ Metric2 combine(Metric2 prescribed, Metric2 bound, MetricCombination how) noexce
 
 Metric3 metric_of_sizes(const Vec3& direction, double h1, double h2) noexcept {
   const Vec3 d = (1 / norm(direction)) * direction;
-  // k1 d d^T + k2 (I - d d^T), each eigenvalue from terms of its own sign.
+  // k1 d d^T + k2 (I - d d^T), each eigenvalue from terms of one sign.
   const double k1 = 1 / (h1 * h1), k2 = 1 / (h2 * h2);
   return {k1 * d.x() * d.x() + k2 * (d.y() * d.y() + d.z() * d.z()),
           (k1 - k2) * d.x() * d.y(),

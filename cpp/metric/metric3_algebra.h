@@ -43,20 +43,20 @@ Reduction3 reduce(const Metric3& p, const Metric3& q) noexcept;
 /// Largest and smallest ratio of lengths in `m` to lengths in `reference`. Both positive definite.
 LengthRatios length_ratios(const Metric3& m, const Metric3& reference) noexcept;
 
-/// As for plane metrics: sizes along the axes of the reduction follow the law (RR-2818 sec. 4.3.2). Symmetric bit for
-/// bit: (p, q, t) is (q, p, 1 - t) whenever 1 - t is exact.
+/// As for plane metrics: sizes along the axes of the reduction follow the law (RR-2818 sec. 4.3.2). Exactly symmetric:
+/// (p, q, t) is (q, p, 1 - t) whenever 1 - t is exact.
 Metric3 interpolate(const Metric3& p, const Metric3& q, double t, MetricLaw law) noexcept;
 
 /// The metric of the largest ellipsoid inside both unit balls (RR-2818 sec. 4.3.4). Does not depend on the order.
 Metric3 intersection(const Metric3& p, const Metric3& q) noexcept;
 
-/// An ellipsoid inside all unit balls, by intersections of two (RR-2818 sec. 4.3.4), the smallest ball first: does not
-/// depend on the order of the arguments, nor on rotations. Not the largest one in general, from three metrics on. Not
-/// empty.
+/// An ellipsoid inside all unit balls, by intersections of two (RR-2818 sec. 4.3.4), the smallest ball first. It does
+/// not depend on the order of the arguments, nor on rotations. From three metrics on, it is not the largest one in
+/// general. Requires at least one metric.
 Metric3 intersection(std::span<const Metric3> metrics);
 Metric2 intersection(std::span<const Metric2> metrics);
 
-/// How a prescribed metric is combined with another that must not be exceeded (RR-2928 sec. 5.3).
+/// Combinations of a prescribed metric with another that must not be exceeded (RR-2928 sec. 5.3).
 enum class MetricCombination : int {
   scale = 0,         ///< the prescribed one keeps its shape and shrinks until it lies inside (eq. 57)
   intersection = 1,  ///< largest ellipsoid inside both
@@ -65,8 +65,8 @@ enum class MetricCombination : int {
 Metric3 combine(const Metric3& prescribed, const Metric3& bound, MetricCombination how) noexcept;
 Metric2 combine(Metric2 prescribed, Metric2 bound, MetricCombination how) noexcept;
 
-/// The metric with size h1 along `direction` (any length but zero) and h2 across it (HDR eq. 4.45): in a tangent plane
-/// that holds the direction, sizes h1 and h2.
+/// The metric with size h1 along `direction` (any length but zero) and h2 across it (HDR eq. 4.45). A tangent plane
+/// that holds the direction has sizes h1 and h2.
 Metric3 metric_of_sizes(const Vec3& direction, double h1, double h2) noexcept;
 
 /// An orthonormal basis (e1, e2) of a tangent plane with su = p e1, sv = q e1 + r e2.
@@ -74,11 +74,10 @@ struct TangentFrame {
   Vec3 e1, e2;
   double p = 1, q = 0, r = 1;
 
-  /// Empty where the parametrisation is degenerate: a derivative below 1e-12 of the other, or both parallel within
-  /// 1e-10.
+  /// Empty if the parametrisation is degenerate: a derivative below 1e-12 of the other, or both parallel within 1e-10.
   static std::optional<TangentFrame> of(const Vec3& su, const Vec3& sv) noexcept;
 
-  /// What a metric of space says in the plane.
+  /// The restriction of a metric of space to the plane.
   [[nodiscard]] Metric2 restricted(const Metric3& m) const noexcept;
   /// The metric that one of the plane, in this basis, induces on the parameters (HDR eq. 4.66).
   [[nodiscard]] Metric2 induced(Metric2 tangent) const noexcept;

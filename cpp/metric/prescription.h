@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host, a background mesh or an estimator says about the wanted size or metric at one place.
+// Prescriptions of a host, a background mesh or an estimator: the size or metric at one place.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace carreau {
 
-/// An answer, or none. Values are as given: whoever uses them checks that they are finite and positive definite, and
-/// clamps them.
+/// An answer, or none. Values are unchecked: their users check that they are finite and positive definite, and clamp
+/// them.
 struct Prescription {
   enum class Kind {
     none,       ///< no answer here
@@ -37,39 +37,39 @@ struct Prescription {
   }
 };
 
-/// A place of space beside which a field varies more than its surroundings tell.
+/// A place of space beside which a field varies more than samples of its surroundings show.
 struct SteepPlace {
   Vec3 at;
   double reach = 0;  ///< surfaces and curves that pass it at this distance may have the place
 };
 
-/// A field of wanted sizes or metrics: a host's metric callbacks, a background mesh, an estimator's result. Called from
-/// the thread of the run only.
+/// A field of prescribed sizes or metrics: a host's metric callbacks, a background mesh, an estimator's result. Called
+/// from the thread of the run only.
 class PrescriptionSource {
  public:
   virtual ~PrescriptionSource() = default;
-  /// How sentences call it when an answer cannot be used.
+  /// Its name in sentences about unusable answers.
   [[nodiscard]] virtual std::string name() const { return "the prescription of sizes"; }
-  /// False: `xyz` is never looked at, and need not be evaluated.
+  /// False: `xyz` is never read, and need not be evaluated.
   [[nodiscard]] virtual bool needs_position() const noexcept { return true; }
-  /// Called before a run; `law`: how values vary between places where they are known (hinterpol_flag).
+  /// Called before a run; `law`: the variation of values between known places (hinterpol_flag).
   virtual void begin_run(MetricLaw /*law*/) {}
-  /// Sentences about the run that is over, for whoever reads messages.
+  /// Sentences about the run that is over, as messages.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
-  /// Relative error of lengths that its values are worth: sampling need not be finer. Below 0.01: as if 0.01.
+  /// Relative error of lengths in the field: sampling need not be finer. Below 0.01: as if 0.01.
   [[nodiscard]] virtual double accuracy() const noexcept { return 0; }
-  /// Places of a face's parameter plane near which the field varies more than its surroundings tell.
+  /// Places of a face's parameter plane near which the field varies more than samples of its surroundings show.
   [[nodiscard]] virtual std::vector<Vec2> steep_places(int /*face*/) const { return {}; }
-  /// The same of fields that know space only.
+  /// Steep places of fields that know space only.
   [[nodiscard]] virtual std::span<const SteepPlace> steep_in_space() const { return {}; }
-  /// Parameters of a curve at which the field along it has a kink, and between which it is as exact as its law: it is then
-  /// sampled at these, and finely between. Empty: nothing is known.
+  /// Parameters of a curve at which the field along it has a kink, and between which it is as exact as its law. The field
+  /// is sampled at these, and finely between. Empty: nothing is known.
   [[nodiscard]] virtual std::vector<double> kinks_on_curve(int /*face*/, int /*ic*/) const { return {}; }
-  /// True: the source speaks of curves and points alone, and each face takes what its boundary has, by interpolation.
+  /// True: the source prescribes curves and points alone, and each face interpolates the sizes of its boundary.
   [[nodiscard]] virtual bool curves_only() const noexcept { return false; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
-  /// The same at several points of one face. All spans have one size.
+  /// Evaluates several points of one face. All spans have one size.
   virtual void on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
                                  std::span<Prescription> out) {
     for (std::size_t i = 0; i < uv.size(); ++i) out[i] = on_surface(face, uv[i], xyz[i]);

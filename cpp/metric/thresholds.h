@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a parametrisation is degenerate, for all who ask: one answer.
+// Limits beyond which a parametrisation counts as degenerate, for all rooms.
 #pragma once
 
 namespace carreau::thresholds::degenerate {

@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// Sorts as std::sort does, where `index` of an item is its leading key, from 0 to `count` - 1: into buckets first, which is
-/// faster where they are small, as edges at vertices are.
+/// Sorts like std::sort. `index` of an item is its leading key, from 0 to `count` - 1. Sorts into buckets first, which is
+/// faster for small buckets, for example edges at vertices.
 template <typename T, typename Index>
 void bucket_sort(std::vector<T>& items, std::size_t count, const Index& index) {
   std::vector<std::size_t> start(count + 1, 0);

@@ -32,7 +32,7 @@ class Collapser {
     double length;
   };
 
-  // The first curve of a reference stands for all of them (RT-0232 sec. 3.2).
+  // The first curve of a reference represents all of them (RT-0232 sec. 3.2).
   void find_tiny() {
     std::set<int> seen;
     for_each_curve([&](std::size_t f, std::size_t c) {
@@ -43,7 +43,7 @@ class Collapser {
     });
   }
 
-  // What is one point cannot bound anything: an internal curve would tear a hole.
+  // A curve that is one point cannot bound anything: an internal curve would tear a hole.
   void keep_internal_curves() {
     for_each_curve([&](std::size_t f, std::size_t c) {
       const FaceCurve& curve = model_.faces[f].curves[c];

@@ -14,19 +14,20 @@ struct LargestReferences {
 };
 LargestReferences largest_references(const Model& model);
 
-/// Appends the faces of `part`, a geometry of its own, with all references moved behind those of `model`; those that
-/// are 0 stay so. Where references are still to be found (needs_gluing), room for them is kept. The new entry of
-/// model.geometries is returned. A model that had faces lies in no plane any more. Throws InvalidModel when `part` has
-/// no face, has references that no model may have, or makes some larger than an int.
+/// Appends the faces of `part`, an independent geometry, and moves all its references behind the references of `model`;
+/// references 0 stay 0. If the references of a geometry are still unknown (needs_gluing), their range is reserved. The
+/// new entry of model.geometries is returned. A model that had faces lies in no plane any more. Throws InvalidModel
+/// when `part` has no face, has references that no model may have, or makes some larger than an int.
 GeometryRange append_geometry(Model& model, Model part);
 
-/// Whether faces are of more than one geometry.
+/// True if the faces belong to more than one geometry.
 bool is_mixed(const Model& model);
 
-/// Geometries of a mixed model whose references are still to be found; ascending. A geometry's first curve tells.
+/// Geometries of a mixed model whose references are still to be found; ascending. The first curve of a geometry
+/// decides.
 std::vector<int> geometries_to_glue(const Model& model);
 
-/// Faces of one geometry as a model of its own, with the references that they have, and their indices.
+/// Faces of one geometry as a separate model, with their references and their indices.
 struct GeometryPart {
   Model model;
   std::vector<std::size_t> faces;

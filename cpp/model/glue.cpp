@@ -22,12 +22,12 @@ namespace {
 // Tolerance inside one face (eps_glue_face) against tolerance between faces: HDR sec. 4.5.1 recommends eps_1 = 1e-5 and
 // eps_2 = 1e-2. The opposite sides of a narrow face must not become one; a seam is exact.
 constexpr double inside_share = 1e-3;
-// ... as far as a file says it: numbers of ten digits, as a share of the model's diagonal.
+// ... in the precision of files: numbers of ten digits, as a share of the model's diagonal.
 constexpr double rounding_of_files = 1e-9;
 // Ends farther apart than this share of eps_glue are not one by rounding only.
 constexpr double rounding_share = 1e-3;
-// Open curves that are one may be this share of their own length apart: less would miss the gaps of a file's coarse
-// edges beside its shortest ones, more would close slits.
+// Open curves that are one may be apart by this share of their length. A smaller share would miss the gaps of a file's
+// coarse edges beside its shortest ones; a larger share would close slits.
 constexpr double open_share = 0.1;
 
 struct Entry {
@@ -78,7 +78,7 @@ class Gluer {
   [[nodiscard]] const FaceCurve& given(std::size_t k) const {
     return model_.faces[entries_[k].face].curves[entries_[k].curve];
   }
-  /// Of end 2 k or 2 k + 1 of entry k.
+  /// Given reference of end 2 k or 2 k + 1 of entry k.
   [[nodiscard]] int given_end(std::size_t end) const {
     return end % 2 == 0 ? given(end / 2).end1 : given(end / 2).end2;
   }
@@ -111,8 +111,8 @@ class Gluer {
     const Entry& entry = entries_[k];
     const double gap = norm(entry.trace.back() - entry.trace.front());
     if (trace_extent(entry.trace) < eps_) {
-      // One point of space, but a curve of its own: it is not subdivided, and each face has another one (HDR
-      // sec. 4.5.4).
+      // One point of space, but a separate curve: it is not subdivided, and each face has its own copy (HDR sec.
+      // 4.5.4).
       points_.merge(2 * k, 2 * k + 1);
       if (const double length = trace_length(entry.trace); length > rounding_share * eps_)
         remark(k, "the whole curve, " + format_number(length) +
@@ -151,7 +151,7 @@ class Gluer {
     }
   }
 
-  /// Whether two sides of one face, which are not a seam, would become one curve with a pair.
+  /// True if a pair would unite two sides of one face that are not a seam.
   [[nodiscard]] bool sides_are_apart(const Candidate& pair, const std::vector<std::size_t>& same_ends) {
     const std::size_t p = curves_.find(pair.first), q = curves_.find(pair.second);
     for (const std::size_t a : same_ends)
@@ -166,7 +166,7 @@ class Gluer {
     return model_.faces[e.face].curves[e.curve].type == CurveType::boundary;
   }
 
-  /// The distance of two curves that are one, as far as it is not that of their polylines from the curves.
+  /// The distance of two curves that are one, less the distances of their polylines from the curves.
   [[nodiscard]] std::optional<double> gap_if_one(const Entry& a, const Entry& b) const {
     const bool sides = a.face == b.face;
     if (sides && (!is_boundary(a) || !is_boundary(b))) return {};  // a seam is made of two sides
@@ -214,14 +214,14 @@ class Gluer {
     }
   }
 
-  /// Whether b starts where a ends, which is nearer than where a starts.
+  /// True if the curves have opposite directions: the end of a is at the start of b.
   static bool runs_against(const Entry& a, const Entry& b) {
     const Vec3 p = a.trace.front(), q = a.trace.back(), r = b.trace.front(), s = b.trace.back();
     return std::max(norm(p - s), norm(q - r)) < std::max(norm(p - r), norm(q - s));
   }
 
-  /// The distance of two open curves of different faces, when it and that of their ends are within eps_open and a share
-  /// of their lengths.
+  /// The distance of two open curves of different faces, if their own distance and the distance of their ends are
+  /// within eps_open and a share of their lengths.
   [[nodiscard]] std::optional<double> gap_if_open_ones_meet(const Entry& a, const Entry& b) const {
     if (a.face == b.face) return {};  // a slit
     const double limit = std::min(eps_open_, open_share * std::min(trace_length(a.trace), trace_length(b.trace)));
@@ -234,12 +234,12 @@ class Gluer {
     return gap < limit + loose ? std::optional(std::max({gap - loose, at_ends, 0.0})) : std::nullopt;
   }
 
-  /// A piece of a curve that is no longer than ends may be apart: what a gap along the curve has cut off.
+  /// A piece of a curve that is no longer than the tolerance of ends: a gap along the curve has cut it off.
   [[nodiscard]] bool is_cut_off(std::size_t k) const {
     return given(k).part_of != 0 && trace_length(entries_[k].trace) < eps_open_;
   }
 
-  /// By set of points: curves that join it to another one and may not become loops.
+  /// Lists, for each set of points, the curves that join it to another set and may not become loops.
   void list_curves_at_points() {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const std::size_t p = points_.find(2 * k), q = points_.find(2 * k + 1);
@@ -294,7 +294,7 @@ class Gluer {
   }
 
   // The numbering of HDR fig. 4.18: curve k (from 1) has the ends 2 k - 1 and 2 k; sets take their smallest number.
-  // What has references takes that of its first one.
+  // A set with references takes the reference of its first member.
   Model numbered() {
     Model glued = model_;
     for (std::size_t k = 0; k < entries_.size(); ++k) {

@@ -25,57 +25,58 @@ struct FacePoint {
 
 enum class CurveType : int { boundary = 1, internal = 2 };
 
-/// How the lengths of prescribed edges follow one another. Values are part of the C ABI.
+/// Progression of the lengths of prescribed edges. Values are part of the C ABI.
 enum class Progression : int { equal = 0, arithmetic = 1, geometric = 2, given = 3 };
 
-/// The edges of a curve, told in place of sizes (HDR sec. 2.1, 2.3). Lengths are those of the curve's arcs in space, in
-/// the direction of the parameter t of the FaceCurve that they are prescribed on.
+/// The edges of a curve, prescribed in place of sizes (HDR sec. 2.1, 2.3). Lengths are arc lengths in space, in the
+/// direction of the parameter t of the FaceCurve with the prescription.
 struct PrescribedEdges {
   Progression progression = Progression::equal;
   int edges = 1;          ///< their number, not of `given`
-  double ratio = 1;       ///< > 0: of the last length to the first (arithmetic), of each to the one before (geometric)
+  double ratio = 1;       ///< > 0: ratio of the last length to the first (arithmetic), of each length to the previous one (geometric)
   std::vector<double> t;  ///< of `given`: the parameters of the vertices inside, strictly increasing; whole curve
 
   friend bool operator==(const PrescribedEdges&, const PrescribedEdges&) = default;
 };
 
 /// A curve as one face sees it; its rank `ic` (from 1) is its index in Face::curves + 1.
-/// Gluing cuts curves where curves of other faces end (HDR sec. 4.5.1): the first part of a curve keeps its rank, the
-/// others follow behind all curves of the face.
+/// Gluing cuts curves at the ends of curves of other faces (HDR sec. 4.5.1). The first part of a curve keeps its rank,
+/// the others follow behind all curves of the face.
 struct FaceCurve {
   CurveType type = CurveType::boundary;
-  int ref = 0;             ///< refc: the same for curves that are one in space
+  int ref = 0;             ///< refc: equal for curves that are one in space
   int end1 = 0, end2 = 0;  ///< references of the points at t = a and t = b
   int line = 0;
   /// Treated as one point of space although it has a small extent (eps_collapse, RT-0232 sec. 3.3). The curve keeps its
   /// rank: hosts address curves by it.
   bool collapsed = false;
-  /// Rank of the host's curve of which this is the part from t = part_a to t = part_b; 0: the host's curve of the same
-  /// rank, whole.
+  /// Rank of the host's curve whose part from t = part_a to t = part_b this is; 0: the host's curve of equal rank,
+  /// whole.
   int part_of = 0;
   double part_a = 0, part_b = 0;
-  /// Reference of the curve that results speak of in place of this one, which is a part of it; 0: none.
+  /// Reference of the curve that results name in place of this one, which is a part of it; 0: none.
   int shown_as = 0;
-  /// Its edges, whatever sizes say; null: by sizes.
+  /// Its prescribed edges, which override sizes; null: sizes decide.
   std::shared_ptr<const PrescribedEdges> edges = {};
 };
 
 struct Face {
   int ref = 0;
   /// |orientation| is the rank of a boundary curve; the surface lies on its left when positive, on its right when
-  /// negative. 0: a wire, curves of space without area, which only its curves are asked on.
+  /// negative. 0: a wire, curves of space without area; the host evaluates only its curves.
   int orientation = 1;
   std::vector<FaceCurve> curves;
   std::vector<FacePoint> points;
   std::string name = {};  ///< for people and for files that hold names; empty: none
   std::int32_t rgb = -1;  ///< colour for files that hold colours, 0xRRGGBB (sRGB); -1: none
   int line = 0;
-  /// Reference of the face that results speak of in place of this one, which is a part of it; 0: none.
+  /// Reference of the face that results name in place of this one, which is a part of it; 0: none.
   int part_of = 0;
-  /// Of a model of several geometries, the one that the face belongs to, from 1, in Model::geometries; 0: the host's own.
+  /// In a model of several geometries, the geometry of the face, from 1, in Model::geometries; 0: the host's own.
   int geometry = 0;
   bool discrete = false;  ///< given by triangles: it has no curves, and its mesh is made in space
-  /// Why the face is not meshed: nothing is asked of its geometry, and its curves may break any rule; empty: it is.
+  /// The reason why the face is not meshed; empty: it is meshed. The library never evaluates such a face, and its
+  /// curves may break any rule.
   std::string left_out = {};
 
   [[nodiscard]] bool is_wire() const noexcept { return orientation == 0; }
@@ -87,8 +88,8 @@ inline int host_rank(const Face& face, std::size_t curve) {
   return part_of != 0 ? part_of : static_cast<int>(curve) + 1;
 }
 
-/// References of a geometry among others: those from first_ to last_ are its own, which it counts from 1. last_ is
-/// first_ - 1 where it has none.
+/// References of a geometry among others: the ones from first_ to last_ belong to it, and it counts them from 1. last_
+/// is first_ - 1 if it has none.
 struct GeometryRange {
   int first_face = 1, last_face = 0;
   int first_curve = 1, last_curve = 0;
@@ -106,7 +107,7 @@ struct Periodicity {
 struct Model {
   std::vector<Face> faces;
   std::string source;  ///< name of the file it was read from; empty: from memory
-  /// References that results have in place of those of points, where they differ.
+  /// References that replace the references of points in results, if they differ.
   std::map<int, int> shown_points = {};
   std::vector<GeometryRange> geometries = {};  ///< beside the host's own; see Face::geometry
   EntityNames names = {};

@@ -32,7 +32,7 @@ class ModelChecker {
       const bool gluing = gluing_[static_cast<std::size_t>(model_.faces[f].geometry)];
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
         check_type(f, c);
-        // The very first curve decides (RT-0232 sec. 3.2): what others have is not looked at.
+        // The very first curve decides (RT-0232 sec. 3.2); the references of other curves are ignored.
         if (!gluing && check_positive(f, c)) check_uses(f, c);
       }
       if (!gluing) check_loops(f);
@@ -50,13 +50,13 @@ class ModelChecker {
     return where;
   }
   [[nodiscard]] Where face_place(std::size_t f) const { return place(f, model_.faces[f].line); }
-  // As in "face number 3": ranks tell faces apart whose references do not.
+  // As in "face number 3": ranks distinguish faces with equal references.
   static std::string rank(std::size_t index) { return std::to_string(index + 1); }
 
   void check_face(std::size_t f) {
     const Face& face = model_.faces[f];
     if (face.ref <= 0)
-      add(face_place(f), "the reference of a face must be positive; that of face number " + rank(f) + " is " +
+      add(face_place(f), "the reference of a face must be positive; face number " + rank(f) + " has " +
                              std::to_string(face.ref));
     const auto [it, added] = faces_.try_emplace(face.ref, f);
     if (!added)
@@ -111,7 +111,7 @@ class ModelChecker {
     const bool negative = curve.ref < 0 || curve.end1 < 0 || curve.end2 < 0;
     add(place_of(model_, f, c), negative ? "references must be positive (" + references(curve) + ")"
                                          : "zero references are mixed with others (" + references(curve) +
-                                               "): to have references found, those of all curves must be 0");
+                                               "): to find references, the references of all curves must be 0");
     return false;
   }
 
@@ -120,7 +120,7 @@ class ModelChecker {
     const auto [it, first] = curves_.try_emplace(curve.ref, &curve);
     if (!first && std::minmax(curve.end1, curve.end2) != std::minmax(it->second->end1, it->second->end2))
       add(place_of(model_, f, c), "its ends " + std::to_string(curve.end1) + " and " + std::to_string(curve.end2) +
-                                      " are not those of the first curve of this reference, " +
+                                      " differ from the ends of the first curve of this reference, " +
                                       std::to_string(it->second->end1) + " and " + std::to_string(it->second->end2) +
                                       of_line(it->second->line));
     std::vector<std::size_t>& uses = uses_[{f, curve.ref, curve.type}];
@@ -129,10 +129,10 @@ class ModelChecker {
     for (std::size_t i = 0; i + 1 < uses.size(); ++i)
       others += (i == 0 ? "" : " and ") + std::to_string(uses[i] + 1) + of_line(model_.faces[f].curves[uses[i]].line);
     if (curve.type == CurveType::boundary && uses.size() > 2)
-      add(place_of(model_, f, c), "the reference is that of boundary curves " + others +
+      add(place_of(model_, f, c), "the reference belongs to boundary curves " + others +
                                       " of the face already; twice is a seam, more is not possible");
     if (curve.type == CurveType::internal && uses.size() > 1)
-      add(place_of(model_, f, c), "the reference is that of internal curve " + others + " of the face already");
+      add(place_of(model_, f, c), "the reference belongs to internal curve " + others + " of the face already");
   }
 
   // Loops close whatever the order of the curves: at each point of the boundary an even number of ends meets. Curves

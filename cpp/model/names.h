@@ -11,7 +11,8 @@ namespace carreau {
 /// By reference. Entities of one dimension and one name form a group. Names of faces are in Face.
 struct EntityNames {
   std::map<int, std::string> points = {}, curves = {}, solids = {};
-  /// By reference of a face: the solid that its triangles look out of, and the solid on the other side; 0: none.
+  /// For each reference of a face: the solid on the outer side of its triangles, and the solid on the other side; 0:
+  /// none.
   std::map<int, std::array<int, 2>> face_solids = {};
 };
 

@@ -24,8 +24,8 @@ bool any_near(std::span<const Vec3> points, const std::vector<std::size_t>& some
 }  // namespace
 
 void merge_near_points(std::span<const Vec3> points, double eps, UnionFind& sets) {
-  // Cells of half the tolerance: all of a cell is one (its diagonal is 0.87 eps), and what is near lies two cells away
-  // at most.
+  // Cells of half the tolerance: all points of a cell are one (its diagonal is 0.87 eps), and near points lie at most
+  // two cells away.
   const double side = eps / 2;
   constexpr int reach = 2;
   Cells cells;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where things of a model stand: for the sentences of errors and remarks.
+// Describes places of a model in the sentences of errors and remarks.
 #pragma once
 
 #include <string>

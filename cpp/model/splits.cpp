@@ -71,7 +71,7 @@ class Splitter {
     const Entry& entry = entries_[k];
     const Box box = box_of(entry.trace);
     const double length = trace_length(entry.trace);
-    const double reach = eps_ + trace_deviation(entry.trace);  // an arc bulges off its trace by more than eps, say
+    const double reach = eps_ + trace_deviation(entry.trace);  // an arc may deviate from its trace by more than eps
     std::map<std::size_t, CurveSplit> by_set;
     std::vector<std::size_t> near;
     const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x() - reach, std::size_t{0}});
@@ -128,7 +128,7 @@ class FreshReferences {
       for (const FacePoint& point : face.points) point_ = std::max(point_, point.ref);
     }
   }
-  /// 0 where references are still to be found.
+  /// 0 if references are unknown.
   int curve() { return known_ ? ++curve_ : 0; }
   int point() { return known_ ? ++point_ : 0; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where curves must be cut so that gluing finds all that is common (HDR sec. 4.5.1).
+// Cuts of curves that let gluing find all common parts (HDR sec. 4.5.1).
 #pragma once
 
 #include <span>
@@ -17,13 +17,13 @@ struct CurveSplit {
   double gap = 0;                   ///< distance of the end from the trace
 };
 
-/// By face, curve and arc: ends within eps of a curve, as far as its trace can tell; the trace may be off the curve by
-/// more. Ends that are one (merged within eps) cut a curve once, at their nearest. Nothing is cut
-/// within eps of its own ends. Internal curves cut and are cut like boundaries. Only curves_to_glue() take part. Throws
-/// InvalidArgument when traces are missing.
+/// For each face, curve and arc: ends within eps of a curve, measured to its trace; the curve may be farther from the
+/// end by the trace's deviation. Ends that are one (merged within eps) cut a curve once, at their nearest. A curve is
+/// never cut within eps of its own ends. Internal curves cut and are cut like boundaries. Only curves_to_glue() are cut
+/// and cut others. Throws InvalidArgument when traces are missing.
 std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& traces, double eps);
 
-/// The model with curves cut; where it has references, parts behind the first, and points between, get new ones: `t[i]`
+/// The model with curves cut; if it has references, parts behind the first, and points between, get new ones: `t[i]`
 /// strictly inside the host's interval, ascending for one curve.
 struct CurveCut {
   std::size_t face = 0, curve = 0;

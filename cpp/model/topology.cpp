@@ -16,7 +16,7 @@ namespace carreau {
 
 namespace {
 
-// A trace within this share of the tolerance is one point whatever its references say.
+// A trace within this share of the tolerance is one point, whatever its references are.
 constexpr double point_share = 1e-3;
 // A loop that is no larger than that would vanish: there, within this share of its longest side.
 constexpr double point_share_of_loop = 1e-3;
@@ -41,7 +41,7 @@ class TopologyBuilder {
     return std::move(topology_);
   }
 
-  /// What is farther apart than eps; "": nothing.
+  /// Describes the places that are farther apart than eps; "": none.
   [[nodiscard]] std::string remark() const {
     if (wide_ == 0) return "";
     return std::to_string(wide_) + (wide_ == 1 ? " curve or end of one is" : " curves or ends of them are") +
@@ -76,8 +76,8 @@ class TopologyBuilder {
     return UnionFind(rank_.size());
   }
 
-  // The sides of a small hole or boss, or of the end of a wire a hundred thousand times longer than thick, are no
-  // points, for no face that uses them: a loop of nothing else would vanish.
+  // The sides of a small hole or boss are no points, for no face that uses them: a loop of such sides would vanish.
+  // This also holds for the end of a wire a hundred thousand times longer than thick.
   void find_small_loops() {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       const std::vector<FaceCurve>& curves = model_.faces[f].curves;
@@ -103,7 +103,7 @@ class TopologyBuilder {
     }
   }
 
-  // The manual demanded two references even where a side is one point: they are one corner. Ends of collapsed curves
+  // The manual required two references even for a side that is one point: they are one corner. Ends of collapsed curves
   // may be as far from their corner as the curves were long.
   void merge_ends_of_points() {
     for_each_curve([&](const FaceCurve& curve, std::span<const Vec3> points) {
@@ -154,7 +154,7 @@ class TopologyBuilder {
     const bool same = end1 == shape.end1 && end2 == shape.end2, against = end1 == shape.end2 && end2 == shape.end1;
     if (!same && !against)
       throw InvalidModel(where(use),
-                         "its ends are not those of " + name(shape.uses.front()) + ", which has the same reference");
+                         "its ends differ from the ends of " + name(shape.uses.front()) + ", which has the same reference");
     if (!curve.collapsed) check_gap(shape, use);
     if (shape.degenerate != point)
       throw InvalidModel(
@@ -164,7 +164,7 @@ class TopologyBuilder {
     shape.uses.push_back(use);
   }
 
-  // Each end must be where its reference was first seen.
+  // Each end must be at the first place of its reference.
   void check_ends(const CurveUse& use, int end1, int end2) {
     const Vec3 front = trace(use).front(), back = trace(use).back();
     const Vec3 p1 = topology_.points[end1].position, p2 = topology_.points[end2].position;
@@ -172,7 +172,7 @@ class TopologyBuilder {
     const double swapped = std::max(norm(front - p2), norm(back - p1));
     if (gap > point_share * eps_ && swapped < 0.1 * gap)
       throw InvalidModel(where(use), "refp1 and refp2 are exchanged: its first end is at the point of reference " +
-                                         std::to_string(face_curve(use).end2) + ", its second one at that of " +
+                                         std::to_string(face_curve(use).end2) + ", its second end at the point of reference " +
                                          std::to_string(face_curve(use).end1));
     const bool first = gap1 - slack_of_point_[end1] > apart_;
     if (!first && gap2 - slack_of_point_[end2] <= apart_) {
@@ -189,7 +189,7 @@ class TopologyBuilder {
                                        ", as another curve gave it before (tolerance " + format_number(apart_) + ")");
   }
 
-  // Farther apart than usual, and joined all the same.
+  // Farther apart than usual, and joined nevertheless.
   void note_gap(const CurveUse& use, double gap) {
     if (gap <= eps_) return;
     ++wide_;
@@ -210,7 +210,7 @@ class TopologyBuilder {
                                        ", which has the same reference (tolerance " + format_number(apart_) + ")");
   }
 
-  // A closed curve says nothing by its ends: the direction is the one in which the shapes agree.
+  // The ends of a closed curve do not determine its direction: it is the direction in which the shapes agree.
   [[nodiscard]] bool runs_against(const Curve& shape, const CurveUse& use) const {
     const std::span<const Vec3> first = trace(shape.uses.front()), other = trace(use);
     double along = 0, back = 0;
@@ -225,9 +225,9 @@ class TopologyBuilder {
       throw InvalidModel(where(use), "the closed curve and " + name(shape.uses.front()) +
                                          ", which has the same reference, are " + format_number(gap) +
                                          " apart at equal lengths: do both start at the same point?");
-    // What agrees in both directions, there and back on one line, may be taken in any.
+    // A curve that agrees in both directions, there and back on one line, may take any.
     if (gap > std::max(0.5 * std::max(along, back), point_share * eps_))
-      throw InvalidModel(where(use), "the direction of the closed curve cannot be told: it is as near to " +
+      throw InvalidModel(where(use), "the direction of the closed curve is ambiguous: it is as near to " +
                                          name(shape.uses.front()) + " forwards (" + format_number(along) +
                                          ") as backwards (" + format_number(back) + ")");
     return back < along;

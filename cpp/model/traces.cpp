@@ -11,10 +11,10 @@
 namespace carreau {
 
 namespace {
-// Segments on either side of the nearest one of a point, among which that of the next point is looked for first.
+// Segments on either side of a point's nearest segment; the search for the next point starts with them.
 constexpr std::size_t beside = 2;
 
-/// Boxes around runs of segments of a trace: what cannot be near is passed over, and no distance found differs by that.
+/// Boxes around runs of segments of a trace. Skips runs that cannot be near, which does not change any distance.
 class Runs {
  public:
   explicit Runs(std::span<const Vec3> trace) {
@@ -96,14 +96,14 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
   const Runs runs(to);
   for (const Vec3& p : from) {
     double best = infinity;
-    // A point that is no farther than another one was does not matter.
+    // A point that is no farther than an earlier point is irrelevant.
     const auto look = [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last && best > worst * worst; ++i) {
         const double distance = squared_distance_to_segment(p, to[i - 1], to[i]);
         if (distance < best) best = distance, nearest = i;
       }
     };
-    // Traces of one curve have their points in nearly the same places: the segment of the one before, or the next one.
+    // Traces of one curve have their points in nearly equal places: tries the previous segment, or the next one.
     const std::size_t at = nearest;
     look(at, std::min(at + 2, to.size()));
     if (at > 1) look(at - 1, at);

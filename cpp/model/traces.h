@@ -27,14 +27,14 @@ struct TracePlace {
 };
 TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p);
 /// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds
-/// `enough`. Distances up to `negligible` may come out as that.
+/// `enough`. Distances up to `negligible` may be returned as `negligible`.
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough, double negligible = 0);
 /// Both sides (HDR sec. 4.5.1).
 double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough, double negligible = 0);
-/// Of the box of all traces.
+/// Diagonal of the box of all traces.
 double traces_diagonal(const CurveTraces& traces);
-/// How far the polyline may be off the curve that it samples, about: the largest distance of a vertex to the chord of
-/// its neighbours. 0 for straight ones.
+/// Approximate deviation of the polyline from its curve: the largest distance of a vertex to the chord of its
+/// neighbours. 0 for straight curves.
 double trace_deviation(std::span<const Vec3> trace);
 /// Largest distance of a vertex to the first one.
 double trace_extent(std::span<const Vec3> trace);

@@ -8,7 +8,7 @@
 
 namespace carreau {
 
-/// The numbers 0 .. n - 1, at first each in a set of its own. A set is known by its smallest number.
+/// The numbers 0 .. n - 1, each at first in a separate set. A set is known by its smallest number.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }

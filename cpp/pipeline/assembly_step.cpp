@@ -37,7 +37,7 @@ std::vector<char> faces_with_patches(const CompositeRun& run) {
   return has_patch;
 }
 
-// At its ends, too, what the curve was cut with: a corner's size is the mean of directions that differ.
+// Vertices at its ends also take the sizes that cut the curve: a corner's size is the mean of directions that differ.
 std::vector<double> sizes_along(const DiscreteCurve& curve) {
   std::vector<double> size = curve.size;
   size.front() = curve.sizes.size_at(0);
@@ -123,7 +123,7 @@ bool collapse_narrow_together(CompositeRun& run) {
 
 void collapse_narrow_one_by_one(CompositeRun& run) {
   std::vector<FaceCollapse> all = collapses(run);
-  for (FaceCollapse& face : all) {  // those near a point have been meshed
+  for (FaceCollapse& face : all) {  // faces near a point have been meshed
     const FaceMesh& mesh = run.result.mesh.faces[face.face];
     if (!face.one.empty() || mesh.triangles.empty()) continue;
     face.one.emplace_back(mesh.vertex.size());

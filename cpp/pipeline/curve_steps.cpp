@@ -31,8 +31,8 @@ void cut_curve(CompositeRun& run, std::size_t c, const std::vector<SizeSamples>&
       discretise_curve(run.curve_model, static_cast<int>(c), run.rules, {.lss = run.options.lss, .known = known});
 }
 
-// Edges that are farther from their curve than the guarantee lets them be, or turned more, are halved. At a kink, where
-// no edge keeps an angle, halvings end.
+// Halves edges that are farther from their curve than the guarantee permits, or turned more. At a kink every edge
+// exceeds the angle, so halvings end there.
 void keep_to_curves(CompositeRun& run) {
   if (!run.options.size.geo_guarantee) return;
   const GeometricLimits limits = geometric_limits(run.options.size);

@@ -68,9 +68,9 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
     inspectors.push_back(make_periodic_inspector());
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
-    run.report(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
+    run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
   else if (run.options.independent && !run.periodic.empty())
-    run.report(Level::warning, "the mesh stays as its patches made it: faces are periodic");
+    run.report(Level::warning, "no cross-patch remeshing: faces are periodic");
   else if (run.options.independent)
     inspectors.push_back(make_free_mesh_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());

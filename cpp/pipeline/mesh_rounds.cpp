@@ -29,8 +29,8 @@ void mesh_discretised(CompositeRun& run) {
   assemble_patches(run);
 }
 
-// Neighbours of vanishing faces are meshed without their end caps. Where a face cannot vanish, all faces are meshed with
-// end caps, and as many vanish as can.
+// Neighbours of vanishing faces are meshed without their end caps. If a face cannot vanish, meshes all faces with end
+// caps, and then removes as many narrow faces as possible.
 void mesh_without_narrow(CompositeRun& run) {
   const std::vector<DiscreteCurve> before = run.curves;
   mesh_discretised(run);
@@ -42,7 +42,7 @@ void mesh_without_narrow(CompositeRun& run) {
   collapse_narrow_one_by_one(run);
 }
 
-// Keeps the promise of the gradation for neighbouring edges on the assembled mesh, too.
+// Also enforces the gradation of neighbouring edges on the assembled mesh.
 void even_out_sampled(CompositeRun& run) {
   const CompositeOptions& options = run.options;
   if (run.isotropic())
@@ -127,7 +127,7 @@ bool MeshRounds::mesh_again(const RefinementRequests& requests) {
   return done;
 }
 
-// The mesh of the run is the best so far, or one that was given up.
+// The mesh of the run is the best so far, or a discarded one.
 void MeshRounds::put_aside() {
   CompositeResult before = std::exchange(run_.result, {});
   run_.result.graded = before.graded, run_.result.report = before.report;

@@ -46,7 +46,7 @@ class MeshRounds {
   std::vector<std::vector<EdgeSizes::Source>> first_finer_;  // the same
   std::ptrdiff_t failed_ = 0;                                // faces of the best mesh
   std::optional<Kept> best_;                                 // empty: the mesh of the run is the best
-  std::vector<std::optional<ControlSpace>> spaces_;  // of a mesh that was given up, for the faces that the next round leaves as they are
+  std::vector<std::optional<ControlSpace>> spaces_;  // of a discarded mesh, for the faces that the next round leaves as they are
 };
 
 }  // namespace carreau

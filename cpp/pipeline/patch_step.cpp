@@ -132,7 +132,7 @@ std::vector<double> expected_triangles(const PatchJobs& work) {
   return triangles;
 }
 
-/// Those that one process would be at while others have nothing left to do, and that are large enough to be cut.
+/// Faces that would occupy one process after others have finished, and that are large enough to be cut.
 std::vector<std::size_t> faces_to_share(const std::vector<double>& triangles, int processes) {
   const double share = std::accumulate(triangles.begin(), triangles.end(), 0.0) / processes;
   std::vector<std::size_t> shared;

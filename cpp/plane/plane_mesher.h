@@ -9,16 +9,16 @@
 
 namespace carreau {
 
-/// Triangulates `domain` so that edges have length 1 in the metric as far as possible.
-/// Deterministic, for any number of threads; re-entrant; no callback but monitor.checkpoint().
+/// Triangulates `domain` so that edges have lengths near 1 in the metric. Deterministic, for any number of threads;
+/// re-entrant; no callback but monitor.checkpoint().
 /// @throws DomainError   loops that do not close, cross or touch (edges and (u, v) in the message)
 /// @throws LimitError, Cancelled
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor);
 
-/// Constrained Delaunay triangulation of the imposed vertices and edges alone, outside removed
-/// (the "maillage frontalier" of RR-2928 sec. 2.2), in the metric of (u, v) scaled to the domain's box.
-/// Same errors as mesh_plane.
+/// Constrained Delaunay triangulation of the imposed vertices and edges alone, outside removed (the "maillage
+/// frontalier" of RR-2928 sec. 2.2). Its metric is the metric of (u, v) scaled to the domain's box. Same errors as
+/// mesh_plane.
 PlaneMesh triangulate_domain(const PlaneDomain& domain, Monitor& monitor);
 
 }  // namespace carreau

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether four points are the corners of a convex quadrilateral, exactly.
+// Decides exactly if four points are the corners of a convex quadrilateral.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace carreau {
 
 /// Strictly convex and counterclockwise: the four orientations of three corners that follow each other are +1. Their filters
-/// share the sides as differences, whose rounding has the same bound; what these leave undecided is asked exactly.
+/// share the sides as differences, with one bound of rounding; exact predicates decide the remaining cases.
 inline bool is_convex_quad(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const std::array<Vec2, 4> side{b - a, c - b, d - c, a - d};
   bool sure = true;

@@ -43,11 +43,12 @@ std::vector<double> sorted_coordinates(std::span<const Vec2> vertices, Edges edg
   return values;
 }
 
-/// Of the segment from (pa, qa) to (pb, qb), the q where p is `at`; wrong by a few ulp of qa and qb.
+/// The q at p = `at` on the segment from (pa, qa) to (pb, qb); wrong by a few ulp of qa and qb.
 double intersection(double pa, double pb, double qa, double qb, double at) noexcept {
   if (at == pa || pa == pb) return qa;
   if (at == pb) return qb;
-  // A difference of large doubles may overflow, that of their halves does not; halves of subnormal ones are not exact.
+  // A difference of large doubles may overflow, the difference of their halves does not; halves of subnormal numbers
+  // are not exact.
   const double s = std::max(std::abs(pa), std::abs(pb)) > 1 ? 0.5 : 1;
   const double w = (s * at - s * pa) / (s * pb - s * pa);
   return (1 - w) * qa + w * qb;

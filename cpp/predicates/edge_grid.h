@@ -10,9 +10,9 @@
 
 namespace carreau {
 
-/// Cells between grid lines that follow the density of the vertices (their quantiles), so that a small dense part of a
-/// large domain is resolved as well as the rest. A cell lists at least every edge that has a point in common with the
-/// closed cell. The outermost lines pass through the outermost vertices.
+/// Cells between grid lines that follow the density of the vertices (their quantiles): a small dense part of a large
+/// domain is resolved as well as the rest. A cell lists at least every edge that has a point in common with the closed
+/// cell. The outermost lines pass through the outermost vertices.
 class EdgeGrid {
  public:
   /// Indices of the edges count from 0; edges refer to `vertices`. Finite coordinates of any size.

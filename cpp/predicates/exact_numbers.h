@@ -14,7 +14,7 @@
 namespace carreau::detail {
 
 /// Coordinates in this range (or zero) multiply four at a time, with all their rounding errors, without overflow or
-/// underflow: the last bit of the smallest is 2^-252, its fourth power 2^-1008 > 2^-1074.
+/// underflow. The last bit of the smallest is 2^-252, its fourth power 2^-1008 > 2^-1074.
 inline constexpr double smallest_safe = 0x1p-200, largest_safe = 0x1p200;
 
 inline bool is_safe(double x) noexcept {

@@ -5,10 +5,9 @@
 
 #include "predicates/predicates.h"
 
-// A point is joined with the lower left corner C of its cell by a horizontal and a vertical leg; the crossings of
-// edges along it, together with what is known of C, decide. Ties: every point and corner (x, y) stands for
-// (x + e, y + e'), 0 < e' << e << 1, so that none is on an edge, a leg meets no vertex, and each
-// crossing is a matter of exact orientation signs.
+// Joins a point to the lower left corner C of its cell by a horizontal and a vertical leg; the crossings of edges along
+// it and the known state of C decide. Ties: every point and corner (x, y) represents (x + e, y + e'), 0 < e' << e << 1.
+// Then no point is on an edge, no leg meets a vertex, and exact orientation signs decide each crossing.
 
 namespace carreau {
 namespace {

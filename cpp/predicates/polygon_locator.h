@@ -15,7 +15,7 @@ namespace carreau {
 /// Edges may be in any order. Duplicated edges cancel out, and their points still count as inside.
 class PolygonLocator {
  public:
-  /// Copies what it needs. Edges that do not form closed loops give an answer without meaning, but no crash.
+  /// Copies its arguments. Edges that do not form closed loops give an answer without meaning, but no crash.
   PolygonLocator(std::span<const Vec2> vertices, std::span<const std::pair<int, int>> edges);
 
   /// Inside or on an edge. Exact for finite points; false for others. Thread-safe.

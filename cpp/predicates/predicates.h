@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exact signs. No other room of the engine compares a determinant with zero to decide a topology.
 //
-// Each predicate is first evaluated in plain doubles with a bound of its rounding errors ([shewchuk-1997] sec. 4,
-// "A" stages), inline because the plane mesher asks millions of times; what the bound leaves undecided is computed
-// exactly out of line. The bounds need round-to-nearest and uncontracted operations (-ffp-contract=off).
+// Each predicate is first evaluated in plain doubles with a bound of its rounding errors ([shewchuk-1997] sec. 4, "A"
+// stages). This is inline because the plane mesher calls it millions of times; undecided cases are computed exactly out
+// of line. The bounds need round-to-nearest and uncontracted operations (-ffp-contract=off).
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ int exact_in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
 /// (3 + 16 e) e and (10 + 96 e) e with e = 2^-53 ([shewchuk-1997] sec. 4.3 and 4.4).
 inline constexpr double orientation_bound = 3.3306690738754716e-16;
 inline constexpr double in_circle_bound = 1.1102230246251577e-15;
-/// Far above what the underflow of a product loses (2^-1075), far below any determinant of a real mesh.
+/// Far above the loss by underflow of a product (2^-1075), far below any determinant of a real mesh.
 inline constexpr double underflow_bound = 1e-290;
 }  // namespace detail
 

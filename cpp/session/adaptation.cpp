@@ -14,7 +14,7 @@ namespace carreau {
 
 namespace {
 
-/// Of corners alone: without nodes on edges.
+/// A mesh of the corners alone, without nodes on edges.
 FlatMesh straight_mesh(const SurfaceMesh& mesh) {
   FlatMesh flat = flatten(mesh, false);
   flat.vertices.resize(mesh.vertices.size());
@@ -22,7 +22,7 @@ FlatMesh straight_mesh(const SurfaceMesh& mesh) {
   return flat;
 }
 
-/// What has `rows` values: all nodes, or corners alone.
+/// A mesh of the places that have `rows` values: all nodes, or corners alone.
 FlatMesh straight_mesh(const SurfaceMesh& mesh, std::size_t rows) {
   if (mesh.mid_vertices.empty() || rows != node_count(mesh)) return straight_mesh(mesh);
   return flatten(straight_over_nodes(mesh), false);
@@ -35,7 +35,7 @@ EstimatorOptions with_bounds(Session& session, EstimatorOptions options) {
   return options;
 }
 
-/// What the hosts of the processes of a team want estimated.
+/// The input of the estimator in one process: all processes of a team must have equal input.
 std::string checksum_of(std::span<const double> values, const EstimatorOptions& options) {
   LongChecksum sum;
   for (const double value : values) sum.add(std::bit_cast<std::uint64_t>(value));
@@ -51,7 +51,7 @@ class Loop {
   Loop(Session& session, const FieldFunction& field, const AdaptationOptions& options, Monitor& monitor)
       : session_(session), field_(field), options_(options), monitor_(monitor) {
     if (options.iterations < 1)
-      throw InvalidArgument("an adaptation has one iteration at least, not " + std::to_string(options.iterations));
+      throw InvalidArgument("the number of iterations must be at least 1; it is " + std::to_string(options.iterations));
     if (!(options.convergence >= 0) || !std::isfinite(options.convergence))
       throw InvalidArgument("the threshold of convergence must not be negative; it is " +
                             format_number(options.convergence));
@@ -129,7 +129,7 @@ class Loop {
 void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options) {
   if (crew.team == nullptr) return;
   crew.team->require_same<InvalidModel>("estimate", checksum_of(values, options), [](int rank) {
-    return "the values of the field, or the options, are others on rank " + std::to_string(rank) + " than on rank 0";
+    return "the values of the field, or the options, differ on rank " + std::to_string(rank) + " from rank 0";
   });
 }
 

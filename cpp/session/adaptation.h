@@ -15,22 +15,23 @@
 
 namespace carreau {
 
-/// The session's mesh with sizes or metrics at its vertices, to be used for the next one: of elements of second order at all
+/// The session's mesh with sizes or metrics at its vertices, for the next mesh. Elements of second order have values at all
 /// nodes (node_count), or at their corners alone.
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);
 
 /// With a team: throws InvalidModel, which names the first rank that has other values or options than rank 0.
 void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options);
 
-/// Sizes or metrics from values at the vertices of the session's mesh, by all processes of its team together; of elements of second order at all nodes, or at their
-/// corners alone: sizes of straight elements in either case. Bounds of 0 are replaced by hphymin and hphymax.
+/// Sizes or metrics from values at the vertices of the session's mesh, by all processes of its team together. Elements of second order have
+/// values at all nodes, or at their corners alone; the sizes are for straight elements in either case. Bounds of 0 are replaced by hphymin
+/// and hphymax.
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options);
-/// The same from the field itself, at all nodes: see estimate_function().
+/// Estimates from the field, at all nodes: see estimate_function().
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options);
 
 struct AdaptationOptions {
   EstimatorOptions estimator;  ///< bounds of 0 are replaced by hphymin and hphymax
-  /// Derivatives of the field itself by differences (meshes of the plane z = 0), in place of those recovered from its
+  /// Derivatives of the field by differences (meshes of the plane z = 0), in place of derivatives recovered from its
   /// values at the vertices.
   bool differences = false;
   int iterations = 5;  ///< at most; > 0
@@ -48,14 +49,14 @@ struct AdaptationStep {
 };
 
 struct AdaptationReport {
-  std::vector<AdaptationStep> steps;  ///< the first is that of the mesh that the loop started with
+  std::vector<AdaptationStep> steps;  ///< the first step describes the mesh that the loop started with
   bool converged = false;
 };
 
-/// Adapts the session's mesh to a field, by all processes of its team together; makes one first when there is none, by the parameters alone. The session keeps
-/// the last mesh that was made, also when this throws, and has no background mesh afterwards. Where hphymin or hphymax
-/// is not set, the runs take the bounds of what the estimator prescribes. Throws InvalidArgument (options; hphy_flag =
-/// 0: sizes would be ignored), what make_mesh() throws, and what `field` throws.
+/// Adapts the session's mesh to a field, by all processes of its team together. If there is no mesh, makes one first, by the parameters
+/// alone. The session keeps the last mesh that was made, also when this throws, and has no background mesh afterwards. If hphymin or
+/// hphymax is not set, the runs take the bounds of the estimator's prescriptions. Throws InvalidArgument (options; hphy_flag = 0: sizes
+/// would be ignored), and the exceptions of make_mesh() and of `field`.
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
                        Monitor& monitor);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an adaptation leaves open of a session while it makes a mesh.
+// Settings of a session that an adaptation changes while it makes a mesh.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct SizeRange {
 
 SizeRange range_of(const VertexPrescriptions& prescriptions);
 
-/// Bounds that the user has not set are those of the prescriptions, while this lives.
+/// While this object lives, the prescriptions supply the bounds that the user has not set.
 class OpenBounds {
  public:
   OpenBounds(Parameters& parameters, SizeRange range);

@@ -27,7 +27,8 @@ Box box_of(const std::vector<CurveSupport>& supports) {
   return box;
 }
 
-// Points on curves, where the host is certainly defined, moved a little towards each other's mean: a few for each face.
+// Points on curves, which are certainly in the host's domain, moved a little towards each other's mean: a few for each
+// face.
 std::vector<Vec2> sample_points(const std::vector<CurveSupport>& supports) {
   std::vector<Vec2> points;
   constexpr std::size_t most = 3;

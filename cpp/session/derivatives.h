@@ -10,8 +10,8 @@
 namespace carreau {
 
 /// Compares the derivatives that the run will use with finite differences at a few points of every face and curve.
-/// Throws CallbackError with the first wrong one (face, (u, v) or t, both values); the others are messages, and their
-/// faces are left out of `known`, when there is one, so that the next run is without any of them.
+/// Throws CallbackError with the first wrong derivative (face, (u, v) or t, both values). Other wrong derivatives are
+/// messages; if `known` is given, their faces are left out of it, so that the next run has none of them.
 void check_derivatives(const Model& model, const ModelSupports& supports, Cad& cad, const CompositeOptions& options,
                        Model* known, Monitor& monitor);
 

@@ -78,7 +78,7 @@ class EnvRunner {
     return (folder_ / (session_.parameters().text("pref") + suffix)).string();
   }
 
-  /// Names of files that do not start at the root are looked for beside the env file.
+  /// Relative names of files refer to the folder of the env file.
   void find_beside_env(std::initializer_list<const char*> names) {
     for (const char* name : names)
       if (const std::string file = session_.parameters().text(name); !file.empty())

@@ -71,8 +71,8 @@ EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Ve
   return options;
 }
 
-/// Nodes on edges of elements of second order, as faces have them: quadrilaterals come first. Rows of values of these
-/// nodes follow those of all vertices (with_nodes_on_edges()).
+/// Nodes on edges of elements of second order, as faces have them: quadrilaterals come first. Values of these nodes
+/// follow the values of all vertices (with_nodes_on_edges()).
 void add_elements(const FlatMesh& flat, const std::vector<std::size_t>& first_triangle, const std::vector<char>& chosen,
                   const std::vector<std::int32_t>& mid_of, FaceMesh& face) {
   face.triangles.clear();
@@ -93,7 +93,7 @@ void add_elements(const FlatMesh& flat, const std::vector<std::size_t>& first_tr
     }
 }
 
-/// By vertex of a mesh of a file: its rank among the nodes on edges; -1: it is none.
+/// For each vertex of a file's mesh: its rank among the nodes on edges; -1: not on an edge.
 std::vector<std::int32_t> nodes_on_edges(const FlatMesh& flat) {
   std::vector<std::int32_t> rank(flat.vertices.size(), -1);
   if (!flat.is_quadratic()) return rank;
@@ -105,7 +105,7 @@ std::vector<std::int32_t> nodes_on_edges(const FlatMesh& flat) {
   return rank;
 }
 
-/// Values at the vertices of a mesh of a file, and then again those of nodes on edges: as surface_of() has them.
+/// Values at the vertices of a file's mesh, followed by copies for the nodes on edges: the order of surface_of().
 std::vector<double> with_nodes_on_edges(const FlatMesh& flat, std::vector<double> values, std::size_t components) {
   const std::vector<std::int32_t> rank = nodes_on_edges(flat);
   for (std::size_t v = 0; v < rank.size(); ++v)
@@ -161,7 +161,7 @@ SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
   return mesh;
 }
 
-/// On parameter planes sizes are lengths there: metrics say so.
+/// On parameter planes sizes are lengths of the plane, so they become metrics.
 VertexValues values_on(int dimension, const VertexPrescriptions& wanted) {
   if (dimension == 3) return {wanted.sizes, wanted.metrics, {}};
   VertexValues values;
@@ -190,7 +190,7 @@ FlatMesh read_carrier(const std::string& path) {
   return mesh;
 }
 
-/// What is estimated, is estimated on triangles.
+/// Fields are estimated on triangles.
 void keep_triangles(FlatMesh& mesh) {
   mesh.tetrahedra.clear();
   mesh.edges.clear();
@@ -208,12 +208,12 @@ bool is_metric(const Solution& fields) {
   return fields.fields.size() == 1 && fields.fields.front() == ValueType::symmetric;
 }
 
-/// Each scalar, and each component of a vector, as a field of its own.
+/// Each scalar, and each component of a vector, as a separate field.
 std::vector<double> scalars_of(const Solution& fields, const std::string& path) {
   for (const ValueType type : fields.fields)
     if (type == ValueType::symmetric || type == ValueType::full)
-      throw FileError({.file = path}, "it has tensors among other fields; what a mesh is adapted to are scalars and "
-                                      "vectors, or one metric");
+      throw FileError({.file = path}, "it has tensors among other fields; a mesh is adapted to scalars and "
+                                      "vectors, or to one metric");
   return fields.values;
 }
 
@@ -241,7 +241,7 @@ std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, 
 VertexValues metrics_of(const std::string& sol_path, int dimension, const std::string& mesh_name, std::int32_t field) {
   const Solution metrics = read_solution(sol_path, {SolutionUse::prescription, field});
   if (metrics.dimension != dimension)
-    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(metrics.dimension) + ", but that of " +
+    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(metrics.dimension) + ", but the dimension of " +
                                             mesh_name + " is " + std::to_string(dimension));
   return values_of(metrics);
 }
@@ -266,8 +266,8 @@ Solution in_dimension(const Solution& fields, int dimension, const std::string& 
   return result;
 }
 
-/// Returns the number of vertices outside. Of a crew one process writes.
-/// `values`: those of `fields` at the nodes of `from`.
+/// Returns the number of vertices outside. One process of a crew writes. `values`: the values of `fields` at the nodes
+/// of `from`.
 std::int64_t write_transferred(Session& session, const SurfaceMesh& from, const std::vector<double>& values, const Solution& fields,
                                const std::string& sol_path, const std::string& out_path, const Crew& crew) {
   TransferredField moved = transfer_field(from, session.mesh(), values, fields.components(), crew, &session.monitor());
@@ -309,7 +309,7 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
   const Solution solution = read_prescription(sol_path, field);
   check_elements(flat, mesh_path);
   if (solution.dimension != flat.dimension)
-    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +
+    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but the dimension of " +
                                             mesh_path + " is " + std::to_string(flat.dimension));
   check_count(solution, sol_path, flat.vertices.size(), mesh_path);
   return field_of(flat, one_plane, values_of(solution));
@@ -352,7 +352,7 @@ std::int64_t transfer_files(Session& session, const std::string& mesh_path, cons
 
 namespace {
 
-/// What `call adapt` starts from.
+/// The input of `call adapt`.
 struct Start {
   bool own = false;  ///< the session's mesh
   FlatMesh mesh;     ///< straight, over all nodes
@@ -407,7 +407,7 @@ void adapt_by_files(Session& session, const Crew& crew, Monitor& monitor) {
     const VertexPrescriptions wanted = wanted_by(session, start);
     session.set_background(start.own ? background_of(session, values_on(3, wanted))
                                      : field_of(start.mesh, plane, values_on(start.mesh.dimension, wanted)));
-    // Lengths of other parameter planes say nothing about bounds in space.
+    // Lengths of other parameter planes give no bounds in space.
     std::optional<OpenBounds> bounds;
     if (in_space || plane) bounds.emplace(parameters, range_of(wanted));
     session.make_mesh();

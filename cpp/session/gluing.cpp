@@ -17,7 +17,7 @@ namespace {
 // A cut makes new ends, which can lie on further curves.
 constexpr int most_rounds = 4;
 
-/// Cuts curves once where ends of others lie on them; false when there was nothing to cut.
+/// Cuts curves once at ends of others that lie on them; returns false if there was nothing to cut.
 bool cut_once(Model& model, ModelSupports& supports, Cad& host, const Gluing& options, Monitor& monitor) {
   std::map<std::pair<std::size_t, std::size_t>, CurveCut> cuts;
   PartCad cad(host, parts_of(model));

@@ -23,11 +23,11 @@ struct Gluing {
   double angle_smo = 1;  ///< of supports, degrees
 };
 
-/// A curve of space as a mesh has it, and how far apart its faces leave it.
+/// A curve of space in a mesh, and the gap between its faces.
 struct Interface {
   int ref = 0;
   int uses = 0;           ///< in all faces; 1: open when it is on a boundary
-  Where first, farthest;  ///< face and rank: where the vertices lie on the surface, and where they are farthest from it
+  Where first, farthest;  ///< face and rank of the vertices on the surface, and of the largest gap
   bool boundary = false;  ///< on one in a face at least
   bool glued = false;     ///< uses were found to be one by comparing them
   bool degenerate = false;
@@ -35,22 +35,22 @@ struct Interface {
   double gap = 0;  ///< model length: of vertices from the surface of `farthest`, or between curves that were glued
 };
 
-/// Gives references to a model without any: cuts curves where curves of other faces end, then glues (model/splits.h,
-/// model/topology.h). A model with references keeps them; what curves_to_glue() tells is compared. `supports` are those
-/// of the model, before and after. Tells what it has found: a summary, and in detail each pair with its gap and each
-/// curve that stays open. `remarks`: as glue(). Throws what the host throws.
+/// Gives references to a model without any: cuts curves at the ends of curves of other faces, then glues
+/// (model/splits.h, model/topology.h). A model with references keeps them; only the curves of curves_to_glue() are
+/// compared. `supports` belong to the model, before and after. Reports its results: a summary, and in detail each pair
+/// with its gap and each curve that stays open. `remarks`: as glue(). Throws the host's exceptions.
 Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                       std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 
-/// The same for each geometry of a mixed model (model/geometries.h) that has none, by itself. `report` has what was
-/// found in all of them.
+/// Finds the references of each geometry of a mixed model (model/geometries.h) that has none, one geometry at a time.
+/// `report` receives the results for all of them.
 void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                                    std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 
 /// The curves of a mesh, in the order of the topology. `gaps` as CompositeResult has them.
 std::vector<Interface> list_interfaces(const Model& model, const Topology& topology, const std::vector<CurveGap>& gaps,
                                        const GlueReport& report);
-/// Says how many curves are shared and open, and the widest gap.
+/// Reports the numbers of shared and open curves, and the widest gap.
 void tell_interfaces(const std::vector<Interface>& interfaces, Monitor& monitor);
 
 }  // namespace carreau

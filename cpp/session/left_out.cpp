@@ -29,7 +29,7 @@ bool leave_out(Model& model, const Error& error) {
   return of_a_face && leave_out(model, error.where(), error.what());
 }
 
-// Curves have rules in common: without one face others may break none, or another one.
+// Curves share rules: without one face the other faces may break none, or a different one.
 void leave_out_defects(Model& model) {
   for (;;) {
     const std::vector<ModelDefect> defects = list_model_defects(model);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh was made of, and what it delivers.
+// The input and the measures of a mesh.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class DiscreteCad;
 }
 struct PartResults;
 
-/// What a mesh was made of: what measures it asks the same again.
+/// The input of a mesh; measures evaluate it again.
 struct Meshed {
   std::shared_ptr<Cad> cad;
   std::shared_ptr<const discrete::DiscreteCad> triangles;
@@ -29,14 +29,14 @@ struct Meshed {
   ModelSupports supports;
   Topology topology;
   CompositeOptions options;
-  bool bounds_to_input = false;  // measures tell them
+  bool bounds_to_input = false;  // the measures report them
 };
 
 /// Finite differences of a host without derivatives stay inside the box of each domain.
 void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad);
 
-/// What `result` delivers, measured on the geometry, sources and options that it was made of. `parts`: of a result that
-/// has patches and triangles; null: it is of one kind.
+/// Measures `result` on its geometry, sources and options. `parts`: the parts of a result that has patches and
+/// triangles; null: the result has one kind.
 MeshEvaluation evaluate_meshed(const Meshed& meshed, const CompositeResult& result, const PartResults* parts,
                                Monitor& monitor);
 

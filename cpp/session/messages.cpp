@@ -53,7 +53,7 @@ void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor) {
 
 namespace {
 
-/// What there is of a mesh.
+/// The numbers of entities of a mesh.
 struct Extent {
   std::int64_t vertices = 0, triangles = 0, edges = 0, loose_edges = 0;
 };

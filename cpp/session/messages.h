@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session says before and after a run. Private to session/.
+// Messages of a session before and after a run. Private to session/.
 #pragma once
 
 #include "measure/mesh_evaluation.h"
@@ -15,11 +15,11 @@ namespace carreau {
 /// A message for each curve whose ends are nearer than `eps_ends`, which is sometimes an error (RT-0232 sec. 3.3).
 void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor);
 
-/// Sets the status of faces with triangles without area in space to `mended`, with a reason, and warns of them: the
-/// geometry has two points at one place there, or folds.
+/// Sets the status of faces with triangles without area in space to `mended`, with a reason, and warns of them: two
+/// points of the geometry coincide there, or it folds.
 void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor);
 
-/// The few lines that a person wants after a run.
+/// A summary of a run in a few lines.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
 
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor);

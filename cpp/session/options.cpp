@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-// The integer codes of RT-0232 sec. 3.3; the table of parameters has refused others.
+// The integer codes of RT-0232 sec. 3.3; the table of parameters has rejected others.
 PhysicalSizes physical_sizes_of(int hphy_flag) {
   return hphy_flag == 0 ? PhysicalSizes::ignored : hphy_flag == 1 ? PhysicalSizes::uniform : PhysicalSizes::asked;
 }
@@ -82,7 +82,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.proximity = parameters.integer("proximity");
   if (options.proximity > 0 && options.gradation == 0)
     throw InvalidArgument(
-        "parameter proximity needs a gradation greater than 1 (1.3, say): sizes of narrow zones must "
+        "parameter proximity needs a gradation greater than 1 (such as 1.3): sizes of narrow zones must "
         "grow into those around");
   options.eps_ends = parameters.real("eps_ends", diag);
   options.check_close_edges = parameters.integer("CheckCloseEdges");

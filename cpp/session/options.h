@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the parameters of a session mean for a run. Private to session/.
+// Options of a run from the parameters of a session. Private to session/.
 #pragma once
 
 #include "session/parameters.h"
@@ -7,13 +7,13 @@
 
 namespace carreau {
 
-/// `threads`, or as many as the machine runs at a time where it is 0.
+/// `threads`, or, if it is 0, the number that the machine runs at a time.
 int threads_of(const Parameters& parameters);
 
-/// failing_faces: faces that fail are left out of a run, which goes on.
+/// failing_faces: a run leaves out faces that fail, and continues.
 bool leaves_out(const Parameters& parameters);
 
-/// All but the sources of prescriptions. `diag`: of the model, for values relative to it. Throws InvalidArgument where
+/// All but the sources of prescriptions. `diag`: of the model, for values relative to it. Throws InvalidArgument if
 /// parameters contradict each other.
 CompositeOptions composite_options(const Parameters& parameters, double diag);
 

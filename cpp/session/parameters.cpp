@@ -38,9 +38,10 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, effort, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
-// sol_field, stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
-// metric_combination). effort sets the rows by_effort().
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, effort, measure, measure_bounds,
+// measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials, sol_field, stagger_strips, patches, sharp_angle, and the
+// parameters of metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination). effort sets the rows
+// by_effort().
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
     integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),
@@ -62,7 +63,7 @@ constexpr std::array kTable = {
              "call adapt: sizes, circles in the tangent planes of the graph, or metrics by both principal values"),
     text_row("adapt_sol", "", nullptr, "call adapt: file of fields, or of one metric, at the vertices of adapt_mesh"),
     text_row("adapt_source", "hessian", "hessian|curvature|deformation",
-             "call adapt: what the error is estimated from"),
+             "call adapt: source of the estimated error"),
     real_row("adapt_tolerance", kPositive, infinity, 0.01, "call adapt: error of the field (curvature: degrees)"),
     real_row("adjacent_ratio", 2, infinity, 2,
              "CheckAdjacentEdges: largest ratio of the lengths of adjacent edges, in the metric, at least 2"),
@@ -73,8 +74,8 @@ constexpr std::array kTable = {
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
     by_effort(integer_row("certify", 0, 2, 1,
-                          "meshes free of patches: triangles whose upper bounds of A0 or A1 are beyond the tolerances are edited; 0 none is bounded, "
-                          "1 those that normals at their corners make suspect, 2 all")),
+                          "cross-patch meshes: edits triangles whose upper bounds of A0 or A1 are beyond the tolerances; bounds 0 no triangles, "
+                          "1 triangles with suspect normals at their corners, 2 all")),
     integer_row("cracks", 0, 1, 0, "1: internal curves are cracks: their vertices are doubled, one for each side"),
     by_effort(integer_row("crossing_rounds", 0, 20, 0,
                           "most rounds in which triangles that cross, but need not, become smaller; together they cost at most as much as the first mesh (0: none)")),
@@ -123,19 +124,19 @@ constexpr std::array kTable = {
     diag_row("hphymax", kPositive, 1.0 / 5, "largest physical size, model length"),
     diag_row("hphymin", kPositive, 1.0 / 500, "smallest physical size, model length"),
     integer_row("max_triangles", 0, INT_MAX, 0, "largest number of triangles of a mesh (0: by memory)"),
-    integer_row("measure", 0, 1, 0, "1: what a mesh delivers is measured on the surface, said, and exported to vtu"),
+    integer_row("measure", 0, 1, 0, "1: the mesh is measured against surface and sizes; the measures are reported and exported to vtu"),
     by_effort(integer_row("measure_bounds", 0, 2, 1,
-                          "measures tell upper bounds of A0 and A1: 0 never, 1 of meshes free of patches and of triangles, 2 always")),
+                          "measures have upper bounds of A0 and A1: 0 never, 1 for cross-patch meshes and surfaces of triangles, 2 always")),
     by_effort(integer_row("measure_distances", 0, 1, 1,
-                          "measures of surfaces given as triangles tell bounds of the distances to those and back: 0 no, 1 yes")),
+                          "measures of surfaces given as triangles have bounds of the distances to these and back: 0 no, 1 yes")),
     integer_row("metric_combination", 0, 1, 1,
                 "prescribed and geometric metrics: 0 the prescribed one is scaled and keeps its shape, 1 intersection"),
     text_row("narrow_faces", "keep", "keep|one_layer|collapse",
              "faces narrower than narrow_ratio: as others, with one layer of triangles, or collapsed"),
     real_row("narrow_ratio", 0, 1, 0.1, "narrow_faces: largest width, as a share of the size prescribed there"),
-    text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
+    text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "content of exports (\"\": allsurf3d)"),
     text_row("patches", "dependent", "dependent|independent",
-             "borders between patches that are not sharp: kept, or the mesh is made free of them"),
+             "borders between patches that are not sharp: kept, or ignored by cross-patch remeshing"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),
     integer_row(
         "proximity", 0, 1000, 0,

@@ -33,9 +33,9 @@ void refuse_parts_of(const Model& model, const Parameters& parameters) {
   if (has_discrete(model))
     what = "surfaces given as triangles";
   else if (parameters.integer("measure") != 0)
-    what = "measures of what a mesh delivers (parameter measure)";
+    what = "measures of a mesh (parameter measure)";
   else if (!option.empty() && option != "allsurf3d")
-    what = "an export of other than all of space (parameter option)";
+    what = "an export other than the whole surface in space (parameter option)";
   if (!what.empty()) throw InvalidArgument(needs_whole_mesh(what));
 }
 
@@ -168,13 +168,13 @@ void Session::make_mesh(double from, double to) {
 }
 
 PartMesh Session::make_part() {
-  if (!state_->team) throw InvalidArgument("a mesh is kept in parts by the processes of a team: the session has none");
+  if (!state_->team) throw InvalidArgument("meshes in parts require a team of processes: the session has no team");
   PartMesh part;
   together([&](const Crew&) { make_mesh_alone(0, 1, &part); });
   return part;
 }
 
-// `part`: what becomes of it; null: the mesh of the session.
+// `part`: receives the part of this process; null: makes the mesh of the session.
 void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   State& s = *state_;
   if (part == nullptr) s.tried_parameters = s.parameters, s.last_failed = true;
@@ -189,20 +189,20 @@ void Session::make_mesh_alone(double from, double to, PartMesh* part) {
     } catch (const Error& error) {
       if (!leaves_out(s.parameters) || !leave_out(known, error)) throw;
       s.monitor.message(Level::warning, "meshing again without face " + std::to_string(error.where().face));
-      // What was glued stays so.
+      // Glued curves stay glued.
       for (std::size_t f = 0; f < known.faces.size(); ++f) known.faces[f].curves = s.model.faces[f].curves;
       from = run.reached();
     }
   }
 }
 
-// Leaves out faces of `known` whose curves cannot be had, when that is wanted.
+// If required, leaves out faces of `known` whose curves cannot be made.
 void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   State& s = *state_;
   CheckedCad whole_cad(*s.cad);
   run.progress(Phase::model, 0, 0);
   const bool measured = s.parameters.integer("measure") != 0;
-  constexpr double share_of_mesh = 0.75;  // measuring asks the geometry about as often as meshing
+  constexpr double share_of_mesh = 0.75;  // measuring evaluates the geometry about as often as meshing
   PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
   if (has_discrete(known) && !s.triangles)
     throw InvalidModel("the model has faces given by triangles, and no triangles");

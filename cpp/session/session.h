@@ -44,27 +44,28 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   void set_cad(std::shared_ptr<Cad> cad);
-  /// What evaluates all faces that are given by triangles (Face::discrete), as set_cad's does; nullptr: there are none. A
-  /// DiscreteCad that set_cad() gets is that itself.
+  /// Evaluates all faces that are given by triangles (Face::discrete), in place of the Cad of set_cad; nullptr: no such
+  /// faces. A DiscreteCad given to set_cad() serves both.
   void set_triangles(std::shared_ptr<const discrete::DiscreteCad> triangles);
-  /// Wanted sizes and metrics, unless hphy_flag = 0: the host's own callbacks, and another source that is asked after
-  /// them (a background mesh). What both answer at a place is intersected. nullptr: none, as at the start.
+  /// Prescribed sizes and metrics, unless hphy_flag = 0: the host's callbacks, and an additional source that is
+  /// evaluated after them (a background mesh). The prescriptions of both at a place are intersected. nullptr: none, as
+  /// at the start.
   void set_metric_callbacks(std::shared_ptr<PrescriptionSource> source);
   void set_prescription_source(std::shared_ptr<PrescriptionSource> source);
   /// A background mesh as that other source; the parameters background_mesh and background_sol come before it. nullptr:
   /// none.
   void set_background(std::shared_ptr<BackgroundField> background);
-  /// How the background mesh of the last make_mesh() was used; zero when there was none.
+  /// Use of the background mesh in the last make_mesh(); zero when there was none.
   [[nodiscard]] const BackgroundReport& background_report() const noexcept;
-  /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. Faces that
-  /// break one are left out when the parameter failing_faces says so.
+  /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. If the
+  /// parameter failing_faces requires it, leaves out the faces that break a rule.
   void set_model(Model model);
   void load_pardom(const std::string& path);
   /// Processes that make meshes together from now on; nullptr: this one alone, as at the start. All of them must have
-  /// the same geometry, model and parameters, and call make_mesh() together: each throws what one throws. Differences
-  /// that show in curves or in the mesh are errors.
+  /// equal geometries, models and parameters, and call make_mesh() together; an exception in one process is thrown in
+  /// all. Visible differences of curves or of the mesh are errors.
   void set_team(std::shared_ptr<TeamLink> link);
-  /// Calls body(crew), which may make meshes, in all processes of the team together: what it throws in one of them reaches
+  /// Calls body(crew), which may make meshes, in all processes of the team together: an exception in one of them reaches
   /// all. Without a team in this one alone.
   void together(const std::function<void(const Crew&)>& body) const;
   void clear_model() noexcept;  ///< the mesh made of it stays
@@ -75,51 +76,51 @@ class Session {
 
   /// `call inimesh`: supports, sizes, curves, domains, patches, assembly. An earlier mesh is kept when this throws.
   /// References that are zero are found first (gluing); the glued model replaces the model, and is written to
-  /// `<source>.new` when the model was read from a file. Faces that are left out are in the mesh, as failed. When the
-  /// parameter failing_faces is "leave_out" those on which the host fails are left out of this run, and what was made
-  /// with them is made again; DomainError when none is left.
-  /// Progress is told from `from` to `to`: the share that this is of a longer run.
+  /// `<source>.new` when the model was read from a file. Faces that are left out are in the mesh, as failed. If the
+  /// parameter failing_faces is "leave_out", leaves the faces on which the host fails out of this run, and makes
+  /// everything that used them again. DomainError when none is left. Reports progress between `from` and `to`, the
+  /// share of this run in a longer one.
   void make_mesh(double from = 0, double to = 1);
 
-  /// The same by all processes of the team, each of which keeps its part: patches stay where they were made, and the mesh is that of
-  /// make_mesh(), numbers and all, which no process holds. mesh() stays what it was. Throws InvalidArgument without a team, and where
-  /// something is wanted that needs the whole mesh (pipeline/parts).
+  /// Like make_mesh(), by all processes of the team: patches stay in the processes that made them. The parts form the mesh of
+  /// make_mesh(), with equal numbers, which no process holds. mesh() does not change. Throws InvalidArgument without a team, and for
+  /// options that need the whole mesh (pipeline/parts).
   [[nodiscard]] PartMesh make_part();
 
   /// Throws InvalidArgument before the first make_mesh().
   [[nodiscard]] const SurfaceMesh& mesh() const;
   [[nodiscard]] bool has_mesh() const noexcept;
-  /// The mesh before mesh(): what fields are transferred from. Throws InvalidArgument before the second make_mesh().
+  /// The mesh before mesh(), from which fields are transferred. Throws InvalidArgument before the second make_mesh().
   [[nodiscard]] const SurfaceMesh& previous_mesh() const;
   [[nodiscard]] bool has_previous_mesh() const noexcept;
-  /// The face whose (u, v) a node has (local_cells()), as an index in mesh().faces: of a mesh that is independent of its patches it may be
-  /// another one than the face that the node is listed in.
+  /// The face whose (u, v) a node has (local_cells()), as an index in mesh().faces. On a cross-patch mesh it may differ from the face that
+  /// lists the node.
   [[nodiscard]] std::size_t uv_face(std::size_t face, std::int32_t node) const;
   /// Size prescribed at each vertex of mesh().
   [[nodiscard]] const std::vector<double>& vertex_sizes() const;
   [[nodiscard]] const CompositeReport& report() const;
 
-  /// What the last make_mesh() delivered, measured when first asked (or by make_mesh() when the parameter measure is
-  /// 1), on the geometry and the sources of that run, which are asked again; messages say it for a person. Throws
-  /// InvalidArgument before the first make_mesh(), and what callbacks throw.
+  /// The measures of the last make_mesh(), computed at the first call (or by make_mesh() when the parameter measure is
+  /// 1). They evaluate the geometry and the sources of that run again; messages summarise them. Throws InvalidArgument
+  /// before the first make_mesh(), and the exceptions of callbacks.
   const MeshEvaluation& delivered();
   /// Writes delivered() as JSON.
   void write_delivered(const std::string& path);
 
-  /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written; `delivered` adds its
-  /// values as fields.
+  /// The content that `call export` would write with the values of option, refs, flag (RT-0232 sec. 4); `delivered`
+  /// adds its values as fields.
   [[nodiscard]] FlatMesh exported(const MeshEvaluation* delivered = nullptr, bool with_fields = true) const;
-  /// Writes exported() to a file; format by suffix. A .vtu holds what delivered() knows, when it was asked or the
-  /// parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
+  /// Writes exported() to a file; format by suffix. A .vtu holds the values of delivered(), if they were computed or
+  /// the parameter measure is 1. `.exr`: the fields of all faces, or of the face of onesurf*, in one file.
   void write(const std::string& path);
   /// The bytes of such a file of a mesh.
   std::string encoded(MeshFormat format);
 
-  /// What governed each face's mesh, sampled and written as images (session/fields.h): returns the names of the files.
-  /// Of the mesh; of the model alone as it is now, without triangles, when options.raw says so, when there is no mesh,
-  /// and when the last make_mesh() has thrown (then with the parameters of that call): what its host answers, pixel by
-  /// pixel, shows why. Asks the geometry from the caller's thread. Throws InvalidArgument, FileError, Cancelled; the
-  /// mesh stays.
+  /// Samples the fields that governed the mesh of each face, and writes them as images (session/fields.h): returns the
+  /// names of the files. Samples the mesh's run. Samples the current model, without triangles, if options.raw is set,
+  /// if there is no mesh, or if the last make_mesh() has thrown (then with the parameters of that call): the host's
+  /// answers, pixel by pixel, show the reason. Asks the geometry from the caller's thread. Throws InvalidArgument,
+  /// FileError, Cancelled; the mesh stays.
   std::vector<std::string> write_fields(const std::string& path, const FieldOptions& options);
 
   /// Model::shown_points of the mesh: exported() has applied it. Throws like mesh().
@@ -129,27 +130,27 @@ class Session {
   [[nodiscard]] const EntityNames& names() const;
   /// Faces of the mesh as the caller knows them, parts made whole. Throws like mesh().
   [[nodiscard]] const std::vector<WholeFace>& whole_faces() const;
-  /// Shapes and lengths, measured when somebody asks for the first time. Throws like mesh().
+  /// Shapes and lengths, measured at the first call. Throws like mesh().
   [[nodiscard]] const QualitySummary& quality() const;
   /// Pairs of triangles that cross as meshing has found them; it may not have looked, or kept the first ones only.
   [[nodiscard]] const std::vector<TriangleIntersection>& crossings() const;
-  /// Whether these are all, or `limit` at least. Their number is that of report(). Throws like mesh().
+  /// True if these are all pairs, or at least `limit`. report() has their number. Throws like mesh().
   [[nodiscard]] bool knows_crossings(std::size_t limit) const;
   /// The curves of the mesh in space. Throws like mesh().
   [[nodiscard]] const std::vector<Interface>& interfaces() const;
-  /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).
+  /// Geometric supports of the curves of the last make_mesh(), for the option smo3d.
   [[nodiscard]] const ModelSupports& supports() const;
 
   /// Runs all actions of a blsurf.env until `call exit` or the end of the file (RT-0232 sec. 3.3). `<pref>.pardom` is
   /// read and `<pref>.mesh` written beside the env file; a model given by set_model() or load_pardom() is used instead
   /// of that file. Parameters have their defaults at the start, after each call and at the end, also when this throws
-  /// (but not when the file cannot be read): FileError or InvalidArgument with file and line, and what make_mesh() and
-  /// write() throw.
+  /// (but not when the file cannot be read): FileError or InvalidArgument with file and line, and the exceptions of
+  /// make_mesh() and write().
   void run_env(const std::string& path);
 
-  /// Sets the parameters that a blsurf.env has before its first action, and runs none; names of background meshes are
-  /// made those of files beside it. Parameters that it does not name keep their values; all do when this throws:
-  /// FileError or InvalidArgument with file and line.
+  /// Sets the parameters that a blsurf.env has before its first action, and runs no action; relative names of
+  /// background meshes refer to its folder. Parameters that it does not name keep their values; all do when this
+  /// throws: FileError or InvalidArgument with file and line.
   void read_env(const std::string& path);
 
  private:

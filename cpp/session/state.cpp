@@ -49,8 +49,8 @@ void Session::State::glue_model(Model& known, ModelSupports& supports, Cad& whol
   if (const std::size_t forgotten = references_to_forget(known); forgotten > 0)
     monitor.message(Level::warning, "the first curve of the model has the reference 0" +
                                         of_line(first_curve(known)->line) +
-                                        ": all references are found, and those that " + std::to_string(forgotten) +
-                                        (forgotten == 1 ? " other curve has" : " other curves have") + " mean nothing");
+                                        ": all references are found, and the references of " + std::to_string(forgotten) +
+                                        (forgotten == 1 ? " other curve" : " other curves") + " are ignored");
   if (const bool all = needs_gluing(known); all || parameters.integer("glue_open") != 0) {
     GlueReport among_all;
     known = find_references(known, supports, whole_cad, options, remarks, among_all, monitor);

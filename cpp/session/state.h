@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session holds.
+// The content of a session.
 #pragma once
 
 #include <memory>
@@ -43,12 +43,12 @@ struct Session::State {
   std::optional<MeshEvaluation> delivered;         // of `result`
   std::vector<Interface> interfaces;               // of `result`
   std::vector<WholeFace> whole_faces;              // of `result`
-  std::optional<QualitySummary> shapes, quality;   // of `result`, once somebody has asked: without edges, and all
+  std::optional<QualitySummary> shapes, quality;   // of `result`, after the first call: without edges, and all
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const;
 
-  /// Finds references that are missing, and looks for curves that are one where that is wanted.
+  /// Finds missing references and, if required, curves that are one.
   void glue_model(Model& known, ModelSupports& supports, Cad& whole_cad, std::vector<std::string>& remarks);
 
   /// Faces that were left out of gluing stay as they are, and only the host's own reasons to leave them out are kept.
@@ -57,7 +57,8 @@ struct Session::State {
   void check_model(const Model& candidate) const;
 };
 
-/// Files named by parameters come before what the host has set. Throws InvalidArgument where one of two is named.
+/// Files that parameters name take precedence over the host's background mesh. Throws InvalidArgument if one of two is
+/// named.
 std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters, bool one_plane,
                                                    const std::shared_ptr<BackgroundField>& set);
 

@@ -84,7 +84,7 @@ void BackgroundField::check_values(std::size_t vertices) const {
                           std::to_string(values_.size()) + " sizes or metrics are given");
   const int lists =
       (values_.sizes.empty() ? 0 : 1) + (values_.space.empty() ? 0 : 1) + (values_.parameter.empty() ? 0 : 1);
-  if (lists != 1) throw InvalidArgument("the background mesh wants either sizes or metrics at its vertices");
+  if (lists != 1) throw InvalidArgument("the background mesh requires either sizes or metrics at its vertices");
   for (std::size_t v = 0; v < values_.sizes.size(); ++v)
     if (!(values_.sizes[v] > 0) || !std::isfinite(values_.sizes[v]))
       throw InvalidArgument(vertex_name(v) + "has the size " + format_number(values_.sizes[v]) +
@@ -113,7 +113,7 @@ BackgroundField::BackgroundField(const BackgroundMesh& mesh)
     : values_(mesh.values), needs_position_(mesh.dimension == 3) {
   check_geometry(mesh);
   if (mesh.dimension == 3 && !values_.parameter.empty())
-    throw InvalidArgument("the background mesh is a surface in space, but its metrics are those of a plane");
+    throw InvalidArgument("the background mesh is a surface in space, but its metrics belong to a plane");
   check_values(mesh.vertices.size());
   std::vector<std::int32_t> same(mesh.vertices.size());
   for (std::size_t v = 0; v < same.size(); ++v) same[v] = static_cast<std::int32_t>(v);
@@ -140,7 +140,7 @@ void BackgroundField::add_planes(const BackgroundMesh& mesh, const std::vector<s
 BackgroundField::BackgroundField(const SurfaceMesh& mesh, VertexValues values)
     : values_(std::move(values)), needs_position_(false) {
   if (!values_.parameter.empty())
-    throw InvalidArgument("a metric at a vertex of a surface mesh is one of space, not of a parameter plane");
+    throw InvalidArgument("a metric at a vertex of a surface mesh is a metric of space, not of a parameter plane");
   check_values(mesh.vertices.size());
   Piece whole;
   whole.vertices = mesh.vertices;
@@ -220,8 +220,8 @@ double BackgroundField::change(std::int32_t a, std::int32_t b) const {
   return std::max(r.largest, 1 / r.smallest);
 }
 
-// Values at vertices come from estimates, and their interpolation has a kink on every edge: what is finer than this
-// would be sampled for nothing.
+// Values at vertices come from estimates, and their interpolation has a kink on every edge: finer samples would be
+// wasted.
 double BackgroundField::accuracy() const noexcept { return 0.05; }
 
 void BackgroundField::begin_run(MetricLaw law) {
@@ -230,7 +230,7 @@ void BackgroundField::begin_run(MetricLaw law) {
 }
 
 std::vector<std::string> BackgroundField::remarks() const {
-  if (report_.asked == 0) return {"the background mesh was not asked: none of its elements is for these faces"};
+  if (report_.asked == 0) return {"the background mesh was not used: it has no elements for these faces"};
   if (report_.outside == 0) return {};
   return {std::to_string(report_.outside) + " of " + std::to_string(report_.asked) +
           " points lie outside of the background mesh and have the nearest value; the farthest is " +
@@ -243,7 +243,7 @@ std::vector<Vec2> BackgroundField::steep_places(int face) const {
   return found == planes_.end() ? std::vector<Vec2>{} : found->second.steep;
 }
 
-// Where edges are shorter than sizes, what counts is the change within a unit edge.
+// If edges are shorter than sizes, the change within a unit edge counts.
 void BackgroundField::find_steep_in_space() {
   const auto length_at = [&](std::size_t v, Vec3 e) {
     return values_.sizes.empty() ? length(values_.space[v], e) : norm(e) / values_.sizes[v];

@@ -18,7 +18,7 @@
 
 namespace carreau {
 
-/// What is prescribed at each vertex: one of the three lists is filled.
+/// The prescriptions at the vertices: one of the three lists is filled.
 struct VertexValues {
   std::vector<double> sizes;       ///< in space, > 0
   std::vector<Metric3> space;      ///< metrics of space
@@ -41,7 +41,7 @@ struct BackgroundMesh {
       {};  ///< of dimension 2: on curves of the faces that no triangle names
 };
 
-/// How often a background mesh was asked, and where it did not cover.
+/// Number of evaluations of a background mesh, and of places that it did not cover.
 struct BackgroundReport {
   std::int64_t asked = 0;
   std::int64_t outside = 0;  ///< farther from the mesh than 1/8 of the longest edge of the nearest element
@@ -49,19 +49,20 @@ struct BackgroundReport {
   friend bool operator==(const BackgroundReport&, const BackgroundReport&) = default;
 };
 
-/// The field of a background mesh. A place is looked up in logarithmic time: in space at the nearest point of the
-/// mesh, which is the place itself inside a tetrahedron; in a parameter plane in the triangle that holds (u, v).
+/// The field of a background mesh. A place is found in logarithmic time. In space it is the nearest point of the mesh,
+/// which is the place itself inside a tetrahedron; in a parameter plane it lies in the triangle that holds (u, v).
 /// Outside, the nearest point's value holds, and the point is counted. Inside a triangle values follow the law along
-/// two segments: from the first vertex towards the second, then towards the third; on edges that is the law of the edge
-/// from either side. In a tetrahedron a third segment leads to the last vertex. Edges alone, with metrics at the
+/// two segments, from the first vertex towards the second, then towards the third; on edges this gives the law of the
+/// edge from either side. In a tetrahedron a third segment leads to the last vertex. Edges alone, with metrics at the
 /// vertices of curves (RR-2818 sec. 4.1), answer on curves and points, not inside faces. Answers are as given: not
 /// clamped. For one thread.
 class BackgroundField final : public PrescriptionSource {
  public:
-  /// Throws InvalidArgument, with the vertex or element counted from 0, unless there is an element, indices lie in
-  /// range, lists fit, coordinates are finite, sizes positive and metrics positive definite.
+  /// Throws InvalidArgument, with the vertex or element counted from 0, for a mesh without elements, indices out of
+  /// range, lists of wrong lengths, coordinates that are not finite. Sizes must be positive and metrics positive
+  /// definite.
   explicit BackgroundField(const BackgroundMesh& mesh);
-  /// On a mesh of a session: each face is looked up in its own parameter plane, and values are those of the mesh's
+  /// On a mesh of a session: each face is searched in its parameter plane, and values are the values of the mesh's
   /// vertices in space. The surface is looked up in space for points only. Throws the same.
   BackgroundField(const SurfaceMesh& mesh, VertexValues values);
 
@@ -81,22 +82,22 @@ class BackgroundField final : public PrescriptionSource {
   /// Since the last begin_run().
   [[nodiscard]] const BackgroundReport& report() const noexcept { return report_; }
 
-  /// Vertices in the parameter plane of a face from which the field changes by more than a factor 1.5 to the next one;
-  /// none for a mesh in space.
+  /// Vertices in the parameter plane of a face from which the field changes by more than a factor 1.5 to a neighbour;
+  /// empty for a mesh in space.
   [[nodiscard]] std::vector<Vec2> steep_places(int face) const override;
-  /// Vertices of a mesh in space from which the field changes by more than a factor 1.5 to the next one, or within a
-  /// unit edge on the way there; none on a mesh of a session. The reach is the longest edge around.
+  /// Vertices of a mesh in space from which the field changes by more than a factor 1.5 to a neighbour, or within a
+  /// unit edge on the way there. Empty on a mesh of a session. The reach is the longest edge around.
   [[nodiscard]] std::span<const SteepPlace> steep_in_space() const override { return steep_in_space_; }
 
  private:
-  /// What lies in one parameter plane, or in space.
+  /// The part of the mesh in one parameter plane, or in space.
   struct Piece {
     std::vector<Vec3> vertices;
     std::vector<Simplex> simplices;   // of vertices
     std::vector<std::int32_t> value;  // of each vertex: index in values_
     SimplexSearch tree = {};
     std::int32_t last = 0;         // simplex that was found last
-    bool edges_only = false;       // says nothing inside faces
+    bool edges_only = false;       // prescribes nothing inside faces
     std::vector<Vec2> steep = {};  // of a parameter plane: steep_places()
 
     void prepare();

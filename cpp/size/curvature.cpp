@@ -24,8 +24,8 @@ std::optional<double> smallest_radius(const SurfaceJet& jet) noexcept {
   const double e2 = dot(n, jet.suu) / area;
   const double f2 = dot(n, jet.suv) / area;
   const double g2 = dot(n, jet.svv) / area;
-  // Roots of kappa^2 - 2 H kappa + K (RR-2928 sec. 5.2.1); the difference of the roots is written as a sum of squares
-  // in an orthonormal frame, so that an umbilic is not spoilt by the cancellation in H^2 - K.
+  // Roots of kappa^2 - 2 H kappa + K (RR-2928 sec. 5.2.1). The difference of the roots is a sum of squares in an
+  // orthonormal frame, so that the cancellation in H^2 - K does not spoil an umbilic.
   const double a = e2 / e1;
   const double b = (f2 - f1 * a) / area;  // off the diagonal
   const double c = (g2 - 2 * f1 / e1 * f2 + f1 * f1 / e1 * a) * e1 / det;

@@ -18,18 +18,18 @@ enum class GeometricCriterion {
   radii,  ///< RR-2928: proportional to the radii, the larger one cut so that no direction exceeds its own (eq. 41)
 };
 
-/// What keeps a mesh close to the geometry. Lengths are model lengths.
+/// The criterion that keeps a mesh close to the geometry. Lengths are model lengths.
 struct GeometricRule {
   GeometricCriterion criterion = GeometricCriterion::angle;
   bool anisotropic = false;
   double angle_deg = 8;  ///< eps1, in ]0, 90]
-  double eps0 = 0;       ///< > 0 where the criterion is chord or both
+  double eps0 = 0;       ///< > 0 if the criterion is chord or both
   /// Sizes by the equations are multiplied by these: 1 is the papers' (an edge of unit length fulfils the criterion).
   double angle_factor = 1, chord_factor = 1;
 };
 
-/// Size where the smallest radius of curvature is `radius` > 0 (may be infinite): HDR eq. 2.31/4.28 (chord, a radius
-/// below eps0 counting as eps0), 2.33/4.35 (angle and radii). Not clamped.
+/// Size for a smallest radius of curvature `radius` > 0 (may be infinite): HDR eq. 2.31/4.28 (chord, a radius below
+/// eps0 counting as eps0), 2.33/4.35 (angle and radii). Not clamped.
 double geometric_size(const GeometricRule& rule, double radius) noexcept;
 
 /// Sizes along the directions of the smaller and of the larger principal radius, rho1 <= rho2 (both may be infinite):
@@ -42,8 +42,7 @@ struct DirectedSizes {
   double h1 = 1, h2 = 1;  ///< h1 <= h2
   Vec3 w1, w2;            ///< unit tangent vectors, orthogonal
 };
-/// At a jet with first and second derivatives. Infinite where it is flat. Empty where the parametrisation is
-/// degenerate.
+/// At a jet with first and second derivatives. Infinite if it is flat. Empty if the parametrisation is degenerate.
 std::optional<DirectedSizes> geometric_sizes(const GeometricRule& rule, const SurfaceJet& jet) noexcept;
 
 }  // namespace carreau

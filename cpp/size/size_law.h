@@ -6,7 +6,7 @@
 
 namespace carreau {
 
-/// Laws of interpolation of sizes between two points (RT-0232 sec. 3.3): those of metrics along their axes.
+/// Laws of interpolation of sizes between two points (RT-0232 sec. 3.3): the laws of metrics along their axes.
 using SizeLaw = MetricLaw;
 
 /// h at fraction r in [0, 1] between h1 and h2 > 0 (RR-2818 sec. 5.4, HDR eq. 2.11-2.12).

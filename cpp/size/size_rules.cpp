@@ -34,7 +34,7 @@ std::optional<double> checked_size(std::optional<double> answer, const char* rou
 std::optional<double> checked_radius(std::optional<double> answer, const char* routine, const Where& where) {
   if (!answer) return {};
   if (std::isnan(*answer)) throw CallbackError(where, std::string(routine) + " returned a radius that is not a number");
-  return std::abs(*answer);  // hosts that tell the side by the sign
+  return std::abs(*answer);  // some hosts encode the side in the sign
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ void check_geometric(const SizeParameters& p) {
 }  // namespace
 
 double mean_size(SizeMean kind, std::span<const double> values) {
-  if (values.empty()) throw InvalidArgument("the mean of no sizes was asked for");
+  if (values.empty()) throw InvalidArgument("a mean requires at least one size");
   const double smallest = *std::min_element(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   double sum = 0;
@@ -116,7 +116,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       physical_at_point_(topology.points.size()),
       size_at_point_(topology.points.size()) {
   if (parameters.physical == PhysicalSizes::ignored && parameters.geometric == GeometricSizes::ignored) {
-    throw InvalidArgument("hphy_flag and hgeo_flag are both 0: nothing says how large the elements are to be");
+    throw InvalidArgument("hphy_flag and hgeo_flag are both 0: no sizes are prescribed");
   }
   if (parameters.physical != PhysicalSizes::ignored) {
     check_bounds("hphy", parameters.hphymin, parameters.hphymax);
@@ -128,7 +128,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
   if (parameters.geometric == GeometricSizes::ignored &&
       (parameters.geo_anisotropic || parameters.geo_rule != GeometricCriterion::angle)) {
     throw InvalidArgument(
-        "hgeo_flag is 0, so that geometric sizes are ignored, but geo_metric or geo_rule asks for some: set hgeo_flag "
+        "hgeo_flag is 0, so that geometric sizes are ignored, but geo_metric or geo_rule requires them: set hgeo_flag "
         "to 1");
   }
 }
@@ -137,7 +137,7 @@ unsigned SizeRules::surface_wants() const noexcept {
   unsigned wants = parameters_.geometric == GeometricSizes::curvature ? both_derivatives : 0;
   if (!uses_metrics()) return wants;
   wants |= want_first;
-  if (uses_curvature()) wants |= want_second;  // where the host does not give its radius
+  if (uses_curvature()) wants |= want_second;  // if the host does not give its radius
   if (needs_positions()) wants |= want_position;
   return wants;
 }
@@ -165,13 +165,13 @@ Where SizeRules::where_of(const CurveUse& use, double t) const {
           .t = t};
 }
 
-/// Where the surface beside a curve is asked when the curve's end is a pole.
+/// The parameter beside a curve's end that represents the surface when the end is a pole.
 double SizeRules::towards_middle(const CurveUse& use, double t) const {
   const Interval i = cad_.curve_interval(model_.faces[static_cast<std::size_t>(use.face)].ref, use.curve + 1);
   return t + way_inside * (i.a + (i.b - i.a) / 2 - t);
 }
 
-/// Of the points of a batch that have a value, the nearest one to p, which takes it; the first of equally near ones.
+/// The point of a batch with a value that is nearest to p, which takes the value; the first of equally near ones.
 std::optional<std::size_t> SizeRules::nearest_of(std::span<const std::size_t> sound, std::span<const Vec2> uv,
                                                  const Vec2& p) {
   std::optional<std::size_t> found;
@@ -200,7 +200,7 @@ std::optional<double> SizeRules::ask_point(int point) const {
   return answer;
 }
 
-/// The uses of a curve are asked in their order, the first being the one that defines it; the first answer counts.
+/// The uses of a curve are evaluated in their order, the first being the one that defines it; the first answer counts.
 std::optional<double> SizeRules::ask_curve(int curve, std::span<const double> t) const {
   const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
   for (std::size_t u = 0; u < uses.size(); ++u) {
@@ -283,7 +283,7 @@ std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const
   return {};
 }
 
-/// `jet` with both derivatives when known, else nullptr. Where a host that was to give its own radius is silent, the
+/// `jet` with both derivatives when known, else nullptr. If a host that was to give radii does not answer, the
 /// curvature is computed.
 std::optional<double> SizeRules::radius_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const {
   if (const auto radius = host_radius_of_surface(face, uv)) return radius;
@@ -291,7 +291,7 @@ std::optional<double> SizeRules::radius_in_face(int face, const Vec2& uv, const 
   return smallest_radius(surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, both_derivatives, uv));
 }
 
-/// Radius of the surface beside a curve; at a pole, that of a point a little way towards the curve's middle.
+/// Radius of the surface beside a curve; at a pole, the radius at a point a little way towards the curve's middle.
 /// `jet` is the surface's at t when known, else nullptr.
 std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, const SurfaceJet* jet) const {
   if (model_.faces[static_cast<std::size_t>(use.face)].is_wire()) return {};  // there is no surface
@@ -301,7 +301,7 @@ std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, co
   return radius_in_face(use.face, uv_at(towards_middle(use, t)), nullptr);
 }
 
-/// `jet` becomes that of the first use, which defines the curve's shape, when it had to be evaluated.
+/// `jet` becomes the jet of the first use, which defines the curve's shape, if it had to be evaluated.
 double SizeRules::radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet) const {
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
   if (c.degenerate) return infinity;

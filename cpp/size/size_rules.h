@@ -21,13 +21,13 @@
 
 namespace carreau {
 
-/// Where physical sizes come from (hphy_flag).
+/// Origin of physical sizes (hphy_flag).
 enum class PhysicalSizes : std::uint8_t {
   ignored,
   uniform,  ///< hphydef
   asked     ///< from the host
 };
-/// Where geometric sizes come from (hgeo_flag).
+/// Origin of geometric sizes (hgeo_flag).
 enum class GeometricSizes : std::uint8_t {
   ignored,
   curvature,
@@ -36,7 +36,7 @@ enum class GeometricSizes : std::uint8_t {
 /// Mean of several sizes (hmean_flag).
 enum class SizeMean : std::uint8_t { minimum, arithmetic, geometric };
 
-/// What governs sizes; defaults that depend on diag are filled in by the session.
+/// Parameters that govern sizes; the session fills in defaults that depend on diag.
 struct SizeParameters {
   PhysicalSizes physical = PhysicalSizes::uniform;
   GeometricSizes geometric = GeometricSizes::ignored;
@@ -46,28 +46,28 @@ struct SizeParameters {
   SizeLaw law = SizeLaw::linear;
   double angle_mesh = 8;  ///< degrees
   GeometricCriterion geo_rule = GeometricCriterion::angle;
-  double eps_chord = 0;          ///< A0, model length; > 0 where geo_rule is chord or both
+  double eps_chord = 0;          ///< A0, model length; > 0 if geo_rule is chord or both
   bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor or guaranteed_chord_factor (thresholds.h)
   bool geo_anisotropic = false;  ///< sizes by both principal radii
   double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
   MetricCombination metric_combination = MetricCombination::intersection;
-  /// What hosts and sources answer, and what curvature asks for, is so many times as large: see enlarged().
+  /// Factor on the answers of hosts and sources, and on sizes by curvature: see enlarged().
   double enlargement = 1;
   /// Asked in this order unless physical sizes are ignored; their answers all count. Not owned.
   std::vector<PrescriptionSource*> sources = {};
 };
 
-/// What a geometric rule asks of a mesh (HDR sec. 4.3); infinity: nothing.
+/// Limits that a geometric rule sets to a mesh (HDR sec. 4.3); infinity: no limit.
 struct GeometricLimits {
   double edge_angle_deg = infinity;  ///< of edges with tangent planes at their ends
   double deviation = infinity;       ///< A0 of triangles, model length
-  double shortest_divided = 0;       ///< edges below it are as short as hgeomin lets them be, whatever they exceed
+  double shortest_divided = 0;       ///< edges below it are as short as hgeomin permits, whatever they exceed
 
   [[nodiscard]] bool any() const noexcept { return std::isfinite(edge_angle_deg) || std::isfinite(deviation); }
 };
 GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
 
-/// The same sizes, all so many times as large: for a mesh whose edges will be divided.
+/// The sizes multiplied by `factor`: for a mesh whose edges will be divided.
 SizeParameters enlarged(SizeParameters size, double factor) noexcept;
 
 /// The rule for geometric sizes, with the factors of guarantees and enlargement.
@@ -79,15 +79,15 @@ double size_per_radius(double angle_deg) noexcept;
 /// Mean of several sizes. values not empty.
 double mean_size(SizeMean kind, std::span<const double> values);
 
-/// Smallest principal radius of curvature (absolute value) at a jet with first and second derivatives (RR-2928
-/// sec. 5.2.1, HDR sec. 4.4.2); +infinity on a plane point; empty where the parametrisation is degenerate.
+/// Smallest principal radius of curvature (absolute value) at a jet with first and second derivatives (RR-2928 sec.
+/// 5.2.1, HDR sec. 4.4.2). Returns +infinity on a plane point; empty if the parametrisation is degenerate.
 std::optional<double> smallest_radius(const SurfaceJet& jet) noexcept;
 
-/// Radius of curvature of the space curve S(C(t)) from both jets with first and second derivatives; +infinity where
-/// straight and where the curve does not move.
+/// Radius of curvature of the space curve S(C(t)) from both jets with first and second derivatives; +infinity if the
+/// curve is straight or does not move.
 double curve_radius(const SurfaceJet& surface, const CurveJet& curve) noexcept;
 
-/// What is asked for at one point inside a curve, along its tangent.
+/// The prescriptions at one point inside a curve, along its tangent.
 struct CurveSizes {
   bool answered = false;  ///< the curve or a surface beside it answers; else `physical` is interpolated from the ends
   double physical = 0;    ///< clamped; +infinity when it is ignored
@@ -115,18 +115,18 @@ class SizesAtPlaces;
 /// NaN is an error. A metric must be positive definite; its sizes in the tangent plane are clamped.
 ///
 /// One field has two representations. If sizes are the same in all directions, each place has a number. If sizes differ
-/// by direction (uses_metrics()), each place of a face has a metric of its tangent plane, and points and curves have the
+/// by direction (uses_metrics()), each place of a face has a metric of its tangent plane. Points and curves have the
 /// sizes along the tangents of the curves. One set of functions computes both (sizes_at_places.cpp). The answers of
 /// sources and size routines at one place are intersected, then combined with the geometric metric by
-/// metric_combination. If nothing answers, the size is hphydef (PhysicalSizes::uniform) or interpolated as in the manual
-/// (PhysicalSizes::asked). If the host is re-entrant and no source is asked, several threads may call const functions.
+/// metric_combination. Without answers, the size is hphydef (PhysicalSizes::uniform) or interpolated as in the manual
+/// (PhysicalSizes::asked). If the host is re-entrant and there are no sources, several threads may call const functions.
 class SizeRules {
  public:
-  /// Throws InvalidArgument when both sizes are ignored, bounds are not positive and ascending,
-  /// angle_mesh lies outside ]0, 90], eps_chord is needed and not positive, or anisotropy_max is below 1.
+  /// Throws InvalidArgument if both sizes are ignored, bounds are not positive and ascending, angle_mesh lies outside
+  /// ]0, 90], or anisotropy_max is below 1. Also if eps_chord is needed and not positive.
   SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
-  /// The same rules asking another host, by the same sources.
+  /// These rules with another host, and these sources.
   [[nodiscard]] SizeRules asking(Cad& cad) const { return {model_, topology_, cad, parameters_}; }
 
   /// The least size of each class of points (indices in Topology::points) holds at all its points, and sizes of faces that
@@ -136,33 +136,32 @@ class SizeRules {
   /// Returns the Want bits that on_surface() needs in its jets.
   [[nodiscard]] unsigned surface_wants() const noexcept;
 
-  /// The size, when it is the same everywhere and no host is ever asked.
+  /// The size, if it is uniform and no host is ever called.
   [[nodiscard]] std::optional<double> constant() const noexcept;
 
   [[nodiscard]] bool uses_curvature() const noexcept { return parameters_.geometric != GeometricSizes::ignored; }
-  /// Whether sources of prescriptions are asked.
+  /// True if sources of prescriptions are evaluated.
   [[nodiscard]] bool asks_sources() const noexcept {
     return parameters_.physical != PhysicalSizes::ignored && !parameters_.sources.empty();
   }
-  /// Whether sizes may differ by direction or come from sources.
+  /// True if sizes may differ by direction or come from sources.
   [[nodiscard]] bool uses_metrics() const noexcept {
     return (uses_curvature() && parameters_.geo_anisotropic) || asks_sources();
   }
-  /// What sources say of their own fields: the largest accuracy(), and the steep places of a face (index in
-  /// Model::faces).
+  /// Properties of the sources' fields: the largest accuracy(), and the steep places of a face (index in Model::faces).
   [[nodiscard]] double source_accuracy() const noexcept;
   [[nodiscard]] std::vector<Vec2> steep_places(int face) const;
   [[nodiscard]] std::vector<SteepPlace> steep_in_space() const;
-  /// Parameters of a use of a curve at which sources tell kinks.
+  /// Parameters of a use of a curve at which sources report kinks.
   [[nodiscard]] std::vector<double> kinks_on_curve(const CurveUse& use) const;
-  /// How sizes vary between two points where they are known.
+  /// The variation of sizes between two known points.
   [[nodiscard]] SizeLaw law() const noexcept { return parameters_.law; }
 
   /// h = min of the clamped physical and geometric sizes at a corner point (index in Topology::points).
   double at_point(int point);
 
   /// The size at an interior point of a curve. `t` holds, for each use of the curve, the parameter of the same point.
-  /// `r` in [0, 1]: fraction of the curve's length in space (for interpolation when nobody answers).
+  /// `r` in [0, 1]: fraction of the curve's length in space (for interpolation without answers).
   double on_curve(int curve, std::span<const double> t, double r);
 
   /// Computes the metrics of the parameter plane inside a face (index in Model::faces) at points whose jets hold first
@@ -184,12 +183,12 @@ class SizeRules {
   /// Returns the clamped physical size at a point, without the geometric size; +infinity if hphy_flag is 0.
   double physical_at_point(int point);
 
-  /// The geometric size that a radius of curvature asks for, clamped.
+  /// The geometric size for a radius of curvature, clamped.
   [[nodiscard]] double clamped_geometric(double radius) const noexcept;
 
   /// Returns the size of on_curve() together with the physical size, which `fallback` of on_surface() interpolates.
   CurveSizes ask_on_curve(int curve, std::span<const double> t, double r);
-  /// The physical size between the ends of a curve when nobody answers.
+  /// The physical size between the ends of a curve without answers.
   double interpolated_on_curve(int curve, double r);
 
  private:

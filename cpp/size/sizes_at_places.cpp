@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes at places from the answers of hosts and sources and from the geometry. Each function stands for both
+// Sizes at places from the answers of hosts and sources and from the geometry. Each function handles both
 // representations: a size is a double, or a Metric2 of the tangent plane if sizes differ by direction.
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 template <typename Size>
 constexpr bool has_directions = std::is_same_v<Size, Metric2>;
 
-/// The same size in all directions.
+/// One size in all directions.
 template <typename Size>
 constexpr Size of_size(double h) noexcept {
   if constexpr (has_directions<Size>)
@@ -458,8 +458,8 @@ class SizesAtPlaces {
 
   // ---- at points ----
 
-  /// The smallest size of the metric at the point along the curves that end here; else the mean over the curves, or over
-  /// the surfaces beside them, of the sizes along these curves. A corner of a surface has no direction of its own.
+  /// The smallest size of the metric at the point along the curves that end here; else the mean of the sizes along the
+  /// curves, over the curves or over the surfaces beside them. A corner of a surface has no direction.
   [[nodiscard]] double physical_along_curves_at(int point) const {
     const double usual = rules_.clamped_physical(rules_.parameters_.hphydef);
     const Answers<Metric2> own = answers_at_point(point);

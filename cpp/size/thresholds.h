@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this folder: their meaning, unit, reason and evidence.
 #pragma once
 
 namespace carreau::thresholds::size {
 
-// In brackets: the tests that rest on it, of tests/cpp/size where nothing else is said.
+// In brackets: the tests of each value, in tests/cpp/size unless a path is given.
 
 // Sizes at poles and corners (size_rules, sizes_at_places)
-/// Share of the way to the middle of a curve. How far inside its surfaces are asked when its end is a pole.
-/// [SizeRules.PolesTakeTheRadiusBesideThem]
+/// Share of the way to the middle of a curve. Distance inside the curve at which its surfaces are evaluated when its
+/// end is a pole. [SizeRules.PolesTakeTheRadiusBesideThem]
 inline constexpr double way_inside = 1e-3;
-/// Share of the box of a face's corners. Corners that are nearer are one: of a seam, told with rounding.
+/// Share of the box of a face's corners. Nearer corners are one: corners of a seam, given with rounding.
 /// [SizeRules.ASeamCountsOncePerUseAndItsEndOncePerCorner]
 inline constexpr double same_corner = 1e-6;
 
 // Guarantees (geo_guarantee)
 /// Factors of sizes for which at least 99.5 % of the edges (angle) or triangles (chord) fulfil the criterion, coarse
-/// meshes of whole spheres included, and none exceeds it by 25 % or 30 %: edges of a unit mesh are not all of unit
-/// length, and a triangle is farther from a sphere than its edges, by 4/3. [tests/cpp/surface/guarantees_test]
+/// meshes of whole spheres included. None exceeds it by 25 % or 30 %. Edges of a unit mesh are not all of unit length,
+/// and a triangle is farther from a sphere than its edges, by 4/3. [tests/cpp/surface/guarantees_test]
 inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor = 0.65;
 
 // Background meshes (background, adapt/transfer)
-/// Share of the longest edge of the nearest triangle. What a surface may be away from the triangles that approximate
+/// Share of the longest edge of the nearest triangle. Largest distance of a surface from the triangles that approximate
 /// it: arcs of 60 degrees are 0.13 of their chord away from it.
 /// [BackgroundField.PointsOutsideTakeTheNearestValueAndAreCounted]
 inline constexpr double outside_share = 0.125;

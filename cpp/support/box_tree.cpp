@@ -12,11 +12,11 @@ namespace {
 
 using Box = BoxTree::Box;
 
-// Fewer things are looked at one by one. [time only]
+// Fewer things are tested one by one. [time only]
 constexpr std::int32_t leaf_size = 4;
 // Things that are moved between two looks at the monitor. [time only]
 constexpr std::int64_t moved_between_checks = 1 << 16;
-// Of the nodes of a level; things below which one thread is as fast. [time only]
+// Groups: number of nodes in a level; fewer things than threaded_from are fastest on one thread. [time only]
 constexpr std::size_t groups = 256, threaded_from = 20'000;
 
 int longest_side(const Box& box) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes around things of space, halved down to a few: what is near a point, or meets a segment or box, in logarithmic
-// time.
+// A tree of boxes around things of space, divided at medians. Finds things near a point, or things that meet a segment
+// or box, in logarithmic time.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class BoxTree {
                    z = beyond(low.z(), p.z(), high.z());
       return x * x + y * y + z * z;
     }
-    /// Of closed boxes.
+    /// True if the closed boxes have no common point.
     [[nodiscard]] bool is_apart(const Box& other) const noexcept {
       return low.x() > other.high.x() || high.x() < other.low.x() || low.y() > other.high.y() ||
              high.y() < other.low.y() || low.z() > other.high.z() || high.z() < other.low.z();
@@ -40,12 +40,12 @@ class BoxTree {
 
   BoxTree() = default;
   /// `boxes`: of the things, without NaN. `centres`: they are halved at medians of these along the longest sides of
-  /// their boxes, equal ones by number. Throws Cancelled soon after `monitor` was asked to stop; it may be null. The same
-  /// for any number of threads.
+  /// their boxes, equal ones by number. Throws Cancelled soon after `monitor` received a request to stop; `monitor` may
+  /// be null. The tree does not depend on the number of threads.
   BoxTree(std::span<const Box> boxes, std::span<const Vec3> centres, Monitor* monitor = nullptr, int threads = 1);
 
   [[nodiscard]] bool empty() const noexcept { return order_.empty(); }
-  /// Things leaf by leaf: those of each node follow each other.
+  /// The things in the order of the leaves: the things of each node follow each other.
   [[nodiscard]] std::span<const std::int32_t> order() const noexcept { return order_; }
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_.size(); }
   /// Nodes come after their parents.
@@ -56,8 +56,9 @@ class BoxTree {
   };
   [[nodiscard]] const Node& node(std::size_t n) const noexcept { return nodes_[n]; }
 
-  /// Looks at the leaves that may matter, the nearer ones first, which may rule others out: `bound(n)` is what the
-  /// things of node n have at least, `matters(bound)` whether that is good enough now, `look(node)` gets each leaf.
+  /// Looks at the leaves that may matter, the nearer ones first, which may rule others out: `bound(n)` is a lower bound
+  /// of the things of node n, `matters(bound)` returns whether that is good enough now, `look(node)` receives each
+  /// leaf.
   template <typename Bound, typename Matters, typename Look>
   void nearest_first(const Bound& bound, const Matters& matters, const Look& look) const {
     if (nodes_.empty()) return;

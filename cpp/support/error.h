@@ -63,7 +63,7 @@ struct DomainError : Error {
 struct LimitError : Error {
   using Error::Error;
 };
-/// The host asked to stop.
+/// The host requested a stop.
 struct Cancelled : Error {
   using Error::Error;
 };

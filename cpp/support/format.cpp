@@ -21,7 +21,7 @@ std::string format_number(double value) {
 namespace {
 
 std::string_view without_plus(std::string_view word) {
-  // from_chars refuses '+', Fortran and C hosts write it; "+-1" stays wrong.
+  // from_chars rejects '+', Fortran and C hosts write it; "+-1" stays wrong.
   if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
   return word;
 }

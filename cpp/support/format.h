@@ -11,7 +11,7 @@ namespace carreau {
 /// Independent of the locale.
 std::string format_number(double value);
 
-/// Appends format_number(value) to text without an allocation of its own.
+/// Appends format_number(value) to text without an allocation.
 void append_number(std::string& text, double value);
 
 /// Reads a whole word as a number, in the C locale; a Fortran exponent (1.5d0, 1.D-3) is

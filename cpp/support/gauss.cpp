@@ -12,7 +12,7 @@ namespace carreau {
 
 GaussRule gauss_rule(int n) {
   if (n < 1 || n > 64)
-    throw InvalidArgument("a Gauss rule has 1 to 64 points; " + std::to_string(n) + " were asked for");
+    throw InvalidArgument("a Gauss rule has 1 to 64 points, not " + std::to_string(n));
   GaussRule rule;
   rule.node.resize(n);
   rule.weight.resize(n);

@@ -21,8 +21,8 @@ struct Barycentric {
   double a, b, c, weight;
 };
 
-/// Radon's rule of seven points, exact up to degree 5; weights have the sum 1. Its first place is the centre, where a
-/// near equilateral triangle is farthest from a surface.
+/// Radon's rule of seven points, exact up to degree 5; weights have the sum 1. Its first place is the centre, at which
+/// a near equilateral triangle is farthest from a surface.
 std::array<Barycentric, 7> triangle_rule();
 
 }  // namespace carreau

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that help the calling one: oneTBB's where it is built in, else some of the standard library.
+// Threads that help the calling one: oneTBB's if it is built in, else some of the standard library.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ class Helpers {
   Helpers& operator=(const Helpers&) = delete;
 
   /// Runs `work`, which throws nothing, in another thread soon. From any thread. Throws when there is no memory or no
-  /// thread; `work` may be run all the same.
+  /// thread; `work` may run nevertheless.
   void send(std::function<void()> work);
 
-  /// That may be at work at a time in this process.
+  /// Number of threads that may work at a time in this process.
   static std::size_t most_threads() noexcept;
 
  private:

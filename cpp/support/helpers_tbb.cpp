@@ -33,7 +33,7 @@ Helpers::Helpers(int threads) : state_(std::make_unique<State>(threads)) {}
 Helpers::~Helpers() = default;
 
 void Helpers::send(std::function<void()> work) {
-  // Not by a task group: whoever waits for one waits for ever when a task was lost without memory.
+  // Does not use a task group: its wait never ends when a task was lost without memory.
   __tsan_release(&handed_over);
   state_->arena.enqueue([work = std::move(work)] {
     __tsan_acquire(&handed_over);  // before anything that was captured is read

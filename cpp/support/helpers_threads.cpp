@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of helpers_tbb.cpp where oneTBB is not built in.
+// Replaces helpers_tbb.cpp if oneTBB is not built in.
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -32,7 +32,7 @@ struct Helpers::State {
   }
 
   std::size_t most;
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards the following
   std::condition_variable changed;
   std::deque<std::function<void()>> waiting;
   std::vector<std::thread> threads;

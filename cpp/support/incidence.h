@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of many small sets a thing belongs to.
+// Finds which of many small sets hold a thing.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace carreau {
 
-/// For each of `count` things the indices of those sets of N that hold it, ascending; twice where a set holds it twice.
+/// For each of `count` things, the indices of the sets that hold it, among sets of N; ascending, and twice if a set
+/// holds it twice.
 class Incidence {
  public:
   template <std::size_t N>

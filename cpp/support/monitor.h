@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages, progress and the request to stop: what a long run tells its caller, and hears from it.
+// Messages, progress and the request to stop of a long run.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace carreau {
 
-/// What a run is doing. Values are part of the C ABI: never renumber.
+/// The current step of a run. Values are part of the C ABI: never renumber.
 enum class Phase : int {
   idle = 0,
   model = 1,
@@ -25,7 +25,7 @@ enum class Phase : int {
 /// (`verb`, 0..100, RT-0232 sec. 3.3). Values are part of the C ABI.
 enum class Level : int { error = 0, warning = 1, summary = 10, detail = 50, debug = 100 };
 
-/// Receives messages and progress, and can ask for a stop. The base class is silent and never stops.
+/// Receives messages and progress, and can request a stop. The base class is silent and never stops.
 class Monitor {
  public:
   virtual ~Monitor() = default;
@@ -33,7 +33,7 @@ class Monitor {
   /// One sentence, without a newline.
   virtual void message(Level /*level*/, std::string_view /*text*/) {}
 
-  /// Whether a message of this level goes to anybody: what is dear to say is not computed for no one.
+  /// False if no receiver uses messages of this level: then expensive messages are not composed.
   [[nodiscard]] virtual bool hears(Level /*level*/) const { return true; }
 
   /// `entity` is the reference of the face or curve at work (0: none), `fraction` in [0, 1] is of
@@ -45,7 +45,7 @@ class Monitor {
   void clear_stop() noexcept { stop_.store(false, std::memory_order_relaxed); }
   [[nodiscard]] bool stop_requested() const noexcept { return stop_.load(std::memory_order_relaxed); }
 
-  /// Every loop that can last longer than some 20 ms calls this at that pace: throws Cancelled when a stop was asked.
+  /// Every loop that can last longer than some 20 ms calls this at that pace: throws Cancelled if a stop was requested.
   virtual void checkpoint() {
     if (stop_requested()) throw Cancelled("stopped by the host");
   }

@@ -6,7 +6,7 @@
 
 namespace carreau {
 
-/// A part of a longer run: its own fractions, 0 to 1, become those of the whole from `from` to `to`. Everything else is
+/// A part of a longer run: its fractions, 0 to 1, become fractions of the whole from `from` to `to`. Everything else is
 /// handed on.
 class PartMonitor final : public Monitor {
  public:
@@ -19,7 +19,7 @@ class PartMonitor final : public Monitor {
     whole_.progress(phase, entity, reached_);
   }
   void checkpoint() override { whole_.checkpoint(); }
-  /// Of the whole, when progress was told last.
+  /// Fraction of the whole at the last report of progress.
   [[nodiscard]] double reached() const noexcept { return reached_; }
 
  private:

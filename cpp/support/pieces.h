@@ -7,7 +7,8 @@
 
 namespace carreau {
 
-/// use(first, n) for the pieces of 0, 1, … size - 1 that hold `most` items each, the last one what is left.
+/// Calls use(first, n) for the pieces of 0, 1, … size - 1 that hold `most` items each; the last piece holds the
+/// remainder.
 template <typename Use>
 void for_pieces(std::size_t size, std::size_t most, const Use& use) {
   for (std::size_t first = 0; first < size; first += most) use(first, std::min(most, size - first));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An array that grows where it is.
+// An array that grows in place.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace carreau {
 
-/// Like std::vector, in segments of a fixed length: what it holds never moves. A large vector that doubles touches
-/// three times the memory that it ends with, and memory that is touched for the first time is dear. Segments are filled
-/// as they are needed.
+/// Like std::vector, in segments of a fixed length: its elements never move. A large vector that doubles touches three
+/// times its final memory, and memory that is touched for the first time is slow. Segments are filled as they are
+/// needed.
 template <typename T, std::size_t segment = 512>
 class SegmentedArray {
   static_assert((segment & (segment - 1)) == 0, "indices are taken apart by bits");

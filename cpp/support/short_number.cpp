@@ -11,7 +11,7 @@ namespace carreau {
 
 std::string short_number(double value, int digits) {
   if (!std::isfinite(value)) return format_number(value);
-  // The text is rounded, not the value: a quotient of powers of ten need not be the nearest number of so many digits.
+  // The text is rounded, not the value: a quotient of powers of ten need not be the nearest number of `digits` digits.
   std::array<char, 32> buffer;
   const auto end =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific, digits - 1).ptr;

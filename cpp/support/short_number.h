@@ -6,8 +6,8 @@
 
 namespace carreau {
 
-/// A number rounded to so many significant decimal digits, from 1 to 17, without zeros at its end:
-/// 0.0001235, 4.166e-22.
+/// A number rounded to `digits` significant decimal digits, from 1 to 17, without zeros at its end: 0.0001235,
+/// 4.166e-22.
 std::string short_number(double value, int digits = 4);
 
 }  // namespace carreau

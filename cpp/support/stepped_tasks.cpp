@@ -53,8 +53,8 @@ void run_alone(std::span<const std::unique_ptr<SteppedTask>> tasks, const Steppe
   }
 }
 
-/// Lets helpers into a run. One that comes when the run is over finds the gate closed, and one that never comes keeps
-/// nobody waiting: without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
+/// Lets helpers into a run. A helper that arrives after the run finds the gate closed, and the run never waits for an
+/// absent helper. Without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
 class Gate {
  public:
   [[nodiscard]] bool enter() {
@@ -105,7 +105,7 @@ class ThreadedRun {
   ThreadedRun(const ThreadedRun&) = delete;
   ThreadedRun& operator=(const ThreadedRun&) = delete;
   ~ThreadedRun() {
-    first_failed_ = 0;  // what is still at work ends at its next checkpoint
+    first_failed_ = 0;  // running tasks end at their next checkpoint
     {
       const std::scoped_lock lock(mutex_);
       waiting_.clear();
@@ -125,14 +125,14 @@ class ThreadedRun {
         continue;
       }
       std::unique_lock lock(mutex_);
-      // The time is for checkpoints: a stop can be asked without notice.
+      // The timeout is for checkpoints: a stop can come without notice.
       changed_.wait_for(lock, std::chrono::milliseconds(20),
                         [this] { return !bound_.empty() || !free_.empty() || done_[evaluation_] != 0; });
     }
   }
 
  private:
-  /// Tasks that wait for a thread, as many as keep all at work: those not started cost no memory.
+  /// Starts tasks that wait for a thread, enough to occupy all threads: tasks that have not started take no memory.
   void start_some() {
     const std::size_t most = 2 * static_cast<std::size_t>(threads_);
     for (;;) {
@@ -147,7 +147,7 @@ class ThreadedRun {
     }
   }
 
-  /// Where the next step of a task waits. Under the lock; whether it is bound.
+  /// Queues the next step of a task. Under the lock; whether it is bound.
   bool make_ready(std::size_t task) {
     const bool bound = tasks_[task]->bound();
     (bound ? bound_ : free_).push_back(task);
@@ -180,7 +180,7 @@ class ThreadedRun {
       // The calling thread may be long at work.
       try {
         start_some();
-      } catch (...) {  // no memory: what has not been started waits for the calling thread
+      } catch (...) {  // no memory: the calling thread does the steps that have not started
       }
     }
   }
@@ -251,7 +251,7 @@ class ThreadedRun {
   std::atomic<std::size_t> first_failed_{none};
   std::size_t evaluation_ = 0;  // of the calling thread
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the following
   std::condition_variable changed_;
   std::deque<std::size_t> waiting_;  // not started
   std::deque<std::size_t> bound_, free_;
@@ -293,7 +293,7 @@ void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const Step
   if (threads <= 1) {
     run_alone(tasks, run, monitor);
   } else {
-    // On the heap: on the stack the thread sanitizer takes what lay there before for a race.
+    // On the heap: on the stack the thread sanitizer reports a race with earlier data there.
     std::make_unique<ThreadedRun>(tasks, run, threads, monitor)->run();
   }
 }

@@ -19,8 +19,8 @@ class SteppedTask {
   [[nodiscard]] virtual bool finished() const = 0;
   /// The next step calls a host that must be called from the calling thread only.
   [[nodiscard]] virtual bool bound() const = 0;
-  /// Runs the next step. `monitor` may be asked for checkpoints and be given messages from the thread at work; they
-  /// reach the host in order of the tasks. Not called any more when it has thrown.
+  /// Runs the next step. `monitor` accepts checkpoints and messages from the thread at work; they reach the host in
+  /// order of the tasks. Never called again after it has thrown.
   virtual void step(Monitor& monitor) = 0;
 };
 
@@ -33,13 +33,13 @@ struct SteppedRun {
   std::function<void(std::size_t)> on_finished = {};
 };
 
-/// Runs all tasks to their end. When steps or on_finished throw, the exception of the first such task, in rank, comes
-/// out after on_finished of all tasks before it, whatever the number of threads. Throws Cancelled soon after a stop was
-/// asked. No thread works when it returns.
+/// Runs all tasks to their end. If steps or on_finished throw, rethrows the exception of the first such task, in rank,
+/// after on_finished of all tasks before it, whatever the number of threads. Throws Cancelled soon after a stop was
+/// requested. No thread works when it returns.
 void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor);
 
 /// Calls work(i, monitor) for each i below n. `bound`: from the calling thread only, in order. Exceptions and messages
-/// come out as those of tasks do.
+/// propagate as in run_stepped().
 void run_each(std::size_t n, bool bound, int threads, const std::function<void(std::size_t, Monitor&)>& work,
               Monitor& monitor);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays whose values nobody needs before they are written.
+// Arrays whose values are written before they are read.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace carreau {
 
-/// Leaves new values as memory has them: threads that fill an array get its pages, not the one that makes it.
+/// Leaves new values uninitialised: the threads that fill an array touch its pages first, not the thread that makes it.
 template <typename T>
 struct UnfilledAllocator : std::allocator<T> {
   static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>);

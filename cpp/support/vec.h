@@ -9,7 +9,8 @@
 namespace carreau {
 
 /// A column of n numbers, all 0 at first (EIGEN_INITIALIZE_MATRICES_BY_ZERO). Sums and multiples of vectors are
-/// expressions that refer to their operands: what outlives a statement is declared as a vector, never as `auto`.
+/// expressions that refer to their operands: a result that outlives a statement is declared as a vector, never as
+/// `auto`.
 template <int n>
 using Vec = Eigen::Matrix<double, n, 1, Eigen::DontAlign>;
 /// A point or vector of a parameter plane (u, v).
@@ -39,7 +40,7 @@ inline bool is_finite(const Vec3& p) noexcept {
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
 
-// The same of expressions, which would fit both sizes.
+// Matches expressions, which would fit both sizes.
 template <typename P>
 concept VectorLike = std::derived_from<P, Eigen::MatrixBase<P>> && (P::ColsAtCompileTime == 1);
 template <typename P>

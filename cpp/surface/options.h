@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh of a composite surface is to be like.
+// Options of a mesh of a composite surface.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace carreau {
 
 class Team;
 
-/// What becomes of faces whose two long sides are nearer to each other than a share of the prescribed size.
+/// The treatment of faces whose two long sides are nearer to each other than a share of the prescribed size.
 enum class NarrowFaces : int {
   keep,       ///< nothing special
   one_layer,  ///< vertices face to face on both sides, one layer of triangles between
   collapse    ///< the face vanishes: its two sides become one curve for all neighbours
 };
 
-/// Which triangles are bounded for that: none, those that the normals at their corners make suspect, or all.
+/// The triangles that get bounds: none, triangles that the normals at their corners make suspect, or all.
 enum class Certified : char { none = 0, suspects = 1, all = 2 };
 
 struct CompositeOptions {
@@ -30,58 +30,59 @@ struct CompositeOptions {
   int check_close_edges = 0, check_adjacent_edges = 0, check_well_defined = 0;  ///< iterations
   double coef_rectangle = 0.25;
   double adjacent_ratio = 2;  ///< >= 2: largest of lengths of adjacent edges that check_adjacent_edges leaves
-  /// What becomes of faces narrower than narrow_ratio times the size prescribed on their curves.
+  /// The treatment of faces narrower than narrow_ratio times the size prescribed on their curves.
   NarrowFaces narrow_faces = NarrowFaces::keep;
   double narrow_ratio = 0.1;
-  /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
+  /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: no limit.
   double gradation = 0;
-  /// Ratio by which sizes inside a face grow at most from one edge to the next, away from boundary edges that are
-  /// shorter than prescribed: > 1; 0: they do not depend on them. Isotropic sizes alone.
+  /// Largest ratio of sizes inside a face from one edge to the next, > 1; 0: no limit. It acts away from boundary edges
+  /// that are shorter than prescribed. For isotropic sizes only.
   double edge_gradation = 0;
   /// Vertices of one side of a strip of one layer go where they face the middles of the other side's edges
   /// (staggering.h).
   bool stagger_strips = false;
   bool cracks = false;  ///< vertices of internal curves are doubled
-  /// At the worst triangles of each patch changes of the mesh are tried, and the best is kept.
+  /// Tests changes of the mesh at the worst triangles of each patch and keeps the best.
   bool shape_trials = false;
-  /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap
-  /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
-  /// for.
+  /// Least number of layers of triangles between boundaries of a face that are near each other; 0: they are not looked
+  /// for. A value > 0 needs a gradation. Faces that face each other and share no corner get sizes of the gap over this
+  /// number.
   int proximity = 0;
-  /// A face that the host fails on while its patch is meshed fails alone; false: its CallbackError comes out.
+  /// If the host fails on a face while its patch is meshed, only this face fails; false: the CallbackError is thrown.
   bool failing_faces_alone = false;
-  /// Measures bound A0 and A1 from above.
+  /// Measures give upper bounds of A0 and A1.
   bool measure_bounds = true;
-  /// Triangles of meshes free of patches whose bounds are beyond the tolerances are edited (surface/independent/certify).
+  /// Triangles of cross-patch meshes are edited if their bounds are beyond the tolerances
+  /// (surface/independent/certify).
   Certified certified = Certified::suspects;
-  /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
+  /// Times that a mesh is made again with smaller triangles at avoidable crossings; 0: crossings are not looked for.
   int crossing_rounds = 0;
-  /// Work of all these rounds together, at most, over the work of the first mesh.
+  /// Largest work of all these rounds together over the work of the first mesh.
   double rounds_over_first_mesh = 1;
-  /// Meshes are made again, finer, where elements are invalid.
+  /// Meshes are made again, with smaller sizes at invalid elements.
   bool refines_invalid_elements = true;
   bool frontal = true;
-  /// Borders between patches whose normals differ by no more than sharp_angle (degrees) mean nothing: the mesh is made
-  /// free of them (surface/independent).
+  /// Borders between patches whose normals differ by no more than sharp_angle (degrees) have no meaning: triangles
+  /// cross them (surface/independent).
   bool independent = false;
   double sharp_angle = 1;
   std::int64_t max_triangles = 0;  ///< 0: by memory
-  /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
+  /// Number of threads, including the caller's. The mesh does not depend on it. A host that is not re-entrant is called
   /// from the caller's thread only.
   int threads = 1;
-  /// Processes that make the mesh together, null: this one alone. The mesh does not depend on it.
+  /// Processes that make the mesh together; null: only this process. The mesh does not depend on it.
   Team* team = nullptr;
-  /// Patches stay with the process of the team that has meshed them: no process has the whole mesh (pipeline/parts). What needs it
-  /// is refused.
+  /// Patches stay with the process that has meshed them: no process has the whole mesh (pipeline/parts). Steps that need the whole mesh are
+  /// rejected.
   bool parts = false;
 };
 
-/// Whether several threads may ask the host: it allows that, and no source of prescriptions is asked.
+/// Returns whether several threads may call the host: it allows that, and sources of prescriptions are absent.
 inline bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept {
   return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
 }
 
-/// The sentence of a mesh beyond CompositeOptions::max_triangles.
+/// Throws LimitError for a mesh beyond CompositeOptions::max_triangles.
 [[noreturn]] void refuse_triangles(const Where& where, double expected, std::int64_t most);
 
 }  // namespace carreau

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One patch: what is asked for, and its mesh.
+// One patch: its input, and its mesh.
 #pragma once
 
 #include <optional>
@@ -13,30 +13,30 @@
 
 namespace carreau {
 
-/// What a face's sizes are interpolated from where the host does not answer.
+/// The data that a face's sizes are interpolated from if the host does not answer.
 struct FaceInterfaces {
   PlaneDomain plane;
   std::vector<double> physical;  ///< physical size at each vertex of the domain; 0 at imposed points
 };
 
-/// An edge inside a patch: its length in space over what the control space promises, and its ends in (u, v).
+/// An edge inside a patch: its length in space over the length in the control space, and its ends in (u, v).
 struct EdgeExcess {
   double ratio = 0;
   Vec2 from, to;
 };
 
-/// A meshed patch. Vertices are those of the domain first, unmoved, then new ones.
+/// A meshed patch. The vertices of the domain come first, unmoved, then new ones.
 struct PatchMesh {
   PlaneMesh plane;
   std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
   std::vector<double> size;  ///< prescribed size at every vertex
-  /// Edges that exceed their promise a thousand times: where derivatives vanish, or the surface jumps.
+  /// Edges a thousand times as long as in the control space: derivatives vanish there, or the surface jumps.
   std::vector<EdgeExcess> excesses;
-  /// Where metrics govern: unit normal of the surface at every vertex that is not imposed, zero at singular ones.
+  /// If metrics govern: unit normal of the surface at every vertex that is not imposed, zero at singular ones.
   std::vector<Vec3> normal;
 };
 
-/// What meshing a patch needs to know.
+/// The input for meshing a patch.
 struct PatchInput {
   int face = 0;  ///< index in Model::faces
   int ref = 0;   ///< its reference
@@ -45,20 +45,20 @@ struct PatchInput {
   std::vector<Vec3> curve_xyz;
   /// Set when one size is prescribed everywhere (SizeRules::constant).
   std::optional<double> constant_size = {};
-  /// S(u, v) = (u, v, 0): lengths in the plane are those in space.
+  /// S(u, v) = (u, v, 0): lengths in the plane are lengths in space.
   bool is_plane = false;
   /// Sizes do not differ by direction: triangles may be judged by their shape in space.
   bool isotropic = true;
-  /// Metrics that govern may turn out to be sizes: as far as samples have shown (SampledFacts).
+  /// No sample has shown a metric with directions (SampledFacts).
   bool one_size = true;
-  /// What becomes of the prescribed sizes.
+  /// Limits of the prescribed sizes.
   SizeLimits limits = {};
   /// Largest derivative of sizes along the surface, kept in the control space too; 0: any.
   double slope = 0;
   /// Largest relative error of lengths in the control space.
   double tolerance = ControlSpaceOptions{}.tolerance;
   int threads = 1;       ///< at work on this patch; nothing depends on it
-  int host_threads = 1;  ///< those of them that may ask the host
+  int host_threads = 1;  ///< the threads among them that may call the host
 };
 
 /// The boundary of a domain.

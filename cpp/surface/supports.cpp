@@ -29,7 +29,7 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
   };
   run_each(model.faces.size(), !cad.reentrant(), threads, build_or_say_why, monitor);
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  // Wires may reach anywhere beside the faces.
+  // Free curves may extend beyond the box of the faces.
   const bool wires_alone =
       std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.is_wire(); });
   for (std::size_t f = 0; f < supports.of_face.size(); ++f) {

@@ -18,7 +18,7 @@ struct Foot {
   Vec2 uv;
 };
 
-/// The surface at a foot.
+/// The surface at a place of the atlas.
 struct SurfacePlace {
   Foot foot;
   Vec3 xyz, su, sv;
@@ -26,13 +26,13 @@ struct SurfacePlace {
   bool regular = false;  ///< there is a normal
 };
 
-/// What is wanted at a vertex.
+/// The prescribed size at a vertex.
 struct WantedSize {
   double h = 0;    ///< sqrt(h1 h2) where sizes differ by direction
-  Metric3 metric;  ///< counts where they do; of a vertex that is not kept it knows nothing along the normal
+  Metric3 metric;  ///< used where they do; at a vertex that is not kept it has no entry along the normal
 };
 
-/// So many times as large.
+/// Returns the size times the factor.
 inline WantedSize scaled(const WantedSize& wanted, double factor) noexcept {
   WantedSize result = wanted;
   result.h *= factor;
@@ -42,30 +42,30 @@ inline WantedSize scaled(const WantedSize& wanted, double factor) noexcept {
   return result;
 }
 
-/// The surface for those who move vertices on it, whatever its faces.
+/// The surface around a place, whatever its faces, for algorithms that move vertices on it.
 class SurfaceAround {
  public:
   virtual ~SurfaceAround() = default;
-  /// Near `target`, sought from a regular place; empty where a barrier or a singular place is in the way.
+  /// Returns a place near `target`, sought from a regular place; empty if a barrier or a singular place is in the way.
   [[nodiscard]] virtual std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target) const = 0;
   [[nodiscard]] virtual WantedSize wanted(const SurfacePlace& place) const = 0;
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;
 };
 
-/// Vertices with their places, for those who deal cells out to faces.
+/// Vertices with their places, for algorithms that distribute cells among faces.
 class PlacedVertices {
  public:
   virtual ~PlacedVertices() = default;
   [[nodiscard]] virtual std::size_t vertices() const = 0;
-  /// Neither on a sharp edge nor a corner.
+  /// Returns whether the vertex is neither on a sharp edge nor a corner.
   [[nodiscard]] virtual bool is_free(std::int32_t v) const = 0;
-  /// Several where it is kept, one for each vertex of a face that it was.
+  /// The places of a vertex: several if it is kept, one for each vertex of a face that it was.
   [[nodiscard]] virtual std::span<const SurfacePlace> places(std::int32_t v) const = 0;
   [[nodiscard]] virtual Vec3 position(std::int32_t v) const = 0;
   [[nodiscard]] virtual double size(std::int32_t v) const = 0;
-  /// At v, along the way to w.
+  /// The size at v along the way to w.
   [[nodiscard]] virtual double size_along(std::int32_t v, std::int32_t w) const = 0;
-  /// Whether sizes differ by direction.
+  /// Returns whether sizes differ by direction.
   [[nodiscard]] virtual bool by_direction() const noexcept = 0;
 };
 

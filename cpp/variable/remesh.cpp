@@ -25,7 +25,7 @@ double area_of(const std::vector<BoundaryLoop>& loops) {
   return sum / 2;
 }
 
-/// Inside the curves, by polygons of `pieces` edges for each edge of theirs.
+/// The area inside the curves, by polygons of `pieces` edges for each of their edges.
 double area_of(const std::vector<BoundaryShape>& shapes, int pieces) {
   double sum = 0;
   for (const BoundaryShape& shape : shapes)
@@ -57,7 +57,7 @@ class Remeshing {
  private:
   void erode_piece() { eroded_ = erode(in_.piece, damage_, in_.damage_limit, in_.keep_all_parts); }
 
-  /// Elements that have met go as damaged ones do; what they have laid bare may meet, too.
+  /// Overlapping elements are removed as damaged ones are; the elements that they bare may overlap, too.
   void remove_overlaps() {
     for (int round = 0; round < thresholds::variable::most_overlap_rounds; ++round) {
       const std::vector<std::int32_t> found = crossing_triangles(eroded_);
@@ -78,7 +78,7 @@ class Remeshing {
     told.area_given = in_.piece.area(), told.area_removed = eroded_.removed_area;
   }
 
-  /// Splines and moved nodes may cross what lies close by; the piece's own boundary does not.
+  /// Splines and moved nodes may cross near edges; the piece's own boundary does not.
   void mesh_at_the_most_faithful_boundary() {
     Faithfulness how = Faithfulness::smooth;
     while (true) {
@@ -183,7 +183,7 @@ class Remeshing {
     if (in_.measure) result_.summary.in_range = share_in_range(sizes);
   }
 
-  /// Of all edges, those inside twice.
+  /// Share of all edges; inner edges count twice.
   [[nodiscard]] double share_in_range(const SizeMap& sizes) const {
     std::size_t fitting = 0, all = 0;
     std::int32_t guess = 0;
@@ -270,11 +270,11 @@ class Remeshing {
   Monitor& monitor_;
   double slope_;
   Tools tools_;
-  std::vector<double> damage_;  // 1 where elements overlap
+  std::vector<double> damage_;  // 1 if elements overlap
   Eroded eroded_;
   TriangleSearch search_;
   std::vector<double> physical_;
-  std::vector<Vec2> rough_;  // where new edges crossed each other
+  std::vector<Vec2> rough_;  // crossings of new edges
   RemeshResult result_;
 };
 

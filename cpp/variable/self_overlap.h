@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a displacement has pushed the piece through itself.
+// Finds places at which a displacement has pushed the piece through itself.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace carreau::variable {
 
-/// Triangles of what is left whose boundary edges cross, or touch, boundary edges of triangles elsewhere; ascending.
-/// Exact. n log n in boundary edges where few are near each other.
+/// Remaining triangles whose boundary edges cross, or touch, boundary edges of triangles elsewhere; ascending. Exact. n
+/// log n in boundary edges, if few are near each other.
 std::vector<std::int32_t> crossing_triangles(const Eroded& eroded);
 
 }  // namespace carreau::variable

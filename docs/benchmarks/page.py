@@ -78,7 +78,7 @@ def elements(rows):
 
 
 def command(rows, record):
-    """Wall clock says something on a quiet machine only, Q2 of triangles that are to be equilateral only."""
+    """Wall clock is meaningful on a quiet machine only, Q2 of triangles that are to be equilateral only."""
     head = ["input", "triangles", "between reading and writing", "Q2 mean", "worst"]
     out = []
     for row in rows:

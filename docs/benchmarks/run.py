@@ -51,7 +51,7 @@ def place(build):
 
 
 def compared(script, *arguments):
-    """Rows of a script of tests/bench that writes them as JSON; its status says whether all aims are reached, which is no concern here."""
+    """Rows of a script of tests/bench that writes them as JSON; its status, whether all aims are reached, is ignored."""
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
         done = subprocess.run(["/usr/bin/python3", os.path.join(BENCH, script), *arguments, "--json", file.name], capture_output=True, text=True, check=False)
         rows = file.read()

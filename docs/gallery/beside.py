@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""beside.py NAME MESH FIGURE...: the triangles of meshes beside those that a paper prints."""
+"""beside.py NAME MESH FIGURE...: numbers of triangles of meshes beside the numbers that a paper prints."""
 import subprocess, sys, json
 print(f"{'':34}{'paper':>8}{'ours':>8}")
 for name, mesh, figure in zip(*[iter(sys.argv[1:])] * 3):

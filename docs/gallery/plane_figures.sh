@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# plane_figures.sh FOLDER: draws figures of plane domains there, each like the one of HDR or RR-2818 that stands above its commands. The
+# plane_figures.sh FOLDER: draws figures of plane domains there, each like the figure of HDR or RR-2818 named above its commands. The
 # program carreau is in PATH.
 set -eu
 mkdir -p "$1"

@@ -4,7 +4,7 @@
 set -e
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 F=$(pkg-config --variable=fortrandir carreau)
-example() {  # FOLDER SOURCE...: the program blsurf of an example, in a folder of its own
+example() {  # FOLDER SOURCE...: the program blsurf of an example, in a separate folder
   mkdir -p runs/$1 && cp "$root"/fortran_examples/$1/*.env "$root"/fortran_examples/$1/*.pardom "$root"/fortran_examples/teapot/teapot.bpt runs/$1
   gfortran -J runs/$1 $2 "$root"/fortran_examples/$1/cad_m.f90 $F/carreau_c.f90 $F/carreau.f90 $F/blsurf_m.f90 $F/blsurf.f90 $(pkg-config --libs carreau) -o runs/$1/blsurf
 }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The declarations of a header of the C interface, in order, each with its comment.
 
-The headers follow one style: `/* ---- X ---- */` begins a section; a comment is about all declarations that follow it without
-an empty line or another comment between; a comment that nothing follows is about its section.
+The headers follow one style: `/* ---- X ---- */` begins a section. A comment is about all declarations that follow it without
+an empty line or another comment between. If nothing follows a comment, it is about its section.
 """
 import re
 from dataclasses import dataclass, field
@@ -32,8 +32,8 @@ class Member:
 
 @dataclass
 class Entity:
-    """kind: function, struct, opaque, callback, enum, macro, statuses, plain. text: the lines of its comment; before: those of the
-    comments above in the same block, which hold for it too; first: the first entity of the same comment."""
+    """kind: function, struct, opaque, callback, enum, macro, statuses, plain. text: the lines of its comment. before: lines of comments
+    above in the same block, which hold for it too. first: the first entity of the same comment."""
     kind: str
     name: str
     declaration: str
@@ -204,7 +204,7 @@ class Source:
 
 
 def has_description(lines):
-    """Something is said, besides the errors."""
+    """True if the comment has text besides the errors."""
     return bool(ERRORS.split(" ".join(lines))[0].strip())
 
 

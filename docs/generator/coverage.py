@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""coverage.py [--xml FOLDER]: the share of public names that are documented. A name is when it has a description; when it states its errors where it
-returns a status (in its comment, in one above it, or by the rule of its section); and, if it is called, when a program that tests run shows a
-call. Prints a line for each interface and one for each name that falls short, and fails when there is one.
+"""coverage.py [--xml FOLDER]: computes the share of public names that are documented. A documented name has a description. If it returns a status, it
+states its errors (in its comment, in a comment above it, or by the rule of its section). If it can be called, a program that tests run calls it.
+Prints a line for each interface and for each name without complete documentation, and fails if there is such a name.
 
-FOLDER: where Doxygen writes what it reads of the C++ header."""
+FOLDER: Doxygen writes its XML of the C++ header there."""
 import os
 import sys
 import tempfile

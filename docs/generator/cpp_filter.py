@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""cpp_filter.py HEADER: the header as Doxygen is to read it. A function of the C++ interface without a comment of its own does what a function
-of the C interface does, which it calls: it gets a comment that refers there."""
+"""cpp_filter.py HEADER: prints the header for Doxygen. A function of the C++ interface without a comment does the work of the function of the
+C interface that it calls. It gets a comment that refers there."""
 import re
 import sys
 

@@ -40,7 +40,7 @@ def doxygen(headers, folder):
 
 
 def said(element):
-    """Whether a description has words."""
+    """True if a description has words."""
     return any("".join(element.find(part).itertext()).strip() for part in ("briefdescription", "detaileddescription") if element.find(part) is not None)
 
 

@@ -19,7 +19,7 @@ class FortranPages:
         self.calls, self.listings = calls, listings
 
     def shared(self, entity):
-        """The comment of C. Its indices count from 0, as the rule of the module tells."""
+        """The comment of C. Its indices count from 0, by the rule of the module."""
         twin = self.c.get(entity.name)
         return self.names.block(twin.text) if twin else []
 
@@ -59,7 +59,7 @@ class FortranPages:
         return [f".. f:constant:: {entity.name} = {entity.signature}", "", *indented(body), ""]
 
     def constants(self, entities):
-        """Those of one enumeration of C together, below what is said of it."""
+        """Constants of one enumeration of C together, below its comment."""
         lines, last = [], None
         for entity in entities:
             group = self.members.get(entity.name, (None, None))[1]

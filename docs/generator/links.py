@@ -9,7 +9,7 @@ IMAGES = (".png", ".svg")
 
 
 class Places:
-    """root: of the repository. headers, modules: paths of what has pages of its own. listings: filled with the files that pages link to."""
+    """root: of the repository. headers, modules: paths of headers and modules with separate pages. listings: filled with the files that pages link to."""
 
     def __init__(self, root, headers, modules):
         self.root, self.listings = root, set()

@@ -72,7 +72,7 @@ def listed(body):
 
 
 def defined(body, names=None):
-    """Public functions and classes of a module; those of `names` where given."""
+    """Public functions and classes of a module, limited to `names` if given."""
     return [node for node in body.body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and is_public(node.name) and (names is None or node.name in names)]
 
 

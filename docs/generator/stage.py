@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""stage.py FOLDER: writes there what Sphinx makes pages of: the pages of docs/, README and its like, READMEs of rooms, manual pages, the
-reference of each interface from its sources, listings of the programs that pages name."""
+"""stage.py FOLDER: writes the input of Sphinx there: the pages of docs/, README and similar files, READMEs of folders, and manual pages.
+Also writes the reference of each interface from its sources, and listings of the programs that pages name."""
 import os
 import shutil
 import subprocess
@@ -42,7 +42,7 @@ class Stage:
             self.write(f"{folder}/{page}.rst", "\n".join(lines) + "\n")
 
     def markdown(self):
-        """All pages of Markdown and the pictures beside those of docs/."""
+        """All pages of Markdown, and the pictures beside the pages of docs/."""
         for folder, folders, names in os.walk(ROOT):
             folders[:] = sorted(name for name in folders if name not in SKIPPED and not name.startswith(("build-", ".")) and
                                 not os.path.exists(os.path.join(folder, name, "CMakeCache.txt")))  # a build, whatever its name
@@ -96,7 +96,7 @@ class Stage:
         self.write(f"{folder}/index.rst", "\n".join(lines) + "\n")
 
     def rooms(self):
-        """The READMEs of folders, for those who read the code."""
+        """The READMEs of folders, for readers of the code."""
         pages = sorted(os.path.relpath(os.path.join(folder, name), os.path.join(self.folder, "code"))
                        for folder, _, names in os.walk(os.path.join(self.folder, "code")) for name in names)
         lines = heading("The code, folder by folder") + [".. toctree::", "   :maxdepth: 1", "", "   ../contributing"]

@@ -45,7 +45,7 @@ class Names:
 
     @staticmethod
     def _glued(new, parts):
-        """Markup needs a space or some punctuation on both sides: `\\ ` is none in the page."""
+        """Markup needs a space or some punctuation on both sides: `\\ ` disappears in the page."""
         last = next((part for part in reversed(parts) if part), "")
         after_markup = last.endswith("`") and new and not re.match(r"[\s'\")\]}>\-/\\:.,;!?]", new)
         before_markup = re.match(r"[`:]\w*", new) and new.endswith("`") and last and not re.search(r"[\s'\"(\[{<\-/:]$", last)

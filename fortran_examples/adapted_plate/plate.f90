@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Adaptation in Fortran, without callbacks: a plate with a hole whose "solver" gives a front along a circle. Each round takes values at the
-!> vertices, gets metrics for them, makes the next mesh, and carries the values over, as a solver that restarts would want.
+!> Adaptation in Fortran, without callbacks: a plate with a hole whose "solver" gives a front along a circle. Each round takes values
+!> at the vertices, gets metrics for them, makes the next mesh, and carries the values over for a restart of the solver.
 program plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -58,7 +58,7 @@ program plate
     print '(i5, i10, 2es12.2)', i, size(values), error, maxval(abs(carried(1, :) - values))
   end do
   call claim(size(values) < 1200, "the last mesh is no finer than the first")
-  call claim(error < first_error/5, "its error is a fifth of that of the first, or less")
+  call claim(error < first_error/5, "its error is at most a fifth of the error of the first")
   call claim(maxval(abs(carried(1, :) - values)) < 0.2_c_double, "the field arrives on the next mesh")
   call carreau_session_free(session)
 

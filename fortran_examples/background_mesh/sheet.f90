@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Sizes from background meshes, in Fortran and without callbacks. A sheet z = (x^2 + y^2)/2 over [-1, 1]^2, one patch of
-!> Bezier, is meshed three times: by sizes at the vertices of tetrahedra around it, as a solver of volumes has them; by
-!> metrics at the vertices of triangles; and by sizes at the vertices of edges along its border alone.
+!> Bezier, is meshed three times. Sizes are given at the vertices of tetrahedra around it, as a solver of volumes has them.
+!> Then metrics are given at the vertices of triangles, and sizes at the vertices of edges along its border alone.
 program sheet
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -32,16 +32,16 @@ program sheet
   call make("tetrahedra")
   call carreau_session_background(session, report, status)
   call claim(report%asked > 0 .and. report%outside == 0, "all points lie in the tetrahedra")
-  call claim(abs(mean_ratio() - 1) < 0.05_c_double, "edges are as long as the tetrahedra say")
+  call claim(abs(mean_ratio() - 1) < 0.05_c_double, "edges are as long as the sizes of the tetrahedra")
 
-  ! Triangles: the mesh just made, with metrics that want edges of .03 across and .15 along x. The order is xx xy xz yy yz zz.
+  ! Triangles: the mesh just made, with metrics for edges of .03 across and .15 along x. The order is xx xy xz yy yz zz.
   allocate (metrics(6, size(xyz, 2)))
   metrics = spread([1/0.15_c_double**2, 0._c_double, 0._c_double, 1/0.03_c_double**2, 0._c_double, 1/0.03_c_double**2], 2, &
     size(xyz, 2))
   call carreau_set_background(session, xyz, triangles, status, metrics=metrics)
   call stop_unless_fine
   call make("triangles")
-  call claim(abs(size(triangles, 2)/expected_by_metric() - 1) < 0.08_c_double, "triangles are as many as the metric asks for")
+  call claim(abs(size(triangles, 2)/expected_by_metric() - 1) < 0.08_c_double, "the metric determines the number of triangles")
 
   ! Edges along the border, sizes from .02 at the first corner to .2 at the third one: inside faces they are interpolated.
   n = 40
@@ -52,7 +52,7 @@ program sheet
   call stop_unless_fine
   call make("edges")
   ! Along y = -1 the size grows by .045 a unit of x, and the curve is z = (x^2 + 1)/2.
-  call claim(abs(on_first_side() - expected_on_side()) < 1, "the first side has as many edges as its sizes ask for")
+  call claim(abs(on_first_side() - expected_on_side()) < 1, "the sizes determine the number of edges of the first side")
   call carreau_session_free(session)
 
 contains
@@ -144,7 +144,7 @@ contains
     end do
   end function mean_ratio
 
-  !> The surface's area in the metric over that of a unit triangle, by the middles of 200 x 200 squares of (x, y).
+  !> The surface's area in the metric over the area of a unit triangle, by the middles of 200 x 200 squares of (x, y).
   real(c_double) function expected_by_metric()
     integer, parameter :: m = 200
     integer :: i, j

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cartesian surfaces (HDR sec. 4.8): the graph of z = f(x, y) over a plane domain, which is meshed so that the
- * triangles carry f. f = tanh((sin x - y) / 0.03) over the disc of radius 3 (HDR eq. 4.95), by four estimates of the
- * error: the largest curvature, both curvatures, the relative and the absolute error by the Hessian (HDR fig. 4.35
- * and 4.36), five iterations each. The mesh is one of the plane; the error is measured against f between the vertices.
+ * triangles carry f. Here f = tanh((sin x - y) / 0.03) over the disc of radius 3 (HDR eq. 4.95). The four estimates of
+ * the error are the largest curvature, both curvatures, the relative and the absolute error by the Hessian (HDR
+ * fig. 4.35 and 4.36), with five iterations each. The mesh lies in the plane; the error is measured against f between
+ * the vertices.
  */
 #include <carreau.h>
 #include <inttypes.h>
@@ -62,7 +63,7 @@ static int32_t field(int64_t n, const double* xyz, double* values, void* user) {
   return 0;
 }
 
-/* ---- What is known of the meshes ---- */
+/* ---- Checks of the meshes ---- */
 
 static int wrong = 0;
 static void claim(int holds, const char* sentence) {
@@ -169,9 +170,9 @@ static void adapt(carreau_session* session, const struct variant* v, const char*
   claim(carreau_mesh_defects(mesh, 0, 10, &defects, &text) == CARREAU_OK && defects == 0, "the mesh is sound");
   const struct measure even = uniform(session, (double)m.triangles);
   print("  uniform", even);
-  printf("  figure: %.0f triangles; error of the uniform mesh / that of this one: %.1f of z, %.1f of the distance\n",
+  printf("  figure: %.0f triangles; error of the uniform mesh / error of this mesh: %.1f of z, %.1f of the distance\n",
          v->paper, even.error_rms / m.error_rms, even.away_rms / m.away_rms);
-  claim(fabs((double)m.triangles / v->paper - 1) <= 0.15, "the number of triangles is that of the figure within 15 %");
+  claim(fabs((double)m.triangles / v->paper - 1) <= 0.15, "the number of triangles agrees with the figure within 15 %");
   claim((v->by_distance ? even.away_rms / m.away_rms : even.error_rms / m.error_rms) >= v->gain,
         "the error is that many times smaller than on a uniform mesh");
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Meshes of a square that are fine along a Lissajous curve (HDR sec. 1.1.2, fig. 1.9 and 1.10). The size at P is 0.3
- * times the distance of P from the curve, in all directions; or so across the curve and four times as large along it;
- * bounded in both cases. Sizes and metrics come from callbacks. The program measures lengths of edges in the metric,
- * and the numbers of triangles against what the fields ask for. */
+ * times the distance of P from the curve, in all directions. The metric has this size across the curve and four times
+ * as much along it. Both are bounded. Sizes and metrics come from callbacks. The program measures lengths of edges in the
+ * metric, and compares the numbers of triangles with the fields. */
 #include <carreau.h>
 #include <inttypes.h>
 #include <math.h>
@@ -47,7 +47,7 @@ static int32_t metric(int32_t face, double u, double v, int32_t* kind, double* v
   return 0;
 }
 
-/* ---- What is known of the meshes ---- */
+/* ---- Checks of the meshes ---- */
 
 static int wrong = 0;
 static void claim(int holds, const char* sentence) {
@@ -120,7 +120,7 @@ static int64_t mesh(carreau_session* session, struct field* field, const char* p
          " triangles, %.0f of unit edges; lengths in the metric: mean %.4f, %.2f %% within [0.71, 1.41]; "
          "quality in the metric: mean %.4f\n",
          m, wanted, mean, 100 * within, quality);
-  claim(fabs((double)m / wanted - 1) <= 0.15, "the mesh has as many triangles as the field asks for, within 15 %");
+  claim(fabs((double)m / wanted - 1) <= 0.15, "the number of triangles agrees with the field within 15 %");
   claim(within >= 0.97, "97 % of the lengths are within [0.71, 1.41]");
   claim(quality >= 0.93, "the mean quality in the metric is at least 0.93");
   return m;

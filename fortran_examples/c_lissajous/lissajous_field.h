@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* The figure does not say which curve: this one has as many triangles in its isotropic mesh, with hmin chosen so. */
+/* The figure does not name the curve: this one has as many triangles in its isotropic mesh, with hmin chosen so. */
 static const double two_pi = 6.283185307179586, side_length = 2.4, hmin = 0.0104, hmax = 0.12;
 
 /* ---- The curve x = sin 2t, y = sin 3t, and the fields around it ---- */

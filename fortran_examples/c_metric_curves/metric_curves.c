@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Curves in metrics that vary along them, as in section 6 of RR-2818: a segment with five sizes (its figures 20 to 23),
- * one with five metrics (24 to 27) and a closed curve of the plane with nine (like its figures 28 to 32, whose data the report does
- * not give), each with the three laws of interpolation; then a helix of space. Every curve is cut into edges of equal
- * length in the metric. The program measures each edge again, by a rule of its own, and fails when one is off by 2 %.
- * metric_curves <folder>: a picture (SVG) of each plane curve there, with its cuts and unit circles of the metric; of the
- * sizes, h(s) over squares that stand on the edges. */
+/* Curves in metrics that vary along them, as in section 6 of RR-2818: a segment with five sizes (its figures 20 to 23), a
+ * segment with five metrics (24 to 27) and a closed curve of the plane with nine. The latter is like its figures 28 to
+ * 32, whose data the report does not give. Each has the three laws of interpolation. A helix of space follows. Every
+ * curve is cut into edges of equal length in the metric. The program measures each edge again, by a separate rule, and
+ * fails when an edge is off by 2 %.
+ * metric_curves <folder>: writes a picture (SVG) of each plane curve there, with its cuts and unit circles of the metric;
+ * for the sizes, h(s) over squares that stand on the edges. */
 #include <carreau.h>
 #include <inttypes.h>
 #include <math.h>
@@ -59,7 +60,7 @@ static void set_closed_curve(struct plane_curve* curve) {
   }
 }
 
-/* ---- What is checked, without the library ---- */
+/* ---- Checks without the library ---- */
 
 static double size_between(double h, double t, int law) {
   if (law == 0) return 1 + t * (h - 1);
@@ -67,8 +68,8 @@ static double size_between(double h, double t, int law) {
   return (1 + h) / 2 + (1 - h) / 2 * cos(pi * t);
 }
 
-/* Squared length of x in the metric at fraction t between p and q (RR-2818 sec. 4.3.2), by Cholesky's factor L of p:
- * in coordinates y = L^T x the first metric is the identity and the axes of the second are those of both. */
+/* Squared length of x in the metric at fraction t between p and q (RR-2818 sec. 4.3.2), by Cholesky's factor L of p.
+ * In coordinates y = L^T x the first metric is the identity, and both metrics have the axes of the second. */
 static double squared_length(const double* p, const double* q, double t, int law, const double* x) {
   const double l11 = sqrt(p[0]), l21 = p[1] / l11, l22 = sqrt(p[2] - l21 * l21);
   const double y1 = l11 * x[0] + l21 * x[1], y2 = l22 * x[1];
@@ -252,8 +253,8 @@ static int run_plane_curve(carreau_session* session, const struct plane_curve* c
   return wrong;
 }
 
-/* A helix of radius 1 and slope 1/2. One metric holds everywhere: size 0.1 along z, 0.4 across; an edge of it has the
- * same length in closed form, sqrt((1 / 0.4)^2 + (0.5 / 0.1)^2) / sqrt(1.25) for each unit of usual length. */
+/* A helix of radius 1 and slope 1/2. One metric holds everywhere: size 0.1 along z, 0.4 across. The length of an edge
+ * has a closed form: sqrt((1 / 0.4)^2 + (0.5 / 0.1)^2) / sqrt(1.25) for each unit of usual length. */
 static int run_helix(carreau_session* session) {
   enum { points = 2001 };
   const double a = 1 / (0.4 * 0.4), c = 1 / (0.1 * 0.1), metrics[2][6] = {{a, 0, 0, a, 0, c}, {a, 0, 0, a, 0, c}};
@@ -293,7 +294,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 3; ++i)
     for (int law = 0; law < 3; ++law) wrong |= run_plane_curve(session, &curves[i], law, argc > 1 ? argv[1] : NULL);
   wrong |= run_helix(session);
-  if (wrong) fprintf(stderr, "an edge or a length is not what it should be\n");
+  if (wrong) fprintf(stderr, "an edge or a length is wrong\n");
   carreau_session_free(session);
   return wrong;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Adaptation around the profile NACA 0012 (RR-2818 sec. 6.4): three iterations, metrics by the Hessian. The field
  * stands in for the flow at Mach 0.8 and 1.25 degrees: a strong shock above the profile, a weak one below, stagnation
- * at the leading edge. The first mesh is that of the geometry alone, graded. The program prints the table of the
+ * at the leading edge. The first mesh follows the geometry alone, graded. The program prints the table of the
  * report: points of the boundary, points, largest stretching; and the error of the field. */
 #include <carreau.h>
 #include <inttypes.h>
@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
     }
   }
   claim(fabs((double)n / 2223 - 1) <= 0.15, "as many points as in RR-2818 within 15 %");
-  claim(report.stretch_max >= 8.5, "the largest stretching is that of RR-2818 or more");
+  claim(report.stretch_max >= 8.5, "the largest stretching is at least that in RR-2818");
   claim(report.error_rms <= error / 5, "the error is a fifth of that before, or less");
   carreau_session_free(session);
   return wrong;

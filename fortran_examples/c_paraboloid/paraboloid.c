@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Paraboloid z = (u^2 + v^2) / 2 over a square (RT-0232 sec. 6.1) by the C interface: geometry, model and mesh stay in
- * memory, no file is touched. All sizes are the defaults. The program checks the mesh itself, and fails if it is wrong.
+/* Paraboloid z = (u^2 + v^2) / 2 over a square (RT-0232 sec. 6.1) by the C interface. Geometry, model and mesh stay in
+ * memory, without files. All sizes are the defaults. The program checks the mesh itself, and fails if it is wrong.
  */
 #include <carreau.h>
 #include <inttypes.h>
@@ -58,7 +58,7 @@ static carreau_status mesh_paraboloid(carreau_session* session) {
   return status == CARREAU_OK ? carreau_mesh_generate(session) : status;
 }
 
-/* ---- What is known of the mesh ---- */
+/* ---- Checks of the mesh ---- */
 
 static int wrong = 0;
 static void claim(int holds, const char* sentence) {
@@ -104,7 +104,7 @@ static void check(carreau_mesh* mesh, const carreau_quality* q) {
   claim(q->open_edges == 216, "the border has 216 edges");
   claim(fabs((double)m / 4980 - 1) <= 0.06, "there are 4980 triangles, within 6 %");
   claim(n - q->edges + m == 1, "Euler's number of a disc is 1");
-  claim(fabs(q->area / 54.8209336 - 1) <= 5e-4, "the area is that of the paraboloid, 54.8209, within 0.05 %");
+  claim(fabs(q->area / 54.8209336 - 1) <= 5e-4, "the area of the paraboloid is 54.8209, within 0.05 %");
   claim(q->q2_mean >= 0.989 && q->q2_p1 >= 0.92 && q->q2_min >= 0.6, "triangles have good shapes");
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A loop by sizes at vertices (HDR sec. 1.2, fig. 1.11), without callbacks: the square of fig. 1.9 from arrays, and for
- * each mesh after the first the sizes of that figure at the vertices of the mesh before; then the same with the metrics
- * of fig. 1.10. The third mesh confirms the second one. */
+/* A loop by sizes at vertices (HDR sec. 1.2, fig. 1.11), without callbacks. The square of fig. 1.9 comes from arrays.
+ * Each mesh after the first follows the sizes of that figure at the vertices of the previous mesh. A second loop does
+ * this with the metrics of fig. 1.10. The third mesh confirms the second one. */
 #include <carreau_geometry.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -29,7 +29,7 @@ static carreau_status give_square(carreau_session* session) {
   return carreau_add_plane_domain(session, &square);
 }
 
-/* Prescribes what the field wants at the vertices of the session's mesh. */
+/* Prescribes the metrics of the field at the vertices of the session's mesh. */
 static carreau_status prescribe(carreau_session* session, carreau_mesh* mesh, const struct field* field) {
   int64_t n = 0;
   carreau_status status = carreau_mesh_count(mesh, &n, NULL, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The loop around the profile NACA 0012 (RR-2818 sec. 6.4) on a plane domain from arrays: the contour is read from the
- * file that is named, two splines of Catmull and Rom between its leading edge and both ends of its blunt trailing edge;
- * the far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the
+/* The loop around the profile NACA 0012 (RR-2818 sec. 6.4) on a plane domain from arrays. The contour is read from the
+ * file that is named: two splines of Catmull and Rom between its leading edge and both ends of its blunt trailing edge.
+ * The far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the
  * table of the report. */
 #include <carreau_geometry.h>
 #include <inttypes.h>
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
     if (argc > 2) claim(carreau_mesh_write(mesh, path) == CARREAU_OK, "the mesh can be written");
   }
   claim(fabs((double)n / 2223 - 1) <= 0.15, "as many points as in RR-2818 within 15 %");
-  claim(report.stretch_max >= 8.5, "the largest stretching is that of RR-2818 or more");
+  claim(report.stretch_max >= 8.5, "the largest stretching is at least that in RR-2818");
   claim(report.error_rms <= error / 5, "the error is a fifth of that before, or less");
   carreau_session_free(session);
   return wrong;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Torus of radii 2 and 0.7 by the C interface, from memory only: one face whose sides are sewn to each other by two
- * seams, one vertex where they cross. The mesh is closed. The program checks it from the arrays, and fails if it is
- * wrong; a second mesh, of half the size, shows that the error of the area is of second order. */
+/* Torus of radii 2 and 0.7 by the C interface, from memory only. Two seams join the sides of one face, and cross in one
+ * vertex. The mesh is closed. The program checks it from the arrays, and fails if it is wrong. A second mesh, of half the
+ * size, shows that the error of the area is of second order. */
 #include <carreau.h>
 #include <inttypes.h>
 #include <math.h>
@@ -63,7 +63,7 @@ static carreau_status describe(carreau_session* session, struct torus* torus) {
   return status;
 }
 
-/* ---- What is known of the mesh ---- */
+/* ---- Checks of the mesh ---- */
 
 static int wrong = 0;
 static void claim(int holds, const char* sentence) {
@@ -75,8 +75,8 @@ static int compare(const void* a, const void* b) {
   return (x > y) - (x < y);
 }
 
-/* Each side of a triangle as one number; on a closed surface whose triangles are all turned alike, each is there once,
- * and once more the other way round. Then the number of edges is half of that of sides. */
+/* Checks each side of a triangle as one number. On a closed surface whose triangles are all turned alike, each occurs
+ * once, and once more the other way round. Then the number of edges is half the number of sides. */
 static void check_sides(int64_t n, int64_t m, const int32_t* triangles) {
   int64_t* sides = malloc((size_t)m * 3 * sizeof *sides);
   int once = 1, paired = 1;
@@ -128,7 +128,7 @@ static double mesh_torus(carreau_session* session, const struct torus* torus, do
   printf("shape quality Q2: mean %.4f, first percentile %.3f, worst %.3f\n", q.q2_mean, q.q2_p1, q.q2_min);
   claim(farthest <= 1e-14 * R, "every vertex is on the torus");
   claim(q.q2_mean >= 0.985 && q.q2_p1 >= 0.9 && q.q2_min >= 0.6, "triangles have good shapes");
-  claim(fabs(error) <= h * h / (4 * r * r), "the area is that of the torus within h^2 / 4 r^2");
+  claim(fabs(error) <= h * h / (4 * r * r), "the area agrees with the torus within h^2 / 4 r^2");
   return error;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A front across a square by the C++ interface: the mesh is adapted to a field that is known by values, by direction, and the field's
-// error of interpolation is compared with that of the mesh at the start. The domain is given by arrays, without callbacks.
+// A front across a square by the C++ interface. The mesh is adapted to a field that is known by values, by direction. The field's
+// error of interpolation is compared with its error on the first mesh. The domain is given by arrays, without callbacks.
 #include <carreau.hpp>
 
 #include <cmath>

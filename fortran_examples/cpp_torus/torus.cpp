@@ -70,7 +70,7 @@ int run() {
 int main() {
   try {
     return run();
-  } catch (const carreau::Error& error) { // the sentence tells face, curve and parameters; error.place() has them as numbers
+  } catch (const carreau::Error& error) { // the sentence names face, curve and parameters; error.place() has them as numbers
     std::cerr << error.status_name() << ": " << error.what() << '\n';
     return 1;
   }

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The Brazilian test of HDR sec. 3.4.6: a disc of 50 mm is pressed between two planes, the upper one moving .1 mm an
-!! increment, sizes from 1 to 6 mm. Usage: forming_brazilian [displacement of the tool in mm [name of the files]]
+!> The Brazilian test of HDR sec. 3.4.6: two planes press a disc of 50 mm. The upper plane moves .1 mm an increment.
+!! Sizes are from 1 to 6 mm. Usage: forming_brazilian [displacement of the tool in mm [name of the files]]
 program brazilian
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -79,7 +79,7 @@ program brazilian
     "the disc lies between the tools")
   call claim(worst > 0.1_dp, "triangles have a shape")
   call claim(told%bound_vertices >= 2, "the tools touch it")
-  call claim(sum(disc%mass) < 1.02_dp*area .and. sum(disc%mass) > 0.85_dp*area, "the volume is nearly that of the disc")
+  call claim(sum(disc%mass) < 1.02_dp*area .and. sum(disc%mass) > 0.85_dp*area, "the volume of the disc is nearly kept")
   call carreau_mesh_free(mesh)
 
 contains

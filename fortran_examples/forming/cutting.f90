@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Orthogonal cutting of HDR sec. 3.4.6: a tool of rake 5 degrees and edge radius .2 mm takes 2 mm off a block, sizes from
-!! .1 to 10 mm. Usage: forming_cutting [displacement of the tool in mm [name of the files]]
+!> Orthogonal cutting of HDR sec. 3.4.6: a tool of rake 5 degrees and edge radius .2 mm takes 2 mm off a block. Sizes are
+!! from .1 to 10 mm. Usage: forming_cutting [displacement of the tool in mm [name of the files]]
 program cutting
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit

@@ -85,8 +85,8 @@ contains
     end do
   end function least_altitude
 
-  !> Until the tools have moved for `left`, or an element has lost its strength or most of its height: then a new mesh is
-  !! needed. `left` is what is left of the time.
+  !> Runs until the tools have moved for `left`, or an element has lost its strength or most of its height: then a new mesh
+  !! is needed. `left` returns the remaining time.
   subroutine run_increment(b, of, tools, left, least)
     type(body), intent(inout) :: b
     type(material), intent(in) :: of
@@ -148,8 +148,8 @@ contains
     end do
   end subroutine advance
 
-  !> Means at nodes, by area, and from there in elements. It is its own adjoint: what it does to changes of volume must
-  !! be done to pressures.
+  !> Takes means at nodes, by area, and from there in elements. It is its own adjoint, and must be applied both to changes
+  !! of volume and to pressures.
   subroutine average(b, area, values)
     type(body), intent(in) :: b
     real(dp), intent(in) :: area(:)

@@ -45,7 +45,7 @@ contains
     end if
   end subroutine depth_in
 
-  !> The tools as carreau_remesh wants them: polylines with the solid on their left, and radii.
+  !> The tools in the form of carreau_remesh: polylines with the solid on their left, and radii.
   subroutine put_tools(tools, starts, points, radii)
     type(wedge), intent(in) :: tools(:)
     integer(c_int64_t), allocatable, intent(out) :: starts(:)

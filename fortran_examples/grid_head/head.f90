@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A head scanned on a cylinder, as HDR sec. 4.4.3 and 4.7.1 have Voltaire's: 180 angles, 144 heights, noise of half a
-!> percent, smoothed by Taubin's filter without shrinking. Meshed uniformly with two sizes, and by its curvature:
+!> percent. Taubin's filter smooths it without shrinking. Meshed uniformly with two sizes, and by its curvature:
 !> isotropic, the same graded, and by direction.
 program head
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A cylinder of radius 1 and height 3 under a metric: edges of length 0.3 along helices, of 0.03 across them. The metric
 !> comes from a callback, as two sizes and a direction in the tangent plane. The program checks the mesh itself: on the
-!> unrolled cylinder lengths in the metric are those of a plane.
+!> unrolled cylinder lengths in the metric are lengths in a plane.
 module helix_m
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
   use carreau
@@ -145,7 +145,7 @@ contains
     print '(a, f7.4)', "shape quality in space, which the metric forbids to be good: mean", quality%q2_mean
     ! Triangles of unit edges have the area sqrt(3) / 4 in the metric.
     expected = 2*pi*height/(along*across*sqrt(3._c_double)/4)
-    call claim(abs(sides/3 - expected) <= 0.05*expected, "the triangles are as many as the metric says, within 5 %")
+    call claim(abs(sides/3 - expected) <= 0.05*expected, "the metric determines the number of triangles within 5 %")
     call claim(abs(total/sides - 1) <= 0.02, "the mean length in the metric is 1 within 2 %")
     call claim(in_range >= 0.97*sides, "97 % of the lengths are between 1/sqrt(2) and sqrt(2)")
     call claim(quality%q2_mean < 0.5, "triangles are stretched")

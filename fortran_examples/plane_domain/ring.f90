@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A plane domain from arrays, without any callback: the square [-3, 3] x [-2, 2] with two circles of radius 1, splines
-!> through 32 points. The left disc is a hole; the right one is a subdomain of reference 7, with sizes of its own.
+!> through 32 points. The left disc is a hole; the right one is a subdomain of reference 7, with other sizes.
 program ring
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -49,7 +49,7 @@ program ring
   print '(i0, a, i0, a, f8.5, a, f7.4)', quality%triangles, " triangles, ", count(refs == 7), " of them in the right disc; area ", &
     quality%area, ", mean Q2 ", quality%q2_mean
   expected = 24 - pi ! a polygon in each circle: edges of .05 and .2 leave .04 % and .6 % of its area out
-  call claim(abs(quality%area - expected) <= 0.02*pi, "the area is that of the square without one disc")
+  call claim(abs(quality%area - expected) <= 0.02*pi, "the area agrees with the square without one disc")
   call claim(all(refs == 3 .or. refs == 7), "triangles have the references of the subdomains")
   call claim(abs(count(refs == 7)*sqrt(3._c_double)/4*0.05_c_double**2 - pi) <= 0.15*pi, &
     "triangles of size .05 fill the right disc")
@@ -78,7 +78,7 @@ contains
     call carreau_model_clear(session, status)
     call carreau_add_plane_domain(session, points, curves, status, rest=CARREAU_REST_OUTSIDE, &
       sides=reshape([integer(c_int32_t) :: 1, -1, 3], [3, 1]))
-    call claim(status == CARREAU_ERR_MODEL, "the outer side of a square is refused")
-    call claim(index(carreau_last_error(session), "it would be unbounded") > 0, "the sentence says why")
+    call claim(status == CARREAU_ERR_MODEL, "the outer side of a square is rejected")
+    call claim(index(carreau_last_error(session), "it would be unbounded") > 0, "the sentence gives the reason")
   end subroutine expect_refusal
 end program ring

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Surface of revolution (RT-0232 sec. 2.1 example 3), second parametrisation: u = t cos(phi), v = t sin(phi) in a quarter of a disc,
-!> X(t) = t (2 - t), Y(t) = t^2. No side is degenerate.
+!> Surface of revolution (RT-0232 sec. 2.1 example 3), second parametrisation: u = t cos(phi), v = t sin(phi) in a quarter of a disc.
+!> Here X(t) = t (2 - t), Y(t) = t^2. No side is degenerate.
 module cad_m
   implicit none
   double precision, parameter :: pi = 3.141592653589793d0

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Cap of the unit sphere by orthogonal projection (RT-0232 sec. 2.1 example 2): a disc of radius 0.95, since the derivatives are
-!> infinite on the equator and the surface is not defined beyond.
+!> Cap of the unit sphere by orthogonal projection (RT-0232 sec. 2.1 example 2): a disc of radius 0.95. The derivatives are
+!> infinite on the equator, and the surface is not defined beyond.
 module cad_m
   implicit none
   double precision, parameter :: pi = 3.141592653589793d0

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Unit sphere by stereographic projection (RT-0232 sec. 2.1 example 2): its lower half (face 1) from the North Pole, its upper half
-!> (face 2) from the South Pole, turned so that both normals point outwards, each a disc of radius 2; the equator is glued.
+!> (face 2) from the South Pole. Both are discs of radius 2, turned so that both normals point outwards. The equator is glued.
 module cad_m
   implicit none
   double precision, parameter :: pi = 3.141592653589793d0

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Four patches of the front of the Utah teapot, references 1, 4 (rim), 5 and 8 (body), with the lines u = 0.3 and u = 0.8
-!> imposed inside the rim, and the borders of the body patches moved to where the spout enters (RT-0232 sec. 6.2, fig. 18 to
-!> 23). The sizes of figures 21 to 23 are chosen by the environment variable TEAPOT_SIZES: "patch" (a size for each patch) or
-!> "point" (a size at each end of a curve); otherwise no answer.
+!> Four patches of the front of the Utah teapot (RT-0232 sec. 6.2, fig. 18 to 23), references 1, 4 (rim), 5 and 8 (body). The
+!> lines u = 0.3 and u = 0.8 are imposed inside the rim. The borders of the body patches are moved to the line of the spout.
+!> The environment variable TEAPOT_SIZES chooses the sizes of figures 21 to 23: "patch" (a size for each patch) or "point" (a
+!> size at each end of a curve); otherwise no answer.
 module cad_m
   use bezier_m
   use spout_m

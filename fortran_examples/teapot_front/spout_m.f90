@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The line where the spout of the Utah teapot enters the body: the borders of the body patches are moved there, by splines through
-!> points of the intersection (RT-0232 sec. 6.2).
+!> The line where the spout of the Utah teapot enters the body. The borders of the body patches are moved there, by splines
+!> through points of the intersection (RT-0232 sec. 6.2).
 module spout_m
   use bezier_m
   implicit none
@@ -9,7 +9,7 @@ module spout_m
 
   integer, parameter :: n = 16  ! segments of the spline
 
-  !> A cut from the plane y = 0 (t = 0) to the lower border of a body patch (t = 1): a cubic Hermite spline through points of
+  !> A cut from the plane y = 0 (t = 0) to the lower border of a body patch (t = 1). It is a cubic Hermite spline through points of
   !> the intersection with its exact tangents.
   type, public :: cut
     double precision :: point(2, 0:n), tangent(2, 0:n)

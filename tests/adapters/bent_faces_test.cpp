@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces that bend inside are meshed as if they ended there, and stay what they are for everybody else.
+// Faces that bend inside are meshed as if they ended there, and stay single faces in all results.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -66,12 +66,12 @@ TEST_P(Bent, AreaAndVolumeConvergeAtSecondOrder) {
     EXPECT_LT(volume[0], 1e-12);
     return;
   }
-  // Areas of walls and of the faces around their holes err against each other: volumes tell.
+  // Areas of walls and of the faces around their holes err against each other: only volumes show the error.
   const double* error = solid ? volume : area;
   EXPECT_GT(std::log(error[0] / error[1]) / std::log(4), 1.8);
 }
 
-// Curvatures know nothing of a bend: 17 % of the roof's area were lost.
+// Curvatures do not show a bend: 17 % of the roof's area were lost.
 TEST_P(Bent, SizesByAngleAndChordKeepTheBends) {
   const shapes::BentShape& shape = shape_of(GetParam());
   for (const bool by_direction : {false, true}) {
@@ -174,7 +174,7 @@ TEST(BentFaces, CurvesInsideMayLieOnABend) {
   EXPECT_NEAR(marked, 0.4, 1e-9);
 }
 
-// The sides of an offset do not meet on the bend of what it is an offset of.
+// The sides of an offset do not meet on the bend of its base surface.
 TEST(BentFaces, OffsetsOfBentSurfacesAreNotCut) {
   const carreau_occ::BrepHost host(file_of(shapes::torn_roof()));
   EXPECT_EQ(host.bent_faces(), std::vector<int>{1});
@@ -182,7 +182,7 @@ TEST(BentFaces, OffsetsOfBentSurfacesAreNotCut) {
 }
 
 // On the ridge itself each side has its own derivatives.
-TEST(BentFaces, DerivativesOnABendAreThoseOfTheirSide) {
+TEST(BentFaces, DerivativesOnABendMatchTheirSide) {
   const double slope = std::tan(std::acos(-1.0) / 6);
   carreau_occ::Evaluators evaluators;
   evaluators.resize(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces that bend inside: one surface over what a person sees as several faces.
+// Faces that bend inside: one surface that looks like several faces.
 #pragma once
 
 #include <TopoDS_Shape.hxx>

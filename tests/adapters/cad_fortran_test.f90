@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! cad_fortran_test FILE: the module carreau_cad tells of named_faces.step what C tells, and meshes it.
+! cad_fortran_test FILE: the module carreau_cad reads named_faces.step like the C interface, and meshes it.
 program cad_fortran_test
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t
   use carreau

@@ -123,7 +123,7 @@ TEST(CadLibrary, SetsTheToleranceOfSharedEdges) {
   EXPECT_EQ(match, 0.5);
 }
 
-TEST(CadLibrary, TellsWhatAFileHolds) {
+TEST(CadLibrary, ListsTheContentOfAFile) {
   Session session;
   File file;
   EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/named_faces.step").c_str(), nullptr, &file.handle));
@@ -194,7 +194,7 @@ TEST(CadLibrary, ReadsBytes) {
   EXPECT_EQ(carreau_cad_read_bytes(file, bytes.data(), size, nullptr, &options), CARREAU_ERR_ARGUMENT);
 }
 
-// A cube of side 2 on a plate of 4 x 4 x 1: named, then with one face between them, of a size of its own.
+// A cube of side 2 on a plate of 4 x 4 x 1: named, then with one face between them, which has its own size.
 TEST(CadLibrary, NamesAndImprintsParts) {
   File file;
   EXPECT_EQ(carreau_cad_create(&file.handle), CARREAU_OK);
@@ -325,7 +325,7 @@ TEST(CadLibrary, LeavesTheSessionAloneWhenAFileCannotBeRead) {
   EXPECT_EQ(mesh(session, 10).open_edges, 0);
 }
 
-TEST(CadLibrary, StopsWhenAsked) {
+TEST(CadLibrary, StopsOnRequest) {
   Session session;
   auto options = empty<carreau_cad_options>();
   int calls = 0;
@@ -363,7 +363,8 @@ TEST(CadLibrary, FacesHaveSizesOfTheirOwn) {
   EXPECT_GT(mesh(session, content.diagonal / 10).triangles, 2 * coarse.triangles);
 }
 
-// A molecule, a Bezier patch, a face of callbacks and two STEP files: each mesh is what it is alone, bit for bit.
+// A molecule, a Bezier patch, a face of callbacks and two STEP files: each mesh is identical to its mesh in a separate
+// session.
 struct Plate {
   double shift = 0;
 };

@@ -50,7 +50,7 @@ class Broken(unittest.TestCase):
             self.assertIn(sentence, error)
 
     def lost(self, name, text, *sentences, faces=7):
-        """The plate but for some faces, which are told; those left have the area that they have in the whole plate."""
+        """The plate without some faces, which are reported; the others have their area in the whole plate."""
         status, error, summary = self.mesh(name, text)
         self.assertEqual(status, SOME_FACES, error)
         for sentence in sentences:
@@ -128,7 +128,7 @@ class Broken(unittest.TestCase):
             self.assertEqual(status, SOME_FACES)
             self.assertIn(f"#{points[0].group(1)} CARTESIAN_POINT: ", error)
 
-    def test_faces_that_step_loses_are_told(self):
+    def test_faces_that_step_loses_are_reported(self):
         text = content("plate.step")
         face = list(re.finditer(r"#(\d+) = ADVANCED_FACE\('',\((.*?)\),(#\d+),\.[TF]\.\);", text, re.S))[2]
         name = f"#{face.group(1)} ADVANCED_FACE: "
@@ -144,7 +144,7 @@ class Broken(unittest.TestCase):
         info = subprocess.run([PROGRAM, "info", os.path.join(self.folder, "face.step")], capture_output=True, text=True)
         self.assertIn("not read: 1\n  " + name, info.stdout)
 
-    def test_what_is_no_geometry_may_be_wrong(self):
+    def test_faults_outside_of_geometry_lose_no_face(self):
         text = content("plate.step")
         broken = re.sub(r"(#\d+ = PRODUCT_DEFINITION_CONTEXT\()'[^']*'", r"\g<1>$", text)
         self.assertNotEqual(broken, text)
@@ -171,7 +171,7 @@ class Broken(unittest.TestCase):
             status, error, summary = self.mesh("names.step", broken)
             self.assertEqual((status, len(summary["faces"]), summary["mesh"]["area"]), (ALL_FACES, 7, area), error)
             self.assertEqual(len(summary["warnings"]), 1)
-            self.assertIn("entities are wrong and were mended", summary["warnings"][0])
+            self.assertIn("entities are wrong and were repaired", summary["warnings"][0])
 
     def test_files_of_wires_are_meshed_as_edges(self):
         path, out = os.path.join(SHAPES, "wires.brep"), os.path.join(self.folder, "out.mesh")
@@ -324,7 +324,7 @@ END-ISO-10303-21;
                                    ("(5.,0.,0.)", "(1.E999,0.,0.)", "#51: a coordinate is not finite")):
             self.refused("two.stp", self.assembly(old, new), sentence)
 
-    def test_brep_files_without_a_table_say_so_on_standard_error_only(self):
+    def test_brep_files_without_a_table_are_reported_on_standard_error_only(self):
         for table in ("Surfaces", "Curves ", "TShapes"):
             status, error, summary = self.mesh("table.brep", content("plate.brep").replace(table, "x" + table))
             self.assertEqual(status, NONE, error)

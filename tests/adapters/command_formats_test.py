@@ -57,7 +57,7 @@ class Formats(unittest.TestCase):
     def test_names_of_faces_survive(self):
         paths = self.files("named_faces.step", "--size", "0.4")
         medit = mesh_files.read_mesh(paths["mesh"])
-        # The unit cube: the names tell where its faces are.
+        # The unit cube: the names give the places of its faces.
         for name, read in (("msh", mesh_files.read_msh), ("msh2", mesh_files.read_msh), ("vtu", mesh_files.read_vtu)):
             mesh = read(paths[name])
             self.assertEqual(sorted(mesh.names.values()), ["bottom"] + 4 * ["side"] + ["top"], name)

@@ -180,7 +180,7 @@ class Mesh(unittest.TestCase):
             done = run("mesh", path, "-o", self.out("a.mesh"), "--json", "-q")
             self.assertEqual({face["name"] for face in json.loads(done.stdout)["faces"]}, {"bottom", name, "side"})
 
-    def test_parts_of_an_assembly_stand_where_it_says(self):
+    def test_parts_of_an_assembly_stand_at_its_placements(self):
         path = self.mesh("assembly.step", "--size", "0.5")
         vertices, _ = read_mesh(path)
         for axis, low, high in ((0, -1, 21), (1, -1, 2), (2, 0, 11)):
@@ -192,7 +192,7 @@ class Mesh(unittest.TestCase):
     def test_units_are_millimetres(self):
         self.assertAlmostEqual(volume(self.mesh("inch.step", "--size", "10")), 25.4**3, delta=1e-6)
 
-    def test_triangles_look_outwards_of_a_reversed_solid_as_it_says(self):
+    def test_triangles_of_a_reversed_solid_follow_its_orientation(self):
         path = self.mesh("free.brep", "--size", "0.5")
         vertices, triangles = read_mesh(path)
         sheet = [t for t in triangles if vertices[t[0] - 1][0] < 5]
@@ -237,7 +237,7 @@ class Mesh(unittest.TestCase):
         self.assertEqual(files, [self.out("s.face.1.exr")])
         self.assertEqual(content(files[0], binary=True)[:4], b"\x76\x2f\x31\x01")
 
-    def test_what_cannot_be_read_is_told(self):
+    def test_files_that_cannot_be_read_are_reported(self):
         def write(name, data):
             path = self.out(name)
             with open(path, "wb") as file:
@@ -254,7 +254,7 @@ class Mesh(unittest.TestCase):
         self.refused(self.out("missing.step"), "-o", self.out("a.mesh"), sentence="missing.step")
         self.refused(self.folder, "-o", self.out("a.mesh"), sentence=os.path.basename(self.folder))
 
-    def test_what_cannot_be_written_is_told_before_the_work(self):
+    def test_files_that_cannot_be_written_are_reported_before_the_work(self):
         cone = os.path.join(SHAPES, "cone.step")
         self.refused(cone, "-o", self.out("a.xyz"), sentence=".vtu")
         self.refused(cone, "-o", self.out("no/a.mesh"), sentence="no")
@@ -266,7 +266,7 @@ class Mesh(unittest.TestCase):
         self.refused(cone, "-o", self.out("a.mesh"), "--face-size", "lid=1", sentence="lid")
         self.refused(cone, "-o", self.out("a.mesh"), "--size", "1e-9", sentence="edges")
 
-    def test_a_summary_is_printed_when_asked(self):
+    def test_a_summary_is_printed_on_request(self):
         done = run("mesh", os.path.join(SHAPES, "named_faces.step"), "-o", self.out("a.mesh"), "--size", "0.2", "-q", "--json")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         summary = json.loads(done.stdout)
@@ -277,7 +277,7 @@ class Mesh(unittest.TestCase):
         self.assertAlmostEqual(summary["diagonal"], math.sqrt(3), delta=1e-9)
         self.assertTrue(summary["closed"])
 
-    def test_warnings_of_one_kind_are_told_by_a_few(self):
+    def test_warnings_of_one_kind_are_reported_by_a_few(self):
         done = run("mesh", os.path.join(SHAPES, "named_faces.step"), "-o", self.out("a.mesh"), "--size", "0.2", "--json",
                    "--set", "eps_ends=100")
         told = re.findall(r"(?m)^warning: (.*)$", done.stderr)
@@ -285,7 +285,7 @@ class Mesh(unittest.TestCase):
         self.assertEqual(len(warnings), 24)  # each curve of each face is shorter than that
         self.assertEqual(told, warnings[:4] + ["20 more like these"])
 
-    def test_bends_inside_faces_that_cannot_be_cut_are_told_where_sizes_follow_the_curvature(self):
+    def test_bends_inside_faces_that_cannot_be_cut_are_reported_where_sizes_follow_the_curvature(self):
         for name, bent in (("torn_roof.brep", True), ("roof.brep", False)):
             for options, by_curvature in ((["--angle", "8"], True), (["--chord", "1%"], True), (["--size", "0.2"], False)):
                 with self.subTest(name=name, options=options):
@@ -317,8 +317,8 @@ class Mesh(unittest.TestCase):
         fine = sum(t[3] == 1 for t in triangles)
         self.assertAlmostEqual(fine / (24 / (math.sqrt(3) / 4 * 0.1**2)), 1, delta=0.05)
 
-    def test_narrow_faces_that_are_asked_for_have_the_ratio_of_the_library(self):
-        # 9e-4 of the size: more than what vanishes unasked, less than a tenth.
+    def test_requested_narrow_faces_have_the_ratio_of_the_library(self):
+        # 9e-4 of the size: more than the width that always vanishes, less than a tenth.
         sliver = os.path.join(SHAPES, "sliver.step")
         env = self.out("narrow.env")
         with open(env, "w", encoding="utf-8") as file:
@@ -335,7 +335,7 @@ class Mesh(unittest.TestCase):
         self.assertTrue(any("vanished" in why for why in reasons("--set", "narrow_faces=collapse")))
         self.assertEqual(reasons("--env", env, "--set", "narrow_ratio=1e-4"), [])
 
-    def test_sizes_beyond_bounds_are_told(self):
+    def test_sizes_beyond_bounds_are_reported(self):
         sphere = os.path.join(SHAPES, "sphere.step")
 
         def told(*options):
@@ -351,7 +351,7 @@ class Mesh(unittest.TestCase):
         # A tenth of the diagonal of a ball is more than 0.2, whatever it is of 1.
         self.assertEqual(told("--angle", "20", "--min", "0.2", "--max", "10%"), [])
 
-    def test_edges_below_the_smallest_size_are_told(self):
+    def test_edges_below_the_smallest_size_are_reported(self):
         sliver = os.path.join(SHAPES, "sliver.step")
         wide = json.loads(run("mesh", sliver, "-o", self.out("a.mesh"), "--size", "0.2", "-q", "--json").stdout)
         self.assertEqual((wide["below_minimum"]["edges"], wide["below_minimum"]["faces"]), (0, []))
@@ -391,7 +391,7 @@ class Mesh(unittest.TestCase):
         self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % of the run: meshing faces, face 1")
 
     def interrupt(self, *options, after="", delay=0.05, number=signal.SIGINT):
-        """Exit code, and what was told after the line with `after` ("": at once)."""
+        """Exit code, and the output after the line with `after` ("": at once)."""
         process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "-o", self.out("a.msh"), *options],
                                    stderr=subprocess.PIPE, text=True)
         for line in process.stderr if after else ():
@@ -444,7 +444,7 @@ class Mesh(unittest.TestCase):
         self.assertIn("stopped; the files are written", told)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.mesh", "a.vtu"])
 
-    def test_what_is_told_does_not_reach_files_where_standard_files_are_closed(self):
+    def test_output_does_not_reach_files_where_standard_files_are_closed(self):
         cone, names = os.path.join(SHAPES, "cone.step"), ["a" + suffix for suffix in (".mesh", ".meshb", ".vtu", ".stl", ".msh", ".exr")]
         outputs = [word for name in names for word in ("-o", self.out(name))]
         self.assertEqual(run("mesh", cone, *outputs).returncode, 0)
@@ -492,7 +492,7 @@ class Mesh(unittest.TestCase):
         finally:
             shutil.rmtree(target)
 
-    def test_a_disk_that_is_full_is_told_and_old_files_stay(self):
+    def test_a_disk_that_is_full_is_reported_and_old_files_stay(self):
         def small_files():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
         cone = os.path.join(SHAPES, "cone.step")
@@ -505,7 +505,7 @@ class Mesh(unittest.TestCase):
             self.assertEqual(os.listdir(self.folder), ["a.mesh"])
             self.assertEqual(content(self.out("a.mesh")), "old")
 
-    def test_colours_are_for_terminals_and_can_be_refused(self):
+    def test_colours_are_for_terminals_and_can_be_switched_off(self):
         def terminal_text(environment):
             master, slave = pty.openpty()
             process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("no/a.mesh")], stderr=slave,
@@ -524,7 +524,7 @@ class Mesh(unittest.TestCase):
         self.assertNotIn(b"\033", terminal_text({"NO_COLOR": "1"}))
         self.assertNotIn(b"\033", terminal_text({"TERM": "dumb"}))
 
-    def test_what_looks_dangerous_is_printed_as_json_too(self):
+    def test_potential_problems_are_printed_as_json_too(self):
         result = json.loads(run("info", os.path.join(SHAPES, "sliver.step"), "--json").stdout)
         text = run("info", os.path.join(SHAPES, "sliver.step"), "--limit", "1000").stdout
         self.assertTrue(result["dangers"])

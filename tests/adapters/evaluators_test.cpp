@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adaptors of OpenCASCADE remember what they evaluated last; Evaluators must not show it.
+// Adaptors of OpenCASCADE remember their last evaluation; Evaluators must not show it.
 #include <evaluators.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ Jet at(const Evaluators::Surface& surface, double u, double v) {
   return jet;
 }
 
-TEST(Breaks, MoveOnlyWhatIsARoundingErrorBelowOne) {
+TEST(Breaks, MoveOnlyNumbersARoundingErrorBelowOne) {
   const Breaks breaks({0, 1, 2, 3}, false, 0);
   EXPECT_EQ(breaks.settle(std::nextafter(2., 0.)), 2);
   EXPECT_EQ(breaks.settle(2), 2);
@@ -56,8 +56,8 @@ TEST(Breaks, MoveOnlyWhatIsARoundingErrorBelowOne) {
   EXPECT_EQ(Breaks({0, 1}, true, 1).settle(5.5), 5.5);
 }
 
-// Parameters on, just before and just behind every knot, after a visit of the span before and of the one behind.
-TEST(Evaluators, DoNotRememberWhatWasAskedBefore) {
+// Parameters on, just before and just behind every knot, after a visit of the span before and of the span behind.
+TEST(Evaluators, DoNotDependOnEarlierCalls) {
   const TopoDS_Face face = face_of("nurbs_torus");
   const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
   ASSERT_FALSE(spline.IsNull());
@@ -78,7 +78,7 @@ TEST(Evaluators, DoNotRememberWhatWasAskedBefore) {
 }
 
 // Closed forms against adaptors, of faces where they are and moved.
-TEST(Evaluators, ClosedFormsAreWhatAdaptorsGive) {
+TEST(Evaluators, ClosedFormsMatchAdaptors) {
   const gp_Ax3 axes(gp_Pnt(1, -2, 3), gp_Dir(1, 2, 2), gp_Dir(2, 1, -2));
   gp_Trsf moved;
   moved.SetRotation(gp_Ax1(gp_Pnt(4, 1, 0), gp_Dir(0, 3, 4)), 0.7);
@@ -109,7 +109,7 @@ TEST(Evaluators, ClosedFormsAreWhatAdaptorsGive) {
   }
 }
 
-TEST(Evaluators, ClosedFormsOfCurvesAreWhatAdaptorsGive) {
+TEST(Evaluators, ClosedFormsOfCurvesMatchAdaptors) {
   const gp_Ax22d axes(gp_Pnt2d(1, -2), gp_Dir2d(3, 4), Standard_False);
   const std::vector<Handle(Geom2d_Curve)> curves{
       new Geom2d_Line(gp_Pnt2d(1, 2), gp_Dir2d(3, -4)), new Geom2d_Circle(axes, 2.5), new Geom2d_Ellipse(axes, 2.5, 1),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults inside OpenCASCADE: errors of a face for a program that asks for it, and nobody else's business.
+// Faults inside OpenCASCADE: errors of a face for a program that enables them, and without effect on other programs.
 #include <faults.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,11 +18,11 @@ namespace {
 
 carreau_occ::ShapeFile file_of(const TopoDS_Shape& shape) { return {.shape = shape, .labels = {}, .unit = ""}; }
 
-// The compiler must not see what is going to happen.
+// The compiler must not predict these values.
 volatile int zero = 0, seven = 7;
 int* volatile nowhere = nullptr;
 
-// Sanitizers would report what is meant to happen here before the processor does.
+// Sanitizers would report these intended faults before the processor does.
 #define CARREAU_TEST_UNWATCHED __attribute__((noinline, no_sanitize("address", "undefined")))
 CARREAU_TEST_UNWATCHED void write_nowhere() { *nowhere = 1; }
 CARREAU_TEST_UNWATCHED void divide_by_zero() { seven = seven / zero; }
@@ -91,7 +91,7 @@ TEST(Faults, OnTheBoundaryLeaveTheFaceOutAtOnce) {
   }
 }
 
-TEST(Faults, OfAnyThreadAreItsOwn) {
+TEST(Faults, BelongToTheirThread) {
   const carreau_occ::FaultTrap trap;
   for (int i = 0; i < 3; ++i) {
     std::array<int, 4> caught{};
@@ -125,7 +125,7 @@ TEST(Faults, LeaveTheProcessorsModesAsTheyWere) {
 
 void own_handler(int) { _exit(42); }
 
-TEST(Faults, SignalsStayThoseOfTheProgram) {
+TEST(Faults, SignalHandlersOfTheProgramStay) {
   struct sigaction own {
   }, found{};
   own.sa_handler = own_handler;
@@ -152,7 +152,7 @@ TEST(Faults, SignalsStayThoseOfTheProgram) {
 
 TEST(FaultsDeathTest, OutsideOfOpenCascadeOrNotTrappedAreAsEver) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
-  // A sanitizer's own handler is a program's like another one: the default is asked for.
+  // A sanitizer's handler counts as a handler of the program: the test requires the default.
   const auto by_default = [] {
     for (const int signal : {SIGSEGV, SIGFPE}) std::signal(signal, SIG_DFL);
   };

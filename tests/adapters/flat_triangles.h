@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which feature of the input forces a flat triangle: what the sweep excuses, and says.
+// The feature of the input that forces a flat triangle, which the sweep excuses and reports.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace adapters {
 
 enum class FlatCause : std::uint8_t {
-  none,          ///< nothing in the input asks for it
+  none,          ///< nothing in the input causes it
   corner_angle,  ///< two curves meet at a corner under its smallest angle, or it lies farther on between the same two
   short_curve,   ///< its shortest side is a whole curve of the input, shorter than a third of the size
   narrow_face,   ///< it bridges two curves that are nearer to each other than a third of the size
@@ -27,7 +27,7 @@ struct MeshOnCurves {
   const std::vector<std::array<std::int32_t, 3>>& triangles;
   const std::vector<std::int32_t>& vertex_refs;                  ///< above 0: a corner of the input
   const std::vector<std::array<std::int32_t, 2>>& sorted_edges;  ///< on curves: lower vertex first, in order
-  double size = 0;                                               ///< that was asked for
+  double size = 0;                                               ///< prescribed size
 };
 
 /// Q2 = 4 sqrt(3) area / sum of squared sides (HDR eq. 1.6).

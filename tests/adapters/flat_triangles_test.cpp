@@ -25,7 +25,7 @@ TEST(FlatTriangles, QualityOfAnEquilateralTriangleIsOne) {
   EXPECT_NEAR(q2_of({0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(0.75), 0}), 1, 1e-15);
 }
 
-TEST(FlatTriangles, CornerUnderASmallAngleAndWhatFollowsIt) {
+TEST(FlatTriangles, CornerUnderASmallAngleAndItsFollowers) {
   const Points points{{0, 0, 0}, {1, 0, 0}, {1, 0.02, 0}, {2, 0, 0}};
   EXPECT_EQ(causes(points, {{0, 1, 2}, {1, 3, 2}}, {1, 0, 0, 0}, {{0, 1}, {0, 2}, {1, 3}}),
             (std::vector{FlatCause::corner_angle, FlatCause::narrow_face}));

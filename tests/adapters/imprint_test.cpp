@@ -111,7 +111,8 @@ TEST(Imprint, BoxesShareTheFaceOfTheirContact) {
   EXPECT_TRUE(file.losses.empty());
   const carreau_occ::Solids solids = carreau_occ::solids_of(file);
   EXPECT_EQ(solids.names.size(), 2U);
-  EXPECT_EQ(solids.of_face.size(), 12U);  // 6 + 6, the contact is one of both, and what is around it
+  EXPECT_EQ(solids.of_face.size(), 12U);  // 6 + 6: the contact is one face of both, and the rest of the large face is
+                                          // another
   EXPECT_EQ(faces_between(solids), 1);
   const adapters::MeasuredMesh m = meshed(file, 0.3);
   EXPECT_NEAR(m.quality.area, 2 * 16 + 16 + 2 * 3.5 + 3, 1e-9);  // the contact is counted once, as a piece of the 16 below
@@ -211,7 +212,7 @@ TEST(Imprint, NamesAndColoursFollow) {
   EXPECT_GE(red, 6);
 }
 
-TEST(Imprint, StopsWhenItIsAskedTo) {
+TEST(Imprint, StopsOnRequest) {
   ShapeFile file = file_of_parts({box(0, 0, 0, 1, 1, 1), box(0, 0, 1, 1, 1, 1), box(0, 0, 2, 1, 1, 1)});
   EXPECT_THROW(carreau_occ::imprint_parts(file, 0, [](double) { return false; }), std::runtime_error);
   EXPECT_EQ(faces_between(carreau_occ::solids_of(file)), 0);
@@ -296,10 +297,10 @@ TEST(Bytes, WrongOnesAreRejected) {
     }
     return "";
   };
-  EXPECT_EQ(sentence("", ""), "memory: the bytes are no STEP, IGES or BREP file");
-  EXPECT_EQ(sentence("solid", "brep"), "memory: the bytes are no STEP, IGES or BREP file");
+  EXPECT_EQ(sentence("", ""), "memory: the bytes are not a STEP, IGES or BREP file");
+  EXPECT_EQ(sentence("solid", "brep"), "memory: the bytes are not a STEP, IGES or BREP file");
   EXPECT_EQ(sentence(text.str(), "step"), "memory: the bytes do not begin like a STEP file");
-  EXPECT_EQ(sentence(text.str(), "stl"), "memory: the format is 'stl', which is none of step, iges and brep");
+  EXPECT_EQ(sentence(text.str(), "stl"), "memory: the format is 'stl', which is not step, iges or brep");
   EXPECT_NE(sentence("ISO-10303-21;\nHEADER;\n", "").find("memory: "), std::string::npos);
   for (const std::string& whole : {text.str(), binary.str()})
     for (std::size_t n = whole.size() / 10; n < whole.size() - 10; n += whole.size() / 10)

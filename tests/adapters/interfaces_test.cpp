@@ -44,7 +44,7 @@ double widest_gap(const adapters::MeasuredMesh& m) {
   return gap;
 }
 
-/// The faces of a shape, none of which knows another one; the first is moved by `gap` along x, and every edge has the
+/// The faces of a shape, without shared edges; the first is moved by `gap` along x, and every edge has the
 /// tolerance `tolerance`.
 TopoDS_Shape taken_apart(const TopoDS_Shape& shape, double gap, double tolerance) {
   TopoDS_Compound all;
@@ -68,7 +68,7 @@ TopoDS_Shape taken_apart(const TopoDS_Shape& shape, double gap, double tolerance
 
 class Unsewn : public testing::TestWithParam<std::string> {};
 
-TEST_P(Unsewn, FacesMeetAsThoseOfTheSolidDo) {
+TEST_P(Unsewn, FacesMeetAsInTheSolid) {
   const TopoDS_Shape solid = shapes::make(GetParam());
   carreau_occ::BrepHost whole(file_of(solid));
   const double size = whole.diagonal() / 30;
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Unsewn,
                          testing::Values("cylinder", "box_with_hole", "cone", "across_a_seam", "two_cylinders"),
                          [](const auto& info) { return info.param; });
 
-TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndTold) {
+TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndReported) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
   for (const double gap : {1e-3, 1e-5}) {
     carreau_occ::BrepHost host(file_of(taken_apart(box, gap, gap)));
@@ -108,7 +108,7 @@ TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndTold) {
   }
 }
 
-// A short edge elsewhere in the file says nothing of what its coarse edges need.
+// A short edge elsewhere in the file does not change the tolerance that its coarse edges need.
 TEST(Unsewn, ShortEdgesElsewhereLeaveNoGapOpen) {
   TopoDS_Compound all;
   const BRep_Builder builder;
@@ -123,13 +123,13 @@ TEST(Unsewn, ShortEdgesElsewhereLeaveNoGapOpen) {
   EXPECT_EQ(m.trouble(true), "");
   EXPECT_EQ(euler(m), 4);
   EXPECT_EQ(count(m, is_open), 0);
-  // The edges of both boxes; what the face that is moved inwards cuts off its neighbours' edges is a point.
+  // The edges of both boxes; the pieces that the face moved inwards cuts off its neighbours' edges are points.
   const auto is_glued_curve = [](const carreau_interface& i) { return i.glued != 0 && i.degenerate == 0; };
   EXPECT_EQ(count(m, is_glued_curve), 24);
   EXPECT_NEAR(widest_gap(m), gap, 1e-9);
 }
 
-TEST(Unsewn, WiderGapsStayOpenAndAreTold) {
+TEST(Unsewn, WiderGapsStayOpenAndAreReported) {
   carreau_occ::BrepHost host(file_of(taken_apart(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), -0.01, 1e-4)));
   const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.25);
   EXPECT_EQ(m.trouble(false), "");

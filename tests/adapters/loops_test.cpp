@@ -284,7 +284,7 @@ TEST(OddCurves, ThatAreTurnedTheWrongWayBoundTheInside) {
   EXPECT_NEAR(mesh.quality.area, 1, 1e-12);
 }
 
-TEST(LooseEdges, StayOutBesideFacesUnlessTheyAreAskedFor) {
+TEST(LooseEdges, StayOutBesideFacesUnlessRequested) {
   const BRep_Builder builder;
   TopoDS_Compound both;
   builder.MakeCompound(both);

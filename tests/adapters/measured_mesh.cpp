@@ -34,7 +34,7 @@ void count_edges(MeasuredMesh& m) {
   }
 }
 
-// Triangles above this are not asked for a cause: no bound that the sweep knows is higher.
+// Triangles above this need no cause: no bound that the sweep knows is higher.
 constexpr double flat_limit = 0.1;
 
 void explain(carreau_mesh* mesh, std::int64_t n, std::int64_t k, double size, MeasuredMesh& m) {

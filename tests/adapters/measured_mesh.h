@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A shape meshed through the C interface, and what can be measured on the result.
+// A shape meshed through the C interface, and measures of the result.
 #pragma once
 
 #include <brep_host.h>
@@ -30,7 +30,7 @@ struct MeasuredMesh {
   std::int64_t crowded_edges = 0;  ///< with more than two
   std::int64_t turned_edges = 0;   ///< of two triangles that run along it the same way
   carreau_quality quality{};
-  std::vector<FlatTriangle> flat;  ///< of Q2 below 0.1, with what in the input forces them
+  std::vector<FlatTriangle> flat;  ///< of Q2 below 0.1, with the feature of the input that forces them
   /// Worst Q2 of the triangles that nothing in the input forces; 0.1 when all that are below are forced.
   double free_q2_min = 1;
   double volume = 0;  ///< enclosed, by the divergence theorem
@@ -39,7 +39,8 @@ struct MeasuredMesh {
   double seconds = 0;
   std::int64_t surface_calls = 0;
 
-  /// "" for a mesh of all faces without a defect; else what is wrong, short. `closed`: open edges are wrong.
+  /// "" for a mesh of all faces without a defect; else a short description of the fault. `closed`: open edges are
+  /// wrong.
   [[nodiscard]] std::string trouble(bool closed) const;
 };
 

@@ -41,7 +41,7 @@ TopoDS_Shape odd_cylinder(std::function<void(double, double)> before) {
   const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(1, 2).Shape();
   const TopoDS_Face round = TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current());
   const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(BRep_Tool::Surface(round));
-  // Images of edges belong to a surface: the new one gets those of the old one.
+  // Images of edges belong to a surface: the new surface gets the images of the old surface.
   struct Image {
     TopoDS_Edge edge;
     Handle(Geom2d_Curve) forward, reversed;

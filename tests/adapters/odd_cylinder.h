@@ -11,7 +11,7 @@ namespace adapters {
 /// face 1.
 TopoDS_Shape odd_cylinder(std::function<void(double, double)> before);
 
-/// Whether a place of its parameters [0, 2 pi] x [0, 2] is away from the boundary.
+/// Returns true if a place of its parameters [0, 2 pi] x [0, 2] is away from the boundary.
 inline bool is_inside(double u, double v) { return u > 3 && u < 6 && v > 0.1 && v < 1.9; }
 
 }  // namespace adapters

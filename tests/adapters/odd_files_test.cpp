@@ -123,8 +123,8 @@ TEST(Returns, AreCurvesInside) {
   }
 }
 
-// A gap is what lies between two curves, not between points of equal parameters.
-TEST(Gaps, AreNotThoseOfTheParameters) {
+// A gap is the distance between two curves, not between points of equal parameters.
+TEST(Gaps, DoNotDependOnTheParameters) {
   const TopoDS_Shape shape = BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), Standard_True).Shape();
   const BRep_Builder builder;
   for_each_edge_of_faces(shape, [&](const TopoDS_Edge& edge, const TopoDS_Face& face) {
@@ -167,7 +167,7 @@ TEST(TinyEdges, LeaveNarrowFacesMeshed) {
   EXPECT_LT(mesh.quality.triangles, 5000);  // not as many as edges of that length would make
 }
 
-// Chamfers that no triangle of the wanted size can resolve vanish; their neighbours meet in one curve.
+// Chamfers that no triangle of the prescribed size can resolve vanish; their neighbours meet in one curve.
 TEST(NarrowFaces, NarrowerThanAnyCutVanish) {
   for (const double width : {1e-7, 1e-5, 1e-4}) {
     SCOPED_TRACE(width);
@@ -184,7 +184,7 @@ TEST(NarrowFaces, NarrowerThanAnyCutVanish) {
   }
 }
 
-// Two tiny edges one after the other, first in the wires of two faces: one of them must not tell how the loop is
+// Two tiny edges one after the other, first in the wires of two faces: one of them must not determine how the loop is
 // turned.
 TEST(TinyEdges, FirstInTheirWiresTearNoLoop) {
   for (const double tiny : {1e-4, 1e-5, 1e-6}) {
@@ -275,7 +275,7 @@ TEST(WrongTurns, LoopsOnASphereWithoutASeamBoundTheirInside) {
 
 /// The round face of a cylinder of radius 1 and height 2, whose upper circle and one of whose seams lie a period before
 /// the others in (u, v), as OpenCASCADE's reader leaves faces of revolution. With `bridges` it has closed the loop by
-/// edges that it says are degenerate.
+/// edges that it marks as degenerate.
 TopoDS_Face torn_cylinder(bool bridges) {
   const double turn = 2 * std::numbers::pi;
   const TopoDS_Face whole = TopoDS::Face(
@@ -333,7 +333,7 @@ TEST(PeriodicSurfaces, LoopsThatLieAPeriodApartClose) {
   }
 }
 
-// Two edges of each torn loop end at vertices of their own, at one place: a lid's, and those of its hole.
+// Two edges of each torn loop end at different vertices at one place: a lid's, and the vertices of its hole.
 TEST(TornLoops, CloseWhereTheirEndsAreOnePlace) {
   const BRep_Builder builder;
   TopoDS_Compound shape;
@@ -362,8 +362,8 @@ TEST(TornLoops, CloseWhereTheirEndsAreOnePlace) {
   EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 0);  // a ring
 }
 
-// BREP files may say a whole sphere or torus by its surface alone, placed and turned or not.
-TEST(NaturalBounds, AreThoseOfClosedSurfaces) {
+// BREP files may describe a whole sphere or torus by its surface alone, placed and turned or not.
+TEST(NaturalBounds, BoundClosedSurfaces) {
   const double pi = std::numbers::pi;
   const BRep_Builder builder;
   TopoDS_Compound shape;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
+// CAD shapes through the adapter and the C interface, against OpenCASCADE's measures.
 #include <extent.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -69,7 +69,7 @@ TEST(BrepHost, EvaluatesTheSurfaceAboutOnceAVertexBesideTheSampling) {
   }
 }
 
-// Every shape whose surfaces are of several polynomials or of one; bit for bit.
+// Every shape whose surfaces are of several polynomials or of one; the results are identical.
 TEST(BrepHost, ThreadsDoNotChangeTheMesh) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   for (const char* name : {"nurbs_torus", "across_a_seam", "two_cylinders"}) {
@@ -130,7 +130,7 @@ TEST(BrepHost, SizesOfFacesHoldOnTheirEdges) {
   EXPECT_NEAR(static_cast<double>(fine), 1 / (std::sqrt(3.0) / 4 * 0.05 * 0.05), 100);
 }
 
-TEST(ShapeReport, FindsWhatIsDangerous) {
+TEST(ShapeReport, FindsPotentialMeshingProblems) {
   const carreau_occ::ShapeReport sliver = carreau_occ::inspect(file_of(shapes::make("sliver")));
   int narrow = 0, tiny = 0;
   for (const carreau_occ::Danger& danger : sliver.dangers) {
@@ -187,7 +187,7 @@ TEST(ShapeReport, FindsFreeEdges) {
 }
 
 // Splines are no quadrics: their boxes are found on the surface.
-TEST(Diagonal, OfFreeFormFacesIsExact) {
+TEST(Diagonal, IsExactForFreeFormFaces) {
   const auto diagonal = [](const TopoDS_Shape& shape) {
     return carreau_occ::diagonal_of(BRepBuilderAPI_NurbsConvert(shape, Standard_True).Shape());
   };

@@ -72,8 +72,8 @@ TopoDS_Shape placed(const TopoDS_Shape& shape, const gp_Trsf& place) {
   return shape.Moved(TopLoc_Location(place), Standard_False /* mirrors are allowed */);
 }
 
-/// A quarter of a turn in a turned and moved assembly in another one; one part twice, once mirrored if asked: STEP has
-/// no placements that mirror.
+/// A quarter of a turn in a turned and moved assembly in another assembly; one part twice, once mirrored if requested:
+/// STEP has no placements that mirror.
 TopoDS_Shape assembly(bool mirrored) {
   gp_Trsf turn, move, mirror;
   turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), std::numbers::pi / 2);
@@ -109,7 +109,7 @@ void expect_assembly(const std::string& path) {
   std::filesystem::remove(path);
 }
 
-TEST(Placements, OfSeveralLevelsAreThoseOfStep) {
+TEST(Placements, SeveralLevelsMatchStep) {
   const std::string path = path_of("rig.step");
   STEPControl_Writer writer;
   ASSERT_EQ(writer.Transfer(assembly(false), STEPControl_AsIs), IFSelect_RetDone);
@@ -117,7 +117,7 @@ TEST(Placements, OfSeveralLevelsAreThoseOfStep) {
   expect_assembly(path);
 }
 
-TEST(Placements, OfSeveralLevelsAndMirroredAreThoseOfBrep) {
+TEST(Placements, SeveralLevelsAndMirroredMatchBrep) {
   const std::string path = path_of("rig.brep");
   ASSERT_TRUE(BRepTools::Write(assembly(true), path.c_str()));
   expect_assembly(path);
@@ -225,7 +225,7 @@ Read read_and_mesh(const std::string& path, double size) {
 }
 
 // A pair of blocks, twice: entities 308 and 408 on two levels.
-TEST(Placements, OfSubfiguresAreThoseOfIges) {
+TEST(Placements, SubfiguresMatchIges) {
   const std::string path = iges_file("subfigures.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
     const auto block = subfigure(0, "BLOCK", {tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape())});
     const auto pair = subfigure(1, "PAIR", {instance(block, 0), instance(block, 5)});
@@ -241,7 +241,7 @@ TEST(Placements, OfSubfiguresAreThoseOfIges) {
   EXPECT_NEAR(far, 26, 1e-9);
 }
 
-TEST(Placements, OfSubfiguresThatScaleAreTold) {
+TEST(Placements, SubfiguresThatScaleAreReported) {
   const std::string path = iges_file("scaled.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
     const auto block = subfigure(0, "BLOCK", {tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape())});
     writer.AddEntity(instance(block, 0));
@@ -268,7 +268,7 @@ TEST(Placements, GroupsOfIgesAreWhole) {
   EXPECT_NEAR(read.mesh.quality.area, 22 + 6, 1e-9);
 }
 
-TEST(Placements, ThatScaleAreThoseOfBrep) {
+TEST(Placements, ThatScaleMatchBrep) {
   gp_Trsf twice;
   twice.SetScale(gp_Pnt(1, 0, 0), 2);
   const TopoDS_Shape post = placed(BRepPrimAPI_MakeCylinder(1, 4).Shape(), twice);
@@ -282,8 +282,8 @@ TEST(Placements, ThatScaleAreThoseOfBrep) {
   EXPECT_NEAR(low, -3, 0.02);
 }
 
-// OpenCASCADE's writer has no placement that scales: one of its own becomes one.
-TEST(Placements, ThatScaleAreToldOfStep) {
+// OpenCASCADE's writer has no placement that scales: the test edits a placement that it wrote.
+TEST(Placements, ThatScaleAreReportedInStep) {
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
   gp_Trsf move;
   move.SetTranslation(gp_Vec(10, 0, 0));
@@ -353,7 +353,7 @@ TEST(Placements, AWireBesideABoxOfAStepFileIsMeshed) {
   EXPECT_EQ(read.mesh.trouble(true), "");
   EXPECT_EQ(read.mesh.faces, 6);
   EXPECT_NEAR(read.mesh.quality.area, 6, 1e-12);
-  std::map<int, double> lengths;  // of what lies beyond the box
+  std::map<int, double> lengths;  // of the edges beyond the box
   std::map<std::int32_t, int> ends;
   for (std::size_t e = 0; e < read.mesh.edges.size(); ++e) {
     const auto &a = read.mesh.vertices[read.mesh.edges[e][0]], &b = read.mesh.vertices[read.mesh.edges[e][1]];
@@ -367,7 +367,7 @@ TEST(Placements, AWireBesideABoxOfAStepFileIsMeshed) {
   const auto [line, arc] = std::minmax(lengths.begin()->second, lengths.rbegin()->second);
   EXPECT_NEAR(line, 1, 1e-9);
   EXPECT_TRUE(std::abs(arc - std::numbers::pi) < 2e-3 || std::abs(arc - 3 * std::numbers::pi) < 6e-3) << arc;
-  // One chain, although STEP gives each edge vertices of its own: two ends, one of them a corner of the box.
+  // One chain, although STEP gives each edge its own vertices: two ends, one of them a corner of the box.
   EXPECT_EQ(std::count_if(ends.begin(), ends.end(), [](const auto& end) { return end.second == 1; }), 2);
   std::set<std::int32_t> on_faces;
   for (const auto& t : read.mesh.triangles) on_faces.insert(t.begin(), t.end());

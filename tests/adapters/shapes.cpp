@@ -64,7 +64,8 @@ TopoDS_Shape through_a_pole() {
       .Shape();
 }
 
-// A bore a hundred thousand times thinner than the plate is wide: its circles are shorter than what counts as a point.
+// A bore a hundred thousand times thinner than the plate is wide: its circles are shorter than the length that counts
+// as a point.
 TopoDS_Shape pinhole() {
   return BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(1000, 1000, 10).Shape(),
                          BRepPrimAPI_MakeCylinder(axis(300, 500, -1, 0, 0, 1), 0.004, 12).Shape())

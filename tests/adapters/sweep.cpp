@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // sweep [--sizes N] [--from A] [--to B] [--set NAME=VALUE]... [--verbose] [--torture | NAME | FILE]...
 // Meshes each file, or shape of the torture set, with N sizes between diag/A and diag/B in geometric progression, and
-// prints a row a shape: what failed, worst quality, error and order of convergence of the volume. Status 1 when
-// anything failed.
+// prints a row a shape: failures, worst quality, error and order of convergence of the volume. Status 1 when anything
+// failed.
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 #include <cmath>

@@ -30,7 +30,7 @@ class ZeroEdges(unittest.TestCase):
         cls.home.cleanup()
 
     def with_edge(self, curve, one_vertex):
-        """The cube with one more edge, at the beginning of another one, in both loops that have that one."""
+        """The cube with one more edge, at the beginning of an edge, in both loops of that edge."""
         entities = dict(self.entities)
         long = min(k for k, v in entities.items() if v.startswith("EDGE_CURVE"))
         start = int(re.search(r"#(\d+)", entities[long])[1])

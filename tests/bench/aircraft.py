@@ -63,7 +63,7 @@ class Surface:
     def __init__(self, sector, window, root, tip, span):
         self.angle, self.window, self.root, self.tip, self.span = sector * math.pi / 2, window, root, tip, span
         half = QUARTER // 2
-        # From the trailing edge along one side to the leading edge: xi of its nodes; the cuts are those of the window.
+        # From the trailing edge along one side to the leading edge: xi of its nodes; the window gives the cuts.
         self.xi = [1 - 0.3 * k / half for k in range(half)]
         self.xi += [0.7 - 0.62 * k / ALONG for k in range(ALONG)]
         self.xi += [0.08 * (1 - k / half) ** 2 for k in range(half + 1)]

@@ -18,7 +18,7 @@ using namespace carreau;
 
 constexpr int count = 2000, runs = 40;
 
-/// Nanoseconds of the processor for one of `count` calls, the best of all runs; keeps what f returns alive.
+/// Nanoseconds of the processor for one of `count` calls, the best of all runs; keeps the result of f alive.
 template <typename F>
 double nanoseconds(const F& f) {
   static volatile double sink = 0;

@@ -71,7 +71,7 @@ void report(const Field& field) {
   double mean = 0;
   for (const double e : error) mean += e / static_cast<double>(error.size());
   const double at_random = time_of_at(space, points);
-  // A mesher asks near where it asked before.
+  // Successive queries of a mesher are near each other.
   const auto row = [&](Vec2 p) { return std::floor((p.y() - low.y()) / (high.y() - low.y()) * 100); };
   std::sort(points.begin(), points.end(),
             [&](Vec2 p, Vec2 q) { return row(p) != row(q) ? row(p) < row(q) : p.x() < q.x(); });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // bench_distance A B ANGLE [THREADS]: how far the mesh A is from B, and B from A (vertices, middles of edges and triangles), and
-// how far points of the sharp lines of B are from those of A; then their numbers of sharp edges. A second line: bounds of the
-// distances of all points, A from B and B from A, and seconds of processors a million triangles of A and of B that they take.
+// how far points of the sharp lines of B are from the sharp lines of A; then their numbers of sharp edges. A second line: bounds
+// of the distances of all points, A from B and B from A, and seconds of processors a million triangles of A and of B that they
+// take.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

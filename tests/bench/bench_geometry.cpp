@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Built-in geometries beside callbacks: the same surfaces, asked directly and through the callbacks of a C host. One line of JSON
-// a case and road: seconds of a million evaluations of each order, and of meshing, by the processor's clock (one thread).
+// Built-in geometries beside callbacks: the same surfaces, called directly and through the callbacks of a C host. One line of
+// JSON a case and road: seconds of a million evaluations of each order, and of meshing, by the processor's clock (one thread).
 // Usage: bench_geometry [REPEAT]
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace carreau;
 
-/// Callbacks of a C host that ask another evaluator.
+/// Callbacks of a C host that call another evaluator.
 Cad& asked(void* user) { return *static_cast<Cad*>(user); }
 unsigned wanted(std::int32_t order) {
   return want_position | (order > 0 ? want_first : 0U) | (order > 1 ? want_second : 0U);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface meshing of analytic cases: one line of JSON a case.
 // Usage: bench_surface [CASE [SIZE [REPEAT [OUT|- [PARAMETER VALUE]...]]]]
-// Times are those of the processor, so that a busy machine does not count; best of all repeats, as is the time on the
+// Times are processor times, so that a busy machine does not count; best of all repeats, as is the time on the
 // wall. CASE: paraboloid, hemisphere, torus, teapot; all of them at their standard sizes without arguments. Square,
 // sphere and whole_torus are one face each, closed ones with seams and poles.
 #include <algorithm>

@@ -8,11 +8,11 @@ quality in the metric.
     python3 tests/bench/compare_bamg.py build/bench/tests/bench/bench_metric [--sizes H,H..] [--ratio R] [--json FILE]
 
 The field is a layer along y = sin x on [0, 2 pi] x [-2, 2]: size h across, ratio h along, growing by 0.2 a unit of distance.
-Times are those of the processor, one thread: Gmsh's generate(2) after generate(1), the last of FreeFem++'s passes of adaptmesh
-(each starts from the mesh of the one before, with the field's own values at its vertices), and Carreau's control space and
-plane mesh together. Gmsh reads the field from Carreau's mesh at 0.7 h, linear in each triangle. All three meshes are measured
-by the same code (tests/cpp/plane/metric_cases.cpp): lengths by Gauss quadrature in the field itself, Q2 (HDR eq. 1.6) with
-lengths and area in the metric.
+Times are processor times, one thread: Gmsh's generate(2) after generate(1), the last of FreeFem++'s passes of
+adaptmesh, and Carreau's control space and plane mesh together. Each pass of adaptmesh starts from the previous mesh,
+with the field's own values at its vertices. Gmsh reads the field from Carreau's mesh at 0.7 h, linear in each triangle.
+All three meshes are measured by the same code (tests/cpp/plane/metric_cases.cpp): lengths by Gauss quadrature in the
+field itself, Q2 (HDR eq. 1.6) with lengths and area in the metric.
 """
 import argparse
 import json

@@ -4,9 +4,10 @@
 
     python3 tests/bench/compare_builds.py BUILD_BEFORE BUILD_AFTER [CAD_FILE]... [--repeat N] [--only TEXT] [--json FILE]
 
-Both are builds with -DCARREAU_BENCH=ON in which carreau_command and the benches are up to date. Seconds are those of the processor (user and system), the least
-of N runs (3 by default) of each build, taken by turns; MB is the largest resident size; "mesh" says whether both write the same bytes. CAD files are
-meshed at 5, 2 and 1 % of their diagonals. A run that one build fails at, or lacks, is told and counts for nothing."""
+Both are builds with -DCARREAU_BENCH=ON in which carreau_command and the benches are up to date. Seconds are processor
+times (user and system), the least of N runs (3 by default) of each build, taken by turns; MB is the largest resident
+size; "mesh" states if both write the same bytes. CAD files are meshed at 5, 2 and 1 % of their diagonals. A run that
+one build fails at, or lacks, is reported and does not count."""
 import argparse
 import filecmp
 import json

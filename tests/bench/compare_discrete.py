@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """compare_discrete.py BUILD FILE... [--size SHARE] [--sharp DEGREES]: surfaces given as triangles, by Carreau, Gmsh and CGAL in one run.
 
-Gmsh: merge, classifySurfaces, createGeometry, generate(2); CGAL: detect_sharp_edges, isotropic_remeshing. One thread each; seconds are those of
-meshing, without reading and writing; "whole" has them of the whole command, with measuring and bounds of distances. Distances are shares of the size: from the mesh to the triangles, back, and
-from the sharp lines of the file to those of the mesh. CGAL's program is built on request:
+Gmsh: merge, classifySurfaces, createGeometry, generate(2); CGAL: detect_sharp_edges, isotropic_remeshing. One thread each; seconds are
+for meshing, without reading and writing; "whole" is for the whole command, with measuring and bounds of distances. Distances are shares
+of the size: from the mesh to the triangles, back, and from the sharp lines of the file to the sharp lines of the mesh.
+CGAL's program is built on request:
 
     cmake --build BUILD --target carreau_command bench_distance bench_cgal_remeshing
 """

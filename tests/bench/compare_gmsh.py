@@ -10,9 +10,9 @@
 Near a million triangles Gmsh takes a minute or so for each surface.
 
 Both are timed on surface meshing alone, in one thread: Gmsh's generate(2) after generate(1), and Carreau's sampling, plane
-meshing and lift after its curves. Times are those of the processor, so that a busy machine does not count. Sizes are
-uniform. Quality is that of the triangles in space, 4 sqrt(3) area / sum of
-squared edges (HDR eq. 1.6), computed here for Gmsh and by bench_surface for Carreau.
+meshing and lift after its curves. Times are processor times, so that a busy machine does not count. Sizes are
+uniform. Quality is 4 sqrt(3) area / sum of squared edges of the triangles in space (HDR eq. 1.6), computed here for
+Gmsh and by bench_surface for Carreau.
 """
 import argparse
 import json

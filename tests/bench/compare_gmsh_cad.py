@@ -5,13 +5,13 @@
     apt-get install gmsh python3-gmsh python3-numpy
     python3 tests/bench/compare_gmsh_cad.py CARREAU FILE... [--share 50]... [--repeat N] [--same-count] [--json FILE]
 
-Each size is the diagonal of the file's box divided by a share (100 by default). Times are those of the processor, one
-thread, the best of N runs (3 by default): of surface meshing alone (Gmsh's generate(1) and generate(2); for Carreau all that
-is between reading and writing), and of the whole processes `gmsh` and `carreau mesh`, which read the file and write a binary
-mesh. With --same-count the size of `carreau mesh` is moved until it has as many triangles as Gmsh (Gmsh gives small circles
-seven edges, whatever the size). Quality is 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6). Exit status 1 when a file is worse than Gmsh's in
-anything that is asked: a failure that Gmsh does not have, speed below, mean or worst quality below, or a geometric mean of
-the ratios of speed in surface meshing below 5.
+Each size is the diagonal of the file's box divided by a share (100 by default). Times are processor times, one thread,
+the best of N runs (3 by default). They are for surface meshing alone (Gmsh's generate(1) and generate(2); for Carreau
+all that is between reading and writing), and for the whole processes `gmsh` and `carreau mesh`, which read the file and
+write a binary mesh. With --same-count the size of `carreau mesh` is moved until it has as many triangles as Gmsh (Gmsh
+gives small circles seven edges, whatever the size). Quality is 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6).
+Exit status 1 if a file is worse than Gmsh's in a requirement: a failure that Gmsh does not have, speed below, mean or
+worst quality below. A geometric mean of the ratios of speed in surface meshing below 5 gives status 1, too.
 """
 import argparse
 import itertools
@@ -84,7 +84,7 @@ def by_carreau(program, path, size, folder):
 
 
 def size_of_count(program, path, size, wanted, folder):
-    """A size with which Carreau makes as many triangles as wanted, to 1 % where counts allow it."""
+    """A size with which Carreau makes as many triangles as requested, to 1 % where counts allow it."""
     low, high = 0.0, math.inf  # sizes with too many and too few triangles
     best = (math.inf, size)
     for _ in range(12):
@@ -102,7 +102,7 @@ def size_of_count(program, path, size, wanted, folder):
 
 
 def compare(options, path, size):
-    """Rows of both, and what is worse in ours."""
+    """Rows of both, and the figures that are worse in ours."""
     with tempfile.TemporaryDirectory() as folder:
         theirs = [{**by_gmsh(path, size), "whole": whole_gmsh(path, size, folder)} for _ in range(options.repeat)]
         if options.same_count:

@@ -6,13 +6,14 @@
     python3 tests/bench/compare_gmsh_elements.py CARREAU [FILE.step ...] [--share 60] [--repeat N] [--cases REGEX] [--json FILE]
 
 Cases: the plate with a quarter of a disc cut out (HDR fig. 3.6), sphere, torus, teapot, and the files, whose sizes are the diagonals of
-their boxes over a share. Times are those of the processor, one thread, and count the same on both sides: from a model in memory to a mesh in memory. For Gmsh these are
-generate(2), setOrder(2) and, where it is asked for, optimize("HighOrder"); for Carreau carreau_mesh_generate, which glues curves and finds their
-supports, too. `speed` is that of the fastest of several meshes of one process, as a program that meshes has it; `first` that of the
-first one, for which code and memory are met for the first time (of the command). `whole` is the program `carreau mesh` in milliseconds, from
-its start to its end, reading and writing included. Both meshes are measured by `carreau check`: elements whose Bernstein coefficients are
-not all positive, least Jacobian over its mean, shape, scaled Jacobian. Exit status 1 when a figure is missed: ten times the speed, mean shape and
-worst scaled Jacobian above, and no invalid element.
+their boxes over a share. Times are processor times, one thread, with equal scope on both sides: from a model in memory
+to a mesh in memory. For Gmsh these are generate(2), setOrder(2) and, where it is requested, optimize("HighOrder"); for
+Carreau carreau_mesh_generate, which glues curves and finds their supports, too. `speed` is for the fastest of several
+meshes of one process, as in a program that meshes; `first` is for the first mesh (of the command), whose code and
+memory are new. `whole` is the program `carreau mesh` in milliseconds, from its start to its end, reading and writing
+included. Both meshes are measured by `carreau check`: elements whose Bernstein coefficients are not all positive, least
+Jacobian over its mean, shape, scaled Jacobian. Exit status 1 when a figure is missed: ten times the speed, mean shape
+and worst scaled Jacobian above, and no invalid element.
 """
 import json
 import os

@@ -7,11 +7,12 @@
 
 Cases: the plate with a quarter of a disc cut out (HDR fig. 3.6), sphere, torus, teapot, and the files, whose sizes are the
 diagonals of their boxes over a share. Gmsh's ways: Frontal-Delaunay for quads (8) and packing of parallelograms (9), each with
-Blossom and with Blossom full-quad, and Frontal-Delaunay (6) with Blossom; each runs in a process of its own, since some crash.
-Full-quad cuts each quadrilateral into four, whatever bounds of sizes say: it is asked for twice the size, so that all deliver the same.
-Times are those of the processor, one thread: Gmsh's generate(1) and generate(2); for Carreau all that is between reading and writing.
-Quality is (2 + 2 sqrt 2) rho / h (HDR sec. 1.1.1), in space. Exit status 1 when a figure is missed: ten times the speed in
-quadrilaterals a second, mean quality and worst scaled Jacobian above those of every way that ends.
+Blossom and with Blossom full-quad, and Frontal-Delaunay (6) with Blossom; each runs in a separate process, since some
+crash. Full-quad cuts each quadrilateral into four, whatever the bounds of sizes: it gets twice the size, so that all
+deliver equal sizes. Times are processor times, one thread: Gmsh's generate(1) and generate(2); for Carreau all
+that is between reading and writing. Quality is (2 + 2 sqrt 2) rho / h (HDR sec. 1.1.1), in space. Exit status 1 when a
+figure is missed: ten times the speed in quadrilaterals a second, mean quality and worst scaled Jacobian above every way
+that ends.
 """
 import json
 import math

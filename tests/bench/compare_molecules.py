@@ -5,7 +5,7 @@ that excludes it by Carreau, PyMOL and EDTSurf, in one run. The probe is 1.4.
 
     apt-get install freesasa pymol edtsurf
 
-What the peers compute:
+The peers' methods:
 - FreeSASA samples: slices of each sphere (Lee and Richards, 1000), or points (Shrake and Rupley, 10 000). It has no mesh.
 - PyMOL marches through a grid (surface_quality 0, 1, 2: cells of .5, .3 and .25 or so) over the dots that its probe cannot enter, and moves
   vertices to those dots: an approximation, whose triangles come without neighbours (equal places are made one vertex here).
@@ -14,8 +14,8 @@ What the peers compute:
   Carreau beside them for balls of these radii.
 - Carreau meshes the exact spheres and tori. `exact` is its area and volume in closed form, which its own meshes do not use.
 
-Areas and volumes of peers are those of their triangles. Seconds are the least of N runs (3): of the whole process, and of the surface alone where a
-program tells it. PyMOL and EDTSurf use one thread here; Carreau has --threads 1.
+Areas and volumes of peers are measured on their triangles. Seconds are the least of N runs (3): of the whole process,
+and of the surface alone where a program reports it. PyMOL and EDTSurf use one thread here; Carreau has --threads 1.
 """
 import argparse
 import json

@@ -7,9 +7,10 @@ and quality.
     cmake --preset release && cmake --build --preset release --target carreau_command
     python3 tests/bench/compare_plane.py build/release/cad_adapters/command/carreau [--size H] [--repeat N]
 
-The domain is the unit square with a round hole, a polygon of 64 sides. Each mesher has one thread. Gmsh's seconds are those of the
-processor in generate(2) after generate(1); Carreau's those of all of its run but reading and writing, once as the command is
-set, and once without its local search for the worst triangles. Triangle is not in Debian (its licence is not free).
+The domain is the unit square with a round hole, a polygon of 64 sides. Each mesher has one thread. Gmsh's seconds are
+processor times of generate(2) after generate(1). Carreau's are for its whole run except reading and writing, once with
+the command's defaults, and once without its local search for the worst triangles. Triangle is not in Debian (its
+licence is not free).
 """
 import argparse
 import json

@@ -5,10 +5,10 @@
     apt-get install gmsh python3-gmsh python3-numpy
     python3 tests/bench/gmsh_compounds.py FILE... [--share 2%]... [--limit SECONDS]
 
-Each run has a process of its own, which ends after the limit. One line a file and a size, to be read beside those of
-trans_patch.py: triangles, over ideal ones of the size, the area of the mesh over that of the faces (those that fail have no
-triangles), share of edges with lengths in [1/sqrt 2, sqrt 2] of the size, Q2 (mean, first percentile, worst), seconds; or
-that it failed.
+Each run has a separate process, which ends after the limit. One line a file and a size, to be read beside the lines of
+trans_patch.py: triangles, over ideal ones of the size, the area of the mesh over the area of the faces (failed faces
+have no triangles), share of edges with lengths in [1/sqrt 2, sqrt 2] of the size, Q2 (mean, first percentile, worst),
+seconds; or that it failed.
 """
 import argparse
 import json
@@ -25,7 +25,7 @@ ROW = "{:30.30}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7}{:>7}{:>9}"
 
 
 def is_smooth(model, curve, faces):
-    """Whether both faces have one tangent plane at three places of the curve."""
+    """True if both faces have one tangent plane at three places of the curve."""
     low, high = model.getParametrizationBounds(1, curve)
     for share in (0.25, 0.5, 0.75):
         xyz = model.getValue(1, curve, [low[0] + share * (high[0] - low[0])])
@@ -82,7 +82,8 @@ def one(path, share):
 
 
 def attempt(path, share, limit):
-    """Figures of one mesh, made by a process that ends after `limit` seconds; or a sentence that says why there are none."""
+    """Figures of one mesh, made by a process that ends after `limit` seconds; or a sentence with the reason for their
+    absence."""
     try:
         done = subprocess.run([sys.executable, __file__, "--one", path, "--share", share], capture_output=True, text=True,
                               check=True, timeout=limit)

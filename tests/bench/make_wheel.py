@@ -50,7 +50,7 @@ def main():
     shell = gmsh.model.getBoundary(solid, oriented=False)
     faces = occ.copy(shell)
     occ.remove(solid, recursive=True)
-    # Faces cut by the planes; what is left of the planes goes.
+    # Faces cut by the planes; the rest of the planes goes.
     pieces, images = occ.fragment(faces, cuts(occ))
     kept = {tag for image in images[:len(faces)] for tag in image}
     occ.remove([p for p in pieces if p not in kept], recursive=True)

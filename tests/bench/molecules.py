@@ -3,16 +3,17 @@
 """molecules.py CARREAU [--sizes 10000,100000] [--surfaces vws,sas,ses] [--shapes random,packed,lattice] [--no-meshes] [--limit SECONDS]:
 seconds and memory of `carreau areas` and of `carreau mesh` for molecules from 24 atoms to 100 000.
 
-Caffeine and 1BNA are those of tests/data; the others are made here, with radii of 1.7, 1.55, 1.52 and 1.2 in the shares that
+Caffeine and 1BNA come from tests/data; the others are made here, with radii of 1.7, 1.55, 1.52 and 1.2 in the shares that
 proteins have:
 
     random   independent places in a cube, 60 cubic angstrom each: most balls are bare
     packed   a globule of a protein's density (18 cubic angstrom an atom) whose atoms are 1.5 apart at least, by random addition
     lattice  the same globule from a face-centred lattice, each atom moved by .3 in each direction (standard deviation)
 
-`carreau areas` measures all three surfaces; behind each stand area, volume and Euler's number. Seconds are those of the clock and of the processor of the whole command, memory is the largest of the process. Edges have the length
-of --edges (VWS and SES .6, SAS .8; 1.2 from 100 000 atoms on). The command searches its mesh for triangles that cross and writes a
-binary mesh. A run that takes longer than --limit (3600 s) is ended.
+`carreau areas` measures all three surfaces; behind each stand area, volume and Euler's number. Seconds are clock and
+processor times of the whole command, memory is the largest of the process. Edges have the length of --edges (VWS and
+SES .6, SAS .8; 1.2 from 100 000 atoms on). The command searches its mesh for triangles that cross and writes a binary
+mesh. A run that takes longer than --limit (3600 s) is ended.
 """
 import argparse
 import json
@@ -100,7 +101,8 @@ def run(command, limit):
 
 
 def peak(command, limit):
-    """The same in a process of its own, whose children are this command alone: the system tells the largest of all of them."""
+    """Measures in a separate process, whose children are this command alone: the system reports the largest memory of all of
+    them."""
     done = subprocess.run([sys.executable, os.path.abspath(__file__), "--one", str(limit), *command], capture_output=True, text=True)
     if not done.stdout:
         return None

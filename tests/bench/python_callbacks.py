@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""python_callbacks.py [SIZE...]: what a geometry costs by callbacks in C, in NumPy (batched) and in Python (scalar): a torus, the median
-of fifteen runs by turns in a new session each; then with a size at every place. Seconds of the processor, by one thread; what a point costs
-more is the difference to C, by the number of evaluations. In a clone with a build:
+"""python_callbacks.py [SIZE...]: the cost of a geometry by callbacks in C, in NumPy (batched) and in Python (scalar): a torus, the median
+of fifteen runs by turns in a new session each. Then with a size at every place. Processor seconds, by one thread; the additional cost of a
+point is the difference to C, divided by the number of evaluations. In a clone with a build:
 
     PYTHONPATH=cabi/python CARREAU_LIBRARY_PATH=build/release/cabi CARREAU_PYTHON_HOST=build/release/tests/python/python_host.so \\
       /usr/bin/python3 tests/bench/python_callbacks.py

@@ -4,19 +4,21 @@
 
     python3 tests/bench/trans_patch.py CARREAU FILE... [--share 2%]... [--repeat N] [--json FILE] [--gmsh SECONDS]
 
-One line a file, a size and a mesh; with --gmsh a third one, of Gmsh with compound surfaces (gmsh_compounds.py; x is its
-time over that of `carreau mesh --independent`, area what its mesh has of that of the faces, since faces that fail stay empty),
-or why there is none after so many seconds:
-  ideal    triangles over those that are equilateral, of the size, and have the area of the mesh
+One line a file, a size and a mesh; with --gmsh a third line, of Gmsh with compound surfaces, or the reason for its
+absence after so many seconds. (gmsh_compounds.py; x is its time over the time of `carreau mesh --independent`, area the
+share of the faces' area that its mesh covers, since failed faces stay empty.)
+  ideal    triangles over the number of equilateral triangles of the size with the area of the mesh
   range    share of edges with lengths in [1/sqrt 2, sqrt 2] in the prescribed metric, per cent
-  away     the same of edges no end of which is on a sharp line or joined to one by an edge; their share of all edges, per cent
+  away     range of edges whose ends are neither on a sharp line nor joined to one by an edge; their share of all edges,
+           per cent
   idealA   triangles over ideal ones of the same area, away from sharp lines: no corner is on one or joined to one
-  idealF   triangles over ideal ones where those that are not away count as they are: what sharp lines force
+  idealF   triangles over ideal ones, where triangles near sharp lines count as they are: the excess that sharp lines
+           force
   Q2       mean, first percentile, worst (HDR eq. 1.6)
   A0, A1   largest distance over the size, largest angle in degrees, both measured on the surface
   bound    largest upper bound of A0 and A1 over their tolerances, of meshes with --independent
-  x        time of meshing over that without --independent, one thread, best of N runs
-  tri/s    triangles of the mesh a second of what --independent adds
+  x        time of meshing over the time without --independent, one thread, best of N runs
+  tri/s    triangles of the mesh a second of the time that --independent adds
   evals    evaluations of surfaces a vertex
 Exit status 1 where a mesh with --independent has a defect, is open and was closed, or has more triangles that cross.
 """

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the interface share.
+// The common fixture of the tests of the interface.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -110,7 +110,8 @@ class Adaptation : public abi_tests::SessionTest {
   fs::path folder;
 };
 
-/// Unit triangles that a density of sizes wants over the square: integral of dx dy / (h1 h2) over sqrt(3) / 4.
+/// The number of unit triangles that a density of sizes prescribes over the square: integral of dx dy / (h1 h2) over
+/// sqrt(3) / 4.
 double wanted(const std::function<double(double)>& h1h2_of_x) {
   double sum = 0;
   for (int i = 0; i < 1000; ++i) sum += 2 * 0.002 / h1h2_of_x(-1 + 0.002 * (i + 0.5));
@@ -137,7 +138,8 @@ TEST_F(Adaptation, SizesOfABackgroundMeshAreFollowed) {
   EXPECT_EQ(background_report().asked, 0);
 }
 
-// A cube around the square, in the five tetrahedra of a corner each and the one between; sizes that are linear in x.
+// A cube around the square, in the five tetrahedra of a corner each and the tetrahedron between; sizes that are linear
+// in x.
 TEST_F(Adaptation, SizesOfTetrahedraAreFollowed) {
   const double corners[24] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1};
   const int32_t tetrahedra[20] = {0, 1, 2, 4, 3, 2, 1, 7, 5, 4, 7, 1, 6, 7, 4, 2, 1, 2, 4, 7};
@@ -413,7 +415,7 @@ TEST_F(Adaptation, ElementsOfSecondOrderAreAdaptedByValuesAtAllTheirNodes) {
         " adapt_sol p.sol adapt_out moved.sol adapt_tolerance 0.005 adapt_hmin 0.01 adapt_hmax 1\ncall adapt\n";
     ASSERT_EQ(carreau_run_env(session, file("blsurf.env", env).c_str()), CARREAU_OK) << element << error();
     const auto now = abi_tests::data_of(mesh());
-    // All edges are as long as is wanted between straight nodes, 0.106, and values at all nodes are those of the field.
+    // All edges have the prescribed length between straight nodes, 0.106, and values at all nodes agree with the field.
     EXPECT_NEAR(double(now.triangle_count()) / wanted([](double) { return 4.5 * 0.005 / 2; }), 1, 0.25) << element;
     std::ifstream moved(folder / "moved.sol");
     std::string word;
@@ -445,7 +447,7 @@ TEST_F(Adaptation, SizesAtAllNodesAreFollowed) {
   EXPECT_NE(error().find("nodes with those on edges"), std::string::npos) << error();
 }
 
-// Of a cubic the error falls by eight a halving of elements of second order, by four of straight ones.
+// For a cubic the error falls by eight a halving of elements of second order, by four of straight ones.
 TEST_F(Adaptation, TheLoopMeasuresCurvedElementsByTheirShapeFunctions) {
   Field field{[](double x, double) { return x * x * x; }};
   std::map<std::string, std::array<double, 2>> errors;
@@ -454,7 +456,7 @@ TEST_F(Adaptation, TheLoopMeasuresCurvedElementsByTheirShapeFunctions) {
       ASSERT_EQ(carreau_set_text(session, "element", element), CARREAU_OK);
       const double h = k == 0 ? 0.2 : 0.1;
       auto estimator = abi_tests::sized<carreau_estimator>();
-      estimator.hmin = h, estimator.hmax = h * (1 + 1e-9);  // the estimate says nothing more
+      estimator.hmin = h, estimator.hmax = h * (1 + 1e-9);  // the bounds determine the size
       carreau_adaptation a = adaptation(estimator, field);
       a.iterations = 1;
       auto report = abi_tests::sized<carreau_adaptation_report>();
@@ -571,7 +573,7 @@ TEST_F(Adaptation, FailuresOfTheFieldEndTheLoop) {
   field.at = [](double x, double) { return x > 0.5 ? std::nan("") : x; };
   EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_NE(error().find("nan"), std::string::npos) << error();
-  // Squares of what has such curvatures overflow.
+  // Squares of such curvatures overflow.
   for (const int differences : {0, 1}) {
     a.differences = differences;
     field.at = [](double x, double) { return 1e200 * x * x; };
@@ -596,7 +598,7 @@ TEST_F(Adaptation, FailuresOfTheFieldEndTheLoop) {
   EXPECT_NE(error().find("hphy_flag is 0"), std::string::npos) << error();
 }
 
-TEST_F(Adaptation, WrongBackgroundMeshesAreRefused) {
+TEST_F(Adaptation, WrongBackgroundMeshesAreRejected) {
   const double sizes[4] = {0.1, 0.1, 0.1, 0.1};
   const auto refused = [&](const carreau_background& b) {
     EXPECT_EQ(carreau_set_background(session, &b), CARREAU_ERR_ARGUMENT);
@@ -661,7 +663,7 @@ class AdaptationOfATorus : public abi_tests::SessionTest {
 TEST_F(AdaptationOfATorus, SizesHandedBackCrossTheSeams) {
   ASSERT_EQ(carreau_set_vertex_sizes(session, int64_t(sizes.size()), sizes.data()), CARREAU_OK) << error();
   expect_sizes();
-  // z is smooth across the seams, and so is what is carried over.
+  // z is smooth across the seams, and so is the transferred field.
   const auto data = abi_tests::data_of(mesh());
   std::vector<double> z, moved(data.vertex_count());
   for (std::size_t v = 0; v < old.vertex_count(); ++v) z.push_back(old.xyz[3 * v + 2]);

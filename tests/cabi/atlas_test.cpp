@@ -110,7 +110,7 @@ TEST(CAtlas, AnnulusThereAndBack) {
   ASSERT_EQ(carreau_annulus_outer_border(annulus, 0, nullptr, &corners), CARREAU_OK);
   std::vector<double> border(2 * std::size_t(corners));
   ASSERT_EQ(carreau_annulus_outer_border(annulus, corners, border.data(), &corners), CARREAU_OK);
-  for (std::size_t i = 0; i < border.size(); i += 2) {  // inside of the one that was given, around the inner one
+  for (std::size_t i = 0; i < border.size(); i += 2) {  // inside of the given outer border, around the inner border
     EXPECT_LE(std::max(std::abs(border[i]), std::abs(border[i + 1])), 2 + 1e-12);
     EXPECT_GE(std::max(std::abs(border[i]), std::abs(border[i + 1])), 1);
   }
@@ -174,7 +174,7 @@ TEST(CAtlas, SphereIsCoveredBlendedAndMeshed) {
   carreau_session_free(session);
 }
 
-TEST(CAtlas, BadTriangulationsAreToldWithTheVertex) {
+TEST(CAtlas, BadTriangulationsAreReportedWithTheVertex) {
   Sphere sphere(2);
   carreau_atlas* atlas = nullptr;
   ASSERT_EQ(carreau_atlas_create(&atlas), CARREAU_OK);
@@ -211,7 +211,7 @@ TEST(CAtlas, BadTriangulationsAreToldWithTheVertex) {
   clusters[5] = 3;
   EXPECT_EQ(build(clusters.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_TRUE(says("without gaps")) << carreau_atlas_last_error(atlas);
-  // A tetrahedron is divided until clusters have planes, or the sentence tells a vertex.
+  // A tetrahedron is divided until clusters have planes, or the sentence names a vertex.
   const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const std::int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
   const carreau_status status = carreau_atlas_build(atlas, nullptr, 4, corners, 4, faces, nullptr);

@@ -5,7 +5,7 @@
     blsurf_test.py <blsurf> <folder with x.pardom>
     blsurf_test.py --by-hand <gfortran> <cabi/fortran> <folder of libcarreau.so> <folder with cad_m.f90 and x.pardom> [<flag>...]
 
---by-hand compiles the program as README tells people without CMake to, with the flags of theirs.
+--by-hand compiles the program by README's steps for users without CMake, with the given flags.
 """
 import os
 import re
@@ -82,7 +82,7 @@ class Blsurf(unittest.TestCase):
 
 
 class WithoutOptionalRoutines(unittest.TestCase):
-    """RT-0232 sec. 3.1: other routines than those of surfaces and curves are "facultatives"."""
+    """RT-0232 sec. 3.1: routines other than surface and curve routines are "facultatives"."""
 
     @unittest.skipUnless("--by-hand" in sys.argv, "needs a compiler")
     def test_a_module_without_them_links_and_runs(self):

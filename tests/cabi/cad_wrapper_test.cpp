@@ -24,7 +24,7 @@ TEST(CadWrapper, MeshesAFile) {
   EXPECT_EQ(quality.open_edges, 0);
 }
 
-TEST(CadWrapper, TellsWhatAFileHolds) {
+TEST(CadWrapper, ListsTheContentOfAFile) {
   double last = 0;
   carreau::CadFile file(sphere, [&](double fraction) { return last = fraction, true; });
   EXPECT_EQ(last, 1);

@@ -62,7 +62,7 @@ TEST_F(Curve, GivesTheCountsOfTheIsotropicExample) {
   }
 }
 
-TEST_F(Curve, TheLengthIsThatOfTheLinearLaw) {
+TEST_F(Curve, TheLengthMatchesTheLinearLaw) {
   // RR-2818 sec. 5.2: between sizes p and q at distance d, d ln(q / p) / (q - p).
   const double h[] = {1.5, 0.5, 2, 0.1, 0.7};
   double exact = 0, length = 0;
@@ -77,7 +77,7 @@ TEST_F(Curve, TheLengthIsThatOfTheLinearLaw) {
   EXPECT_EQ(carreau_curve_split(session, &curve, 17, cuts.data(), nullptr, &length), CARREAU_ERR_ARGUMENT);
 }
 
-TEST_F(Curve, RefusesWhatMeansNothing) {
+TEST_F(Curve, RejectsMeaninglessInput) {
   plane[4] = 100;
   EXPECT_NE(refused().find("metric 1 along a curve is not positive definite"), std::string::npos);
   plane[4] = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was delivered, through the C interface.
+// Measures of the delivered mesh, through the C interface.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,7 +30,7 @@ std::vector<double> values_of(carreau_session* session, std::int32_t kind) {
   return values;
 }
 
-TEST_F(SessionTest, MeasuresWhatWasDelivered) {
+TEST_F(SessionTest, MeasuresTheDeliveredMesh) {
   const double h = 0.2;
   use_paraboloid(h);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -117,9 +117,9 @@ TEST_F(SessionTest, EveryKindHasItsSpreadAndHistogram) {
   EXPECT_GT(delivered.not_met, 0);
 }
 
-TEST_F(SessionTest, BoundsAreToldWhereTheyAreAskedFor) {
+TEST_F(SessionTest, BoundsAreReportedOnRequest) {
   use_paraboloid(0.3);
-  for (const std::int32_t asked : {1, 2}) {  // of meshes free of patches alone; of all
+  for (const std::int32_t asked : {1, 2}) {  // of cross-patch meshes alone; of all
     ASSERT_EQ(carreau_set_integer(session, "measure_bounds", asked), CARREAU_OK);
     ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
     const std::vector<double> seen[] = {values_of(session, CARREAU_MEASURE_A0), values_of(session, CARREAU_MEASURE_A1)};
@@ -136,7 +136,7 @@ TEST_F(SessionTest, BoundsAreToldWhereTheyAreAskedFor) {
   }
 }
 
-TEST_F(SessionTest, WritesJsonAndVtuOfWhatWasDelivered) {
+TEST_F(SessionTest, WritesJsonAndVtuOfTheDeliveredMesh) {
   use_paraboloid(0.5);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const std::string json = testing::TempDir() + "carreau_delivered.json",
@@ -153,7 +153,7 @@ TEST_F(SessionTest, WritesJsonAndVtuOfWhatWasDelivered) {
   std::remove(vtu.c_str());
 }
 
-TEST_F(SessionTest, RefusesWhatCannotBeMeasured) {
+TEST_F(SessionTest, RejectsMeshesThatCannotBeMeasured) {
   auto delivered = sized<carreau_delivered>();
   EXPECT_EQ(carreau_session_delivered(nullptr, &delivered), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_session_delivered(session, &delivered), CARREAU_ERR_SEQUENCE);

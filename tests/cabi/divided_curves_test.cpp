@@ -22,7 +22,7 @@ class DividedCurves : public SessionTest {
   }
 };
 
-TEST_F(DividedCurves, HaveTheEdgesThatAreAskedFor) {
+TEST_F(DividedCurves, HaveThePrescribedEdges) {
   use_paraboloid();
   const std::int64_t by_sizes = edges_of(1);
   ASSERT_EQ(carreau_model_divide_curve(session, 1, 1, 7, CARREAU_ARITHMETIC, 2), CARREAU_OK) << error();
@@ -36,7 +36,7 @@ TEST_F(DividedCurves, HaveTheEdgesThatAreAskedFor) {
   EXPECT_EQ(edges_of(1), by_sizes);
 }
 
-TEST_F(DividedCurves, AreRefusedWithASentence) {
+TEST_F(DividedCurves, AreRejectedWithASentence) {
   use_paraboloid();
   const double down[] = {0.5, 0.4}, nan[] = {std::numeric_limits<double>::quiet_NaN()}, beyond[] = {2};
   EXPECT_EQ(carreau_model_divide_curve(session, 2, 1, 5, CARREAU_EQUAL, 1), CARREAU_ERR_ARGUMENT);

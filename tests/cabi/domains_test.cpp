@@ -87,7 +87,7 @@ TEST_F(PolygonTest, AFaceThatFailsLeavesTheOthers) {
   ASSERT_EQ(carreau_mesh_quality(mesh(), &quality), CARREAU_OK);
   EXPECT_NEAR(quality.area, 2, 1e-12);
 
-  // Its owner can look at its domain, and at what the host says in it.
+  // Its owner can look at its domain, and at the answers of the host in it.
   const std::string path = testing::TempDir() + "carreau_failed_domain.mesh";
   ASSERT_EQ(carreau_set_text(session, "option", "onesurf2d"), CARREAU_OK);
   ASSERT_EQ(carreau_set_integer(session, "refs", 2), CARREAU_OK);
@@ -113,7 +113,7 @@ TEST_F(PolygonTest, AFaceThatFailsLeavesTheOthers) {
   EXPECT_EQ(std::remove(image.c_str()), 0);
 }
 
-TEST_F(PolygonTest, AModelThatBreaksARuleTellsTheFaceToLeaveOut) {
+TEST_F(PolygonTest, AModelThatBreaksARuleNamesTheFaceToLeaveOut) {
   polygon_host.polygons = {square};
   use_polygons();
   ASSERT_EQ(carreau_model_add_face(session, 2, 1), CARREAU_OK);
@@ -125,7 +125,7 @@ TEST_F(PolygonTest, AModelThatBreaksARuleTellsTheFaceToLeaveOut) {
   EXPECT_EQ(place.face, 2);
 }
 
-TEST_F(PolygonTest, ADomainThatCrossesItselfIsRefused) {
+TEST_F(PolygonTest, ADomainThatCrossesItselfIsRejected) {
   polygon_host.polygons = {bow_tie};
   use_polygons();
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_DOMAIN);
@@ -138,14 +138,14 @@ TEST_F(PolygonTest, ADomainThatCrossesItselfIsRefused) {
   EXPECT_EQ(carreau_session_mesh(session, &none), CARREAU_ERR_SEQUENCE);
 }
 
-TEST_F(PolygonTest, ADomainThatIsTurnedTheWrongWayIsRefused) {
+TEST_F(PolygonTest, ADomainThatIsTurnedTheWrongWayIsRejected) {
   polygon_host.polygons = {square};
   use_polygons(-1);  // the domain would be the outside (HDR fig. 3.1)
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_DOMAIN);
   EXPECT_NE(error().find("face 1"), std::string::npos) << error();
 }
 
-TEST_F(PolygonTest, ADomainThatIsTurnedTheOtherWayAndSaysSoIsMeshed) {
+TEST_F(PolygonTest, ADomainThatIsTurnedTheOtherWayWithItsOrientationIsMeshed) {
   polygon_host.polygons = {{square.rbegin(), square.rend()}};
   use_polygons(-1);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -154,7 +154,7 @@ TEST_F(PolygonTest, ADomainThatIsTurnedTheOtherWayAndSaysSoIsMeshed) {
   EXPECT_NEAR(quality.area, 1, 1e-12);
 }
 
-TEST_F(PolygonTest, ABoundaryThatDoesNotCloseIsRefused) {
+TEST_F(PolygonTest, ABoundaryThatDoesNotCloseIsRejected) {
   polygon_host.polygons = {square};
   polygon_host.gap = true;
   use_polygons();

@@ -184,13 +184,13 @@ TEST_F(SessionTest, SurfacesOfTrianglesHaveAllElements) {
       EXPECT_EQ(quality.triangle_share, 0) << element;
     }
     const bool curved = element[1] == '2';
-    // That of a sphere so much smaller or larger; straight elements lose a square of the size.
+    // The area of a sphere so much smaller or larger; straight elements lose a square of the size.
     EXPECT_NEAR(quality.area, 4 * std::acos(-1.0), 4 * std::acos(-1.0) * 2 * off_surface + (curved ? 0 : 0.15)) << element;
     EXPECT_LE(off_sphere(), 1.05 * off_surface) << element;  // nodes lie on it
   }
 }
 
-TEST_F(SessionTest, WhatElementsCannotDoIsTold) {
+TEST_F(SessionTest, LimitsOfElementsAreReported) {
   use_paraboloid();
   ASSERT_EQ(carreau_set_text(session, "element", "p2"), CARREAU_OK) << error();
   EXPECT_EQ(carreau_set_text(session, "element", "p3"), CARREAU_ERR_ARGUMENT);

@@ -69,7 +69,7 @@ TEST_F(FieldsTest, HoldEveryChannelOfTheMesh) {
   EXPECT_NEAR(image.at("position.z", 10, 14), (u * u + v * v) / 2, 1e-7);
 }
 
-TEST_F(FieldsTest, OfSomeChannelsOnlyHoldThose) {
+TEST_F(FieldsTest, HoldTheRequestedChannelsOnly) {
   use_paraboloid(0.5);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const std::int64_t before = host.calls;
@@ -95,7 +95,7 @@ TEST_F(FieldsTest, ThatCannotBeWrittenLoseNoMesh) {
   EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
-TEST_F(FieldsTest, OptionsThatCannotBeAreRefused) {
+TEST_F(FieldsTest, OptionsThatCannotBeAreRejected) {
   use_paraboloid(0.5);
   const std::string path = file("x.exr");
   const auto refused = [&](auto change) {
@@ -127,8 +127,8 @@ TEST_F(FieldsTest, NeedAGeometryAndAModel) {
   EXPECT_EQ(error(), "the model has no face yet");
 }
 
-// What the owner of a patch that failed has: a host that goes wrong from some call on.
-TEST_F(FieldsTest, OfAFailedRunShowWhatTheHostAnswers) {
+// The case of the owner of a failed patch: a host that goes wrong from some call on.
+TEST_F(FieldsTest, AFailedRunShowsTheHostsAnswers) {
   use_paraboloid(0.5);
   host.misbehaviour = HOST_NAN;
   host.misbehave_from = 20;
@@ -139,7 +139,7 @@ TEST_F(FieldsTest, OfAFailedRunShowWhatTheHostAnswers) {
   EXPECT_TRUE(std::isnan(broken.at("position.x", 5, 5)));
   EXPECT_EQ(broken.at("mask", 5, 5), 1);
   EXPECT_EQ(broken.text_attribute("face.status"), "not meshed");
-  // The same patch, mended, without a run.
+  // The same patch, repaired, without a run.
   host.misbehaviour = HOST_FINE;
   ASSERT_EQ(carreau_write_exr(session, file("x.exr").c_str(), &small), CARREAU_OK) << error();
   const ExrImage mended = read_exr(file("x.face.1.exr")).at(0);
@@ -148,7 +148,7 @@ TEST_F(FieldsTest, OfAFailedRunShowWhatTheHostAnswers) {
   EXPECT_EQ(mended.integer.at("triangle").at(55), 0xFFFFFFFFU);
 }
 
-TEST_F(FieldsTest, StopWhenAsked) {
+TEST_F(FieldsTest, StopOnRequest) {
   use_paraboloid(0.5);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const auto stop = [](std::int32_t phase, std::int32_t face, double fraction, void*) -> std::int32_t {

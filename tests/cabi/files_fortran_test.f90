@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! files_fortran_test CLONE: each geometry of module carreau_geometry that comes from a file, and what is exact about it.
+! files_fortran_test CLONE: each geometry of module carreau_geometry that comes from a file, and its exact properties.
 program files_fortran_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use carreau
@@ -58,7 +58,7 @@ program files_fortran_test
   call carreau_triangles_measure(session, report, status)
   if (report%triangles /= quality%triangles .or. report%border_edges < 3) error stop 'the triangles of the plate'
 
-  ! What has begun can be dropped.
+  ! A geometry that has begun can be dropped.
   call carreau_load_triangles(session, sharp, 'none.off', status)
   if (status /= CARREAU_ERR_ARGUMENT .and. status /= CARREAU_ERR_FILE) error stop 'a file that is not there'
   call carreau_geometry_cancel(session, status)

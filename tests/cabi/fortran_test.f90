@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! Module carreau: the same paraboloid as in C, bit for bit; base 1; texts; callbacks; errors.
+! Module carreau: a mesh of the paraboloid identical to the mesh in C; base 1; texts; callbacks; errors.
 module paraboloid_m
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
   use carreau
   implicit none
 
-  !> What `user` points to.
+  !> The target of `user`.
   type :: watch
     integer :: reports = 0, stop_at = 0, messages = 0
     character(len=200) :: last_message = ' '
@@ -382,7 +382,7 @@ contains
     call carreau_session_free(session)
   end subroutine test_divided_curves
 
-  ! Curved triangles: nodes from 1, on the paraboloid, corners those of the triangles.
+  ! Curved triangles: nodes from 1, on the paraboloid; corners are the corners of the triangles.
   subroutine test_elements
     type(carreau_session) :: session
     type(carreau_mesh) :: mesh
@@ -422,7 +422,7 @@ contains
     call carreau_mesh_cell_quality(mesh, quality, status)
     call expect(status == CARREAU_OK .and. quality%triangles6 == m .and. quality%invalid == 0 .and. &
       quality%least_jacobian_min > 0, 'cell_quality')
-    ! The same free of patches: quadrilaterals whose nodes are at their (u, v) of the faces that are told.
+    ! Cross-patch: quadrilaterals whose nodes are at their (u, v) of the returned faces.
     call carreau_set_text(session, 'patches', 'independent', status)
     call carreau_set_text(session, 'element', 'q2.1', status)
     call carreau_mesh_generate(session, status)
@@ -574,7 +574,7 @@ contains
     call carreau_session_free(session)
   end subroutine test_metric_batches
 
-  !> What tests/cabi/metric_algebra_test.cpp finds in C.
+  !> The results that tests/cabi/metric_algebra_test.cpp checks in C.
   subroutine test_metric_algebra(session)
     type(carreau_session), intent(in) :: session
     real(c_double), allocatable :: m(:, :), found(:, :), h(:, :), k(:, :), axes(:, :, :), l(:)
@@ -628,7 +628,7 @@ contains
     call carreau_mesh_generate(session, status)
     call carreau_session_mesh(session, mesh, status)
     call carreau_mesh_vertices(mesh, xyz, status)
-    ! Sizes that halve those of the mesh, handed back.
+    ! Half of the mesh's sizes, handed back.
     allocate (sizes(size(xyz, 2)))
     sizes = 0.25d0
     call carreau_set_vertex_sizes(session, sizes, status)
@@ -669,7 +669,7 @@ contains
     call carreau_session_free(session)
   end subroutine test_adaptation
 
-  ! A file of ours starts with the magic number of OpenEXR; what it holds is tested in C++.
+  ! A file of ours starts with the magic number of OpenEXR; C++ tests check its content.
   subroutine test_fields
     type(carreau_session) :: session
     type(carreau_exr_options) :: options

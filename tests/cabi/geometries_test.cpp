@@ -190,7 +190,7 @@ TEST(Bezier, SidesOfOneReferenceAreOneCurve) {
   EXPECT_EQ(curves, 7);
 }
 
-TEST(Bezier, RefusesWhatIsNoPatch) {
+TEST(Bezier, RejectsInvalidPatches) {
   Session session;
   carreau_bezier bezier{};
   bezier.struct_size = sizeof bezier;
@@ -250,7 +250,7 @@ TEST(Geometries, StandBesideTheHostsOwnFaces) {
   add_saddle(session, 2, 2, 0), add_plate(session, other);
   EXPECT_EQ(geometry(session, 0).first_face, 8);
   EXPECT_EQ(geometry(session, 0).first_curve, 15);
-  EXPECT_EQ(geometry(session, 0).last_curve, 18);  // room for what gluing will find
+  EXPECT_EQ(geometry(session, 0).last_curve, 18);  // room for the interfaces that gluing will find
   EXPECT_EQ(geometry(session, 1).first_face, 9);
   EXPECT_EQ(geometry(session, 1).first_curve, 19);
   mesh(session);
@@ -271,7 +271,7 @@ TEST(Geometries, StandBesideTheHostsOwnFaces) {
     }
 }
 
-TEST(Geometries, AreJoinedWhereTheyMeetWhenAsked) {
+TEST(Geometries, AreJoinedWhereTheyMeetOnRequest) {
   for (const bool joined : {false, true}) {
     Session session;
     Plate left{.shift = -1}, right{.shift = 1};
@@ -315,7 +315,7 @@ TEST(Geometries, ThatAreCancelledLeaveTheSessionAsItWas) {
   EXPECT_FALSE(triangles_of(session, 1, 1).empty());
 }
 
-TEST(Geometries, AreReleasedWhenNothingAsksThem) {
+TEST(Geometries, AreReleasedWhenNothingUsesThem) {
   Plate plate_of;
   {
     Session session;
@@ -347,7 +347,7 @@ TEST(Geometries, FailWithTheReferencesOfTheSession) {
   EXPECT_NE(sentence.find("42"), std::string::npos) << sentence;
 }
 
-TEST(Errors, OfLibrariesOnTopAreThoseOfTheSession) {
+TEST(Errors, LibrariesOnTopSetErrorsOfTheSession) {
   Session session;
   EXPECT_EQ(carreau_set_error(session, CARREAU_ERR_FILE, "no such part"), CARREAU_ERR_FILE);
   EXPECT_STREQ(carreau_last_error(session), "no such part");

@@ -55,7 +55,7 @@ TEST_F(Grids, TwoBlocksMakeACylinder) {
   for (const std::int32_t ref : data.triangle_refs) EXPECT_TRUE(ref == 1 || ref == 2);
 }
 
-TEST_F(Grids, OptionsMayBeNullAndPointsCanBeAskedFor) {
+TEST_F(Grids, OptionsMayBeNullAndPointsCanBeRequested) {
   const Cylinder cylinder;
   ASSERT_EQ(carreau_add_grid(session, nullptr, 2, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_OK);
   const std::array<double, 2> uv{8, 4};
@@ -77,7 +77,7 @@ TEST_F(Grids, AFileIsSmoothedOnRequest) {
   EXPECT_NEAR(x[1], 600, 1e-9);
 }
 
-TEST_F(Grids, MistakesAreToldAndLeaveTheSessionAsItWas) {
+TEST_F(Grids, MistakesAreReportedAndLeaveTheSessionAsItWas) {
   const Cylinder cylinder;
   carreau_grid_options options = sized<carreau_grid_options>();
   const auto add = [&](const std::int32_t* counts, const double* nodes) -> std::string {
@@ -88,7 +88,7 @@ TEST_F(Grids, MistakesAreToldAndLeaveTheSessionAsItWas) {
   EXPECT_EQ(add(thin.data(), cylinder.nodes.data()), "block 2 has 17 x 1 nodes; a surface needs two rows and two columns");
   EXPECT_EQ(add(negative.data(), cylinder.nodes.data()), "block 1 has -1 x 9 nodes");
   options.measured = 3;
-  EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()), "what a grid has measured is 3; it must be 0, 1 or 2");
+  EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()), "the kind of measured values of a grid is 3; it must be 0, 1 or 2");
   options.measured = 0, options.join_angle = -1;
   EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()), "the join_angle of a grid must lie between 0 and 180 degrees");
   options.join_angle = 0, options.smoothing_rounds = -1;

@@ -41,7 +41,7 @@ TEST(Status, ValuesAreFixedForever) {
   EXPECT_EQ(CARREAU_ERR_INTERNAL, 99);
 }
 
-TEST(Version, IsThatOfTheProject) {
+TEST(Version, MatchesTheProject) {
   EXPECT_STREQ(carreau_version(), CARREAU_TEST_VERSION);
   int major = -1, minor = -1, patch = -1;
   ASSERT_EQ(std::sscanf(carreau_version(), "%d.%d.%d", &major, &minor, &patch), 3);
@@ -78,7 +78,7 @@ TEST_F(SessionTest, NullArgumentsHaveASentence) {
   EXPECT_EQ(error(), "the argument out_value is NULL");
 }
 
-TEST_F(SessionTest, TheSentenceIsThatOfTheLastCall) {
+TEST_F(SessionTest, TheSentenceBelongsToTheLastCall) {
   EXPECT_EQ(error(), "");
   EXPECT_EQ(carreau_set_integer(session, "frontel", 1), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(error(), "there is no parameter 'frontel'; did you mean 'frontal'?");
@@ -86,7 +86,7 @@ TEST_F(SessionTest, TheSentenceIsThatOfTheLastCall) {
   EXPECT_EQ(error(), "");
 }
 
-TEST_F(SessionTest, CallsOutOfOrderAreRefused) {
+TEST_F(SessionTest, CallsOutOfOrderAreRejected) {
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_SEQUENCE);
   EXPECT_EQ(error(), "no geometry is registered: call carreau_set_cad or carreau_set_cad_m first");
   EXPECT_EQ(carreau_run_env(session, "blsurf.env"), CARREAU_ERR_SEQUENCE);
@@ -107,7 +107,7 @@ TEST_F(SessionTest, CallsOutOfOrderAreRefused) {
 
 // ---- structs that carry their size ----
 
-TEST_F(SessionTest, StructsWithoutASizeAreRefused) {
+TEST_F(SessionTest, StructsWithoutASizeAreRejected) {
   carreau_cad cad = paraboloid_cad(&host);
   cad.struct_size = 0;
   EXPECT_EQ(carreau_set_cad(session, &cad), CARREAU_ERR_ARGUMENT);
@@ -120,7 +120,7 @@ TEST_F(SessionTest, StructsWithoutASizeAreRefused) {
 
 TEST_F(SessionTest, AStructOfAnOlderHeaderIsReadAsFarAsItGoes) {
   carreau_cad_m cad = paraboloid_cad_m();
-  // An older header ended before the sizes: what lies behind is not the library's to read.
+  // An older header ended before the sizes: the library must not read the bytes behind.
   cad.struct_size = offsetof(carreau_cad_m, cad_hphys);
   cad.cad_hphys = reinterpret_cast<void (*)(const std::int32_t*, const double*, double*)>(0x1);
   ASSERT_EQ(carreau_set_cad_m(session, &cad), CARREAU_OK) << error();
@@ -143,7 +143,7 @@ TEST_F(SessionTest, AStructOfANewerHeaderIsAcceptedWhenItsNewMembersAreZero) {
   EXPECT_EQ(error(), "carreau_cad has members set that this version of the library does not know");
 }
 
-TEST(Structs, OfAnOlderHeaderAreFilledAsFarAsTheyGo) {
+TEST(Structs, OlderOnesAreFilledAsFarAsTheyGo) {
   carreau_parameter info{};
   info.struct_size = offsetof(carreau_parameter, default_text);
   const char* untouched = "untouched";
@@ -154,7 +154,7 @@ TEST(Structs, OfAnOlderHeaderAreFilledAsFarAsTheyGo) {
   EXPECT_EQ(info.struct_size, offsetof(carreau_parameter, default_text));
 }
 
-TEST_F(SessionTest, GeometryThatLacksARoutineIsRefused) {
+TEST_F(SessionTest, GeometryThatLacksARoutineIsRejected) {
   carreau_cad_m cad_m = paraboloid_cad_m();
   cad_m.curv0 = nullptr;
   EXPECT_EQ(carreau_set_cad_m(session, &cad_m), CARREAU_ERR_ARGUMENT);
@@ -214,7 +214,7 @@ TEST_F(SessionTest, ParametersAreListedSetAndReset) {
   EXPECT_EQ(flag, 0);
 }
 
-TEST_F(SessionTest, WrongParametersAreRefused) {
+TEST_F(SessionTest, WrongParametersAreRejected) {
   EXPECT_EQ(carreau_set_real(session, "hphydef", -1), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(error(), "parameter hphydef must be greater than 0; -1 is not");
   EXPECT_EQ(carreau_set_real(session, "hphydef", std::nan("")), CARREAU_ERR_ARGUMENT);
@@ -281,7 +281,7 @@ TEST_F(SessionTest, AModelWrittenAsPardomIsReadBack) {
   std::remove(path.c_str());
 }
 
-TEST_F(SessionTest, ModelsThatContradictThemselvesAreRefused) {
+TEST_F(SessionTest, ModelsThatContradictThemselvesAreRejected) {
   EXPECT_EQ(carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, 1, 1, 2), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(error(), "the model has no face of reference 1: call carreau_model_add_face first");
   EXPECT_EQ(carreau_model_check(session), CARREAU_ERR_MODEL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* carreau.h is C99: compiled with -std=c99 -pedantic -Werror. A host of one page that meshes the manual's paraboloid
- * from memory; exits with 0 when the mesh has the 216 boundary edges that its sizes ask for (RT-0232 sec. 6.1). */
+ * from memory. Exits with 0 when the mesh has the 216 boundary edges that its sizes prescribe (RT-0232 sec. 6.1). */
 #include <stdio.h>
 #include <stdlib.h>
 

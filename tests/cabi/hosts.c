@@ -8,7 +8,7 @@ static int misbehaves(const test_host* host, int32_t how) {
   return host->misbehaviour == how && host->calls >= host->misbehave_from;
 }
 
-/* What every surface callback does besides its formula. */
+/* The work of every surface callback besides its formula. */
 static int32_t begin_call(test_host* host) {
   ++host->calls;
   if (host->stop_at != 0 && host->calls == host->stop_at) carreau_stop(host->session);

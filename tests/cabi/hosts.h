@@ -12,7 +12,7 @@ extern "C" {
 /* How the next calls misbehave. */
 enum { HOST_FINE = 0, HOST_NAN, HOST_INFINITY, HOST_STATUS, HOST_REVERSED_INTERVAL, HOST_WRONG_DERIVATIVE };
 
-/* What a host of carreau_cad gets as `user`. */
+/* The target of `user` for a host of carreau_cad. */
 typedef struct test_host {
   int64_t calls;          /* of surface, or points of surface_batch */
   int64_t curve_calls;    /* of curve */

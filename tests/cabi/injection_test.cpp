@@ -73,7 +73,7 @@ struct Saboteur {
 
 class InjectionTest : public SessionTest {
  protected:
-  /// A torus with sizes asked everywhere, and its mesh.
+  /// A torus with a size callback everywhere, and its mesh.
   void SetUp() override {
     SessionTest::SetUp();
     host.session = session;
@@ -126,7 +126,7 @@ class InjectionTest : public SessionTest {
     return failed;
   }
 
-  /// What a host says wrong while its derivatives are tried out, on a few points, is no reason to stop.
+  /// Wrong answers of a host do not stop the run while its derivatives are tested on a few points.
   void expect_callback_error_or_the_same_mesh(carreau_status status, const std::string& word) {
     if (status == CARREAU_OK) {
       EXPECT_TRUE(data_of(mesh()) == before);
@@ -143,7 +143,7 @@ class InjectionTest : public SessionTest {
 
 TEST_F(InjectionTest, AStatusAtAnyCallStopsTheRunAndNothingElse) {
   const auto check = [&](carreau_status status) {
-    // The host is not asked again.
+    // The host is not called again.
     if (status != CARREAU_OK) {
       EXPECT_EQ(saboteur.calls, saboteur.at);
     }
@@ -170,7 +170,7 @@ TEST_F(InjectionTest, AnExceptionAtAnyCallBecomesAStatusWithItsText) {
 }
 
 // A value that is finite but absurd may pass for a size, whose limits it obeys; it must not make a mesh with holes.
-TEST_F(InjectionTest, AHugeValueAtAnyCallIsRefusedOrLeavesASoundMesh) {
+TEST_F(InjectionTest, AHugeValueAtAnyCallIsRejectedOrLeavesASoundMesh) {
   const auto check = [&](carreau_status status) {
     if (status != CARREAU_OK && status != CARREAU_ERR_PARTIAL) return;
     EXPECT_EQ(defects_of(mesh(), status == CARREAU_OK), "");

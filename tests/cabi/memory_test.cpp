@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that ends at the n-th allocation, for every n of a run. An executable of its own: it replaces operator new.
+// Memory that ends at the n-th allocation, for every n of a run. A separate executable, since it replaces operator new.
 #include <cstdlib>
 #include <new>
 

@@ -94,7 +94,7 @@ TEST_F(Tetrahedron, KeepsTheParametersOfItsCorners) {
   EXPECT_EQ(out, uv);
 }
 
-TEST_F(Tetrahedron, MistakesAreToldAndTheOldContentStays) {
+TEST_F(Tetrahedron, MistakesAreReportedAndTheOldContentStays) {
   ASSERT_EQ(carreau_mesh_from_arrays(mesh, &arrays), CARREAU_OK);
   const auto refused = [&](const std::string& why) {
     EXPECT_EQ(carreau_mesh_from_arrays(mesh, &arrays), CARREAU_ERR_ARGUMENT);

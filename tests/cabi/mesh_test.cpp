@@ -112,7 +112,7 @@ TEST_F(SessionTest, GivesQualityFacesAndDefects) {
   EXPECT_EQ(carreau_mesh_vertices(mesh(), n, nullptr), CARREAU_ERR_ARGUMENT);
 }
 
-TEST_F(SessionTest, TellsTrianglesThatCross) {
+TEST_F(SessionTest, ReportsTrianglesThatCross) {
   use_paraboloid(0.3);
   std::int64_t count = -1;
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -184,7 +184,7 @@ TEST_F(SessionTest, MeshesATorusWithItsSeams) {
   }
 }
 
-TEST_F(SessionTest, TellsTheInterfacesOfATorusAndOfASheet) {
+TEST_F(SessionTest, ListsTheInterfacesOfATorusAndOfASheet) {
   std::int64_t n = -1;
   auto each = sized<carreau_interface>();
   EXPECT_EQ(carreau_session_interface_count(session, &n), CARREAU_ERR_SEQUENCE);
@@ -372,7 +372,7 @@ TEST_F(SessionTest, SizesThatAreNotPositiveAreErrorsOfTheCallback) {
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
 }
 
-TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
+TEST_F(SessionTest, AHostExplainsTheFailureOfItsCallback) {
   carreau_cad cad = paraboloid_cad(&host);
   cad.failure = [](std::int32_t face, void* user) {
     return face == 1 && user != nullptr ? "the knots of the spline descend" : "";
@@ -392,7 +392,7 @@ TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
   EXPECT_NE(error().find("(the knots of the spline descend)"), std::string::npos) << error();
 }
 
-// A second face that the host knows nothing of.
+// A second face that the host does not know.
 TEST_F(MeshFileTest, FacesThatAreLeftOutAreInTheMeshAndInFiles) {
   use_paraboloid(0.8);
   EXPECT_EQ(carreau_model_leave_out_face(session, 2, "why"), CARREAU_ERR_ARGUMENT);
@@ -488,7 +488,7 @@ TEST_F(MeshFileTest, ColoursOfFacesAreInTheMeshAndInVtu) {
   EXPECT_EQ(face.status, CARREAU_FACE_MESHED);
 }
 
-TEST_F(MeshFileTest, ExportsWhatTheParametersSay) {
+TEST_F(MeshFileTest, ExportsByTheParameters) {
   use_paraboloid(0.4);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const std::string file = path + ".mesh";
@@ -584,7 +584,7 @@ TEST_F(SessionTest, RunsABlsurfEnv) {
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   EXPECT_EQ(carreau_run_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
-  EXPECT_LT(hphydef, 0.16);  // the default again (diag / 50), not what line 1 says
+  EXPECT_LT(hphydef, 0.16);  // the default again (diag / 50), not the value of line 1
   ASSERT_EQ(carreau_set_real(session, "hphydef", 0.25), CARREAU_OK);
   EXPECT_EQ(carreau_run_env(session, "/nonexistent/blsurf.env"), CARREAU_ERR_FILE);
   EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Algebra of metrics through the interface: closed forms in the plane and in space, and what is refused.
+// Algebra of metrics through the interface: closed forms in the plane and in space, and rejected input.
 #include <cmath>
 #include <numbers>
 
@@ -113,7 +113,7 @@ TEST_F(MetricAlgebra, LengthsHaveTheirClosedForms) {
   }
 }
 
-TEST_F(MetricAlgebra, WhatIsWrongIsToldAndNothingIsWritten) {
+TEST_F(MetricAlgebra, ErrorsAreReportedAndNothingIsWritten) {
   const double good_and_bad[] = {1, 0, 1, 1, 2, 1}, share[] = {0.5, 0.5};
   double out[6] = {7, 7, 7, 7, 7, 7}, axes[8];
   refused(carreau_metric_sizes(session, 2, 2, good_and_bad, out, axes), "metric 1 of metrics is not positive definite");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Metric callbacks of a host: what they may answer, and what they may not.
+// Metric callbacks of a host: valid and invalid answers.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -110,7 +110,7 @@ TEST_F(MetricCallbacks, AnIsotropicMetricIsASize) {
 // The plane metric of sizes 0.25 along x and 0.025 along y, seen from above: the mesh has unit edges in it.
 TEST_F(MetricCallbacks, AMetricOfSpaceGovernsTheMesh) {
   metric.kind = CARREAU_METRIC_SPACE;
-  // z counts for little, so that lengths are those of the projection on the plane.
+  // z counts for little, so that lengths are lengths of the projection on the plane.
   metric.value = {16, 0, 0, 1600, 0, 1e-4};
   ASSERT_EQ(carreau_set_real(session, "hphymin", 0.01), CARREAU_OK);
   ASSERT_EQ(carreau_set_real(session, "hphymax", 100), CARREAU_OK);
@@ -134,7 +134,7 @@ TEST_F(MetricCallbacks, AMetricOfSpaceGovernsTheMesh) {
   EXPECT_EQ(defects_of(mesh()), "");
 }
 
-TEST_F(MetricCallbacks, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {
+TEST_F(MetricCallbacks, UnusableMetricsHaveASentenceWithThePlaceAndTheMatrix) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(sentence_of(CARREAU_METRIC_SPACE, {1, 2, 0, 1, 0, 1}),
             "face 1, curve 1 (reference 1), t = 0: the metric callback returned the metric (xx, xy, xz, yy, yz, zz) = "
@@ -206,7 +206,7 @@ TEST_F(MetricCallbacks, BatchesMakeTheMeshOfSinglePoints) {
   EXPECT_NE(error().find("surface_metric_batch returned the status 9"), std::string::npos) << error();
 }
 
-TEST_F(MetricCallbacks, AreNotAskedWhenPhysicalSizesAreIgnored) {
+TEST_F(MetricCallbacks, AreNotCalledWhenPhysicalSizesAreIgnored) {
   ASSERT_EQ(carreau_set_integer(session, "hphy_flag", 0), CARREAU_OK);
   ASSERT_EQ(carreau_set_integer(session, "hgeo_flag", 1), CARREAU_OK);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();

@@ -86,7 +86,7 @@ program model_fortran_test
   call check(status == CARREAU_ERR_LIMIT .and. carreau_last_error(other) == 'too much', 'an error of a library on top')
   call carreau_session_free(other)
 
-  ! Names and colours; a run that nobody stops.
+  ! Names and colours; a run that is not stopped.
   call carreau_model_name_face(session, 2, 'right', status)
   call carreau_model_set_face_sides(session, 2, 5, 0, status)
   call carreau_model_name_entities(session, 3, [5], 'right half', status)
@@ -144,7 +144,7 @@ program model_fortran_test
   call carreau_mesh_edge_refs(mesh, edge_refs, status)
   call check(f == 1 .and. any(edge_refs == 3) .and. all(edge_refs /= 7), 'parts')
 
-  ! A face that is not wanted.
+  ! A face that is left out.
   call carreau_model_clear(session, status)
   call add_squares(session)
   call carreau_model_leave_out_face(session, 2, 'it is not wanted', status)

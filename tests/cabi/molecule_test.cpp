@@ -101,7 +101,7 @@ TEST_F(Molecules, AtomsShareTheWholeExcludedSurface) {
   for (std::int64_t i = 0; i < m.atoms; ++i) EXPECT_GE(std::min({a[i], b[i], c[i]}), -1e-9);
 }
 
-TEST_F(Molecules, PointsOfFacesCanBeAskedFor) {
+TEST_F(Molecules, PointsOfFacesCanBeRequested) {
   add_two(CARREAU_VWS);
   std::array<double, 2> uv{};
   std::array<double, 3> x{};
@@ -127,7 +127,7 @@ TEST_F(Molecules, AFileHasNumbersAndResidues) {
   EXPECT_EQ(carreau_molecule_atom_name(session, 486), nullptr);
 }
 
-TEST_F(Molecules, MistakesAreToldAndLeaveTheSessionAsItWas) {
+TEST_F(Molecules, MistakesAreReportedAndLeaveTheSessionAsItWas) {
   const auto add = [&](const carreau_molecule_options& options, std::int64_t n, const double* centers,
                        const double* radii) -> std::string {
     EXPECT_EQ(carreau_add_molecule(session, &options, n, centers, radii), CARREAU_ERR_ARGUMENT);

@@ -103,7 +103,7 @@ TEST_F(PartsTest, AreOneFaceInFiles) {
       auto quality = sized<carreau_quality>();
       ASSERT_EQ(carreau_mesh_quality(read, &quality), CARREAU_OK);
       EXPECT_NEAR(quality.area, one ? 2 : 3, 1e-9);
-      // In space what parts share is there once.
+      // In space shared vertices and edges of parts are there once.
       std::set<std::pair<double, double>> places;
       for (std::size_t v = 0; v < found.vertex_count(); ++v) places.emplace(found.xyz[3 * v], found.xyz[3 * v + 1]);
       if (std::string(option).ends_with("3d")) {

@@ -48,7 +48,7 @@ class PlaneDomain : public ::testing::Test {
   carreau_plane_domain domain{};
 };
 
-TEST_F(PlaneDomain, ParityAndInsideAndSidesSayWhatIsMeshed) {
+TEST_F(PlaneDomain, ParityInsideAndSidesDetermineTheDomain) {
   expect(carreau_add_plane_domain(session, &domain));
   EXPECT_NEAR(area(mesh(0.2)), 12, 1e-12);
   expect(carreau_model_clear(session));
@@ -106,7 +106,7 @@ TEST_F(PlaneDomain, ArcsBoundPolygonsOfEqualEdges) {
     expect(carreau_mesh_edge_refs(of, n, found.data()));
     return double(std::count(found.begin(), found.end(), ref));
   };
-  // Of an arc by the angle a and radius r in n equal edges, the polygon with its centre has the area r^2 n / 2 sin(a / n).
+  // If an arc of angle a and radius r has n equal edges, the polygon with its centre has the area r^2 n / 2 sin(a / n).
   const auto polygon = [](double r, double angle, double n) { return r * r * n / 2 * std::sin(angle / n); };
   expect(carreau_add_plane_domain(session, &domain));
   carreau_mesh* made = mesh(0.2);

@@ -81,7 +81,7 @@ TEST_F(FailingHostTest, AWrongDerivativeIsFoundBeforeMeshing) {
   expect_old_mesh_and_a_usable_session();
 }
 
-TEST_F(FailingHostTest, CallsFromInsideACallbackAreRefused) {
+TEST_F(FailingHostTest, CallsFromInsideACallbackAreRejected) {
   host.probe_busy = 1;
   host.busy_status = CARREAU_OK;
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -256,7 +256,7 @@ TEST_F(SessionTest, CanBeStoppedFromAnotherThread) {
     std::thread thread;
     carreau_session* session;
   } waiting{{}, session};
-  // The thread starts when the patches do, and asks for the stop some time later.
+  // The thread starts when the patches do, and requests the stop some time later.
   const auto start = [](std::int32_t phase, std::int32_t, double, void* user) -> std::int32_t {
     auto* w = static_cast<Waiting*>(user);
     if (phase == CARREAU_PHASE_PATCHES && !w->thread.joinable())
@@ -274,7 +274,7 @@ TEST_F(SessionTest, CanBeStoppedFromAnotherThread) {
   EXPECT_EQ(carreau_session_mesh(session, &mesh), CARREAU_ERR_SEQUENCE);
 }
 
-TEST_F(SessionTest, AMeshAboveTheLimitIsRefused) {
+TEST_F(SessionTest, AMeshAboveTheLimitIsRejected) {
   use_paraboloid(0.1);
   ASSERT_EQ(carreau_set_integer(session, "max_triangles", 1000), CARREAU_OK);
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_LIMIT);

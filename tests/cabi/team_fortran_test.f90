@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A team of one rank, which has nobody to talk to, and the bytes of a file, counted.
+!> A team of one rank, which has no partner, and the bytes of a file, counted.
 module lone_rank
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_ptr
   implicit none

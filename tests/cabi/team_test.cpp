@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// carreau_set_team without MPI: ranks are threads of this process, each with a session of its own.
+// carreau_set_team without MPI: ranks are threads of this process, each with its own session.
 #include <algorithm>
 #include <array>
 #include <barrier>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// What threads share that stand for ranks.
+/// The data shared by threads that stand for ranks.
 struct Office {
   explicit Office(int ranks) : barrier(ranks), given(static_cast<std::size_t>(ranks)) {}
 
@@ -101,7 +101,7 @@ TEST(Team, RanksMakeTheMeshOfOneProcess) {
   for (const abi_tests::MeshData& mesh : found) EXPECT_EQ(mesh, expected);
 }
 
-/// What one rank keeps.
+/// The results that one rank keeps.
 struct Kept {
   std::string bytes;
   carreau_part_counts counts{};
@@ -173,7 +173,7 @@ carreau::Session close_bowls(int rounds) {
   return session;
 }
 
-TEST(Team, PartsTellWhichTrianglesCrossAndPartThem) {
+TEST(Team, PartsFindTrianglesThatCrossAndSeparateThem) {
   carreau::Session coarse = close_bowls(0), alone = close_bowls(5);
   coarse.generate(), alone.generate();
   ASSERT_GT(alone.mesh().quality().triangles, coarse.mesh().quality().triangles);
@@ -184,7 +184,7 @@ TEST(Team, PartsTellWhichTrianglesCrossAndPartThem) {
   }
 }
 
-TEST(Team, PartsRefuseFacesThatVanish) {
+TEST(Team, PartsRejectFacesThatVanish) {
   const auto narrow = [] {
     carreau::Session session;
     std::vector<carreau::BezierPatch> squares;
@@ -229,7 +229,7 @@ TEST(Team, PartsOfTheTeapotCrossWhereItDoes) {
   EXPECT_EQ(file_of(kept), alone.mesh().encode(".meshb"));
 }
 
-TEST(Team, RefusesARankThatIsNone) {
+TEST(Team, RejectsInvalidRanks) {
   Office office(2);
   Rank rank{office, 2, {}};
   const carreau_team team = rank.team();
@@ -240,7 +240,7 @@ TEST(Team, RefusesARankThatIsNone) {
   carreau_session_free(session);
 }
 
-TEST(Team, EncodesWhatAFileHolds) {
+TEST(Team, EncodesTheContentOfAFile) {
   carreau::Session session = strip_of_squares();
   session.generate();
   const carreau::Mesh mesh = session.mesh();

@@ -37,7 +37,7 @@ class Triangles : public ::testing::Test {
   carreau_session* session = nullptr;
 };
 
-TEST_F(Triangles, AnglesSayWhatIsALine) {
+TEST_F(Triangles, AnglesDefineLines) {
   const Octahedron octahedron;
   ASSERT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_OK) << carreau_last_error(session);
   EXPECT_EQ(report().lines, 12);
@@ -83,7 +83,7 @@ TEST_F(Triangles, RefinementGivesLinesAndTriangles) {
   carreau_mesh_free(mesh);
 }
 
-TEST_F(Triangles, MistakesAreTold) {
+TEST_F(Triangles, MistakesAreReported) {
   auto unknown = sized<carreau_triangles_report>();
   EXPECT_EQ(carreau_triangles_measure(session, &unknown), CARREAU_ERR_SEQUENCE);
   Octahedron octahedron;
@@ -254,11 +254,11 @@ TEST_F(Triangles, LieBesidePatchesAndFacesOfAHost) {
   EXPECT_EQ(faces_of(session).size(), 8u);
 }
 
-TEST_F(Triangles, ASurfaceThatIsThereAlreadyIsRefused) {
+TEST_F(Triangles, ASurfaceThatIsThereAlreadyIsRejected) {
   const Octahedron octahedron;
   ASSERT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_OK);
   EXPECT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_ERR_ARGUMENT);
-  EXPECT_STREQ(carreau_last_error(session), "all triangles are those of surfaces that the session has");
+  EXPECT_STREQ(carreau_last_error(session), "all triangles belong to surfaces of the session already");
   EXPECT_EQ(report().triangles, 8);
   std::int64_t count = 0;
   ASSERT_EQ(carreau_geometry_count(session, &count), CARREAU_OK);

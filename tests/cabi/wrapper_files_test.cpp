@@ -155,7 +155,7 @@ TEST_F(WrapperFiles, AdaptsByFiles) {
   EXPECT_TRUE(std::filesystem::exists(path("second.sol")));
 }
 
-TEST_F(WrapperFiles, LoadsWhatFilesHold) {
+TEST_F(WrapperFiles, LoadsTheContentOfFiles) {
   carreau::Session session;
   carreau::load_bezier(session, file("one.bpt", "1\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n"));
   carreau::load_molecule(session, {.surface = CARREAU_SAS, .probe = 1}, file("one.xyzr", "5 0 0 1\n"));

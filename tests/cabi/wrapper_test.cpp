@@ -63,7 +63,7 @@ std::string thrown_by(carreau::Session& session) {
   try {
     session.generate();
   } catch (const carreau::Error& error) {
-    // Slicing loses what is nested: look at the object that was thrown.
+    // Slicing loses the nested exception: look at the object that was thrown.
     return nested_in(error);
   } catch (const std::out_of_range& late) { // a message at the very end
     return late.what();
@@ -148,7 +148,7 @@ TEST(Wrapper, NestsTheExceptionOfACallback) {
   EXPECT_EQ(session.generate(), carreau::Outcome::complete);
 }
 
-TEST(Wrapper, NestsWhatProgressMessagesSizesAndMetricsThrow) {
+TEST(Wrapper, NestsExceptionsOfProgressMessagesSizesAndMetrics) {
   carreau::Session session = session_of(paraboloid());
   session.on_progress([](int, int, double) -> bool { throw std::runtime_error("progress"); });
   EXPECT_EQ(error_of([&] { session.generate(); }).status(), carreau::Status::cancelled);
@@ -174,7 +174,7 @@ TEST(Wrapper, NestsWhatProgressMessagesSizesAndMetricsThrow) {
   EXPECT_EQ(session.generate(), carreau::Outcome::complete);
 }
 
-TEST(Wrapper, TellsPlaceAndStatusOfErrors) {
+TEST(Wrapper, ReportsPlaceAndStatusOfErrors) {
   carreau::Session session;
   const carreau::Error unknown = error_of([&] { session.set("hphydeff", 1.0); });
   EXPECT_EQ(unknown.status(), carreau::Status::argument);
@@ -222,7 +222,7 @@ struct Counted {
   carreau::SurfacePoint operator()(int, double u, double v, int) const { return paraboloid_at(u, v); }
 };
 
-TEST(Wrapper, FreesCallbacksWhenNothingAsksThemAnyMore) {
+TEST(Wrapper, FreesCallbacksWhenNothingUsesThem) {
   const auto alive = std::make_shared<int>(0);
   {
     carreau::Geometry geometry = paraboloid();
@@ -293,7 +293,7 @@ TEST(Wrapper, DividesCurves) {
   EXPECT_EQ(std::ranges::count(refs, 3), 3);
 }
 
-TEST(Wrapper, MeasuresWhatWasDelivered) {
+TEST(Wrapper, MeasuresTheDeliveredMesh) {
   carreau::Session session = session_of(paraboloid(), 0.2);
   session.generate();
   const carreau::Delivered delivered(session);

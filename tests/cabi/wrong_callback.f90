@@ -7,7 +7,7 @@ contains
   subroutine surf0(refs, uv, S) bind(c)
     integer(c_int32_t), intent(in) :: refs
     real(c_double), intent(in) :: uv(2)
-    real(c_double), intent(out) :: S(2)   ! three numbers are wanted
+    real(c_double), intent(out) :: S(2)   ! three numbers are needed
     S = uv + refs
   end subroutine surf0
 

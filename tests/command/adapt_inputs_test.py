@@ -143,7 +143,7 @@ class Inputs(WorkFolder):
             x, y = (5 * (k + 0.5) / n - 2.5 for k in (i, j))
             wanted += 4 / math.sqrt(3) * math.sqrt(1 + x * x + y * y) / size(x, y, (x * x + y * y) / 2) ** 2 * (5 / n) ** 2
         self.assertAlmostEqual(len(after.triangles) / wanted, 1, delta=0.05)
-        # The same by --size-map, and a box that is too small is told.
+        # The same by --size-map, and a box that is too small is reported.
         os.rename(self.path("next.mesh"), self.path("by_adapt.mesh"))
         self.done("mesh", "x.pardom", "--host", HOST, "--size-map", "box.mesh", "-o", "next.mesh", "--min", "0.01", "--max", "5")
         self.assertEqual(read_mesh(self.path("next.mesh")).triangles, read_mesh(self.path("by_adapt.mesh")).triangles)

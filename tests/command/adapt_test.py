@@ -127,7 +127,7 @@ class Adapt(WorkFolder):
         self.assertFalse(os.path.exists(self.path("bare.sol")))
 
     def test_several_fields_and_the_components_of_a_vector_count_together(self):
-        """Fields that bend along x and along y (HDR eq. 3.3): the count of triangles is that of both sizes."""
+        """Fields that bend along x and along y (HDR eq. 3.3): the count of triangles follows from both sizes."""
         mesh = self.start()
         tolerance, bends = 0.01, (20, 4)
         sizes = [math.sqrt(4.5 * tolerance / k) for k in bends]
@@ -234,7 +234,8 @@ class Adapt(WorkFolder):
         self.fails_picture("six.mesh", "--around", "0,0,0,0", sentence="--around requires a radius above 0")
 
     def test_ellipses_of_surfaces_lie_in_their_tangent_planes(self):
-        """The plane z = x, by metrics of space with the sizes .8, .8 along it and another one across: from above the ring is narrower by sqrt(2)."""
+        """The plane z = x, by metrics of space with the sizes .8, .8 along it and another size across: from above the ring is narrower by
+        sqrt(2)."""
         corners = [(-1, -1, -1), (1, -1, 1), (1, 1, 1), (-1, 1, -1)]
         self.write("tilted.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n" + "".join("%d %d %d 0\n" % p for p in corners)
                    + "Triangles 4\n" + "".join(f"1 {k + 2} {(k + 1) % 4 + 2} 1\n" for k in range(4)) + "End\n")
@@ -289,8 +290,8 @@ class Adapt(WorkFolder):
         self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--transfer", "short.sol", sentence="short.sol: it has values at 1 vertices")
         self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--use", "sizes", "-o", "a.mesh", "-o", "a.sol",
                    sentence="There are no fields for 'a.sol'")
-        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "0.mesh", sentence="it is what is read")
-        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "u.mesh", sentence="it is what is read")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "0.mesh", sentence="it is an input")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "u.mesh", sentence="it is an input")
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ class Atlas(unittest.TestCase):
             x, y, z = map(float, words[start + 4 * v:start + 4 * v + 3])
             self.assertAlmostEqual(math.hypot(math.hypot(x, y) - 2, z), .8, delta=.04)
 
-    def test_what_is_no_closed_surface_is_told_with_the_vertex(self):
+    def test_open_surfaces_are_reported_with_the_vertex(self):
         lines = torus(12, 8, 2, .8)
         self.assertIn("border at the edge of vertices", self.mesh("open.off", [lines[0].replace("192", "191")] + lines[1:-1], 2))
         self.assertIn("goes with a mesh of triangles", self.mesh("file.bpt", ["1"], 2))

@@ -14,7 +14,7 @@ SQUARE = "1\n1 1 4  1 0 0 0  1 0 0 0  1 0 0 0  1 0 0 0  0\n"
 # Start and end of the last line. The function that calls itself has no name outside of its library, nor has the part of
 # surf0 that compilers keep apart because it never returns.
 SENTENCES = [("crashed in surf0", "(SIGSEGV): it used memory that is not there, or called itself without end."),
-             ("crashed", "(SIGABRT): it or what it calls gave up."),
+             ("crashed", "(SIGABRT): it, or a routine that it calls, gave up."),
              ("ended the program", "(exit or STOP)."),
              ("crashed", "(SIGSEGV): it used memory that is not there, or called itself without end.")]
 

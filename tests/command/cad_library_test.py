@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""cad_library_test.py CARREAU SONAME STEP IGES TEAPOT.bpt PART.brep SHAPES: libcarreau_cad is loaded for CAD files, and for nothing else; so are
-those of its libraries that read STEP and IGES files. SHAPES holds files of both."""
+"""cad_library_test.py CARREAU SONAME STEP IGES TEAPOT.bpt PART.brep SHAPES: libcarreau_cad is loaded for CAD files, and for nothing else;
+likewise its libraries that read STEP and IGES files. SHAPES holds files of both."""
 import os
 import shutil
 import subprocess
@@ -35,7 +35,7 @@ class CadLibrary(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(self.run_broken("check", made, "--allow-crossings").returncode, 0)
 
-    def test_a_library_that_cannot_be_loaded_is_told(self):
+    def test_a_library_that_cannot_be_loaded_is_reported(self):
         self.break_library(LIBRARY)
         made = os.path.join(self.folder, "part.mesh")
         for arguments in (("mesh", PART, "--size", "5%", "-o", made), ("info", PART)):

@@ -88,7 +88,7 @@ class Command(unittest.TestCase):
         self.assertGreater(right[1], right[0])    # Q2 = sqrt(3) / 2 = 0.87: yellow-green
         self.assertGreater(min(middle[0], right[0]), max(middle[2], right[2]) + 50)
 
-    def test_what_is_in_front_hides_what_is_behind(self):
+    def test_things_in_front_hide_things_behind(self):
         # A second square, of reference 3, above the first.
         both = self.write("both.mesh", SQUARE.replace("Vertices 4", "Vertices 8").replace("Triangles 2", "Triangles 4")
                           .replace("0 1 1 0\n", "0 1 1 0\n0 0 2 0\n1 0 2 0\n1 1 2 0\n0 1 2 0\n")
@@ -211,7 +211,7 @@ class Command(unittest.TestCase):
         self.assertRegex(text, r"(?m)^Q2 classes   from 0 to 1 by tenths: 0 0 0 0 0 0 0 0 2 0 \(0.0 % below 0.5\)$")
         self.assertRegex(text, r"(?m)^ +1 +1 +0\.5 +0\.8660 +0\.8660 +1 +1\.13807 +1\.41421$")
 
-    def test_check_of_indices_that_do_not_exist_or_of_no_triangle_is_told(self):
+    def test_check_of_indices_that_do_not_exist_or_of_no_triangle_is_reported(self):
         wrong = run("check", self.write("wrong.mesh", SQUARE.replace("1 3 4 2", "1 3 9 2")), "--json")
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("wrong.mesh", wrong.stderr)
@@ -219,7 +219,7 @@ class Command(unittest.TestCase):
         self.assertEqual(none.returncode, 1)
         self.assertIn("no triangle", none.stdout)
 
-    def test_output_that_cannot_be_written_is_told(self):
+    def test_output_that_cannot_be_written_is_reported(self):
         with open("/dev/full", "w") as full:
             done = subprocess.run([PROGRAM, "check", self.mesh], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
         self.assertEqual(done.returncode, 2)
@@ -262,7 +262,7 @@ class Command(unittest.TestCase):
                 self.assertIn(path, result.stderr)
         result = run("check", os.path.join(self.folder, "part.step"))
         self.assertEqual(result.returncode, 2)
-        self.assertIn("has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply", result.stderr)
+        self.assertIn("does not have a suffix of mesh files: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj, .ply", result.stderr)
 
     def test_defects_give_exit_code_1(self):
         line = self.write("line.mesh", SQUARE.replace("1 1 1 0", "2 0 1 0"))
@@ -286,7 +286,7 @@ class Command(unittest.TestCase):
         self.fails("params", "hphydeff", sentence="hphydeff")
         self.assertEqual(os.listdir(self.folder), [name for name in os.listdir(self.folder) if name.endswith(".mesh")])
 
-    def test_parameters_are_those_of_the_manual(self):
+    def test_parameters_match_the_manual(self):
         done = run("params")
         self.assertEqual(done.returncode, 0)
         names = [line.split()[0] for line in done.stdout.splitlines() if not line.startswith(" ")]

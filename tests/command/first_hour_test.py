@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""first_hour_test.py CARREAU TEAPOT.BPT: what a person meets first: wrong options, help, JSON, faces that are looked for, pictures."""
+"""first_hour_test.py CARREAU TEAPOT.BPT: the first hour of a user: wrong options, help, JSON, faces that are looked for, pictures."""
 import json
 import math
 import os
@@ -82,7 +82,7 @@ class FirstHour(unittest.TestCase):
         self.refused("params", "qqqqqqqq", sentence="There is no parameter 'qqqqqqqq'. `carreau params` lists them all.")
 
     def test_settings_are_judged_before_a_file_is_read(self):
-        # The file is not there: what is told first is what was looked at first.
+        # The file is not there: the first message is about the first check.
         self.refused("mesh", "none.step", "-o", "a.vtu", "--set", "hphydf=1",
                      sentence="--set 'hphydf=1': there is no parameter 'hphydf'; did you mean 'hphydef'? `carreau params` lists them all.")
         for setting, sentence in (("hphydef=x", "number"), ("frontal=7", "frontal"), ("geo_rule=cord", "geo_rule")):
@@ -146,7 +146,7 @@ class FirstHour(unittest.TestCase):
         text = run("info", self.three, "--faces").stdout
         self.assertRegex(text, r"(?m)^ +2  Bezier 1 x 1 +1 +100 +\(5, 0, 0\) - \(15, 0\.1, 0\)")
 
-    def test_unknown_faces_are_told_with_near_ones(self):
+    def test_unknown_faces_are_reported_with_near_ones(self):
         done = run("mesh", self.three, "-o", self.path("a.mesh"), "--face-size", "4=1")
         self.assertIn("there is no face '4'", done.stderr)
         self.assertIn("did you mean '1', '2' or '3'?", done.stderr)

@@ -53,7 +53,7 @@ class Grids(unittest.TestCase):
     def mesh(self, *arguments):
         return json.loads(self.run_command("mesh", *arguments, "-o", "x.mesh", "--json").stdout)
 
-    def test_heights_have_the_step_that_is_asked_for(self):
+    def test_heights_have_the_given_step(self):
         self.mesh(os.path.join(DATA, "volcano.txt"), "--step", "10", "--size", "15")
         vertices = mesh_files.read_mesh(os.path.join(self.folder, "x.mesh")).vertices
         self.assertAlmostEqual(max(v[0] for v in vertices), 860, delta=1e-6)
@@ -97,7 +97,7 @@ class Grids(unittest.TestCase):
         done = self.run_command("mesh", path, "--smooth", "10,2", "-o", "x.mesh", code=2)
         self.assertIn("'10,2'", done.stderr)
 
-    def test_a_hole_that_cuts_a_block_is_told_and_both_parts_are_meshed(self):
+    def test_a_hole_that_cuts_a_block_is_reported_and_both_parts_are_meshed(self):
         rows = [["nan" if i == 4 else "0" for i in range(9)] for _ in range(6)]
         path = self.write("cut.txt", "\n".join(" ".join(row) for row in rows))
         done = self.run_command("mesh", path, "--size", "0.5", "-o", "x.mesh")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""interface_test.py CARREAU MANUAL: help, manual pages and completion of shells say the same of the sub-commands of CARREAU."""
+"""interface_test.py CARREAU MANUAL: help, manual pages and completion of shells agree on the sub-commands of CARREAU."""
 import os
 import re
 import shutil

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Independent readers of what `carreau mesh` writes: vertices, triangles with the name or reference of their face."""
+"""Independent readers of the files of `carreau mesh`: vertices, triangles with the name or reference of their face."""
 import base64
 import math
 import struct
@@ -16,7 +16,7 @@ class Mesh:
         self.edges = []             # [(i, j, reference of the curve)]
 
     def corners(self):
-        """Sorted triples of points: the same for two files of one mesh, whatever the order and numbering."""
+        """Sorted triples of points: equal for two files of one mesh, whatever the order and numbering."""
         return sorted(tuple(sorted(self.vertices[v] for v in t)) for t in self.triangles)
 
     def corners_of(self, ref):
@@ -28,7 +28,7 @@ class Mesh:
 
 
 def read_mesh(path, dimension=None):
-    """Medit's text; of the dimension that the file tells."""
+    """Medit's text; of the dimension that the file gives."""
     with open(path) as file:
         words = iter(file.read().split())
     mesh = Mesh([], [], [])

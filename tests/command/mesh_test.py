@@ -94,7 +94,7 @@ class Inputs(Folder):
                 self.assertAlmostEqual(z, (x * x + y * y) / 2, delta=1e-12)
             self.assertEqual(mesh.triangles, meshes[0].triangles)
         self.assertAlmostEqual(mean(meshes[0].lengths()) / 0.2, 1, delta=0.03)
-        # No file of references beside the input: the command does not change what it reads.
+        # No file of references beside the input: the command does not change its input.
         self.assertEqual(sorted(os.listdir(self.folder)), ["out.mesh", "x.pardom"])
 
     def test_a_face_that_fails_leaves_the_other_one_and_the_status_is_1(self):
@@ -111,7 +111,7 @@ class Inputs(Folder):
         self.run_mesh(both, "--host", HOSTS[0], "-o", "none.mesh", "--size", "0.3", "--set", "failing_faces=stop", code=2)
         self.assertGreater(faces[0]["triangles"], 100)
 
-    def test_what_there_is_of_a_failed_face_is_dumped(self):
+    def test_the_domain_and_fields_of_a_failed_face_are_dumped(self):
         both = self.write("both.pardom", "2\n" + FACE.format(1) + FACE.format(2))
         done = self.run_mesh(both, "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3", "--json", "--dump-failed", "dump", code=1)
         self.assertEqual(sorted(os.listdir(self.path("dump"))), ["face_2.exr", "face_2.mesh"])
@@ -129,7 +129,7 @@ class Inputs(Folder):
         self.assertGreater(min(rows[50][50]), 240)  # nothing inside
         with open(self.path("dump/face_2.exr"), "rb") as file:
             self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
-        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh tells of it.
+        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh reports it.
         turned = self.write("turned.pardom", "2\n" + FACE.format(1) + FACE.format(3).replace("3 1 4", "3 -1 4"))
         done = self.run_mesh(turned, "--host", HOSTS[0], "-o", "turned.vtu", "--size", "0.5", "--dump-failed", "turned", code=1)
         self.assertEqual(sorted(os.listdir(self.path("turned"))), ["face_3.exr", "face_3.mesh"])
@@ -148,7 +148,7 @@ class Inputs(Folder):
         self.assertEqual(sorted(os.listdir(self.path("last"))), ["face_2.exr", "face_2.mesh"])
         self.assertRegex(done.stderr, r"(?m)^dumped +last/face_2\.exr$")
         self.write("file", "")
-        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is no folder")
+        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is not a folder")
         self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "no/such", sentence="the folder 'no/such' cannot be used: No such file")
 
     def test_a_file_is_not_written_twice_nor_over_what_is_read(self):
@@ -160,13 +160,13 @@ class Inputs(Folder):
             self.refused(square, "-o", "a.mesh", "-o", name, sentence="'" + name + "' cannot be written: it is named twice")
         self.refused(square, "-o", "d/b.mesh", "-o", "d/../d/b.mesh", sentence="it is named twice")
         self.write("a.sol", "")
-        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is what is read")
+        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is an input")
 
     def test_no_face_with_a_mesh_is_status_2_and_no_file(self):
         self.refused(self.write("bad.pardom", "1\n" + FACE.format(2)), "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3",
                      sentence="face 2")
 
-    def test_what_cannot_be_read_is_told(self):
+    def test_files_that_cannot_be_read_are_reported(self):
         cases = (("empty.bpt", "", "empty.bpt, line 1: the file ends"),
                  ("none.bpt", "0\n", "no face"), ("cut.bpt", SQUARE[:-4], "line 6: the file ends where a coordinate should be"),
                  ("words.bpt", SQUARE.replace("-1 1 0", "-1 one 0"), "line 4: a coordinate should be where 'one' stands"),
@@ -219,11 +219,11 @@ class Formulas(Folder):
         self.assertLess(abs(len(by_direction.triangles) / 2110 - 1), 0.15)
         self.assertGreater(len(isotropic.triangles), 2.5 * len(by_direction.triangles))
 
-    def test_what_is_no_surface_is_told(self):
+    def test_input_without_a_surface_is_reported(self):
         for given, sentence in ((("z = x + z",), "position"), (("x = u; y = v",), "A surface is"), (("z = x; z = y",), "two equations of z"),
-                                (("z = x", "--domain", "disc:0,0,0"), "is no domain"), (("z = x", "--domain", "box:0,0,1"), "is no domain"),
-                                (("z = x", "--domain", "box:1,0,0,1"), "is no domain"), (("z = 1 / x",), "the formula has no value there"),
-                                (("z = x; w = 2",), "is no equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
+                                (("z = x", "--domain", "disc:0,0,0"), "is not a domain"), (("z = x", "--domain", "box:0,0,1"), "is not a domain"),
+                                (("z = x", "--domain", "box:1,0,0,1"), "is not a domain"), (("z = 1 / x",), "the formula has no value there"),
+                                (("z = x; w = 2",), "is not an equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
             self.refused(*given, "-o", "out.mesh", sentence=sentence)
         self.refused(TEAPOT, "--domain", "disc:0,0,1", "-o", "out.mesh", sentence="--domain goes with a surface by formulas")
 
@@ -300,7 +300,7 @@ class Sizes(Folder):
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="NAME=VALUE")
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is not a length")
 
-    def test_edges_of_a_curve_can_be_told(self):
+    def test_edges_of_a_curve_can_be_prescribed(self):
         # Curve 2 of the first square is the first side of the second one, from (1, -1) to (1, 1) or back.
         def between(*options):
             mesh = self.mesh(self.two, "--size", "0.5", *options)
@@ -330,7 +330,7 @@ class Sizes(Folder):
             with self.subTest(wrong=wrong):
                 self.refused(self.two, "-o", "a.mesh", *wrong, sentence=sentence)
 
-    def test_empty_words_are_refused(self):
+    def test_empty_words_are_rejected(self):
         self.refused("", "-o", "a.mesh", sentence="The name of the input is empty")
         for option in ("--size", "--size-map", "--env"):
             self.refused(self.two, "-o", "a.mesh", option, "", sentence=option)
@@ -345,7 +345,7 @@ class Sizes(Folder):
         for formula in ("0.05 + u / 10", "0.05 + (x + 1) / 20", "0.05+min(u,2)/10+0*pi*sin(v)"):
             self.assertEqual(self.mesh(self.square, "--size-map", formula).triangles,
                              self.mesh(self.square, "--size-map", "0.05 + u / 10").triangles, formula)
-        # A size beside it is an upper bound, as is that of a face.
+        # A size beside it is an upper bound, as is the size of a face.
         bounded = self.mesh(self.square, "--size-map", "x < 0 ? 0.05 : 1", "--size", "0.1")
         self.assertAlmostEqual(mean(lengths_near(bounded, lambda x, y, z: x > 0.3)) / 0.1, 1, delta=0.05)
         both = self.mesh(self.two, "--size-map", "0.2", "--face-size", "2=0.05")
@@ -359,21 +359,21 @@ class Sizes(Folder):
             self.assertEqual((mesh.vertices, mesh.triangles), (meshes[0].vertices, meshes[0].triangles))
 
     @unittest.skipUnless(FORMULAS, "built without muParser")
-    def test_a_formula_that_is_wrong_is_told_with_the_position(self):
+    def test_a_formula_that_is_wrong_is_reported_with_the_position(self):
         for formula, sentence in (("x + * 2", "position 5"), ("x +", "position 4"), ("(x", "position 3"), ("0.1 + size", "position 7"),
                                   ("x y", "position 3"), ("x = 2", "'=' assigns"), ("1, 2", "more than one value"), ("  ", "empty"),
                                   ('"a"', "strings"), ("0.1 + \u00e9", "'0.1 + ...' is wrong at position 7: a character that is not plain text"), ("x" * 5000, "4096")):
             with self.subTest(formula=formula):
                 self.refused(self.square, "-o", "a.mesh", "--size-map", formula, sentence=sentence)
-        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is no size, on face 1 at x = ")
+        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is not a size, on face 1 at x = ")
         self.assertIn("the size map 'x' gives -", done.stderr)
-        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is no size, on face ")
+        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is not a size, on face ")
         self.assertNotIn("meshing again", done.stderr)
         self.refused(self.square, "-o", "a.mesh", "--size-map", "sqrt(x)", sentence="gives nan")
         self.refused(self.square, "-o", "a.mesh", "--size-map", "1/(x - x)", sentence="gives inf")
 
     @unittest.skipIf(FORMULAS, "built with muParser")
-    def test_without_muparser_a_formula_is_refused(self):
+    def test_without_muparser_a_formula_is_rejected(self):
         self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="built without muParser")
 
     def test_a_background_mesh_gives_the_sizes_at_its_vertices(self):
@@ -422,7 +422,7 @@ class Sizes(Folder):
         self.assertGreater(counts[0] / counts[1], 1.4)
         self.assertGreater(counts[1] / counts[2], 1.5)
         self.assertGreaterEqual(counts[2], counts[3])
-        # Around a sharp bend stretched sizes grow gently unless nobody wants it.
+        # Around a sharp bend stretched sizes grow gently unless this is switched off.
         rows = "".join(f"{x} {y} {z}\n" for x, y in ((4, 0), (0.2, 0), (0, 0.2), (0, 4)) for z in (0, 4))
         sharp = self.write("sharp.bpt", "1\n3 1\n" + rows)
         usual, graded, free, by_set = (self.mesh(sharp, "--angle", "6", "--anisotropic", *options).triangles for options in
@@ -450,7 +450,8 @@ class Sizes(Folder):
             self.assertEqual(found["invalid"], 0)
             self.assertGreater(found[kind], 0)
             self.assertLess(found["triangle_share"] if element != "p2" else 0, 0.05 if element.endswith("0") else 1e-12)
-            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it, that of a parabola far less.
+            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it; for a parabola it is far
+            # less.
             error = abs(found["area"] / exact - 1)
             self.assertLess(error, 1e-3 if element.endswith(("2", "2.0", "2.1")) and element[:2] != "q1" else 3e-3)
             subprocess.run([PROGRAM, "picture", self.path("a.vtu"), "-o", self.path("a.png")], check=True, capture_output=True)
@@ -530,7 +531,7 @@ class Results(Folder):
         summary = json.loads(self.run_mesh(square, "-o", "a.mesh", "-q", "--json", "--threads", "3").stdout)
         self.assertEqual(summary["threads"], 3)
 
-    def test_a_summary_ends_the_run_and_a_quiet_one_says_nothing(self):
+    def test_a_summary_ends_the_run_and_a_quiet_run_prints_nothing(self):
         done = self.run_mesh(TEAPOT, "-o", "a.mesh", "-o", "a.vtu", "--size", "0.3")
         for pattern in (r"(?m)^faces +32 meshed, 0 repaired, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
                         r"(?m)^written +a\.vtu$", r"(?m)^interfaces \d+ curves of two faces, 0 seams, \d+ open", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
@@ -540,7 +541,7 @@ class Results(Folder):
         quiet = self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.3", "-q")
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
 
-    def test_json_tells_what_was_delivered(self):
+    def test_json_has_the_measures_of_the_delivered_mesh(self):
         square = self.write("square.bpt", SQUARE)
         plain = json.loads(self.run_mesh(square, "-o", "a.mesh", "--size", "0.2", "--json").stdout)
         self.assertNotIn("delivered", plain)
@@ -566,7 +567,7 @@ class Results(Folder):
         self.assertTrue(all(" of " in sentence for sentence in json.loads(bowl)["delivered"]["not_met"]))
         self.assertTrue(json.loads(bowl)["delivered"]["not_met"])
 
-    def test_json_tells_why_there_is_no_mesh(self):
+    def test_json_has_the_reason_for_a_missing_mesh(self):
         self.write("broken.bpt", "2 1\n")
         self.write("broken.mesh", "Vertices 1\n")
         square = self.write("square.bpt", SQUARE)

@@ -41,7 +41,7 @@ class Molecules(unittest.TestCase):
         self.assertEqual(areas[0], areas[1])
         self.assertNotEqual(areas[0], areas[2])
 
-    def test_areas_of_two_balls_are_those_in_closed_form(self):
+    def test_areas_of_two_balls_match_the_closed_form(self):
         areas = json.loads(self.run_command("areas", self.write("two.xyzr", TWO), "--atoms", "--json").stdout)
         self.assertEqual(areas["format"], "carreau areas 1")
         found = {surface["surface"]: surface for surface in areas["surfaces"]}
@@ -60,7 +60,7 @@ class Molecules(unittest.TestCase):
         self.run_command("mesh", iron, "--radii", radii, "--size", "0.5", "-q", "-o", "iron.mesh")
         self.run_command("check", "iron.mesh", "--closed")
 
-    def test_what_a_file_has_too_much_of_is_told_once(self):
+    def test_excess_parts_of_a_file_are_reported_once(self):
         done = self.run_command("areas", os.path.join(DATA, "1bna.pdb"))
         self.assertEqual(done.stderr.count("80 atoms of waters are left out"), 1)
         self.assertIn("4659.5", done.stdout)
@@ -89,9 +89,9 @@ class Molecules(unittest.TestCase):
     def test_info_counts_faces(self):
         self.assertIn("faces       2", self.run_command("info", self.write("two.xyzr", TWO)).stdout)
 
-    def test_mistakes_are_told_with_the_line(self):
+    def test_mistakes_are_reported_with_the_line(self):
         for name, text, sentence in (("a.xyzr", "0 0 0 1\n0 0 0\n", "line 2: the radius is missing"),
-                                     ("b.xyz", "1\n\nQq 0 0 0\n", "line 3: 'Qq' is no element of the periodic table"),
+                                     ("b.xyz", "1\n\nQq 0 0 0\n", "line 3: 'Qq' is not an element of the periodic table"),
                                      ("c.pdb", "", "the file holds no atom")):
             for command in (["areas"], ["mesh", "-o", "x.mesh"]):
                 done = self.run_command(command[0], self.write(name, text), *command[1:], code=2)

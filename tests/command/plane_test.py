@@ -241,7 +241,7 @@ class Plane(unittest.TestCase):
         self.write("five.node", "5 2 0 1\n1 0 0 1\n2 2 0 1\n3 2 1 1\n4 0 1 1\n5 1 0 0\n6 .5 .5 0\n".replace("5 2 0 1", "6 2 0 1"))
         self.assertEqual(self.run_program(PROGRAM, "plane", "five.node", "-o", "five.mesh", "--size", "0.4").returncode, 0)
         self.assertAlmostEqual(self.area("five.mesh"), 2, delta=1e-12)
-        # A .poly without points has those of the .node beside it.
+        # A .poly without points takes the points of the .node beside it.
         self.write("five.poly", "0 2 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n")
         self.assertEqual(self.run_program(PROGRAM, "plane", "five.poly", "-o", "five.mesh", "--size", "0.4").returncode, 0)
         self.assertAlmostEqual(self.area("five.mesh"), 1, delta=1e-12)
@@ -268,7 +268,7 @@ class Plane(unittest.TestCase):
         self.assertIn(sentence, done.stderr)
         self.assertFalse(os.path.exists(self.path("no.mesh")))
 
-    def test_mistakes_are_told_with_the_line(self):
+    def test_mistakes_are_reported_with_the_line(self):
         self.write("open.poly", SQUARES.replace("13 1\n", "12 1\n").replace("4 4 1 1\n", "").split("5 5 6 2")[0].replace("12 1\n", "3 1\n") + "0\n")
         self.fails("open.poly", sentence="its boundary is open, since only one curve ends at point '1'")
         self.write("wrong.data", PIECE.replace("AB +1 200", "AB -1 200"))
@@ -281,7 +281,7 @@ class Plane(unittest.TestCase):
                    "L A B C D ;\nR NULL C Z B NULL ;\n;\n;\n;\nL -1 1 ;\nisotrope\n;\n")
         self.fails("loop.data", sentence="line 7: curve 'L' makes a loop between point 'B' and point 'C': it passes (0.5, 0.")
         self.fails("none.poly", sentence="none.poly")
-        self.fails("x.step", sentence="has none of the suffixes of a plane domain")
+        self.fails("x.step", sentence="does not have a suffix of plane domains")
 
     # ---- bl2d ----
 
@@ -322,7 +322,7 @@ class Plane(unittest.TestCase):
         area = sum(mesh.areas().values())
         self.assertAlmostEqual(len(mesh.triangles) / (area * 4 / math.sqrt(3) * math.sqrt(0.04)), 1, delta=0.15)
 
-    def test_bl2d_tells_mistakes(self):
+    def test_bl2d_reports_mistakes(self):
         self.write("bl2d.env", ENV.format(0, 0))
         self.assertIn("there is no domain: none of piece.0.0.data, piece.0.data", self.bl2d(2))
         self.write("piece.0.data", PIECE)

@@ -26,7 +26,7 @@ class Browser:
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=choice)
         self.driver.set_script_timeout(300)
         self.driver.set_page_load_timeout(300)
-        # The size of what is seen, whatever the window has around it.
+        # The size of the visible part, whatever the window has around it.
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""report_browser_test.py CARREAU TEAPOT [PICTURES]: what a browser makes of reports. PICTURES: a folder for what it shows.
+"""report_browser_test.py CARREAU TEAPOT [PICTURES]: reports in a browser. PICTURES: a folder for pictures of its window.
 --has: exit status 0 when there is a browser."""
 import sys
 
@@ -25,7 +25,7 @@ from report_files import Page
 
 PROGRAM, TEAPOT = sys.argv[1:3]
 PICTURES = sys.argv[3] if len(sys.argv) > 3 else None
-# Two bilinear patches side by side, [0, 1] x [0, 1] and [1, 2] x [0, 1], named by nobody.
+# Two bilinear patches side by side, [0, 1] x [0, 1] and [1, 2] x [0, 1], without names.
 PLATES = "2\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n1 1\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n"
 
 
@@ -156,7 +156,7 @@ class Pages(unittest.TestCase):
         box = self.browser.driver.find_element(By.ID, "canvas").rect
         self.assertAlmostEqual(x, box["width"] / 2, delta=2)
         self.assertAlmostEqual(y, box["height"] / 2, delta=2)
-        # From above: nothing lies before it but what is nearer to the eye.
+        # From above: only things nearer to the eye lie before it.
         self.picture("worst")
 
     def test_colours_change_the_picture(self):
@@ -184,7 +184,7 @@ class Pages(unittest.TestCase):
         subprocess.run([PROGRAM, "report", "torus.mesh", "-o", "torus.html"], cwd=self.home, check=True, timeout=300)
         self.open("torus.html")
         self.assertTrue(self.browser.run("return viewer.renderer.hasCoarse()"))
-        # Its area, and of the sides of its triangles those that two have.
+        # Its area, and the share of the sides that two of its triangles have.
         area, even, triangles, given = self.browser.run("""
           const { mesh } = viewer, { corners, from } = carreauReport.coarseMesh(mesh, 20000), sides = new Map();
           const place = (v) => [0, 1, 2].map((x) => mesh.positions[3 * v + x] * mesh.head.box.quantum[x]);
@@ -293,7 +293,7 @@ class Pages(unittest.TestCase):
             self.browser.frames()
             self.picture("scheme_" + scheme)
 
-    def test_nothing_is_asked_of_a_network_and_nothing_is_complained_of(self):
+    def test_no_request_goes_to_a_network_and_no_error_is_logged(self):
         self.browser.messages()
         self.open("teapot.html")
         self.assertEqual(self.browser.run("return performance.getEntriesByType('resource').map((e) => e.name)"), [])

@@ -93,7 +93,7 @@ class Run(Folder):
     def tearDownClass(cls):
         shutil.rmtree(cls.home)
 
-    def test_positions_are_those_of_the_mesh_within_the_quantum(self):
+    def test_positions_match_the_mesh_within_the_quantum(self):
         quantum = self.page.head["box"]["quantum"]
         vertices = self.page.positions()
         self.assertEqual(len(vertices), len(self.mesh.vertices))
@@ -103,11 +103,11 @@ class Run(Folder):
         extent = max(max(x) - min(x) for x in zip(*self.mesh.vertices))
         self.assertLess(max(quantum), extent / 60000)
 
-    def test_triangles_and_faces_are_exactly_those_of_the_mesh(self):
+    def test_triangles_and_faces_match_the_mesh_exactly(self):
         self.assertEqual(self.page.triangles(), self.mesh.triangles)
         self.assertEqual(self.page.refs(), self.mesh.refs)
 
-    def test_values_are_those_of_the_mesh(self):
+    def test_values_match_the_mesh(self):
         arrays = mesh_files.read_vtu(os.path.join(self.home, "t.vtu")).arrays
         n = len(self.mesh.triangles)
         shapes = [shape(*(self.mesh.vertices[v] for v in t)) for t in self.mesh.triangles]
@@ -147,12 +147,12 @@ class Run(Folder):
         self.assertEqual([int(row[0].replace("\u202f", "")) for row in rows], [i for _, i in qualities[:20]])
         self.assertAlmostEqual(float(rows[0][1]), qualities[0][0], places=4)
 
-    def test_faces_are_those_that_the_run_tells(self):
+    def test_faces_match_the_faces_that_the_run_reports(self):
         rows = self.page.rows("faces-table")
         self.assertEqual([(int(r[0]), r[1], r[2], int(r[3].replace("\u202f", ""))) for r in rows],
                          [(f["reference"], f["name"], f["status"], f["triangles"]) for f in self.told["faces"]])
 
-    def test_it_tells_what_was_asked_delivered_and_how_long_it_took(self):
+    def test_it_shows_requests_results_and_times(self):
         asked = {row[0]: row[1] for row in self.page.rows("parameters")}
         self.assertEqual(asked["hphydef"], "0.2")
         measures = {row[0]: row for row in self.page.rows("measures")}
@@ -288,7 +288,7 @@ class Reports(Folder):
         self.assertEqual(page.positions()[4], tuple(page.positions()[4]))
         self.assertAlmostEqual(page.positions()[4][0], 1, delta=0.004)
 
-    def test_what_cannot_be_measured_is_told(self):
+    def test_meshes_that_cannot_be_measured_are_reported(self):
         self.write("bad.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n2 0 0 0\nTriangles 2\n1 2 3 1\n1 2 3 1\nEnd\n")
         page = self.report("bad.mesh")
         self.assertIn("defects", page.text)
@@ -320,7 +320,7 @@ def contrast(a, b):
 
 
 class Style(unittest.TestCase):
-    def test_contrast_is_what_wcag_asks_in_both_schemes(self):
+    def test_contrast_meets_wcag_in_both_schemes(self):
         with open(STYLE) as file:
             colours = {name: (light, dark) for name, light, dark in re.findall(r"--([\w-]+): light-dark\((#\w{6}), (#\w{6})\)", file.read())}
         for scheme in (0, 1):

@@ -110,7 +110,7 @@ class Triangles(unittest.TestCase):
             self.assertEqual(self.info(self.path(name), "--sharp", "95")["lines"], 0)
         self.assertIn("sharp edges        72\n", self.run_command("info", self.path("a.off")).stdout)
 
-    def test_features_below_45_degrees_stay_and_a_lost_one_is_told_with_its_place(self):
+    def test_features_below_45_degrees_stay_and_a_lost_one_is_reported_with_its_place(self):
         source, target = self.path("a.stl", stl(*countersink())), self.path("b.mesh")
         found = self.info(source)
         self.assertEqual((found["lines"], found["regions"], found["sharp_edges"]), (5, 5, 5 * 36))
@@ -126,7 +126,7 @@ class Triangles(unittest.TestCase):
         self.assertGreater(float(place[5]), 0.1)
         self.assertLess(math.hypot(float(place[2]), float(place[3])), 4.1)
 
-    def test_kinks_of_a_hinge_stay_and_a_lost_one_is_told_with_its_place(self):
+    def test_kinks_of_a_hinge_stay_and_a_lost_one_is_reported_with_its_place(self):
         source, target = self.path("a.stl", stl(*hinge())), self.path("b.mesh")
         found = self.info(source)
         self.assertEqual((found["euler_number"], found["border_edges"], found["regions"]), (2, 0, 10))
@@ -174,7 +174,7 @@ class Triangles(unittest.TestCase):
             self.assertTrue(kinds & {"triangles6", "quads4", "quads8"}, element)
             self.assertLessEqual(kinds, allowed[element], element)
 
-    def test_mistakes_are_told(self):
+    def test_mistakes_are_reported(self):
         x, t = cylinder()
         flat = self.path("flat.off", off(x + [(0, 0, 3), (0, 0, 4)], t + [(73, 74, 75)]))
         self.assertIn("1 triangles have no area, the first is triangle 144 (from 0): dropped", self.run_command("info", flat).stderr)
@@ -202,7 +202,7 @@ class Triangles(unittest.TestCase):
                          "-o", self.path("c.mesh"))
         self.run_command("check", self.path("c.mesh"), "--closed")
 
-    def test_each_defect_is_told_mended_or_refused(self):
+    def test_each_defect_is_reported_repaired_or_rejected(self):
         # Repairs and reports: figures of `carreau info`, and words of the warning with its place.
         for name, figures, words in (
                 ("turned.off", {"turned_triangles": 1, "border_edges": 0, "euler_number": 2, "triangles": 8},
@@ -242,13 +242,13 @@ class Triangles(unittest.TestCase):
         lower, upper = (os.path.join(DATA, name) for name in ("lower.off", "upper.off"))
         made = self.path("cube.mesh")
         done = self.run_command("mesh", lower, upper, "-o", made, "--size", "10%")
-        self.assertIn("16 vertices are those of other surfaces of triangles", done.stderr)
+        self.assertIn("16 vertices belong to other surfaces of triangles", done.stderr)
         found = json.loads(self.run_command("check", made, "--json", "--closed").stdout)
         self.assertEqual((found["quality"]["open_edges"], found["defects"]), (0, []))
         self.assertLess(abs(found["quality"]["area"] - 24), 1e-9)
         lines = self.info(made, "--given-edges")
         self.assertEqual((lines["regions"], lines["lines"], lines["euler_number"]), (10, 20, 2))
-        # Quadrilaterals beside the flat line between the halves: the places of its vertices are those of either side.
+        # Quadrilaterals beside the flat line between the halves: the places of its vertices agree on both sides.
         for size in ("0.2", "5%"):
             for element in ("q1.1", "q2.1"):
                 self.run_command("mesh", lower, upper, "-o", made, "--size", size, "--element", element, "-q")
@@ -272,7 +272,7 @@ class Triangles(unittest.TestCase):
         done = self.run_command("mesh", lower, "z = x", "-o", made, code=2)
         self.assertIn("cannot be meshed beside other files", done.stderr)
         done = self.run_command("mesh", lower, lower, "-o", made, code=2)
-        self.assertIn("all triangles are those of surfaces that the session has", done.stderr)
+        self.assertIn("all triangles belong to surfaces of the session already", done.stderr)
         self.run_command("mesh", lower, upper, "-o", upper, code=2)  # an input is not written over
 
     def test_distances_are_bounded(self):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EXR files read back with OpenEXR's own C++ library: not with what wrote them.
+// EXR files read back with OpenEXR's own C++ library, not with the code that wrote them.
 #pragma once
 
 #include <ImfAttribute.h>
@@ -51,7 +51,7 @@ struct ExrImage {
   }
 };
 
-/// All parts. Throws what OpenEXR throws.
+/// All parts. Throws OpenEXR's exceptions.
 inline std::vector<ExrImage> read_exr(const std::string& path) {
   Imf::MultiPartInputFile file(path.c_str());
   std::vector<ExrImage> images;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces under smooth isotropic size fields whose slope is bounded: what a unit mesh must be good at everywhere.
+// Surfaces under smooth isotropic size fields whose slope is bounded: cases on which a unit mesh must be good
+// everywhere.
 #pragma once
 
 #include <algorithm>

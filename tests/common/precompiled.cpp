@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nothing: the headers that are precompiled for it are those of all test programs.
+// Empty: its precompiled headers serve all test programs.

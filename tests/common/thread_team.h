@@ -45,7 +45,7 @@ class ThreadLink final : public TeamLink {
   int rank_;
 };
 
-/// Runs body(team) in n processes; what each threw, or "".
+/// Runs body(team) in n processes; returns the exception of each, or "".
 inline std::vector<std::string> in_processes(int n, const std::function<void(Team&)>& body) {
   CommonOfThreads common(n);
   std::vector<std::string> thrown(static_cast<std::size_t>(n));

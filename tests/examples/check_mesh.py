@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks a .mesh file against what is known of it; prints every broken claim and exits with 1.
+"""Checks a .mesh file against known properties; prints every broken claim and exits with 1.
 
 check_mesh.py FILE [--open N] [--euler N] [--triangles N PERCENT] [--area A PERCENT] [--vertex REF X Y Z] [--worst Q2]
                    [--mean Q2] [--curves SHARED FREE] [--on "F(x, y, z)"] [--around X Y Z N] [--dimension D] [--not-orientable]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a program that prints the fingerprint of its mesh, and compares it with that of a .mesh file: the same coordinates
-to the last bit, and the same triangles, in the same order.
+"""Runs a program that prints the fingerprint of its mesh, and compares it with the fingerprint of a .mesh file: the same
+coordinates to the last bit, and the same triangles, in the same order.
 
 same_mesh.py PROGRAM FILE
 """

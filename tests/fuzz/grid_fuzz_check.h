@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every grid that was read.
+// Checks of every grid that was read.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,7 @@
 
 namespace carreau {
 
-/// Any bytes are blocks of as many nodes as their counts say, none of them infinite, or a FileError that names the
-/// file.
+/// Any bytes are blocks with the number of nodes of their counts, all finite, or a FileError that names the file.
 template <typename Read>
 int fuzz_grid(const std::uint8_t* data, std::size_t size, Read&& read) {
   grid::Grid grid;

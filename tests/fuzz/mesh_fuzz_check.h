@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every mesh that was read: all formats take it, and give back what they hold.
+// Checks of every mesh that was read: all formats write it and restore their part of it.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every molecule that was read.
+// Checks of every molecule that was read.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every plane domain that was read.
+// Checks of every plane domain that was read.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace carreau {
 
-/// What is larger takes too long for a fuzzer.
+/// Larger domains take too long for a fuzzer.
 constexpr int most_built = 16;
 constexpr double coarse = 0.5;  ///< share of an edge; where arcs conflict polylines are a thousand times finer
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every solution that was read: both forms give it back.
+// Checks of every solution that was read: both forms restore it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ inline void check_written_and_read(const Solution& solution) {
 template <typename Read>
 int fuzz_solution(const std::uint8_t* data, std::size_t size, Read&& read) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  // The last byte, which no form needs, chooses what the values are read for.
+  // The last byte, which no form needs, chooses the use of the values.
   const auto use = static_cast<SolutionUse>(size > 0 ? data[size - 1] % 3 : 0);
   Solution solution;
   try {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_imports.py PACKAGE: no module of the package imports another one in a circle, inside functions or for types, either."""
+"""check_imports.py PACKAGE: modules of the package import each other without circles, also inside functions and for types."""
 import ast
 import pathlib
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every source file says its licence in one of its first lines, as SPDX wants it.
+"""Every source file states its licence in one of its first lines, as SPDX requires.
 
     check_spdx.py <project> [--add]    --add: writes the line where it is missing
 """

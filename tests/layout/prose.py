@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""prose.py ROOT [--add | --rates]: checks the English of comments and pages.
+"""prose.py ROOT [--rates]: checks the English of comments and pages.
 
-1. No sentence in the folders of clean_folders.txt opens with What, Who, Whoever, Of, Where, By or Nor. --add lists the folders that have become clean.
-2. Pages and manual pages use the patterns of PATTERNS at most 1.5 times as often, for 1000 words, as the model code bases do (pmp-library and
-   geometry-central). --rates prints the rates.
+1. No sentence opens with What, Who, Whoever, Of, Where, By or Nor.
+2. Comments of each group of folders, pages and manual pages use the patterns of PATTERNS at most 1.5 times as often, for 1000 words, as the model
+   code bases do (pmp-library and geometry-central). --rates prints the rates.
 3. Pages are short: BUDGETS."""
 import os
 import re
 import sys
 
 FOLDERS = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs", "cmake")
+COMMENTED = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs")
 OPENING = re.compile(r"(What|Who|Whoever|Of|Where|By|Nor)\b")
 FACTOR = 1.5
 # Name, pattern in a sentence, occurrences in the models for 1000 words.
@@ -95,6 +96,8 @@ def too_many(root, print_them):
     groups = {"pages": [p for p in files(root) if p.endswith(".md") and ("/" not in p or p.startswith("docs/"))],
               "manual pages": [p for p in files(root) if p.endswith(".1")],
               "READMEs of rooms": [p for p in files(root) if p.endswith("README.md") and "/" in p and not p.startswith("docs/")]}
+    for top in COMMENTED:
+        groups[f"comments of {top}"] = [p for p in files(root) if p.startswith(top + "/") and not p.endswith((".md", ".1"))]
     for group, paths in groups.items():
         for name, rate in rates(root, paths).items():
             if print_them:
@@ -111,25 +114,16 @@ def too_long(root):
 
 
 def openings(root):
-    """Sentences with a forbidden opening, by folder."""
-    found = {}
+    """Sentences with a forbidden opening."""
     for path in files(root):
-        sentences_here = [f"{path}: {sentence[:120]}" for sentence in sentences(os.path.join(root, path)) if OPENING.match(sentence) and not sentence.endswith("?")]
-        found.setdefault(os.path.dirname(path) or ".", []).extend(sentences_here)
-    return found
+        for sentence in sentences(os.path.join(root, path)):
+            if OPENING.match(sentence) and not sentence.endswith("?"):
+                yield f"{path}: {sentence[:120]}"
 
 
 def main():
-    root, listed = sys.argv[1], os.path.join(sys.argv[1], "tests/layout/clean_folders.txt")
-    with open(listed, encoding="utf-8") as file:
-        clean = file.read().split()
-    found = openings(root)
-    if "--add" in sys.argv:
-        with open(listed, "w", encoding="utf-8") as file:
-            file.writelines(folder + "\n" for folder in sorted(set(clean) | {folder for folder, places in found.items() if not places}))
-        return
-    faults = [place for folder in clean for place in found.get(folder, [])] + list(too_many(root, "--rates" in sys.argv)) + list(too_long(root))
-    sys.exit("\n".join(faults) or 0)
+    root = sys.argv[1]
+    sys.exit("\n".join([*openings(root), *too_many(root, "--rates" in sys.argv), *too_long(root)]) or 0)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""`mpirun carreau mesh` and `adapt` write what one process writes, byte for byte; VTK reads every triangle of the .pvtu once; a rank
-that is killed leaves no file.
+"""`mpirun carreau mesh` and `adapt` write the files of one process, byte for byte; VTK reads every triangle of the .pvtu once; a
+rank that is killed leaves no file.
 
     command_test.py <mpirun> <ranks> <carreau> <teapot.bpt> <python with VTK, or NONE>
 """
@@ -39,7 +39,7 @@ def same_files(folder):
         done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, *options, "-o", many, "-o", f"{folder}/many{i}.pvtu")
         assert done.returncode == first.returncode == 0, done.stdout + done.stderr
         assert content(one) == content(many), options
-        # One rank speaks.
+        # One rank prints.
         assert (done.stdout + done.stderr).count("32 faces, 128 sides") == 1, done.stdout + done.stderr
     assert not glob.glob(f"{folder}/.carreau-*"), os.listdir(folder)
     if VTK != "NONE":
@@ -47,7 +47,8 @@ def same_files(folder):
 
 
 def same_parts(folder):
-    """Each rank keeps its part. The teapot's spout crosses its body: what crosses is found, and meshed again in vain, in parts, too."""
+    """Each rank keeps its part. The teapot's spout crosses its body: crossing triangles are found, and meshed again in vain, in parts,
+    too."""
     for i, options in enumerate([["--size", "0.15"], ["--angle", "12", "--set", "crossing_rounds=3"]]):
         one, many = f"{folder}/one{i}.meshb", f"{folder}/many{i}.meshb"
         first = alone("mesh", TEAPOT, *options, "-o", one, "-o", f"{folder}/one{i}.vtu")
@@ -96,7 +97,7 @@ def same_triangles(folder):
     done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", torus, "--size", TRIANGLES_SIZE, "-o", many)
     assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
     assert content(one) == content(many)
-    # What takes no byte is told by one rank, and stays what it is. Full disks: full_disk of ranks_program.
+    # One rank reports a file that takes no byte, and the file does not change. Full disks: full_disk of ranks_program.
     full = f"{folder}/full.meshb"
     os.symlink("/dev/full", full)
     done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", torus, "--size", "0.3", "-o", full, "-q")
@@ -134,7 +135,7 @@ def same_adaptations(folder):
         done = mpirun.run(MPIRUN, RANKS, CARREAU, "adapt", square, *ADAPTATION, *options, "-o", many)
         assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
         assert content(one) == content(many), options
-    # By files: what is estimated, and the fields on the next mesh.
+    # Adaptation by files: the estimate, and the fields on the next mesh.
     alone("plane", square, "--size", "0.05", "-o", f"{folder}/last.mesh")
     write_fields(f"{folder}/last.mesh", f"{folder}/last.sol")
     by_files = ["adapt", square, "--mesh", f"{folder}/last.mesh", "--sol", f"{folder}/last.sol", "--min", "0.01"]

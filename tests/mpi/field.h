@@ -9,7 +9,7 @@
 
 namespace mpi_tests {
 
-/// A front over the waves. Misbehaves from the call `from` on, as Fault says; other_inside: other values everywhere.
+/// A front over the waves. Misbehaves from the call `from` on, by Fault; other_inside: other values everywhere.
 struct Field {
   Fault fault = Fault::none;
   int from = 3;  ///< the values on the first mesh take two or more

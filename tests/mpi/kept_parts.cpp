@@ -53,7 +53,7 @@ FileBytes file_of(carreau_mesh* mesh) {
   return file;
 }
 
-// The bytes of all parts are those of one process, and none comes twice.
+// The bytes of all parts equal the bytes of one process, and none comes twice.
 void same_file(carreau_mesh* alone, carreau_mesh* part) {
   const std::string expected = file_of(alone).bytes;
   FileBytes mine = file_of(part);
@@ -68,7 +68,7 @@ void same_file(carreau_mesh* alone, carreau_mesh* part) {
   expect(all == expected, "the bytes are those of one process");
 }
 
-/// What one process knows.
+/// The mesh of one process.
 struct Whole {
   explicit Whole(carreau_mesh* mesh) {
     std::int64_t n = 0, m = 0;
@@ -95,7 +95,7 @@ struct Kept : Whole {
     expect(carreau_part_vertices(part.get(), n, number.data(), owner.data(), row.data()) == CARREAU_OK, "numbers of vertices");
     expect(carreau_part_triangles(part.get(), m, triangle.data(), triangle_owner.data(), layer.data(), corners.empty() ? nullptr : corners.front().data()) == CARREAU_OK,
            "numbers of triangles");
-    // The mesh of the part tells the same.
+    // The mesh of the part agrees.
     std::vector<std::int64_t> same(number.size()), same_triangles(triangle.size());
     carreau_mesh* const mesh = mesh_of(part);
     expect(carreau_mesh_part_vertices(mesh, n, same.data(), nullptr, nullptr) == CARREAU_OK && same == number, "numbers of its mesh");
@@ -108,7 +108,7 @@ struct Kept : Whole {
   std::vector<std::array<std::int32_t, 3>> corners;
 };
 
-/// By number of the whole mesh: values that exactly one rank gives, -1 elsewhere before.
+/// Values by number of the whole mesh, which exactly one rank gives; -1 elsewhere before.
 std::vector<std::int64_t> of_all(std::vector<std::int64_t> mine, const std::string& what) {
   std::vector<std::int64_t> given(mine.size()), all(mine.size()), times(mine.size());
   for (std::size_t k = 0; k < mine.size(); ++k) given[k] = mine[k] >= 0 ? 1 : 0;
@@ -136,7 +136,7 @@ void check_vertices(const Whole& whole, const Kept& kept) {
   }
 }
 
-// Own triangles are those of one process, each of one rank, and ghosts are the others that touch them.
+// Own triangles are the triangles of one process, each of one rank, and ghosts are the others that touch them.
 void check_triangles(const Whole& whole, const Kept& kept) {
   std::vector<std::int64_t> owner(whole.triangles.size(), -1);
   std::vector<bool> touched(whole.xyz.size(), false);
@@ -246,7 +246,7 @@ void same_parts() {
   same({"hphydef=1"});
 }
 
-// A mesh of before stays, and the session can mesh whole.
+// A previous mesh stays, and the session can mesh whole.
 void refusals() {
   Run run({"hphydef=0.4"});
   expect(carreau_mesh_generate(run.session) == CARREAU_OK, run.sentence());
@@ -310,7 +310,7 @@ bool run_kept_parts(const std::string& name, const std::string& folder) {
   else if (name == "no_memory")
     fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
   else if (name == "other_inside")
-    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 is another one on rank " + std::to_string(size - 1));
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 differs on rank " + std::to_string(size - 1));
   else if (name == "dies")
     fails(Fault::dies, CARREAU_OK, "nobody comes here");
   else if (name == "files")

@@ -47,7 +47,7 @@ bool writes_beyond_32_bits(const std::string& path, int rank, int size) {
   const std::string mine(static_cast<std::size_t>(each), static_cast<char>('a' + rank % 26));
   MPI_File file = MPI_FILE_NULL;
   if (MPI_File_open(MPI_COMM_WORLD, path.c_str(), MPI_MODE_WRONLY | MPI_MODE_CREATE, MPI_INFO_NULL, &file) != MPI_SUCCESS) return false;
-  constexpr std::size_t at_once = 77;  // many calls, the last one with what is left
+  constexpr std::size_t at_once = 77;  // many calls, the last one with the rest
   const bool written = carreau_mpi::write_at(file, beyond + rank * each, mine.data(), mine.size(), at_once);
   MPI_File_close(&file);
   MPI_Barrier(MPI_COMM_WORLD);

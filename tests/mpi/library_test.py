@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases of ranks_program.cpp hold on all ranks; files of all ranks are those of one process.
+"""The cases of ranks_program.cpp hold on all ranks; files of all ranks equal the files of one process.
 
     library_test.py <mpirun> <ranks> <ranks_program>
 """
@@ -46,7 +46,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert sorted(os.listdir(folder)) == expected, os.listdir(folder)
     assert content(f"{folder}/one.meshb") == content(f"{folder}/ranks.meshb")
 
-# Nothing is left of what a full disk did not take.
+# No rest remains of files that a full disk did not take.
 with tempfile.TemporaryDirectory() as folder:
     holds("full_disk", folder)
     holds("large_files", folder)

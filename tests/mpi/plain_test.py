@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A program that leaves MPI to libcarreau_mpi: two ranks write the file of one; a file that is not there is told once, by all ranks' end.
+"""A program that leaves MPI to libcarreau_mpi: two ranks write the file of one; a missing file is reported once, by all ranks' end.
 
     plain_test.py <mpirun> <plain_ranks> <teapot.bpt>
 """

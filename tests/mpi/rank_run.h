@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the cases of one rank have in common.
+// Common parts of the cases of one rank.
 #pragma once
 
 #include <mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One rank of the tests of libcarreau_mpi: `ranks_program <case> [<folder>]`. Ends with 0 when what the case promises holds
-// on this rank; says on the error output what does not.
+// One rank of the tests of libcarreau_mpi: `ranks_program <case> [<folder>]`. Ends with 0 when the claims of the case hold
+// on this rank; reports others on the error output.
 #include <mpi.h>
 #include <sys/resource.h>
 
@@ -37,12 +37,13 @@ std::string encoded(carreau_mesh* mesh) {
   return bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
 }
 
-/// How often hosts were asked: that of one process, and those of all ranks.
+/// The number of calls of hosts: of the host of one process, and of the hosts of all ranks.
 struct Asked {
   std::int64_t alone = 0, together = 0;
 };
 
-// The mesh of all ranks is that of one process, bit for bit, with its sizes and parameters, its status and sentence.
+// The mesh of all ranks is identical to the mesh of one process, with its sizes and parameters, its status and
+// sentence.
 Asked same(const std::vector<std::string>& settings, Fault fault = Fault::none, int cells = 4) {
   const std::string what = settings.empty() ? "default" : settings.front();
   Run alone(settings, fault, cells), together(settings, fault, cells);
@@ -71,7 +72,7 @@ void same_meshes() {
   same({"failing_faces=leave_out"}, Fault::status_inside);
 }
 
-// One face of 285 000 triangles, whose pieces are dealt out.
+// One face of 285 000 triangles, whose pieces are distributed.
 std::vector<std::string> one_large_face{"hphydef=0.003"};
 // The same inside a boundary that promises a third of that.
 void bulge_inside() {
@@ -79,7 +80,7 @@ void bulge_inside() {
   one_large_face = {"hphydef=0.005"};
 }
 void same_large_faces() {
-  // Each rank asks for its share of the vertices inside and of 64 one more, and for what belongs to curves and few places.
+  // Each rank evaluates its share of the vertices inside and of 64 one more, and the places of curves and small batches.
   const auto once = [](const Asked& asked) {
     expect(asked.together <= asked.alone + size * asked.alone / 8,
            "points are shared: " + std::to_string(asked.together) + " for " + std::to_string(asked.alone));
@@ -90,7 +91,7 @@ void same_large_faces() {
   once(same(settings, Fault::none, 1));
 }
 
-/// What the last rank does is an error of all: these statuses, and these words somewhere in the sentence.
+/// A fault of the last rank is an error of all: these statuses, and these words somewhere in the sentence.
 void fails(Fault fault, carreau_status expected, const std::string& words, const std::vector<std::string>& settings = {},
            int cells = 4) {
   const bool last = rank == size - 1;
@@ -150,7 +151,7 @@ std::vector<double> estimated_and_carried(Run& run) {
   return found;
 }
 
-// The meshes of an adaptation, and what it tells, are those of one process.
+// The meshes and reports of an adaptation equal the results of one process.
 void same_adaptation() {
   for (const std::int32_t shape : {CARREAU_ISOTROPIC, CARREAU_ANISOTROPIC}) {
     Run alone(adapted), together(adapted);
@@ -173,7 +174,7 @@ void same_adaptation() {
   }
 }
 
-// What the field of the last rank does is an error of all; the mesh of before stays, and the next run is sound.
+// A fault of the last rank's field is an error of all; the previous mesh stays, and the next run is sound.
 void adaptation_fails(Fault fault, carreau_status expected, const std::string& words) {
   Run run(adapted);
   expect(carreau_mpi_attach(run.session, world()) == CARREAU_OK, run.sentence());
@@ -193,7 +194,7 @@ void adaptation_fails(Fault fault, carreau_status expected, const std::string& w
   expect(adapt(run, field, CARREAU_ISOTROPIC, nullptr) == CARREAU_OK, "the next adaptation is sound: " + run.sentence());
 }
 
-// Values that differ are told by name.
+// Values that differ are reported by name.
 void other_values() {
   Run run(adapted);
   expect(carreau_mpi_attach(run.session, world()) == CARREAU_OK, run.sentence());
@@ -205,7 +206,7 @@ void other_values() {
   estimator.struct_size = sizeof estimator;
   estimator.hmin = 0.01, estimator.hmax = 1;
   expect(carreau_estimate(run.session, &estimator, n, values.data(), sizes.data(), nullptr) == CARREAU_ERR_MODEL, run.sentence());
-  expect(run.sentence().find("others on rank " + std::to_string(size - 1)) != std::string::npos, run.sentence());
+  expect(run.sentence().find("differ on rank " + std::to_string(size - 1)) != std::string::npos, run.sentence());
 }
 
 /// Values of all ranks, one behind the other.
@@ -242,7 +243,7 @@ struct Part {
   std::vector<std::int32_t> triangle_owners, layer, corners, vertex_owners;
 };
 
-// Every triangle and vertex has one owner, who is the same for all; rows are those of a distributed vector.
+// Every triangle and vertex has one owner, who is the same for all; rows form a distributed vector.
 void check_owners(const Part& part, std::int64_t n, std::int64_t m) {
   const std::vector<std::int64_t> own(part.triangles.begin(), part.triangles.begin() + part.own_triangles);
   std::map<std::int64_t, int> times;
@@ -268,7 +269,7 @@ void check_owners(const Part& part, std::int64_t n, std::int64_t m) {
   }
 }
 
-// By brute force on the whole mesh.
+// Checks by brute force on the whole mesh.
 void check_ghosts(const Part& part, const std::vector<std::int32_t>& triangles, int layers) {
   const std::size_t m = triangles.size() / 3;
   std::map<std::int64_t, std::int32_t> layer;
@@ -359,7 +360,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "other_curves")
     fails(Fault::other_curves, CARREAU_ERR_MODEL, "on rank " + std::to_string(size - 1));
   else if (name == "other_inside")
-    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 is another one on rank " + std::to_string(size - 1));
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 differs on rank " + std::to_string(size - 1));
   else if (name == "status")
     fails(Fault::status, CARREAU_ERR_CALLBACK, "42");
   else if (name == "stop")
@@ -369,7 +370,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "large_same")
     same_large_faces();
   else if (name == "large_other_inside")
-    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 1 is another one on rank " + std::to_string(size - 1), one_large_face, 1);
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 1 differs on rank " + std::to_string(size - 1), one_large_face, 1);
   else if (name == "large_status_inside")
     fails(Fault::status_inside, CARREAU_ERR_CALLBACK, "43", one_large_face, 1);
   else if (name == "large_stop")
@@ -387,7 +388,7 @@ void run_case(const std::string& name, const std::string& folder) {
   else if (name == "adapt_no_memory")
     adaptation_fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
   else if (name == "adapt_other_field")
-    adaptation_fails(Fault::other_inside, CARREAU_ERR_MODEL, "another one on rank " + std::to_string(size - 1));
+    adaptation_fails(Fault::other_inside, CARREAU_ERR_MODEL, "differs on rank " + std::to_string(size - 1));
   else if (name == "adapt_other_values")
     other_values();
   else if (name == "adapt_dies")

@@ -53,7 +53,7 @@ def main():
     owners = set(array(parts.GetCellData(), "owner")[ghost == 0])
     assert owners == set(range(ranks)) or (sys.argv[4:] == ["kept"] and owners < set(range(ranks)))
     assert (ghost != 0).any() == (len(owners) > 1)
-    # What VTK itself makes of ghosts.
+    # Ghosts as VTK itself reads them.
     remove = vtk.vtkRemoveGhosts()
     remove.SetInputData(parts)
     remove.Update()

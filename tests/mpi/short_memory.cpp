@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces operator new, of libraries, too: they ask the program's first.
+// Replaces operator new, of libraries, too: they take the program's first.
 #include <cstdlib>
 #include <new>
 

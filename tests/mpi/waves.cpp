@@ -13,7 +13,7 @@ bool is_inside(double u, double v) { return u > 0.01 && u < 0.99 && v > 0.01 && 
 
 bool is_at_fault(const Waves& waves, std::int32_t face) { return waves.cells == 1 || face == waves.face; }
 
-/// 0, or what the callback returns.
+/// 0, or the value that the callback returns.
 std::int32_t misbehave(Waves& waves, std::int32_t face, double u, double v) {
   if (waves.fault == Fault::status) return 42;
   if (!is_at_fault(waves, face) || !is_inside(u, v)) return 0;

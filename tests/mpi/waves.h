@@ -13,8 +13,8 @@ namespace mpi_tests {
 /// How the host of one process misbehaves.
 enum class Fault {
   none,
-  other_curves,   ///< its surface is another one, borders of faces as well
-  other_inside,   ///< another one inside `face` alone
+  other_curves,   ///< its surface differs, borders of faces as well
+  other_inside,   ///< its surface differs inside `face` alone
   status,         ///< `surface` fails, from the first call on
   status_inside,  ///< `surface` fails inside `face`
   stop,           ///< carreau_stop, inside `face`

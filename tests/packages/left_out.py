@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """left_out.py CMAKE SOURCE WORK: `cmake --preset release` on a machine without GoogleTest, gfortran and whatever else is optional
-configures, says what it leaves out and why; one that is asked for must be there."""
+configures, and lists the missing parts with reasons. A part that is requested must be there."""
 import os
 import shutil
 import subprocess

@@ -14,5 +14,5 @@ def source():
 
 
 def needs(variable):
-    """A test that needs what only some builds have: its file or folder is in an environment variable."""
+    """A test that needs a part that only some builds have: its file or folder is in an environment variable."""
     return pytest.mark.skipif(not os.environ.get(variable), reason=f"{variable} is not set: the build lacks it")

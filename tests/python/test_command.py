@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The words of carreau.mesh mean what they mean to `carreau mesh`: the same meshes, bit for bit."""
+"""The words of carreau.mesh agree with the options of `carreau mesh`: identical meshes."""
 import os
 import subprocess
 

@@ -85,7 +85,7 @@ def test_structs_lie_as_the_compiler_has_them(headers, source, tmp_path):
     assert [int(word) for word in printed.split()] == expected
 
 
-def test_constants_are_those_of_the_headers(headers):
+def test_constants_match_the_headers(headers):
     for header in headers:
         for name, value in header.constants.items():
             assert getattr(capi, name.removeprefix("CARREAU_")) == value

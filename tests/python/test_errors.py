@@ -47,7 +47,7 @@ def test_the_place_of_a_scalar_function_is_exact():
         session.mesh
 
 
-def test_faces_of_a_second_geometry_are_told_as_the_session_has_them():
+def test_faces_of_a_second_geometry_are_reported_as_the_session_has_them():
     session = carreau.Session(hphydef=0.2)
     session.add([carreau.Patch(lambda u, v: (u, v, 0 * u)), carreau.Patch(lambda u, v: (u, v, 0 * u + 5))])
     session.add(carreau.Patch(carreau.scalar(lambda u, v: 1 / 0)))
@@ -56,7 +56,7 @@ def test_faces_of_a_second_geometry_are_told_as_the_session_has_them():
     assert caught.value.face == 3 and isinstance(caught.value.__cause__, ZeroDivisionError)
 
 
-def test_curves_tell_their_rank_and_t():
+def test_curves_pass_their_rank_and_t():
     sides = carreau.box(0, 0, 1, 1)
     session = carreau.Session(hphydef=0.2)
     session.add(carreau.Patch(lambda u, v: (u, v, 0 * u), sides[:2] + [carreau.Curve(carreau.scalar(lambda t: (1 - t, 1 / 0)))] + sides[3:]))
@@ -77,7 +77,7 @@ def test_sizes_that_fail_and_sizes_that_are_none():
     assert caught.value.__cause__ is None and caught.value.uv is not None
 
 
-def test_a_value_that_is_not_finite_is_told_by_the_library():
+def test_a_value_that_is_not_finite_is_reported_by_the_library():
     session = carreau.Session(hphydef=0.2)
     session.add(carreau.Patch(lambda u, v: (u, v, np.log(u - 0.5))))
     with pytest.raises(carreau.CallbackError) as caught, np.errstate(all="ignore"):
@@ -85,7 +85,7 @@ def test_a_value_that_is_not_finite_is_told_by_the_library():
     assert caught.value.face == 1
 
 
-def test_wrong_shapes_are_told():
+def test_wrong_shapes_are_reported():
     for wrong in (lambda u, v: np.zeros((3, len(u) + 1)), lambda u, v: (u, v)):
         with pytest.raises(carreau.CallbackError, match=r"shape|must be") as caught:
             session = carreau.Session(hphydef=0.2)
@@ -137,7 +137,7 @@ def test_progress_stops_and_its_exceptions_arrive():
     assert isinstance(caught.value.__cause__, Unlucky)
 
 
-def test_what_comes_too_late_to_stop_a_run_is_raised():
+def test_exceptions_too_late_to_stop_a_run_are_raised():
     def at_the_end(fraction, phase, entity):
         if fraction == 1:
             raise Unlucky("late")
@@ -145,7 +145,7 @@ def test_what_comes_too_late_to_stop_a_run_is_raised():
         carreau.mesh(torus, domain=TORUS_BOX, size=0.5, progress=at_the_end)
 
 
-def test_points_that_a_callback_cannot_tell():
+def test_points_that_a_callback_cannot_give():
     session = carreau.Session()
     session.add(carreau.Patch(carreau.scalar(lambda u, v: (u, v, 1 / (u - 0.5)))))
     assert session.points(1, [(0.25, 0)]).tolist() == [[0.25, 0, -4]]
@@ -171,7 +171,7 @@ def test_a_bar_is_drawn_and_taken_away(capsys):
 def test_names_that_mean_nothing():
     with pytest.raises(carreau.ArgumentError, match="did you mean 'hphydef'"):
         carreau.mesh("z = x", hphydeff=1)
-    with pytest.raises(carreau.ArgumentError, match="no length"):
+    with pytest.raises(carreau.ArgumentError, match="not a length"):
         carreau.mesh("z = x", size="wide")
     with pytest.raises(carreau.ArgumentError, match="min .* is above max"):
         carreau.mesh("z = x", size=0.1, min=0.3, max=0.2)
@@ -223,7 +223,7 @@ def test_a_session_in_its_own_callback_is_busy():
     assert isinstance(caught.value.__cause__, carreau.BusyError)
 
 
-def test_closed_sessions_say_so_and_meshes_live_on():
+def test_closed_sessions_raise_errors_and_meshes_live_on():
     with carreau.Session(hphydef=0.2) as session:
         session.add(carreau.Patch(lambda u, v: (u, v, 0 * u)))
         mesh = session.generate()

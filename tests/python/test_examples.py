@@ -62,6 +62,6 @@ def test_listings(work, page):
     with open(os.path.join(SOURCE, page), encoding="utf-8") as file:
         blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.MULTILINE | re.DOTALL)
     assert blocks
-    # A page is one program: what a listing has made, the next ones use.
+    # A page is one program: later listings use the results of earlier ones.
     (work / "page.py").write_text("\n".join(blocks), encoding="utf-8")
     run(work, "page.py")

@@ -21,7 +21,7 @@ RUNS = {
         session = carreau.Session(hphydef=0.1)
         session.add(carreau.Patch(slow))
         call = session.generate""",
-    # The library runs, and no line of Python: patches of its own, by several threads.
+    # The library runs, and no line of Python: built-in patches, by several threads.
     "library": """
         net = [[[i, j, 0.2 * i * j * (3 - j)] for j in range(4)] for i in range(4)]
         session = carreau.Session(hphydef=0.002, hphymin=0.001, threads=2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of meshes: what is drawn is where it is, and nearest to the eye."""
+"""Pictures of meshes: things are drawn at their places, and the nearest to the eye in front."""
 import struct
 import zlib
 
@@ -38,7 +38,7 @@ def test_a_triangle_covers_half_of_its_box():
     assert drawn(pixels)[rows.max() - 5, columns.min() + 5] and not drawn(pixels)[rows.min() + 5, columns.max() - 5]
 
 
-def test_what_is_near_hides_what_is_far():
+def test_near_things_hide_far_ones():
     square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     vertices = [(x, y, z) for z in (0, 1) for x, y in square]
     triangles = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)]
@@ -52,7 +52,7 @@ def test_what_is_near_hides_what_is_far():
     assert tuple(pixels_of(alone.picture(width=60, height=60, view="top", edges=False))[30, 30]) == color["top"]
 
 
-def test_depth_is_that_of_the_point_and_not_of_the_triangle():
+def test_depth_belongs_to_the_point_and_not_to_the_triangle():
     # Two long triangles that cross: each is nearer in its half.
     vertices = [(0, 0, 0), (4, 0, 4), (2, 2, 2), (0, 0.1, 4), (4, 0.1, 0), (2, 2, 2.0001)]
     mesh = carreau.Mesh(vertices, [(0, 1, 2), (3, 4, 5)], face_ids=[1, 2])
@@ -88,7 +88,7 @@ def test_quality_and_notebooks(tmp_path):
         mesh.picture(view="behind")
 
 
-def test_pyvista_is_asked_for_by_name():
+def test_pyvista_is_requested_by_name():
     mesh = carreau.mesh("z = x * y", size=0.5)
     try:
         import pyvista

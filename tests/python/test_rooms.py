@@ -19,7 +19,7 @@ def random_metrics(n, d, seed=1):
 
 
 @pytest.mark.parametrize("d", [2, 3])
-def test_metric_sizes_are_those_of_eigenvalues(d):
+def test_metric_sizes_match_eigenvalues(d):
     full, rows = random_metrics(50, d)
     sizes, axes = metric.sizes(rows)
     values, _ = np.linalg.eigh(full)
@@ -283,7 +283,7 @@ def test_elements_of_second_order_and_quadrilaterals():
     assert "triangle" not in quads.cells and quads.cell_quality.quads4 == len(quads.cells["quad"][0])
 
 
-def test_what_was_delivered(tmp_path):
+def test_the_delivered_mesh(tmp_path):
     session = carreau.mesh(torus, domain=TORUS_BOX, size=0.2).session
     assert session.delivered.in_range > 0.9
     spread, values = session.measure("length")

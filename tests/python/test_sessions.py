@@ -126,7 +126,7 @@ def test_surfaces_fill_arrays_up_to_an_order():
     assert np.array_equal(out[0], [[1, 2, 2], [3, 4, 12]]) and np.isnan(out[1]).all()
 
 
-def test_curves_are_divided_as_told():
+def test_curves_are_divided_as_prescribed():
     session = carreau.mesh(lambda u, v: (u, v, 0 * u), domain="box:0,0,1,1", size=0.5).session
     session.divide_curve(1, 1, 5, geometric=2)
     session.divide_curve(1, 2, 4, arithmetic=3)

@@ -49,7 +49,7 @@ def test_the_unit_of_the_file_is_reported(folder):
     assert (file.content.unit, file.content.file_unit) == ("m", "in")
 
 
-@pytest.mark.parametrize("source, said", [(b"", "are no STEP, IGES or BREP file"), (b"solid", "are no STEP, IGES or BREP file")])
+@pytest.mark.parametrize("source, said", [(b"", "are not a STEP, IGES or BREP file"), (b"solid", "are not a STEP, IGES or BREP file")])
 def test_bytes_that_are_no_shape_are_rejected(source, said):
     with pytest.raises(errors.FileError, match=said):
         carreau.mesh(source)
@@ -94,7 +94,7 @@ class Colour:
 
 
 class Assembly:
-    """As CadQuery's: its own shapes come before those of its children."""
+    """As CadQuery's: its own shapes come before its children's shapes."""
 
     def __init__(self, name, shapes, children=(), color=None, compound=None):
         self.name, self.shapes, self.children, self.color, self.compound = name, shapes, children, color, compound
@@ -147,7 +147,7 @@ def test_names_and_sizes_by_number(folder):
     assert longest < 0.2 * 1.5
 
 
-def test_what_is_no_shape_is_rejected():
+def test_other_objects_than_shapes_are_rejected():
     with pytest.raises(errors.ArgumentError, match="has no exportBrep"):
         shapes.brep_of(object())
 
@@ -157,7 +157,7 @@ FREECAD = next((folder for folder in ("/usr/lib/freecad-python3/lib", "/usr/lib/
 
 @pytest.mark.skipif(not FREECAD or not os.path.exists("/usr/bin/python3"), reason="FreeCAD's Python (freecad-python3) is not there")
 def test_a_shape_of_freecad_is_meshed(tmp_path):
-    """In a process of its own, of the Python that FreeCAD was built for. FreeCAD and the adapter use one OpenCASCADE."""
+    """Runs a separate process of the Python that FreeCAD was built for. FreeCAD and the adapter use one OpenCASCADE."""
     script = f"""
 import sys
 sys.path.append({FREECAD!r})

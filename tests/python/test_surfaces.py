@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Callbacks in Python are asked for what C is asked for, one by one or many at a time."""
+"""Callbacks in Python get the calls that C gets, one by one or many at a time."""
 import math
 
 import numpy as np
@@ -30,7 +30,7 @@ def test_scalar_batched_and_c_make_one_mesh_bit_for_bit():
     assert same(generated(rows, hphydef=0.05), reference)
 
 
-def test_a_torus_by_the_functions_of_libm_is_that_of_c_bit_for_bit():
+def test_a_torus_by_the_functions_of_libm_is_identical_to_the_torus_in_c():
     assert same(generated(carreau.Patch(torus_of_floats, TORUS_BOX), hphydef=0.2), in_c("torus_surface", TORUS_BOX, hphydef=0.2))
 
 

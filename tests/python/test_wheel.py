@@ -23,7 +23,7 @@ if {cad}:
 
 
 def bare():
-    """An environment in which nothing tells where the package is."""
+    """An environment in which no variable gives the place of the package."""
     return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "CARREAU_LIBRARY_PATH", "LD_LIBRARY_PATH")}
 
 

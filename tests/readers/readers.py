@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""readers.py READER CARREAU TEAPOT.BPT: other programs read what `carreau mesh` writes: the same vertices, triangles, references and names.
+"""readers.py READER CARREAU TEAPOT.BPT: other programs read the files of `carreau mesh`: the same vertices, triangles, references and
+names.
 
 READER is vtk (whose readers ParaView uses), gmsh or meshio. --has READER: exit status 0 when this Python has it."""
 import importlib
@@ -17,7 +18,7 @@ if sys.argv[1] == "--has":
     sys.exit(0)
 PROGRAM, TEAPOT = sys.argv[2:4]
 
-# A corner of a cube: three squares, named by nobody, with curves and corners.
+# A corner of a cube: three squares without names, with curves and corners.
 CORNER = "3\n" + "".join("1 1\n" + "".join("%d %d %d\n" % p for p in face) for face in (
     ((0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0)), ((0, 0, 0), (0, 0, 1), (0, 1, 0), (0, 1, 1)), ((0, 0, 0), (1, 0, 0), (0, 0, 1), (1, 0, 1))))
 
@@ -174,7 +175,7 @@ def elements_by_gmsh(path):
         gmsh.finalize()
 
 
-# Our command makes triangles of the polygons of these: the mesh is that of the other files.
+# Our command makes triangles of the polygons of these: the mesh equals the mesh of the other files.
 PLAIN = (".off", ".obj", ".ply")
 # Formats of which they know quadrilaterals, curved triangles and curved quadrilaterals.
 ELEMENT_READERS = {"vtk": (elements_by_vtk, {"q1": ("vtu",), "p2": ("vtu",), "q2": ("vtu",)}),
@@ -184,7 +185,8 @@ ELEMENT_READERS = {"vtk": (elements_by_vtk, {"q1": ("vtu",), "p2": ("vtu",), "q2
 
 
 def check_elements(folder, geometry, element, options):
-    """Kinds and numbers of elements are those that `carreau check` counts, in formats that READER knows of that order."""
+    """Kinds and numbers of elements agree with the counts of `carreau check`, in formats that READER knows of that
+    order."""
     read, formats = ELEMENT_READERS[READER]
     names = [os.path.join(folder, "e." + form) for form in formats[element[:2]]]
     outputs = [word for name in names for word in ("-o", name)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Listings of commands, each after `$ `, with what they print; … stands for any lines."""
+"""Listings of commands, each after `$ `, with their output; … stands for any lines."""
 import re
 import sys
 
@@ -20,7 +20,7 @@ def matches(shown, printed):
 
 
 def refreshed(shown, printed):
-    """Each line that differs in numbers only has those of today."""
+    """Each line that differs in numbers only gets today's numbers."""
     def words(line):
         return re.sub(r"\d[\d.]*", "#", line)
     return [line if line == "…" or line in printed else next((p for p in printed if words(p) == words(line)), line) for line in shown]

@@ -4,15 +4,15 @@
 in PREFIX, and ~/carreau is the clone SOURCE.
 
     ```sh                    commands, run as they stand
-    ```sh slow               the same; only with --slow
-    ```console               commands after `$ `, and what they print
+    ```sh slow likewise; only with --slow
+    ```console               commands after `$ `, and their output
     ```{code-block} c        with `:caption: bowl.c`: a file of that name
     ```text  ```json         content of a file or a program, not run
     ```cmake  ```python      run by other tests (commands.py, tests/python)
 
-Another kind is an error. So is a picture of the page that none of its commands makes (`img/x.png`: x.png), unless the gallery has it.
---refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page shows them, with 256 colours above 150 kB
-(Debian's pngquant)."""
+Another kind is an error. So is a picture of the page that its commands do not make (`img/x.png`: x.png), unless the
+gallery has it. --refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page
+shows them, with 256 colours above 150 kB (Debian's pngquant)."""
 import os
 import re
 import shutil

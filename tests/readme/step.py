@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""step.py PROGRAM CARREAU PART WORK: a program of README meshes PART as the command does, and says why it cannot when there is no file."""
+"""step.py PROGRAM CARREAU PART WORK: a program of README meshes PART as the command does, and reports the reason when there is no file."""
 import os
 import shutil
 import subprocess

@@ -9,7 +9,7 @@
 
 namespace carreau {
 
-/// Sizes at the vertices of a mesh, and metrics unless only sizes were asked for.
+/// Sizes at the vertices of a mesh, and metrics unless only sizes were requested.
 struct Estimate {
   std::vector<double> sizes; ///< the smallest of each metric
   std::vector<Tensor3> metrics;
@@ -31,7 +31,7 @@ struct Adaptation {
   double convergence = 0;   ///< ends when the number of triangles changes by a smaller share
 };
 
-/// What a loop of adaptation came to.
+/// The result of a loop of adaptation.
 struct Adapted {
   Outcome outcome = Outcome::complete;
   carreau_adaptation_report report{};
@@ -52,7 +52,7 @@ inline Transferred transfer(Session& session, std::span<const double> values, in
   const auto width = static_cast<std::size_t>(std::max(components, 1));
   const std::int64_t capacity = session.mesh().vertex_count();
   Transferred out{std::vector<double>(static_cast<std::size_t>(capacity) * width, std::numeric_limits<double>::quiet_NaN()), 0};
-  if (values.size() % width != 0) detail::fail(CARREAU_ERR_ARGUMENT, "The values of a field are no whole number of rows.");
+  if (values.size() % width != 0) detail::fail(CARREAU_ERR_ARGUMENT, "The values of a field do not fill whole rows.");
   session.done(carreau_transfer(session.get(), components, detail::count_of(values.size() / width), detail::data_or_null(values),
                                 capacity, out.values.data(), &out.outside));
   return out;

@@ -10,7 +10,7 @@ namespace carreau {
 
 namespace detail {
 
-/// A handle of the C interface with functions that create and free it and tell its last error.
+/// A handle of the C interface with functions that create and free it and return its last error.
 template <typename Handle, auto Create, auto Free, auto LastError>
 class Owned {
  public:
@@ -23,7 +23,7 @@ class Owned {
   void done(carreau_status status) const {
     if (status != CARREAU_OK) fail(status, LastError(get()));
   }
-  /// Rows of numbers whose count the same function tells.
+  /// Rows of numbers whose count the same function returns.
   template <std::size_t N, typename Copy>
   [[nodiscard]] std::vector<std::array<double, N>> counted(Copy&& copy) const {
     std::int64_t n = 0;

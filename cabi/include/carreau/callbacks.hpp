@@ -16,11 +16,11 @@ namespace carreau {
 
 // ---- Geometry, sizes and metrics by callbacks ----
 
-/// S(u, v) and its derivatives, model length. A callback fills them up to the order that it is asked for.
+/// S(u, v) and its derivatives, model length. A callback fills them up to the requested order.
 struct SurfacePoint {
   Point3 s{}, su{}, sv{}, suu{}, suv{}, svv{};
 };
-/// The same of a batch, a row for each (u, v); spans above the order are empty.
+/// S(u, v) and its derivatives at the points of a batch, a row for each (u, v); spans above the order are empty.
 struct SurfaceRows {
   std::span<Point3> s, su, sv, suu, suv, svv;
 };
@@ -34,10 +34,11 @@ struct Interval {
 };
 
 /// The callbacks of carreau_cad. `face` is the reference of a face, `ic` the rank of a curve in it, from 1. An exception ends the
-/// run; std::nullopt does not answer. What callbacks refer to must live as long as the session and its meshes.
+/// run; std::nullopt does not answer. Data that callbacks use must live as long as the session and its meshes.
 struct Geometry {
-  int surface_order = 0;  ///< what `surface` and `surface_batch` can give: 0, 1 or 2; the rest is found by finite differences
-  int curve_order = 0;    ///< what `curve` can give
+  int surface_order = 0;  ///< order that `surface` and `surface_batch` can give: 0, 1 or 2; the rest is found by finite
+                          ///< differences
+  int curve_order = 0;    ///< order that `curve` can give
   bool reentrant = false; ///< true: callbacks may come from several threads at a time
   std::function<SurfacePoint(int face, double u, double v, int order)> surface{}; ///< needed, unless surface_batch is given
   std::function<void(int face, std::span<const Point2> uv, int order, const SurfaceRows& out)> surface_batch{};
@@ -50,7 +51,7 @@ struct Geometry {
   std::function<std::optional<double>(int face, int ic, double t)> curve_radius{};
 };
 
-/// What a metric callback answers: one of CARREAU_METRIC_... and its values.
+/// The answer of a metric callback: one of CARREAU_METRIC_... and its values.
 struct Prescription {
   std::int32_t kind = CARREAU_METRIC_NONE;
   std::array<double, 6> value{};
@@ -98,7 +99,7 @@ class Faults {
     }
   }
   std::exception_ptr take() { return std::exchange(first_, nullptr); }
-  /// What the exception says, for the sentence of the error; lives until the next call.
+  /// The text of the exception, for the sentence of the error; lives until the next call.
   const char* text() {
     const std::scoped_lock lock(mutex_);
     text_.clear();

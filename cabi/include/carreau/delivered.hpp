@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a mesh is worth against what was prescribed: see carreau.hpp.
+/// Measures of a mesh against the prescribed sizes: see carreau.hpp.
 #ifndef CARREAU_DELIVERED_HPP
 #define CARREAU_DELIVERED_HPP
 

@@ -56,11 +56,11 @@ class Error : public std::runtime_error {
   Error(carreau_status status, const std::string& sentence, const carreau_error_place& place = {})
       : std::runtime_error(sentence.empty() ? carreau_status_meaning(status) : sentence), status_(status), place_(place) {}
 
-  /// What kind of failure it was.
+  /// The kind of the failure.
   [[nodiscard]] Status status() const { return Status{status_}; }
   /// "CARREAU_ERR_FILE"
   [[nodiscard]] std::string_view status_name() const { return carreau_status_name(status_); }
-  /// The face, curve, point, line and parameters concerned; 0 or NaN where there is none.
+  /// The face, curve, point, line and parameters concerned; 0 or NaN for missing ones.
   [[nodiscard]] const carreau_error_place& place() const { return place_; }
 
  private:
@@ -68,7 +68,7 @@ class Error : public std::runtime_error {
   carreau_error_place place_;
 };
 
-/// Whether all faces were meshed. Of a partial mesh Mesh::faces and Session::last_error tell what is missing.
+/// States if all faces were meshed. For a partial mesh, Mesh::faces and Session::last_error describe the missing faces.
 enum class Outcome { complete, partial };
 
 namespace detail {
@@ -106,7 +106,7 @@ Number* flat(std::vector<std::array<Number, N>>& rows) {
   return rows.empty() ? nullptr : rows.front().data();
 }
 
-/// Throws what a call came to, with the exception of a callback nested in it.
+/// Throws the error of a call, with the exception of a callback nested in it.
 [[noreturn]] inline void fail(carreau_status status, const char* sentence, const carreau_error_place& place = {},
                               std::exception_ptr cause = nullptr) {
   const Error error(status, sentence, place);

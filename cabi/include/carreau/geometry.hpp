@@ -19,8 +19,8 @@ inline std::vector<carreau_geometry> geometries(Session& session) {
   return out;
 }
 
-/// Adds a geometry of callbacks beside what the session has. `describe` adds its faces and curves, under references of its own. When it
-/// throws, the session is as it was before, and the exception goes on.
+/// Adds a geometry of callbacks beside the geometries of the session. `describe` adds its faces and curves, under references of this
+/// geometry. When it throws, the session is as it was before, and the exception goes on.
 template <typename Describe>
 void add_geometry(Session& session, Geometry geometry, Describe&& describe) {
   session.give(std::move(geometry), carreau_geometry_begin);
@@ -90,7 +90,7 @@ struct MoleculeOptions {
   bool drop_cavities = false;
   std::string radii = {}; ///< file of lines "symbol radius"; empty: none
 };
-/// Of each atom.
+/// Values of each atom.
 struct MoleculeAtoms {
   std::vector<std::int32_t> refs;
   std::vector<double> areas, convex, torus, concave; ///< areas: of convex parts alone for CARREAU_SES

@@ -13,7 +13,7 @@ namespace carreau {
 
 // ---- Meshes ----
 
-/// A face of a mesh: carreau_face with texts of its own.
+/// A face of a mesh: carreau_face with copies of its texts.
 struct Face {
   int ref = 0;
   int status = CARREAU_FACE_NOT_MESHED; ///< CARREAU_FACE_...
@@ -23,8 +23,7 @@ struct Face {
   int rgb = -1; ///< 0xRRGGBB, or -1
 };
 
-/// Arrays of a mesh of the caller. Rows of vertices, triangles and edges are those of carreau_mesh_arrays, as are defaults of spans that
-/// are empty.
+/// Arrays of a mesh of the caller. Rows of vertices, triangles and edges, and defaults of empty spans, are as in carreau_mesh_arrays.
 struct MeshArrays {
   std::span<const Point3> vertices{};
   std::span<const Triangle> triangles{};
@@ -33,14 +32,14 @@ struct MeshArrays {
   std::span<const std::array<Point2, 3>> corner_uv{};
 };
 
-/// Of the vertices of a part: numbers in the whole mesh, ranks, and rows of solvers.
+/// The vertices of a part: numbers in the whole mesh, ranks, and rows of solvers.
 struct PartVertices {
   std::vector<std::int64_t> numbers;
   std::vector<std::int32_t> owners;
   std::vector<std::int64_t> rows;
 };
 
-/// The same of its triangles.
+/// The triangles of a part: numbers in the whole mesh, and ranks.
 struct PartTriangles {
   std::vector<std::int64_t> numbers;
   std::vector<std::int32_t> owners;
@@ -53,7 +52,7 @@ struct Intersections {
   std::vector<Point3> places;
 };
 
-/// A mesh of its own, or the mesh of a session, which then lives as long as this object.
+/// An independent mesh, or the mesh of a session, which then lives as long as this object.
 class Mesh {
  public:
   /// An empty mesh, to be filled by read, from_arrays or carreau::remesh.
@@ -81,8 +80,8 @@ class Mesh {
 
   void read(const std::string& path) { done(carreau_mesh_read(mesh_, path.c_str())); }
   void write(const std::string& path) const { done(carreau_mesh_write(mesh_, path.c_str())); }
-  /// What write() would put into a file with this suffix (".meshb"). Of a part what this process has of the file, and zeros where the bytes
-  /// of others are.
+  /// The bytes that write() would put into a file with this suffix (".meshb"). For a part the bytes of this process, and zeros in place of
+  /// the bytes of others.
   [[nodiscard]] std::string encode(const std::string& suffix) const {
     std::string bytes;
     const carreau_bytes_fn append = [](std::int64_t position, std::int64_t n, const void* part, void* user) -> std::int32_t {
@@ -216,7 +215,8 @@ class Mesh {
     return out;
   }
 
-  /// Solids on both sides of a face by its reference: the one that its triangles look out of, and the other one; 0: none.
+  /// Solids on both sides of a face by its reference: the solid that its triangles look out of, and the other solid; 0:
+  /// none.
   [[nodiscard]] std::array<std::int32_t, 2> face_sides(int face) const {
     std::array<std::int32_t, 2> solids{};
     done(carreau_mesh_face_sides(mesh_, face, solids.data()));
@@ -235,7 +235,7 @@ class Mesh {
     return out;
   }
   [[nodiscard]] carreau_quality quality() const { return filled(carreau_mesh_quality); }
-  /// Of a part: its counts, the quality of the whole mesh, and numbers of its vertices and triangles there.
+  /// For a part: its counts, the quality of the whole mesh, and numbers of its vertices and triangles there.
   [[nodiscard]] carreau_part_counts part_counts() const { return filled(carreau_mesh_part_count); }
   [[nodiscard]] carreau_quality part_quality() const { return filled(carreau_mesh_part_quality); }
   [[nodiscard]] PartVertices part_vertices() const {
@@ -285,7 +285,7 @@ class Mesh {
   }
 
   /// @cond INTERNAL For the other headers of this interface.
-  /// Throws what a status of a call on this mesh means.
+  /// Throws the error of a status of a call on this mesh.
   void done(carreau_status status) const {
     if (status != CARREAU_OK) detail::fail(status, carreau_mesh_last_error(mesh_));
   }

@@ -34,7 +34,7 @@ using carreau::detail::data_or_null;
 /// Numbers of a metric.
 constexpr std::size_t tensor_of(int dimension) { return dimension == 2 ? 3 : 6; }
 
-/// The rows of an array, which must hold whole ones; and, with `wanted`, that many.
+/// The number of rows of an array, which must hold whole rows and, if given, `wanted` rows.
 inline std::size_t rows_of(std::span<const double> array, std::size_t width, std::optional<std::size_t> wanted = {}) {
   const std::size_t n = array.size() / width;
   if (n * width != array.size() || (wanted && n != *wanted))

@@ -30,7 +30,7 @@ inline std::vector<double> remesh_element_values(const Mesh& mesh, int component
 inline std::vector<double> remesh_damage(const Mesh& mesh) {
   return mesh.values<double>(mesh.triangle_count(), carreau_remesh_damage);
 }
-/// Adds a field to a mesh that is no session's, for .vtu files: `components` numbers for each vertex, or each triangle.
+/// Adds a field to a mesh outside of sessions, for .vtu files: `components` numbers for each vertex, or each triangle.
 inline void add_field(Mesh& mesh, const std::string& name, bool on_vertices, int components, std::span<const double> values) {
   const std::int64_t rows = on_vertices ? mesh.vertex_count() : mesh.triangle_count();
   if (detail::count_of(values.size()) != rows * components)

@@ -14,7 +14,7 @@ namespace carreau {
 /// A curve of a face as Session::add_curve takes it.
 struct Curve {
   int type = CARREAU_BOUNDARY; ///< or CARREAU_INTERNAL
-  int ref = 0;                 ///< the same for curves that are one in space; 0 for all: found by comparing positions
+  int ref = 0;                 ///< equal for curves that are one in space; 0 for all: found by comparing positions
   std::array<int, 2> ends{};   ///< references of the points at t = a and t = b
 };
 
@@ -51,12 +51,12 @@ struct Background {
 
 namespace detail {
 
-/// What callbacks reach: it stays where it is when a session is moved.
+/// The data that callbacks reach: its address stays when a session is moved.
 struct SessionState {
   carreau_session* session = nullptr;
   std::shared_ptr<Faults> faults = std::make_shared<Faults>(); ///< of geometry, sizes, metrics and fields
   Faults talk;                                                 ///< of messages and progress
-  std::vector<std::unique_ptr<HeldMetrics>> metrics; ///< earlier ones, too: meshes are measured by what made them
+  std::vector<std::unique_ptr<HeldMetrics>> metrics; ///< earlier ones, too: the callbacks of a mesh measure it
   std::function<void(int level, std::string_view text)> message;
   std::function<bool(int phase, int entity, double fraction)> progress;
 
@@ -85,7 +85,7 @@ class Session {
   }
   /// The handle of the C interface; it stays this object's.
   [[nodiscard]] carreau_session* get() const { return state_->session; }
-  /// The sentence of the last call, "" after success. Of a partial mesh: what is missing.
+  /// The sentence of the last call, "" after success. For a partial mesh it names the missing faces.
   [[nodiscard]] std::string last_error() const { return carreau_last_error(get()); }
   /// For libraries that work on a session of their caller: makes the last call one that has failed.
   void set_error(Status status, const std::string& sentence) {
@@ -130,7 +130,7 @@ class Session {
   void name_entities(int dimension, const std::vector<std::int32_t>& refs, const std::string& name) {
     done(carreau_model_name_entities(get(), dimension, detail::count_of(refs.size()), refs.data(), name.c_str()));
   }
-  /// Solids on both sides of a face, from 1: the one that its triangles look out of, and the other one; 0: none.
+  /// Solids on both sides of a face, from 1: the solid that its triangles look out of, and the other solid; 0: none.
   void set_face_sides(int face, int solid, int other_solid) { done(carreau_model_set_face_sides(get(), face, solid, other_solid)); }
   void color_face(int face, int rgb) { done(carreau_model_color_face(get(), face, rgb)); }
   void part_of_face(int face, int whole) { done(carreau_model_part_of_face(get(), face, whole)); }
@@ -273,8 +273,8 @@ class Session {
   // ---- For the other headers of this interface, and for calls of the C interface beside it ----
 
   /// @cond INTERNAL
-  /// Throws what a status of a call on this session means, with the exception of a callback nested in it. What messages or progress
-  /// have thrown too late to stop the call is thrown as it is.
+  /// Throws the error of a status of a call on this session, with the exception of a callback nested in it. An exception of
+  /// messages or progress that came too late to stop the call is rethrown unchanged.
   void done(carreau_status status) const {
     const std::exception_ptr talk = state_->talk.take(), other = state_->faults->take();
     if (status == CARREAU_OK) {
@@ -303,10 +303,10 @@ class Session {
     held->self = held;
     const carreau_cad cad = detail::table_of(*held);
     const carreau_status status = take(get(), &cad);
-    if (status != CARREAU_OK) held->self.reset(); // the library does not release what it has not taken
+    if (status != CARREAU_OK) held->self.reset(); // the library does not release callbacks that it has not taken
     done(status);
   }
-  /// Where exceptions of callbacks are kept that run in calls of this session.
+  /// The store of exceptions of callbacks that run in calls of this session.
   [[nodiscard]] detail::Faults& faults() const { return *state_->faults; }
   /// @endcond
 

@@ -34,7 +34,7 @@ std::size_t longest_axis(const WholeMesh& mesh, Iterator begin, Iterator end) {
   return axis;
 }
 
-/// Triangles [begin, end) get the ranks [first, last). Where each rank's share begins depends on the whole mesh alone, so
+/// Triangles [begin, end) get the ranks [first, last). The begin of each rank's share depends on the whole mesh alone, so
 /// that shares differ by one at most.
 struct Bisection {
   const WholeMesh& mesh;

@@ -22,8 +22,8 @@ Communicator::Communicator(std::int32_t handle) {
   if (given == MPI_COMM_NULL) throw Failure(CARREAU_ERR_ARGUMENT, "comm is MPI_COMM_NULL");
   check(MPI_Comm_dup(given, &comm_), "duplicate the communicator");
   MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN);
-  check(MPI_Comm_rank(comm_, &rank_), "tell the rank");
-  check(MPI_Comm_size(comm_, &size_), "tell the number of ranks");
+  check(MPI_Comm_rank(comm_, &rank_), "get the rank");
+  check(MPI_Comm_size(comm_, &size_), "get the number of ranks");
 }
 
 Communicator::~Communicator() {

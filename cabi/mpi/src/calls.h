@@ -42,7 +42,7 @@ class Communicator {
   int rank_ = 0, size_ = 1;
 };
 
-/// Runs body() and gives the status of what it throws, which becomes the last error of the session.
+/// Runs body() and returns the status of its exception, which becomes the last error of the session.
 template <typename Body>
 carreau_status guarded(carreau_session* session, Body&& body) noexcept {
   if (session == nullptr) return CARREAU_ERR_ARGUMENT;

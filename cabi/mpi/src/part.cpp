@@ -147,7 +147,7 @@ bool has_room(std::int64_t capacity, std::size_t rows) {
   return capacity >= 0 && static_cast<std::uint64_t>(capacity) >= rows;
 }
 
-/// Of a part whose mesh is its own.
+/// Copies the triangles of a part that owns its mesh.
 carreau_status copy_triangles(const carreau_part& part, std::int64_t capacity, std::int64_t* numbers, std::int32_t* owners, std::int32_t* layers,
                               std::int32_t* vertices) {
   carreau_mesh* const mesh = part.mesh.get();

@@ -9,7 +9,7 @@
 
 #include "carreau_mpi.h"
 
-/// Rows as carreau_mpi.h tells them: own ones first.
+/// Rows in the order of carreau_mpi.h: own ones first.
 struct carreau_part {
   std::int64_t own_triangles = 0, own_vertices = 0;
   std::vector<std::int64_t> triangle;  ///< numbers in the mesh
@@ -18,7 +18,7 @@ struct carreau_part {
   std::vector<std::int64_t> vertex;                  ///< numbers in the mesh
   std::vector<std::int32_t> vertex_owner;
   std::vector<std::int64_t> row;
-  /// Of carreau_mesh_generate_parts: it has all of this, and the lists are empty. Else null.
+  /// The mesh of a part of carreau_mesh_generate_parts, which holds all of this; the lists are then empty. Else null.
   std::unique_ptr<carreau_mesh, void (*)(carreau_mesh*)> mesh{nullptr, carreau_mesh_free};
 };
 
@@ -27,7 +27,8 @@ namespace carreau_mpi {
 /// Throws Failure with the sentence of the mesh.
 void require(carreau_mesh* mesh, carreau_status status);
 
-/// A part with its lists: `part` itself, or what the mesh of one knows. Rows of `xyz` are of its vertices, `refs` of its triangles.
+/// A part with its lists: the lists of `part`, or lists made from its mesh. Rows of `xyz` are of its vertices, `refs` of its
+/// triangles.
 struct ListedPart {
   carreau_part part;
   std::vector<double> xyz;
@@ -35,7 +36,7 @@ struct ListedPart {
 };
 ListedPart listed(const carreau_part& part);
 
-/// What parts are made of.
+/// The mesh that parts are made of.
 struct WholeMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a file is one rank's, and how many bytes are written and sent: positions and lengths have 64 bits, counts of MPI 32.
+// The slice of a file that belongs to a rank, and how many bytes are written and sent: positions and lengths have 64 bits,
+// counts of MPI 32.
 #pragma once
 
 #include <mpi.h>
@@ -15,7 +16,7 @@ struct SliceRange {
   std::int64_t begin = 0, end = 0;
 };
 
-/// Of n bytes in `size` slices that differ by one byte at most.
+/// The slice of a rank when n bytes are cut into `size` slices that differ by one byte at most.
 constexpr SliceRange slice_of(std::int64_t n, int rank, int size) noexcept {
   const auto first = [n, size](std::int64_t r) { return n / size * r + std::min<std::int64_t>(n % size, r); };
   return {first(rank), first(std::int64_t{rank} + 1)};

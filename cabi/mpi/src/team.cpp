@@ -13,7 +13,7 @@ using namespace carreau_mpi;
 
 namespace {
 
-/// What the callbacks of carreau_team reach. Lives until the session releases it.
+/// The data that the callbacks of carreau_team reach. Lives until the session releases it.
 class MpiTeam {
  public:
   explicit MpiTeam(std::int32_t handle) : comm_(handle) {
@@ -47,7 +47,7 @@ class MpiTeam {
     return before;
   }
 
-  /// Sizes of what all have given; `all_` holds the bytes.
+  /// Sizes of the bytes of all ranks; `all_` holds the bytes.
   void exchange(const void* bytes, std::int64_t n, std::int64_t* sizes) {
     check(MPI_Allgather(&n, 1, MPI_INT64_T, sizes, 1, MPI_INT64_T, comm_), "exchange sizes");
     reset();  // all ranks are here: none takes a job

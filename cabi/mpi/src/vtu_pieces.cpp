@@ -17,7 +17,7 @@ constexpr std::uint8_t vtk_triangle = 5;
 constexpr const char* file_attributes =
     R"(version="1.0" byte_order="LittleEndian" header_type="UInt64")";
 
-/// The arrays of a file: what it says of them, and their bytes behind.
+/// The arrays of a file: their declarations in the header, and their bytes behind.
 class Arrays {
  public:
   /// `bytes`: that there will be.
@@ -69,7 +69,7 @@ void add_cells(Arrays& arrays, const carreau_part& part) {
   arrays.line("</Cells>");
 }
 
-/// What all pieces have, as the master file says it.
+/// The arrays of all pieces, as the master file declares them.
 constexpr const char* declared_arrays =
     "<PPointData GlobalIds=\"GlobalPointIds\">\n"
     "<PDataArray type=\"Int64\" Name=\"GlobalPointIds\"/>\n"

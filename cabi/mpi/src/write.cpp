@@ -26,15 +26,15 @@ std::string suffix_of(const std::string& path) {
   return suffix;
 }
 
-/// As carreau_mesh_write names what is not complete.
+/// The name that carreau_mesh_write gives to an incomplete file.
 std::string temporary_of(const std::string& path) { return path + ".0.tmp"; }
 
 /// The text of rank 0 on all ranks.
 std::string of_first_rank(const Communicator& comm, std::string text) {
   std::int64_t n = static_cast<std::int64_t>(text.size());
-  check(MPI_Bcast(&n, 1, MPI_INT64_T, 0, comm), "tell a name");
+  check(MPI_Bcast(&n, 1, MPI_INT64_T, 0, comm), "send a name");
   text.resize(static_cast<std::size_t>(n));
-  check(MPI_Bcast(text.data(), static_cast<int>(n), MPI_CHAR, 0, comm), "tell a name");
+  check(MPI_Bcast(text.data(), static_cast<int>(n), MPI_CHAR, 0, comm), "send a name");
   return text;
 }
 
@@ -55,11 +55,11 @@ void together(const Communicator& comm, Body&& body) {
   int first = status == CARREAU_OK ? comm.size() : comm.rank();
   check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm), "agree about errors");
   if (first == comm.size()) return;
-  check(MPI_Bcast(&status, 1, MPI_INT, first, comm), "tell an error");
+  check(MPI_Bcast(&status, 1, MPI_INT, first, comm), "send an error");
   std::int64_t n = static_cast<std::int64_t>(sentence.size());
-  check(MPI_Bcast(&n, 1, MPI_INT64_T, first, comm), "tell an error");
+  check(MPI_Bcast(&n, 1, MPI_INT64_T, first, comm), "send an error");
   sentence.resize(static_cast<std::size_t>(n));
-  check(MPI_Bcast(sentence.data(), static_cast<int>(n), MPI_CHAR, first, comm), "tell an error");
+  check(MPI_Bcast(sentence.data(), static_cast<int>(n), MPI_CHAR, first, comm), "send an error");
   throw Failure(status, sentence);
 }
 
@@ -95,7 +95,7 @@ ListedPart part_of_mesh(const Communicator& comm, carreau_mesh* mesh) {
   return all;
 }
 
-/// `file_of_piece`: that of this rank.
+/// `file_of_piece`: the file of this rank's piece.
 void write_pvtu(const Communicator& comm, const std::string& path, const std::function<std::vector<std::string>()>& file_of_piece) {
   const std::string piece = name_of_piece(path, comm.rank());
   try {
@@ -109,12 +109,12 @@ void write_pvtu(const Communicator& comm, const std::string& path, const std::fu
     throw;
   }
   together(comm, [&] { give_name(piece); });
-  together(comm, [&] {  // what names the pieces appears when they are all there
+  together(comm, [&] {  // the file that names the pieces appears when they are all there
     if (comm.rank() == 0) give_name(path);
   });
 }
 
-/// The bytes of a file that are one rank's: what all encode is the same.
+/// The bytes of a file that belong to one rank: all ranks encode equal bytes.
 struct Slice {
   std::int64_t begin = 0, end = 0;
   std::int64_t total = 0;
@@ -168,7 +168,7 @@ void write_file(const Communicator& comm, const std::string& path, const std::fu
       struct stat status {};
       if (closed != MPI_SUCCESS) refuse(path, "MPI could not close it");
       if (comm.rank() == 0 && (stat(temporary.c_str(), &status) != 0 || status.st_size != end))
-        refuse(path, "its size is not that of its bytes; the disk may be full");
+        refuse(path, "its size differs from its number of bytes; the disk may be full");
     });
     together(comm, [&] {
       if (comm.rank() == 0) give_name(path);
@@ -189,7 +189,7 @@ void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string
   });
 }
 
-/// What a part has of a file, which is written as it comes.
+/// The bytes of a part in a file, which are written as they come.
 struct PartRequest {
   MPI_File file;
   std::int64_t end = 0;
@@ -218,7 +218,7 @@ void write_part(const carreau_part* part, std::int32_t handle, const char* given
   together(comm, [&] {
     if (given == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, "the argument path is NULL");
     if (part == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, "the argument part is NULL");
-    if (!part->mesh) throw Failure(CARREAU_ERR_SEQUENCE, "the part is of a mesh that each rank has: carreau_mpi_write writes that");
+    if (!part->mesh) throw Failure(CARREAU_ERR_SEQUENCE, "each rank has the whole mesh of this part: use carreau_mpi_write");
   });
   const std::string path = of_first_rank(comm, given);
   if (suffix_of(path) == ".pvtu")

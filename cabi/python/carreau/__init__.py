@@ -13,7 +13,7 @@ Geometry is a file, a formula, arrays of triangles, or functions of (u, v) in Nu
     mesh = carreau.mesh(torus, domain=(0, 0, 2 * np.pi, 2 * np.pi), size=lambda x, y, z: 0.05 + 0.1 * abs(z))
 
 Lengths are in the units of the model, angles in degrees, times in seconds; indices count from 0. docs/tutorials/python.md is the
-tutorial, and carreau.h the manual of what the library does.
+tutorial, and carreau.h the manual of the library.
 """
 from . import capi, domains, errors, metric
 from ._callbacks import scalar

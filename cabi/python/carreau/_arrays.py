@@ -59,7 +59,7 @@ def view(address: int, shape: tuple[int, ...], read_only: bool = False) -> NDArr
 
 
 def view_int32(address: int, shape: tuple[int, ...]) -> NDArray[np.int32]:
-    """The same for int32_t."""
+    """A view of int32_t, likewise."""
     return np.asarray(_Memory(address, shape, _INT32, False))
 
 
@@ -77,7 +77,7 @@ def doubles(values: ArrayLike, name: str, *shape: Optional[int]) -> NDArray[np.f
 
 
 def int32s(values: ArrayLike, name: str, *shape: Optional[int]) -> NDArray[np.int32]:
-    """The same of int32. Raises ValueError where a value is no whole number of 32 bits."""
+    """An array of int32, likewise. Raises ValueError if a value is not a whole number of 32 bits."""
     given = np.asarray(values)
     if given.dtype == np.int32:
         return _shaped(np.ascontiguousarray(given), name, shape)

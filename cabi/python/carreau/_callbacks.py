@@ -33,18 +33,18 @@ def scalar(function: Callable[..., Any]) -> Scalar:
 
 
 class Named:
-    """A function and which of the values on offer it takes.
+    """A function and the offered values that it takes.
 
     function   of the user, scalar or not
     offer      names of values, in the order in which a function without names gets the first `usual` of them
-    whole      what a function of one parameter with any other name gets: "uv", "xyz" or "t"
+    whole      the value for a function of one parameter with any other name: "uv", "xyz" or "t"
     """
 
     def __init__(self, function: Callable[..., Any], offer: Sequence[str], usual: int, whole: str) -> None:
         self.scalar = isinstance(function, Scalar)
         self.function = function.function if isinstance(function, Scalar) else function
         if not callable(self.function):
-            raise ArgumentError(f"{function!r} is no function")
+            raise ArgumentError(f"{function!r} is not a function")
         self.names = _names(self.function, list(offer), list(offer[:usual]), whole)
 
     def __call__(self, values: Mapping[str, Any]) -> Any:
@@ -83,7 +83,7 @@ def rows_of(result: Any, out: Array, what: str) -> None:
 
 
 def each_place(function: Named, values: Mapping[str, Any], count: int, uv: Any = None) -> list[Any]:
-    """The results of a scalar function at each place; an exception tells the place."""
+    """The results of a scalar function at each place; an exception names the place."""
     columns = [values[name] for name in function.names]
     columns = [each.tolist() if isinstance(each, np.ndarray) else [each] * count for each in columns]
     results: list[Any] = []

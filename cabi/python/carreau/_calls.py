@@ -33,7 +33,7 @@ def struct(kind: Any, **members: Any) -> Any:
 
 
 def address(array: Any) -> Any:
-    """For members that are pointers. Whoever uses it keeps the array."""
+    """The address of an array, for members that are pointers. The caller keeps the array."""
     return None if array is None else array.ctypes.data
 
 
@@ -63,13 +63,13 @@ def session_error(handle: Any, status: int) -> CarreauError:
 
 
 def require(handle: Any, status: int) -> None:
-    """Of a session. Raises CarreauError."""
+    """Checks a status of a session. Raises CarreauError."""
     if status != c.OK:
         raise session_error(handle, status)
 
 
 def require_by(last_error: Callable[[Any], Any], handle: Any, status: int) -> None:
-    """Of any other handle. Raises CarreauError."""
+    """Checks a status of any other handle. Raises CarreauError."""
     if status != c.OK:
         raise error_of(status, last_error(handle))
 
@@ -92,14 +92,14 @@ def created(create: Callable[[Any], int]) -> c_void_p:
 
 
 def asked(kind: Any, ask: Callable[[Any], None]) -> Any:
-    """The record of a struct that ask(pointer) fills in."""
+    """The record of a struct that the call ask(pointer) fills in."""
     filled = struct(kind)
     ask(byref(filled))
     return record(filled)
 
 
 def counted(ask: Callable[[Any], None]) -> int:
-    """A number that ask(pointer) tells."""
+    """A number that the call ask(pointer) returns."""
     count = c_int64()
     ask(byref(count))
     return count.value

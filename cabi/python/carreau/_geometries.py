@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a session takes as geometry, but for files of CAD."""
+"""The geometries of a session, except for files of CAD."""
 from __future__ import annotations
 
 from ctypes import byref, c_int32
@@ -52,8 +52,8 @@ def triangles_options(*, sharp: float = 0, corner: float = 0, given_edges: bool 
 
 
 class Geometries:
-    """The part of Session that adds geometries. Each is put behind what the session has; the first face of the first one
-    is face 1. Options are those of the command."""
+    """The part of Session that adds geometries. Each comes behind the previous geometries; the first face of the first
+    geometry is face 1. Options have the names of the command."""
 
     _handle: Any
     _host: Host
@@ -105,7 +105,8 @@ class Geometries:
         self._long(lib().add_molecule, byref(molecule_options(**options)), len(xyz), xyz, doubles(radii, "radii", len(xyz)))
 
     def load_molecule(self, path: Path, **options: Any) -> None:
-        """The same of the atoms of a file .xyzr, .xyz, .pdb or .cif; option radii: a file of lines "symbol radius"."""
+        """Adds the surface of the atoms of a file .xyzr, .xyz, .pdb or .cif; option radii: a file of lines "symbol
+        radius"."""
         self._long(lib().load_molecule, byref(molecule_options(**options)), file_name(path))
 
     @property
@@ -114,14 +115,14 @@ class Geometries:
         return asked(c.carreau_molecule_measures, lambda out: self._call(lib().molecule_measure, out))  # type: ignore[no-any-return]
 
     def atom_areas(self) -> NDArray[np.float64]:
-        """Of each atom of that molecule: areas (n, 3) of convex, torus and concave parts."""
+        """For each atom of that molecule: areas (n, 3) of convex, torus and concave parts."""
         n = self.molecule.atoms
         areas = np.empty((3, n))
         self._call(lib().molecule_atom_areas, n, *areas)
         return areas.T
 
     def atom_names(self) -> list[str]:
-        """Residues of the atoms of that molecule, "" where there is none."""
+        """Residues of the atoms of that molecule, "" for atoms without a residue."""
         return [text_of(lib().molecule_atom_name(self._handle, k)) for k in range(self.molecule.atoms)]
 
     def add_grid(self, *blocks: ArrayLike, **options: Any) -> None:
@@ -134,13 +135,14 @@ class Geometries:
         self._long(lib().add_grid, byref(grid_options(**options)), len(grids), counts, nodes)
 
     def load_grid(self, path: Path, format: str = "", **options: Any) -> None:
-        """The same of a file; format: "plot3d", "heights", "scan", "nodes", or "": by the suffix."""
+        """Adds a surface through the grids of a file; format: "plot3d", "heights", "scan", "nodes", or "": by the
+        suffix."""
         self._long(lib().load_grid, byref(grid_options(**options)), file_name(path), choice(GRID_FORMATS, format, "format"))
 
     def add_triangles(self, vertices: ArrayLike, triangles: ArrayLike, *, references: Optional[ArrayLike] = None,
                       edges: Optional[ArrayLike] = None, **options: Any) -> None:
-        """Adds triangles, whose mesh is to be another one; borders that they share with others are one line. vertices (n, 3), triangles (m, 3) from 0,
-        references (m) of faces, edges (k, 2) that are sharp. options: sharp and corner (degrees), given_edges,
+        """Adds triangles, whose surface is to be meshed anew; borders that they share with others are one line. vertices (n, 3), triangles
+        (m, 3) from 0, references (m) of faces, edges (k, 2) that are sharp. options: sharp and corner (degrees), given_edges,
         ignore_references, keep_double_vertices."""
         xyz, corners = doubles(vertices, "vertices", None, 3), int32s(triangles, "triangles", None, 3)
         refs = None if references is None else int32s(references, "references", len(corners))
@@ -151,12 +153,12 @@ class Geometries:
         self._long(lib().add_triangles, byref(triangles_options(**options)), byref(given))
 
     def load_triangles(self, path: Path, **options: Any) -> None:
-        """The same of a file .stl, .off, .obj, .ply, .mesh, .vtu or .msh."""
+        """Adds the triangles of a file .stl, .off, .obj, .ply, .mesh, .vtu or .msh."""
         self._long(lib().load_triangles, byref(triangles_options(**options)), file_name(path))
 
     @property
     def triangles(self) -> TrianglesReport:
-        """What was found in the triangles. Raises SequenceError where none were given."""
+        """The findings in the triangles. Raises SequenceError if no triangles were given."""
         return asked(c.carreau_triangles_report, lambda out: self._call(lib().triangles_measure, out))  # type: ignore[no-any-return]
 
     def triangles_distances(self) -> tuple[float, float]:
@@ -166,15 +168,15 @@ class Geometries:
         return float(pair[0]), float(pair[1])
 
     def triangles_bounds(self, share: float = 0) -> tuple[float, float, float, float]:
-        """The largest distance from the mesh to the triangles lies between the first two, that back between the others;
-        they differ by a share of it (0: .01) and a millionth of the diagonal at most."""
+        """Bounds of two distances. The first two bound the largest distance from the mesh to the triangles, the others
+        the distance back. They differ by a share of it (0: .01) and a millionth of the diagonal at most."""
         bounds = np.empty(4)
         self._call(lib().triangles_bounds, float(share), bounds)
         return float(bounds[0]), float(bounds[1]), float(bounds[2]), float(bounds[3])
 
     def refine_triangles(self, angle: float, depth: int = 6) -> Mesh:
-        """The triangles, mended, cut into four on the smooth surface while normals differ from it by more than an angle
-        (degrees), at most `depth` times; 0: as they are mended."""
+        """The repaired triangles, cut into four on the smooth surface while normals differ from it by more than an
+        angle (degrees), at most `depth` times; 0: not cut."""
         def fill(handle: Any) -> int:
             self._call(lib().triangles_refine, float(angle), depth, handle)
             return c.OK
@@ -185,12 +187,12 @@ class Geometries:
         self._long(lib().add_plane_domain, byref(domain._struct()))
 
     def load_plane(self, path: Path, sizes: Optional[Path] = None, corner_angle: float = 0) -> None:
-        """The same of a file .poly, .mesh, .bl2d, .data or .g; sizes: a .sol, .hg or .h for its vertices. With a
+        """Adds the plane domain of a file .poly, .mesh, .bl2d, .data or .g; sizes: a .sol, .hg or .h for its vertices. With a
         corner_angle (degrees) above 0, polygons become splines between corners."""
         self._long(lib().load_plane_domain, file_name(path), None if sizes is None else file_name(sizes), float(corner_angle))
 
     def plane_has_sizes(self) -> bool:
-        """Whether that domain has sizes at its points."""
+        """True if that domain has sizes at its points."""
         answer = c_int32()
         self._call(lib().plane_has_sizes, byref(answer))
         return bool(answer.value)
@@ -200,7 +202,7 @@ class Geometries:
         self._long(lib().add_atlas, atlas._handle)
 
     def read_pardom(self, path: Path) -> None:
-        """Replaces the model by that of a file x.pardom."""
+        """Replaces the model by the model of a file x.pardom."""
         self._call(lib().model_read_pardom, file_name(path))
 
     def write_pardom(self, path: Path) -> None:
@@ -208,14 +210,14 @@ class Geometries:
         self._call(lib().model_write_pardom, file_name(path))
 
     def leave_out_face(self, face: int, why: str) -> None:
-        """Leaves a face out of what is meshed, for a reason; "" takes it in again."""
+        """Leaves a face out of the mesh, for a reason; "" takes it in again."""
         self._call(lib().model_leave_out_face, face, why.encode())
 
-    # ---- what there is ----
+    # ---- content ----
 
     @property
     def geometries(self) -> list[Geometry]:
-        """Those that were added, and which references of the session are theirs."""
+        """The added geometries, with their references of the session."""
         count = counted(lambda out: self._call(lib().geometry_count, out))
         return [asked(c.carreau_geometry, lambda out, k=k: self._call(lib().geometry_info, k, out))  # type: ignore[misc]
                 for k in range(count)]

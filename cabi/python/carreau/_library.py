@@ -16,8 +16,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def _candidates(name: str) -> Iterator[str]:
-    """Files that may be lib<name>.so, the most likely first: what CARREAU_LIBRARY_PATH names, the wheel's own, what was
-    installed beside this package, what the loader finds."""
+    """Files that may be lib<name>.so, the most likely first: the path in CARREAU_LIBRARY_PATH, the wheel's own, the one
+    installed beside this package, the one that the loader finds."""
     for folder in filter(None, os.environ.get("CARREAU_LIBRARY_PATH", "").split(os.pathsep)):
         yield os.path.join(folder, f"lib{name}.so.{SOVERSION}")
     yield from glob.glob(os.path.join(HERE, "lib", f"lib{name}.so.{SOVERSION}"))
@@ -65,5 +65,5 @@ def cad_lib() -> Any:
 
 
 def version() -> str:
-    """Of the library that runs: "0.1.0"."""
+    """The version of the library that runs: "0.1.0"."""
     return str(lib().version().decode())

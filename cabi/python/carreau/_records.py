@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the library tells, as tuples with names. Lengths are model lengths, angles degrees, times seconds.
+"""Results of the library, as tuples with names. Lengths are model lengths, angles degrees, times seconds.
 
 Written by cabi/python/generate.py: not to be edited."""
 
@@ -11,7 +11,7 @@ from . import _declarations as c
 
 
 class ErrorPlace(NamedTuple):
-    """What the last error is about."""
+    """The place of the last error."""
 
     face: int
     ic: int
@@ -23,7 +23,7 @@ class ErrorPlace(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """What is known of a parameter, whatever its value."""
+    """The properties of a parameter that do not depend on its value."""
 
     name: str
     help: str
@@ -38,7 +38,7 @@ class Parameter(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What the last successful run did."""
+    """Counts and times of the last successful run."""
 
     diag: float
     surf0_calls: int
@@ -80,7 +80,7 @@ class BackgroundReport(NamedTuple):
 
 
 class AdaptationReport(NamedTuple):
-    """What a loop did."""
+    """The outcome of a loop."""
 
     iterations: int
     converged: int
@@ -110,7 +110,7 @@ class PartCounts(NamedTuple):
 
 
 class CellQuality(NamedTuple):
-    """What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular polygon; both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element."""
+    """The quality of the elements. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides that meet (HDR sec. 1.1.1). scaled_jacobian is the least sine of an element's angles over the sine of the regular polygon's angle."""
 
     triangles3: int
     triangles6: int
@@ -130,7 +130,7 @@ class CellQuality(NamedTuple):
 
 
 class Face(NamedTuple):
-    """What became of a face."""
+    """The result of meshing a face."""
 
     ref: int
     status: int
@@ -141,7 +141,7 @@ class Face(NamedTuple):
 
 
 class Quality(NamedTuple):
-    """The shapes and sizes of the triangles. q1 = 2 sqrt(3) inradius / longest edge and q2 = 4 sqrt(3) area / sum of squared edges (HDR eq. 1.5, 1.6) are 1 for an equilateral triangle. p1 is the first percentile."""
+    """The shapes and sizes of the triangles."""
 
     vertices: int
     triangles: int
@@ -165,7 +165,7 @@ class Quality(NamedTuple):
 
 
 class Delivered(NamedTuple):
-    """What a mesh delivers, as a whole."""
+    """Totals of a delivered mesh."""
 
     vertices: int
     edges: int
@@ -207,7 +207,7 @@ class Measure(NamedTuple):
 
 
 class AtlasCounts(NamedTuple):
-    """What an atlas consists of."""
+    """The numbers of the charts and other entities of an atlas."""
 
     vertices: int
     triangles: int
@@ -241,7 +241,7 @@ class Geometry(NamedTuple):
 
 
 class MoleculeMeasures(NamedTuple):
-    """Of the surface, exactly: no mesh is needed."""
+    """Exact measures of the surface: no mesh is needed."""
 
     area: float
     volume: float
@@ -257,7 +257,7 @@ class MoleculeMeasures(NamedTuple):
 
 
 class TrianglesReport(NamedTuple):
-    """What was found in the triangles of a session."""
+    """Findings in the triangles of a session."""
 
     vertices: int
     triangles: int
@@ -286,7 +286,7 @@ class TrianglesReport(NamedTuple):
 
 
 class RemeshSummary(NamedTuple):
-    """What happened."""
+    """The events of a remeshing."""
 
     vertices: int
     triangles: int
@@ -390,7 +390,7 @@ class CadReport(NamedTuple):
 
 
 class CadDanger(NamedTuple):
-    """A place that a mesher may stumble over."""
+    """A potential meshing problem."""
 
     kind: str
     face: int

@@ -14,7 +14,8 @@ from .errors import CallbackError
 
 
 class Host:
-    """What the callbacks of a session share. It knows the handle and not the session, so that no cycle keeps either."""
+    """The data that the callbacks of a session share. It knows the handle and not the session, so that no cycle keeps
+    either."""
 
     def __init__(self, handle: c_void_p) -> None:
         self.handle = handle
@@ -27,13 +28,13 @@ class Host:
         lib().stop(self.handle)
 
     def fail(self, error: BaseException, where: dict[str, Any]) -> None:
-        """Keeps what a callback has raised, and ends the run: no other face is begun."""
+        """Keeps the exception of a callback, and ends the run: no other face is begun."""
         if self.error is None:
             self.error, self.where = error, where
         self.stop()
 
     def guarded(self, where: Callable[..., dict[str, Any]], body: Callable[..., Optional[int]]) -> Callable[..., int]:
-        """`body` as a callback of the library, which no exception leaves; where(*arguments) tells its place."""
+        """`body` as a callback of the library, which no exception leaves; where(*arguments) describes its place."""
         def callback(*arguments: Any) -> int:
             try:
                 self.inside += 1
@@ -46,13 +47,14 @@ class Host:
         return callback
 
     def take_error(self) -> Optional[BaseException]:
-        """What the run is to raise in place of the library's own error."""
+        """The exception that the run raises in place of the library's own error."""
         error, self.error = self.error, None
         return callback_error(error, self.where) if isinstance(error, Exception) else error
 
 
 def callback_error(error: Exception, where: dict[str, Any]) -> CallbackError:
-    """From what a callback has raised; a function of single places has told its own."""
+    """The CallbackError of an exception of a callback, with the place; a function of single places has already given
+    its own."""
     place = {**where, **getattr(error, "_carreau_place", {})}
     made = CallbackError(f"{place_text(place)}a callback has raised {type(error).__name__}: {error}", **place)
     made.__cause__ = error
@@ -99,7 +101,8 @@ class _Watcher:
 
 @contextmanager
 def _listening(host: Host) -> Iterator[Callable[[], None]]:
-    """Gives what raises KeyboardInterrupt, as the program's own handler would, when Ctrl-C was pressed meanwhile."""
+    """Gives a function that raises KeyboardInterrupt, as the program's own handler would, when Ctrl-C was pressed
+    meanwhile."""
     before = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(before):
         yield lambda: None
@@ -126,7 +129,7 @@ def _listening(host: Host) -> Iterator[Callable[[], None]]:
 
 
 def run(host: Host, call: Callable[[], int]) -> int:
-    """The status of a call that may ask callbacks. Raises what a callback has raised, as the cause of a CallbackError,
+    """The status of a call that may run callbacks. Raises the exception of a callback, as the cause of a CallbackError,
     and KeyboardInterrupt."""
     host.error, host.interrupted = None, False
     with _listening(host) as pass_on:

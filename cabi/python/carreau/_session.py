@@ -53,7 +53,8 @@ class SessionBase(Studies):
         require(self._handle, lib().set_message_callback(self._handle, self._on_message, None))
 
     def close(self) -> None:
-        """Frees geometry and mesh now, and not when nobody has the session any more. Meshes keep their arrays."""
+        """Frees geometry and mesh now, and not when the last reference to the session disappears. Meshes keep their
+        arrays."""
         self._close()
         self._kept.clear()
 
@@ -89,7 +90,7 @@ class SessionBase(Studies):
         return text_of(out.value)  # type: ignore[no-any-return]
 
     def is_set(self, name: str) -> bool:
-        """Whether a parameter has a value now: a length that is a share of the diagonal has none before a mesh is made."""
+        """True if a parameter has a value now: a length that is a share of the diagonal has none before a mesh is made."""
         try:
             return self[name] is not None
         except SequenceError:
@@ -110,7 +111,7 @@ class SessionBase(Studies):
 
     def set_sizes(self, function: Optional[Callable[..., Any]] = None, *, face_sizes: Optional[Mapping[int, float]] = None,
                   on_curve: Optional[Callable[..., Any]] = None, at_point: Optional[Callable[..., Any]] = None) -> None:
-        """Wants sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
+        """Prescribes sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
         sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point).struct()
         self._call(lib().set_metric_callbacks, byref(sizes))
         self._sizes.append(sizes)
@@ -121,7 +122,8 @@ class SessionBase(Studies):
         self._call(lib().model_name_entities, dimension, len(numbers), numbers, name.encode())
 
     def set_face_sides(self, face: int, solid: int, other_solid: int = 0) -> None:
-        """Sets the solids on both sides of a face, from 1: the one that its triangles look out of, and the other one; 0: none."""
+        """Sets the solids on both sides of a face, from 1: the solid that its triangles look out of, and the other solid; 0:
+        none."""
         self._call(lib().model_set_face_sides, face, solid, other_solid)
 
     def add_periodicity(self, slaves: ArrayLike = (), masters: ArrayLike = (), transform: Optional[ArrayLike] = None) -> None:
@@ -146,7 +148,7 @@ class SessionBase(Studies):
 
         edges        their number, 0: no prescription; or the parameters (n) of all vertices inside the curve, ascending
         arithmetic   lengths grow by the same step, and the last is so many times as long as the first
-        geometric    each edge is so many times as long as the one before
+        geometric    each edge is so many times as long as its predecessor
         """
         if np.ndim(edges) == 1:
             t = doubles(edges, "edges", None)
@@ -158,7 +160,7 @@ class SessionBase(Studies):
     # ---- runs ----
 
     def _long(self, function: Callable[..., int], *arguments: Any) -> None:
-        """As _call, for what may take long: Ctrl-C is heard."""
+        """As _call, for calls that may take long: Ctrl-C stops them."""
         if not self._close.alive:
             raise ValueError("the session is closed")
         status = run(self._host, lambda: function(self._handle, *arguments))
@@ -191,15 +193,15 @@ class SessionBase(Studies):
             self._runs += 1
 
     def stop(self) -> None:
-        """Asks the run under way to stop, which it does within 100 ms; from a callback, or another thread."""
+        """Requests the run under way to stop, which it does within 100 ms; from a callback, or another thread."""
         if self._close.alive:
             lib().stop(self._handle)
 
-    # ---- what came of it ----
+    # ---- results ----
 
     @property
     def report(self) -> Report:
-        """What the last run did: calls of callbacks, seconds."""
+        """The work of the last run: calls of callbacks, seconds."""
         return asked(c.carreau_report, lambda out: self._call(lib().session_report, out))  # type: ignore[no-any-return]
 
     @property
@@ -211,7 +213,7 @@ class SessionBase(Studies):
 
 
 def _kind(name: str) -> int:
-    """The type of a parameter; an integer where there is none, whose call then says so."""
+    """The type of a parameter; integer for an unknown parameter, whose call then fails."""
     known = parameters().get(name)
     return c.INTEGER if known is None else known.type
 

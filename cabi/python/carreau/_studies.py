@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a session does with its mesh: sizes from fields, adaptation, images, what was delivered."""
+"""Studies of a session's mesh: sizes from fields, adaptation, images, measures of the delivered mesh."""
 from __future__ import annotations
 
 from ctypes import addressof, byref, c_void_p
@@ -48,7 +48,7 @@ def estimator_of(tolerance: float = 0.01, *, source: str = "hessian", shape: str
 
 
 class Studies:
-    """The part of Session that asks about its mesh, and takes sizes from meshes."""
+    """The part of Session that studies its mesh, and takes sizes from meshes."""
 
     _handle: Any
     _host: Host
@@ -78,7 +78,7 @@ class Studies:
             triangles=address(corners), faces=address(refs), sizes=address(h), metrics=address(m))))
 
     def load_background(self, mesh: Path, sol: Path) -> None:
-        """The same of files: .mesh or .meshb, and .sol or .solb."""
+        """Takes sizes or metrics from files: .mesh or .meshb, and .sol or .solb."""
         self._call(lib().set_background_mesh, file_name(mesh), file_name(sol))
 
     def load_background_fields(self, mesh: Path, sol: Path) -> None:
@@ -94,7 +94,7 @@ class Studies:
             self._call(lib().set_vertex_sizes, len(rows), doubles(rows, "sizes", None))
 
     def clear_background(self) -> None:
-        """Removes what the functions above have set."""
+        """Removes the sizes of the functions above."""
         self._call(lib().clear_background)
 
     @property
@@ -105,9 +105,9 @@ class Studies:
     # ---- adaptation ----
 
     def estimate(self, values: ArrayLike, tolerance: float = 0.01, **estimator: Any) -> Reals:
-        """Sizes (n), or metrics (n, 6) where shape is not "isotropic", that values (n) of a field at the vertices of the
-        mesh ask for. estimator: source ("hessian", "curvature", "deformation"), shape ("isotropic", "graph",
-        "anisotropic"), relative, recovery ("fit", "projection"), hmin, hmax, ratio, floor."""
+        """Sizes (n), or metrics (n, 6) if shape is not "isotropic", from values (n) of a field at the vertices of the
+        mesh. estimator: source ("hessian", "curvature", "deformation"), shape ("isotropic", "graph", "anisotropic"),
+        relative, recovery ("fit", "projection"), hmin, hmax, ratio, floor."""
         field = doubles(values, "values", None)
         given = estimator_of(tolerance, **estimator)
         isotropic = given.shape == c.ISOTROPIC
@@ -116,8 +116,9 @@ class Studies:
         return out
 
     def transfer(self, values: ArrayLike) -> Reals:
-        """Values (n) or (n, k) at the vertices of the mesh before, at those of the mesh now. Elements of second order have
-        them at all nodes, corners first; values at corners alone are carried to corners, and rows of other nodes are NaN."""
+        """Carries values (n) or (n, k) from the vertices of the previous mesh to the vertices of the current mesh. Elements
+        of second order have them at all nodes, corners first; values at corners alone are carried to corners, and rows of
+        other nodes are NaN."""
         rows = np.ascontiguousarray(values, dtype=np.float64)
         components = 1 if rows.ndim == 1 else rows.shape[1]
         n = counted(self._count_vertices)
@@ -134,7 +135,8 @@ class Studies:
               differences: bool = False, progress: Progress = None, **estimator: Any) -> Any:
         """Adapts the mesh to a field in a loop; returns the last mesh, and self.adaptation has the report.
 
-        field         of the place; names what it takes: x, y, z (n each) or xyz (n, 3). Gives n values
+        field         of the place; its parameters name the values it takes: x, y, z (n each) or xyz (n, 3). Gives n
+                      values
         tolerance     largest error of interpolation, and estimator: as for estimate()
         iterations    at most; convergence: ends when the number of triangles changes by a smaller share
         differences   derivatives of the field itself, by differences (plane z = 0 only)"""
@@ -163,11 +165,11 @@ class Studies:
         self.adaptation = record(report)
         return self.mesh  # type: ignore[attr-defined]
 
-    # ---- what was delivered, fields ----
+    # ---- the delivered mesh, fields ----
 
     @property
     def delivered(self) -> Delivered:
-        """The latest mesh, measured on the surface of the callbacks against what was prescribed."""
+        """The latest mesh, measured on the surface of the callbacks against the prescribed sizes."""
         filled = struct(c.carreau_delivered)
         self._run(lib().session_delivered, byref(filled))
         return record(filled)  # type: ignore[no-any-return]
@@ -183,7 +185,8 @@ class Studies:
         return spread, values
 
     def histogram(self, kind: str) -> tuple[Reals, NDArray[np.int64]]:
-        """Of a measure: lower bounds of the classes, the first -infinity, and how many values each has."""
+        """The histogram of a measure: lower bounds of the classes, the first -infinity, and how many values each
+        has."""
         classes = self.measure(kind)[0].classes
         bounds, counts = np.empty(classes), np.empty(classes, dtype=np.int64)
         self._call(lib().delivered_histogram, MEASURES[kind], classes, bounds, counts)
@@ -202,15 +205,15 @@ class Studies:
         self._run(lib().delivered_write, file_name(path))
 
     def transfer_files(self, mesh: Path, sol: Path, out: Path) -> int:
-        """Writes the fields of a .sol on another mesh, as they are at the vertices of this one, to a .sol; returns how many
-        of these lie beside it, and have the nearest values."""
+        """Carries the fields of a .sol on another mesh to the vertices of this mesh, and writes a .sol. Returns how many vertices
+        lie beside the other mesh; they have the nearest values."""
         return counted(lambda outside: self._call(lib().transfer_files, file_name(mesh), file_name(sol), file_name(out), outside))
 
     def write_fields(self, path: Path, *, longest: int = 0, width: int = 0, height: int = 0, channels: Any = (), face: int = 0,
                      multi_part: bool = False, raw: bool = False, piz: bool = False, threads: int = 0) -> None:
-        """Writes what governed the mesh of each face as images .exr, or its preview as .png; docs/how-to/see_sizes.md has the
-        channels, whose groups are "size", "induced", "target", "curvature", "position", "normal", "deviation",
-        "triangle", "mask" and "preview" (none given: all)."""
+        """Writes the fields that governed the mesh of each face as images .exr, or its preview as .png;
+        docs/how-to/see_sizes.md has the channels, whose groups are "size", "induced", "target", "curvature", "position",
+        "normal", "deviation", "triangle", "mask" and "preview" (none given: all)."""
         chosen = sum(_one_of(CHANNELS, each, "a channel") for each in channels)
         self._run(lib().write_exr, file_name(path), byref(struct(
             c.carreau_exr_options, longest=longest, width=width, height=height, channels=chosen, face=face,

@@ -40,7 +40,7 @@ class Atlas:
 
     @property
     def counts(self) -> AtlasCounts:
-        """Of the triangulation that is covered, and of the charts."""
+        """Counts of the triangulation that is covered, and of the charts."""
         return asked(c.carreau_atlas_counts, lambda out: self._call(lib().atlas_count, out))  # type: ignore[no-any-return]
 
     def chart(self, index: int) -> AtlasChart:
@@ -62,7 +62,7 @@ class Atlas:
         return zones, weights
 
     def transition(self, i: int, j: int, xy: ArrayLike) -> tuple[Array, NDArray[np.bool_]]:
-        """Places (n, 2) of chart i as those of chart j, NaN where it lacks them; and whether it has them (n)."""
+        """Places (n, 2) of chart i as places of chart j, NaN where it lacks them; and whether it has them (n)."""
         places = doubles(xy, "xy", None, 2)
         out, found = np.full((len(places), 2), np.nan), np.zeros(len(places), dtype=np.int32)
         self._call(lib().atlas_transition, i, j, len(places), places, out, found)

@@ -30,12 +30,12 @@ class CadFile:
     source             a path; the bytes of a file, or an open file; or a shape of build123d, CadQuery, pythonocc or FreeCAD
                        (carreau.shapes), whose names and colours of solids come with it
     progress           True: a bar; or a function of (fraction, phase, entity)
-    loose_edges        edges of no face are meshed, too; those of a file without a face always are
+    loose_edges        edges of no face are meshed, too; edges of a file without a face always are
     imprint            parts that touch share faces and edges; imprint_tolerance: up to which distance
     unit               of the coordinates: "m", "in", ...; "": millimetres, or as they are in a BREP file, which has none
     scale              multiplies all coordinates, after the unit
     min_feature        holes, bosses, fillets, chamfers, steps and faces below this length are removed: see small_features
-    format             of bytes: "step", "iges" or "brep"; "": as they say
+    format             of bytes: "step", "iges" or "brep"; "": by their content
 
     Raises FileError, ArgumentError, ImportError without libcarreau_cad."""
 
@@ -89,15 +89,16 @@ class CadFile:
         require_cad(self._handle, function(self._handle, *arguments))
 
     def add_to(self, session: SessionBase) -> None:
-        """Adds all faces to a session, which keeps what it needs."""
+        """Adds all faces to a session, which keeps the data that it needs."""
         require(session._handle, cad_lib().cad_add(self._handle, session._handle))
 
     def set_face_size(self, face: object, size: float) -> None:
-        """Wants a size on the face of this number, or on all faces of this name, when hphy_flag = 2."""
+        """Prescribes a size on the face of this number, or on all faces of this name, when hphy_flag = 2."""
         self._call(cad_lib().cad_set_face_size, str(face).encode(), float(size))
 
     def set_size(self, dimension: int, number: int, size: float) -> None:
-        """The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number."""
+        """Prescribes a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by
+        number."""
         self._call(cad_lib().cad_set_size, dimension, number, float(size))
 
     @property
@@ -107,7 +108,7 @@ class CadFile:
 
     @property
     def small_features(self) -> list[CadSmallFeature]:
-        """What min_feature found, and whether each is removed."""
+        """The features that min_feature found, and whether each is removed."""
         return [asked(c.carreau_cad_small_feature, lambda out, k=k: self._call(cad_lib().cad_small_feature_at, k, out))  # type: ignore[misc]
                 for k in range(self.content.small_features)]
 
@@ -123,11 +124,11 @@ class CadFile:
 
     @property
     def losses(self) -> list[str]:
-        """What of the file could not be read."""
+        """The parts of the file that could not be read."""
         return [text_of(cad_lib().cad_loss(self._handle, k)) for k in range(self.content.losses)]
 
     def inspect(self, tiny: float = 0) -> tuple[CadReport, list[CadDanger]]:
-        """What is hard to mesh; edges shorter than `tiny` times the diagonal are dangers (0: 1e-3)."""
+        """Potential meshing problems; edges shorter than `tiny` times the diagonal count (0: 1e-3)."""
         report = asked(c.carreau_cad_report, lambda out: self._call(cad_lib().cad_inspect, tiny, out))
         dangers = [asked(c.carreau_cad_danger, lambda out, k=k: self._call(cad_lib().cad_danger_at, k, out))  # type: ignore[misc]
                    for k in range(report.dangers)]
@@ -141,7 +142,7 @@ class CadFile:
 
 
 class _Reading(Host):
-    """Has no session to be stopped: the progress of the reading says so."""
+    """Stops the reading by its progress, since there is no session to be stopped."""
 
     stopped = False
 

@@ -20,8 +20,8 @@ NEEDED = ("surf0", "curv_int", "curv0")
 
 
 class CadM:
-    """The routines of a library: C functions, external subroutines of Fortran, or those of a Fortran module cad_m. Raises
-    ArgumentError where one that is needed lacks, OSError for a library that cannot be loaded."""
+    """The routines of a library: C functions, external subroutines of Fortran, or procedures of a Fortran module cad_m.
+    Raises ArgumentError if a required routine is missing, OSError for a library that cannot be loaded."""
 
     def __init__(self, path: Path) -> None:
         name = os.fspath(path)

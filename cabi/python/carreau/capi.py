@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The C interface as it is, for what has no words of its own here: every function of the headers, by ctypes.
+"""The C interface by ctypes: every function of the headers, also functions without a Python counterpart.
 
     from carreau import capi
     session = carreau.Session()

@@ -19,7 +19,7 @@ class Curve:
     point      C: t of shape (n,) in, (n, 2) or two columns out; a scalar() one takes a float. It may name face and ic
     a, b       the interval, a < b
     first      C'(t), in the same way; None: by finite differences, as is second, C''(t)
-    ref        reference; curves that are one in space have the same one. 0 for all: the library finds those that meet
+    ref        reference; curves that are one in space share it. 0 for all: the library finds curves that meet
     ends       references of the points at a and b; 0: as above
     internal   a line inside the domain that edges follow, in place of a part of its boundary
     """
@@ -111,7 +111,7 @@ def disc(u: float, v: float, radius: float) -> list[Curve]:
 
 
 def ring(u: float, v: float, inner: float, outer: float) -> list[Curve]:
-    """What lies between two circles about (u, v)."""
+    """The ring between two circles about (u, v)."""
     if not 0 < inner < outer:
         raise ArgumentError(f"ring: 0 < inner < outer, not {inner} and {outer}")
     return disc(u, v, outer) + [arc((u, v), inner, 0, -math.pi), arc((u, v), inner, -math.pi, -2 * math.pi)]
@@ -129,7 +129,7 @@ def domain_of(given: Any) -> list[Curve]:
         make, count = SHAPES.get(word, (box, -1))
         values = [float(each) for each in numbers.split(",") if each]
         if len(values) != count:
-            raise ArgumentError(f"'{given}' is no domain: box:u0,v0,u1,v1, disc:u,v,radius or ring:u,v,inner,outer")
+            raise ArgumentError(f"'{given}' is not a domain: box:u0,v0,u1,v1, disc:u,v,radius or ring:u,v,inner,outer")
         return make(*values)
     items = list(given)
     if len(items) == 4 and all(isinstance(each, (int, float, np.number)) for each in items):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can go wrong, and where: all exceptions of the package."""
+"""All exceptions of the package, with the place of the error."""
 from __future__ import annotations
 
 import math
@@ -50,7 +50,7 @@ class FileError(CarreauError, OSError):
 
 
 class CallbackError(CarreauError):
-    """A callback has failed, or returned what is not usable. What it has raised is the cause (__cause__)."""
+    """A callback has failed, or its result is not usable. Its exception is the cause (__cause__)."""
 
     status = c.ERR_CALLBACK
 
@@ -68,7 +68,7 @@ class LimitError(CarreauError):
 
 
 class Cancelled(CarreauError):
-    """The run was asked to stop."""
+    """The run was stopped on request."""
 
     status = c.ERR_CANCELLED
 
@@ -80,7 +80,7 @@ class OutOfMemory(CarreauError, MemoryError):
 
 
 class SequenceError(CarreauError):
-    """The call needs the result of another one that was not made or did not succeed."""
+    """The call needs the result of another call that was not made or did not succeed."""
 
     status = c.ERR_SEQUENCE
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Formulas as text, evaluated with NumPy: those of the command (muParser), and nothing that could do harm."""
+"""Formulas as text, evaluated with NumPy: the formulas of the command (muParser), and nothing that could do harm."""
 from __future__ import annotations
 
 import re
@@ -33,7 +33,7 @@ class _Parser:
         while text[at:].strip():
             match = TOKEN.match(text, at)
             if match is None:
-                self.refuse(at, "this is no part of a formula")
+                self.refuse(at, "this is not a part of a formula")
             assert match is not None
             self.tokens.append((match.lastindex, match.group(match.lastindex or 0), match.start(match.lastindex or 0)))
             at = match.end()
@@ -139,7 +139,7 @@ def compiled(text: str, names: str = "xyzuv") -> Node:
 
 
 def is_formula(text: str) -> bool:
-    """Whether a source is "z = ...", or "x = ...; y = ...; z = ..."."""
+    """True if a source is "z = ...", or "x = ...; y = ...; z = ..."."""
     return re.match(r"\s*[xyz]\s*=(?!=)", text) is not None
 
 
@@ -148,7 +148,7 @@ def patch_of(text: str, domain: Any = None) -> Patch:
     equations: dict[str, str] = {}
     for equation in text.split(";"):
         if not is_formula(equation):
-            raise ArgumentError(f"'{equation}' is no equation of x, y or z.")
+            raise ArgumentError(f"'{equation}' is not an equation of x, y or z.")
         name, _, right = equation.partition("=")
         if name.strip() in equations:
             raise ArgumentError(f"There are two equations of {name.strip()}.")

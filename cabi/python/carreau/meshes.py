@@ -28,7 +28,7 @@ STATUS = {c.FACE_NOT_MESHED: "not meshed", c.FACE_MESHED: "meshed", c.FACE_MENDE
 
 
 class Mesh:
-    """A mesh of triangles in arrays, which the library has filled and nobody changes; indices count from 0.
+    """A mesh of triangles in arrays, which the library has filled and which do not change; indices count from 0.
 
     vertices       (n, 3)     x y z, model length; elements of second order have nodes behind the corners
     triangles      (m, 3)     vertices, counterclockwise in (u, v); of curved elements and quadrilaterals: between corners
@@ -37,18 +37,19 @@ class Mesh:
     curve_ids      (k)        reference of the curve of each edge
     vertex_ids     (n)        reference of the corner or imposed point, 0: made by the mesher
     corner_uv      (m, 3, 2)  u v of each corner in its face; None: of a mesh that no session has made
-    corner_faces   (m, 3)     the face that corner_uv is of; None as above
+    corner_faces   (m, 3)     the face of corner_uv; None as above
     sizes          (n)        prescribed sizes, model length; None as above
     dimension      3, or 2: of the plane z = 0
     session        that has made it; None: of a file or of arrays
 
-    A mesh that its session has made before another one is measured and written as straight triangles.
+    A mesh whose session has made a later mesh is measured and written as straight triangles.
     """
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, edges: Optional[ArrayLike] = None,
                  face_ids: Optional[ArrayLike] = None, curve_ids: Optional[ArrayLike] = None,
                  vertex_ids: Optional[ArrayLike] = None, corner_uv: Optional[ArrayLike] = None) -> None:
-        """Of arrays, to be measured, checked, written: vertices (n, 2) or (n, 3), the rest as above. Raises ArgumentError."""
+        """A mesh of arrays, to be measured, checked, written: vertices (n, 2) or (n, 3), the rest as above. Raises
+        ArgumentError."""
         points = np.asarray(vertices, dtype=np.float64)
         self.dimension = 2 if points.ndim == 2 and points.shape[1] == 2 else 3
         points = doubles(points, "vertices", None, self.dimension)
@@ -72,7 +73,7 @@ class Mesh:
 
     @classmethod
     def _filled_by(cls, fill: Callable[[c_void_p], int]) -> "Mesh":
-        """Of what fill(handle) puts into a new mesh."""
+        """The mesh that fill(handle) makes of a new mesh."""
         made = cls.__new__(cls)
         made._own(created(lib().mesh_create))
         made._require(fill(made._handle))
@@ -90,7 +91,7 @@ class Mesh:
 
     @classmethod
     def read(cls, path: Path) -> "Mesh":
-        """Of a file .mesh, .meshb, .vtu, .stl, .msh, .off, .obj or .ply. Raises FileError."""
+        """The mesh of a file .mesh, .meshb, .vtu, .stl, .msh, .off, .obj or .ply. Raises FileError."""
         return cls._filled_by(lambda handle: lib().mesh_read(handle, file_name(path)))  # type: ignore[no-any-return]
 
     def _fill(self) -> None:
@@ -144,7 +145,8 @@ class Mesh:
         return [(int(dimensions[i]), int(refs[i, 0]), int(refs[i, 1]), maps[i], rows[ends[i] - counts[i]:ends[i]]) for i in range(n)]
 
     def face_sides(self, face: int) -> tuple[int, int]:
-        """The solids on both sides of a face by its reference: the one that its triangles look out of, and the other one; 0: none."""
+        """The solids on both sides of a face by its reference: the solid that its triangles look out of, and the other solid; 0:
+        none."""
         solids = np.empty(2, np.int32)
         self._require(lib().mesh_face_sides(self._handle, face, solids))
         return int(solids[0]), int(solids[1])
@@ -168,7 +170,8 @@ class Mesh:
         require_mesh(self._handle, status)
 
     def _live(self) -> c_void_p:
-        """A handle with this content. That of a session shows its latest mesh: an earlier one lives on as a copy."""
+        """A handle with this content. The handle of a session shows its latest mesh: an earlier mesh lives on as a
+        copy."""
         session = self.session
         if session is not None and not (session._close.alive and session._runs == self._run):
             copy = Mesh(self.vertices[:, :self.dimension], self.triangles, edges=self.edges, face_ids=self.face_ids,
@@ -176,7 +179,7 @@ class Mesh:
             self._handle, self.session, self._copy = copy._handle, None, copy
         return self._handle
 
-    # ---- what it is worth ----
+    # ---- quality ----
 
     @property
     def failed(self) -> list[Face]:
@@ -191,12 +194,12 @@ class Mesh:
 
     @property
     def cell_quality(self) -> CellQuality:
-        """What elements are worth, curved ones and quadrilaterals too."""
+        """The quality of elements, curved ones and quadrilaterals too."""
         handle = self._live()
         return asked(c.carreau_cell_quality, lambda out: self._require(lib().mesh_cell_quality(handle, out)))  # type: ignore[no-any-return]
 
     def check(self, closed: bool = False, limit: int = 100) -> list[str]:
-        """What makes the mesh unusable: at most `limit` sentences, none where all is well. closed: open edges count."""
+        """Defects that make the mesh unusable: at most `limit` sentences, an empty list without defects. closed: open edges count."""
         handle, count, text = self._live(), c_int64(), c_char_p()
         self._require(lib().mesh_defects(handle, int(closed), limit, byref(count), byref(text)))
         return [line for line in (text_of(text.value) or "").splitlines() if line]

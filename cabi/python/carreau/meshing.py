@@ -28,10 +28,10 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
 
     source       a path: STEP, IGES, BREP, .bpt, molecules, grids, triangles, plane files; a formula "z = x * y"; a function
                  of (u, v), with domain; a Patch or several; a Mesh, Atlas, CadFile or PlaneDomain; a pair of arrays,
-                 vertices (n, 3) and triangles (m, 3); a Session, whose parameters stay but for those that are given; the
-                 bytes of a STEP, IGES or BREP file, or an open one; a shape of build123d, CadQuery, pythonocc or FreeCAD
-    size         model length, or "1%" of the diagonal; or a function of the place: names what it takes of x, y, z (n
-                 each), xyz (n, 3), u, v, uv, face, and gives n sizes. Nothing given: 2 % of the diagonal
+                 vertices (n, 3) and triangles (m, 3); a Session, whose parameters stay unless they are given; the bytes
+                 of a STEP, IGES or BREP file, or an open one; a shape of build123d, CadQuery, pythonocc or FreeCAD
+    size         model length, or "1%" of the diagonal; or a function of the place: its parameters name values among x,
+                 y, z (n each), xyz (n, 3), u, v, uv, face, and it gives n sizes. Nothing given: 2 % of the diagonal
     min, max     bounds of sizes
     angle        largest angle between edges and the surface, degrees: sizes follow the curvature
     chord        largest distance from the surface
@@ -50,8 +50,8 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
                  "sas", "ses", "atlas"), probe, host (the library of a .pardom), imprint, unit and scale (of CAD), smooth,
                  sharp, ..., and parameters of the session (hphydef=0.1, ...)
 
-    Faces that cannot be meshed are left out: mesh.failed tells them. Raises CarreauError, with face, curve and (u, v);
-    CallbackError from what a callback has raised; KeyboardInterrupt, at once.
+    Faces that cannot be meshed are left out: mesh.failed lists them. Raises CarreauError, with face, curve and (u, v);
+    CallbackError from the exception of a callback; KeyboardInterrupt, at once.
     """
     session, geometry = _begin(source, progress, named)
     words = {"size": size, "min": min, "max": max, "angle": angle, "chord": chord, "anisotropic": anisotropic, "gradation": gradation,
@@ -61,7 +61,7 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
 
 
 def _generated(session: Session, geometry: Source, words: Mapping[str, Any]) -> Mesh:
-    """By the words of mesh()."""
+    """Meshes by the arguments of mesh()."""
     _prepare(session, geometry, words)
     made = session.generate(words.get("progress"))
     for face in made.failed:
@@ -87,13 +87,14 @@ def adapt(source: Any, values: Callable[..., Any], tolerance: float = 0.01, *, s
     """Meshes a geometry so that a field is interpolated within a tolerance.
 
     source       as for mesh()
-    values       the field: a function that names what it takes of x, y, z (n each) or xyz (n, 3), and gives n values
+    values       the field: a function whose parameters name values among x, y, z (n each) or xyz (n, 3); it gives n
+                 values
     tolerance    largest error, in units of the field; with relative=True a share of its value
     size         of the mesh to begin with: "5%" or a model length; min, max: bounds of sizes
     shape        "isotropic", "anisotropic", or "graph" in the plane
     iterations   meshes made at most
     named        estimator ("hessian", "curvature", "deformation"), recovery, relative, ratio, floor, convergence,
-                 differences, which Session.adapt has, and those of mesh()
+                 differences, as in Session.adapt, and the arguments of mesh()
 
     mesh.session.adaptation reports errors before and after. Raises as mesh().
     """
@@ -112,11 +113,11 @@ def adapt(source: Any, values: Callable[..., Any], tolerance: float = 0.01, *, s
 def plane(source: Any, *, sizes: Optional[Path] = None, corner_angle: float = 0, **words: Any) -> Mesh:
     """Meshes a domain of the plane.
 
-    source         a file .poly, .mesh, .meshb, .bl2d, .data or .g; a PlaneDomain; or closed polygons, (n, 2) each, of which
-                   those inside others bound holes
+    source         a file .poly, .mesh, .meshb, .bl2d, .data or .g; a PlaneDomain; or closed polygons, (n, 2) each;
+                   polygons inside others bound holes
     sizes          a file .sol, .hg or .h with a size or metric for each vertex of a file
     corner_angle   above 0, degrees: polygons of a file become splines that end where they turn by more
-    words          those of mesh()
+    words          arguments of mesh()
     """
     if isinstance(source, (str, os.PathLike)):
         session = Session()
@@ -127,9 +128,9 @@ def plane(source: Any, *, sizes: Optional[Path] = None, corner_angle: float = 0,
 
 def fields(source: Any, path: Path, *, longest: int = 0, channels: Any = (), face: int = 0, multi_part: bool = False,
            **words: Any) -> Mesh:
-    """Meshes a geometry, and writes what governed the mesh of each face as images .exr or .png (docs/how-to/see_sizes.md); a Mesh of
-    a session is taken as it is. longest: pixels of the longer side; channels: their groups, none: all; words: those of
-    mesh()."""
+    """Meshes a geometry, and writes the fields that governed the mesh of each face as images .exr or .png
+    (docs/how-to/see_sizes.md); a Mesh of a session is taken as it is. longest: pixels of the longer side; channels: their groups,
+    none: all; words: arguments of mesh()."""
     made = source if isinstance(source, Mesh) and source.session is not None else mesh(source, **words)
     assert made.session is not None
     made.session.write_fields(path, longest=longest, channels=channels, face=face, multi_part=multi_part)

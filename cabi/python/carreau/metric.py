@@ -26,7 +26,7 @@ DIMENSIONS = {3: 2, 6: 3}
 
 
 def _call() -> Callable[..., None]:
-    """Of a session that keeps the sentence of an error; each call has its own, so that threads may call."""
+    """Uses a session that keeps the sentence of an error; each call has its own, so that threads may call."""
     return SessionBase()._call
 
 

@@ -11,7 +11,8 @@ from .session import Session
 
 
 class Areas(NamedTuple):
-    """Of the three surfaces of a molecule: the union of the balls, what a solvent can reach, what excludes it."""
+    """Exact measures of the three surfaces of a molecule: the union of the balls, the solvent-accessible and the
+    solvent-excluded surface."""
 
     vws: MoleculeMeasures
     sas: MoleculeMeasures

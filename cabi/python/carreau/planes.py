@@ -28,17 +28,17 @@ def _numbers(kinds: Union[None, str, Sequence[str]], count: int) -> OptionalArra
 
 
 class PlaneDomain:
-    """A domain of the plane. Indices count from 0; references are the caller's, 0 is none.
+    """A domain of the plane. Indices count from 0; references are the caller's, 0 means no reference.
 
     points      (n, 2)
-    curves      of each the indices of the points that it passes; closed where the last one is the first
+    curves      for each the indices of the points that it passes; closed if the last one is the first
     kinds       "segments", "spline" or "arcs", for all curves or for each
-    sizes       (n): wanted at points and along curves between them, 0: none; metrics (n, 3) in their place
+    sizes       (n): prescribed at points and along curves between them, 0: none; metrics (n, 3) in their place
     point_refs, curve_refs   (n), (number of curves)
     imposed     (n): 1 makes a point a vertex wherever it lies
     seeds       (k, 2): places inside subdomains or holes, with seed_refs (k): their references, -1: a hole
     sides       (k, 3): a curve, +1 for its left or -1 for its right side, the reference of the subdomain there
-    rest        what else is domain: "parity" (loops inside loops are holes), "inside" (all), "outside" (nothing)
+    rest        the rest of the domain: "parity" (loops inside loops are holes), "inside" (all), "outside" (nothing)
     """
 
     def __init__(self, points: ArrayLike, curves: Sequence[ArrayLike], *, kinds: Union[None, str, Sequence[str]] = None,
@@ -73,7 +73,8 @@ class PlaneDomain:
 
 
 def polygons(*loops: ArrayLike, **named: Any) -> PlaneDomain:
-    """The domain that closed polygons (n, 2) bound; those inside others bound holes. named: those of PlaneDomain."""
+    """The domain that closed polygons (n, 2) bound; polygons inside others bound holes. named: arguments of
+    PlaneDomain."""
     corners = [doubles(loop, "a loop", None, 2) for loop in loops]
     starts = np.cumsum([0] + [len(loop) for loop in corners])
     curves = [np.append(np.arange(first, last), first) for first, last in zip(starts, starts[1:])]

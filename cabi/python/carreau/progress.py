@@ -42,7 +42,7 @@ class Bar:
 
 
 def listener(progress: Progress) -> Optional[Callable[[float, str, int], Any]]:
-    """The function that hears of the progress; None: nobody does."""
+    """The function that receives the progress; None: no function."""
     if progress is None or progress is False:
         return None
     return Bar() if progress is True else progress

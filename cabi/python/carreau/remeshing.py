@@ -32,7 +32,7 @@ class Tool:
 
 
 class Remeshed(NamedTuple):
-    """The next mesh, and what is carried on it. Fields that were not given are None."""
+    """The next mesh, and the fields carried to it. Fields that were not given are None."""
 
     mesh: Mesh
     summary: RemeshSummary
@@ -60,14 +60,14 @@ def remesh(vertices: ArrayLike, triangles: ArrayLike, *, h_min: float, h_max: fl
     """Meshes a piece anew after an increment.
 
     vertices       (n, 2), the displacement of the increment added; triangles (m, 3), counterclockwise
-    h_min, h_max   bounds of sizes; step: what is as near to a tool is bound, at most h_min
+    h_min, h_max   bounds of sizes; step: vertices as near to a tool are bound, at most h_min
     displacements  (n, 2), to be checked
-    damage         (m), in [0, 1]: what is totally damaged is removed
-    nodal          (n) or (n, k), elements (m) or (m, k): fields to be carried on; conserved: of each column of elements,
-                   whether its integral stays, in place of means
+    damage         (m), in [0, 1]: totally damaged triangles are removed
+    nodal          (n) or (n, k), elements (m) or (m, k): fields to be carried on; conserved: for each column of
+                   elements, whether its integral stays, in place of means
     curves         between corners: "tangent", "natural" (splines), "polygon"
-    error          of which field of nodal sizes follow: "hessian", "curvature", "deformation", with error_component and
-                   error_tolerance
+    error          estimator of the sizes from a field of nodal: "hessian", "curvature", "deformation", with
+                   error_component and error_tolerance
     options        damage_limit, gradation, corner_angle, curvature_angle, imposed_smoothing, keep_all_parts,
                    no_damage_sizes, max_triangles, remove_overlaps, reach: members of carreau_remesh_input
 

@@ -39,7 +39,8 @@ def _palette(index: NDArray[Any]) -> Reals:
     return np.stack([0.78 + 0.16 * np.cos(hue - shift) for shift in (0, 2.0944, 4.1888)], axis=-1)
 
 
-# Viridis (S. van der Walt, N. Smith, E. Firing; matplotlib, CC0), as in pictures and reports of the command: read by people who do not tell red from green, too.
+# Viridis (S. van der Walt, N. Smith, E. Firing; matplotlib, CC0), as in pictures and reports of the command: readable for people with
+# red-green colour blindness, too.
 SCALE = np.array([[int(stop[i:i + 2], 16) / 255 for i in (0, 2, 4)] for stop in (
     "440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c 1fa088 28ae80 3fbc73 5ec962 84d44b addc30 d8e219 fde725").split()])
 
@@ -78,7 +79,7 @@ def _base(mesh: MeshContent, size: Reals, colors: Any) -> Reals:
 
 
 def _shades(mesh: MeshContent, axes: Reals, colors: Any) -> Reals:
-    """The same lit from the eye."""
+    """Colours lit from the eye."""
     normals = mesh.normals
     size = np.linalg.norm(normals, axis=1)
     lit = np.abs(normals @ axes[2]) / np.where(size > 0, size, 1)
@@ -121,7 +122,7 @@ class _Canvas:
         sound = np.abs(area) > 1e-9
         t, x, y = _places(low[sound], extent[sound])
         p, side, area, corners, colors = p[sound], side[sound], area[sound], corners[sound], colors[sound]
-        # Twice the areas opposite to the corners, over that of the triangle; side i is opposite to corner i + 2.
+        # Twice the areas opposite to the corners, over the area of the triangle; side i is opposite to corner i + 2.
         weights = ((side[t, :, 0] * (y[:, None] - p[t, :, 1]) - side[t, :, 1] * (x[:, None] - p[t, :, 0])) / area[t, None])
         inside = (weights >= -1e-12).all(axis=1)
         t, x, y, weights = t[inside], x[inside], y[inside], weights[inside]

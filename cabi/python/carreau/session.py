@@ -30,10 +30,10 @@ class Session(SessionBase, Geometries):
     """
 
     def generate(self, progress: Progress = None) -> Mesh:
-        """Makes the mesh. With the parameter failing_faces at "leave_out" it may lack faces: mesh.failed tells them.
+        """Makes the mesh. With the parameter failing_faces at "leave_out" it may lack faces: mesh.failed lists them.
 
         progress   True: a bar; or a function of (fraction, phase, entity), which returns True to stop. Raises
-        CarreauError; CallbackError from what a callback has raised; KeyboardInterrupt."""
+        CarreauError; CallbackError from the exception of a callback; KeyboardInterrupt."""
         try:
             self._run(lib().mesh_generate, progress=progress)
         except PartialError as partial:
@@ -44,7 +44,7 @@ class Session(SessionBase, Geometries):
 
     @property
     def mesh(self) -> Mesh:
-        """The latest mesh, in arrays that stay as they are. Raises SequenceError where there is none yet."""
+        """The latest mesh, in arrays that do not change. Raises SequenceError before the first mesh."""
         handle = c_void_p()
         self._call(lib().session_mesh, byref(handle))
         return Mesh._of_session(self, handle, any(each.kind == c.GEOMETRY_PLANE for each in self.geometries))

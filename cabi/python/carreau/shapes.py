@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shapes that other programs hold in memory: build123d, CadQuery, pythonocc and FreeCAD.
 
-None of them is imported. A shape crosses as the bytes of a BREP file, which it writes itself: by exportBrep(path)
-(CadQuery, FreeCAD), by export_brep(path) (build123d), or by the writer of the package that its OpenCASCADE shape, itself
-or its member `wrapped`, comes from (OCP, OCC.Core)."""
+This module imports no such program. A shape crosses as the bytes of a BREP file, which it writes itself: by
+exportBrep(path) (CadQuery, FreeCAD), by export_brep(path) (build123d), or by the writer of the package that its
+OpenCASCADE shape, itself or its member `wrapped`, comes from (OCP, OCC.Core)."""
 from __future__ import annotations
 
 import importlib
@@ -18,14 +18,14 @@ PACKAGES = ("OCP", "OCC")  # that wrap OpenCASCADE's own classes
 
 
 class Solid(NamedTuple):
-    """What a program tells of a solid besides its shape."""
+    """The attributes of a solid besides its shape."""
 
     name: str
     rgb: int  # 0xRRGGBB, -1: none
 
 
 def is_shape(given: Any) -> bool:
-    """Whether brep_of() can have the bytes of an object."""
+    """True if brep_of() can have the bytes of an object."""
     return _writer(given) is not None or any(_is_wrapped(given, name) for name in ("wrapped", "Shape")) or _is_assembly(given) or _is_workplane(given)
 
 
@@ -54,7 +54,7 @@ def solids_of(given: Any) -> list[Solid]:
 
 
 def _solids(given: Any, above: Solid) -> Iterator[Solid]:
-    """`above`: of the assembly that holds it, for what has none of its own."""
+    """`above`: attributes of the assembly that holds it, used by parts without their own."""
     own = Solid(str(_first(given, ("label", "name", "Label")) or above.name), _rgb(_first(given, ("color",)), above.rgb))
     children = list(_first(given, ("children",)) or ())
     if not children:
@@ -75,7 +75,7 @@ def _first(given: Any, names: tuple[str, ...]) -> Any:
 
 
 def _count(given: Any) -> int:
-    """Of the solids of a shape."""
+    """The attributes of the solids of a shape."""
     if _is_assembly(given):
         return sum(_count(each) for each in given.shapes)
     if _is_workplane(given):
@@ -88,7 +88,7 @@ def _count(given: Any) -> int:
 
 
 def _rgb(colour: Any, otherwise: int) -> int:
-    """Of a colour that is a tuple of shares, or can become one."""
+    """0xRRGGBB of a colour that is a tuple of shares, or can become one."""
     if colour is None:
         return otherwise
     shares = colour.toTuple() if hasattr(colour, "toTuple") else colour.to_tuple() if hasattr(colour, "to_tuple") else tuple(colour)
@@ -116,12 +116,12 @@ def _is_wrapped(given: Any, name: str) -> bool:
 
 
 def _is_assembly(given: Any) -> bool:
-    """Of CadQuery."""
+    """True for an assembly of CadQuery."""
     return callable(getattr(given, "toCompound", None)) and hasattr(given, "children")
 
 
 def _is_workplane(given: Any) -> bool:
-    """Of CadQuery."""
+    """True for a workplane of CadQuery."""
     return callable(getattr(given, "vals", None)) and callable(getattr(given, "val", None))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Wanted sizes and metrics by functions of the place."""
+"""Prescribed sizes and metrics by functions of the place."""
 from __future__ import annotations
 
 from typing import Any, Callable, Mapping, Optional
@@ -20,15 +20,15 @@ KINDS = {1: c.METRIC_SIZE, 6: c.METRIC_SPACE, 5: c.METRIC_TANGENT}
 
 
 class SizeCallbacks:
-    """What a session asks at places of its surface, and perhaps on curves and at points. It has no callback: that would be
-    a cycle.
+    """The sizes of a session at places of its surface, and perhaps on curves and at points. It has no callback, which
+    would be a cycle.
 
-    function     of the place; names what it takes: x, y, z (n each), xyz (n, 3), u, v, uv, face. Gives n sizes, or rows:
-                 6 numbers (xx xy xz yy yz zz) of metrics, 5 numbers (h1, h2, x, y, z) of sizes along a direction and
-                 across it. NaN: no answer there. None: never asked
-    face_sizes   sizes by the reference of a face; the smaller one of both holds
+    function     of the place; its parameters name the values it takes: x, y, z (n each), xyz (n, 3), u, v, uv, face.
+                 Gives n sizes, or rows: 6 numbers (xx xy xz yy yz zz) of metrics, 5 numbers (h1, h2, x, y, z) of sizes
+                 along a direction and across it. NaN: no answer there. None: never called
+    face_sizes   sizes by the reference of a face; the smaller size of both holds
     on_curve     a scalar function of t, face and ic: a size, a row as above, or None: no answer
-    at_point     the same of point, its reference
+    at_point     likewise a function of point, its reference
     """
 
     def __init__(self, host: Host, function: Optional[Callable[..., Any]] = None, face_sizes: Optional[Mapping[int, float]] = None,
@@ -84,7 +84,7 @@ class SizeCallbacks:
 
 
 def answer(rows: Array, kinds: NDArray[np.int32], values: Array) -> None:
-    """Puts n sizes, or n rows of 5 or 6 numbers, into what the library reads; rows with a NaN do not answer."""
+    """Puts n sizes, or n rows of 5 or 6 numbers, into the arrays of the library; rows with a NaN do not answer."""
     n = len(values)
     if rows.ndim <= 1 and rows.size in (1, n):
         rows = np.broadcast_to(rows.reshape(-1, 1), (n, 1))

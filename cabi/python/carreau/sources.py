@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What carreau.mesh takes: files, arrays, formulas, patches, sessions."""
+"""The sources of carreau.mesh: files, arrays, formulas, patches, sessions."""
 from __future__ import annotations
 
 import fnmatch
@@ -37,7 +37,7 @@ PLANE_OPTIONS = ("corner_angle", "sizes")
 
 
 class Source:
-    """Geometry for a session, and what is known of it."""
+    """Geometry for a session, and its known properties."""
 
     options: tuple[str, ...] = ()  # names of its own options
     glue = (0.0, 0.0)              # tolerances within which curves of one face are one: eps_glue, eps_glue_open
@@ -54,11 +54,11 @@ class Source:
         raise NotImplementedError
 
     def diagonal(self, session: Session) -> float:
-        """Of the box of all curves, once the session has them."""
+        """The diagonal of the box of all curves, once the session has them."""
         return box_diagonal(curve_points(session))
 
     def has_sizes(self, session: Session) -> bool:
-        """Whether it has sizes of its own."""
+        """True if it has its own sizes."""
         return False
 
     def face_sizes(self, session: Session, wanted: dict[Any, float]) -> dict[int, float]:
@@ -154,7 +154,7 @@ class CadSource(Source):
 
 
 class Loaded(Source):
-    """Of a function of Session that takes a path, or arrays, and options."""
+    """The source of a function of Session that takes a path, or arrays, and options."""
 
     def __init__(self, load: str, *arguments: Any, short_ends: bool = False, **options: Any) -> None:
         super().__init__(**options)

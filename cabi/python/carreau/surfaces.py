@@ -21,7 +21,8 @@ OFFER = ("u", "v", "uv", "face")
 
 
 class Surface:
-    """A surface S(u, v) by functions, each of which names what it takes: u, v (n each), uv (n, 2), face (its reference).
+    """A surface S(u, v) by functions, whose parameters name the values they take: u, v (n each), uv (n, 2), face (its
+    reference).
 
     point    S: (n, 3), or a tuple of the columns x, y, z
     first    Su and Sv: a tuple of two such results; None: by finite differences, as is second
@@ -100,7 +101,7 @@ class Patch:
 
 
 def patch(domain: Any = (0, 0, 1, 1), **named: Any) -> Callable[[Callable[..., Any]], Patch]:
-    """A decorator that makes a function of u and v the patch over a domain; named: those of Patch."""
+    """A decorator that makes a function of u and v the patch over a domain; named: arguments of Patch."""
     return lambda function: Patch(function, domain, **named)
 
 
@@ -108,7 +109,8 @@ Patches = Union[Patch, Iterable[Patch]]
 
 
 class PatchCallbacks:
-    """What is asked of patches, which are faces 1, 2, ... of their geometry. It has no callback: that would be a cycle."""
+    """The functions of patches, which are faces 1, 2, ... of their geometry. It has no callback, which would be a
+    cycle."""
 
     def __init__(self, patches: Sequence[Patch], host: Host) -> None:
         self.patches, self.host = patches, host

@@ -15,7 +15,7 @@ from .sources import SessionSource, Source
 
 #: A model length, or a share of the diagonal of the geometry: "1%".
 Length = Union[float, str]
-#: What the command chooses where the library leaves things alone; cad_adapters/command/mesh/mesh_parameters.cpp has the reasons.
+#: Choices of the command where the library leaves things alone; cad_adapters/command/mesh/mesh_parameters.cpp has the reasons.
 CHOICES: dict[str, Union[int, float, str]] = {
     "CheckCloseEdges": 20, "CoefRectangle": 0.06, "CheckAdjacentEdges": 20, "edge_gradation": 1.5, "stagger_strips": 1,
     "effort": 1, "narrow_faces": "collapse", "flag": 1, "failing_faces": "leave_out"}
@@ -27,7 +27,7 @@ PRESCRIBING = ("hphydef", "hphy_flag", "hgeo_flag", "angle_mesh", "eps_chord", "
 
 @dataclass
 class Sizes:
-    """What was asked for, as in mesh()."""
+    """The requested options, as in mesh()."""
 
     size: Union[None, Length, Callable[..., Any]] = None
     min: Optional[Length] = None
@@ -63,7 +63,7 @@ def length(given: Length, name: str, diagonal: float) -> float:
     except (TypeError, ValueError):
         value = 0.0
     if not 0 < value < float("inf"):
-        raise ArgumentError(f"{name} {given!r} is no length: a number above 0, or a share of the model's diagonal such as '1%'")
+        raise ArgumentError(f"{name} {given!r} is not a length: a number above 0, or a share of the model's diagonal such as '1%'")
     return value
 
 
@@ -80,7 +80,7 @@ def _set_physical(session: Session, sizes: Sizes, h: dict[str, float], source: S
     if "size" in h or not session.is_set("hphydef"):
         session["hphydef"] = h.get("size", 0.02 * diagonal)
     size = float(session["hphydef"])
-    # The bounds of the library are for sizes that a formula gives, not for what a person has typed.
+    # The bounds of the library are for sizes that a formula gives, not for typed sizes.
     _set_new(session, "hphymin", min(size, diagonal) * 1e-6)
     # Beside a map, a size that was given is an upper bound.
     if mapped and "size" in h and h.get("max", size + 1) > size:
@@ -140,7 +140,7 @@ def _set_anisotropic(session: Session, ratio: float) -> None:
         raise ArgumentError("anisotropic stretches sizes that follow the curvature: it goes with angle or chord")
     session["geo_metric"] = 1
     session["anisotropy_max"] = ratio
-    # Where sizes jump from face to face, stretched triangles leave half of all lengths out of range.
+    # If sizes jump from face to face, stretched triangles leave half of all lengths out of range.
     if session["gradation"] == 0:
         session["gradation"] = USUAL_GRADATION
 
@@ -158,7 +158,7 @@ def _set_choices(session: Session, source: Source, diagonal: float, env: Optiona
         session["eps_ends"] = 1e-9 * diagonal
     if env is not None:
         session.read_env(env)
-    # Who asks for narrow faces means those of the library's own ratio, unless he gives another.
+    # A request for narrow faces uses the library's own ratio, unless another ratio is given.
     if ("narrow_faces" in asked or session["narrow_faces"] != "collapse") and session["narrow_ratio"] == NARROW_RATIO:
         session["narrow_ratio"] = usual_ratio
 
@@ -186,7 +186,7 @@ def _set_effort(session: Session, level: int) -> None:
 
 
 def _set_named(session: Session, named: Mapping[str, Any], diagonal: float) -> None:
-    """Parameters of the session by their names; "1%" of those that are lengths."""
+    """Parameters of the session by their names; lengths may be "1%"."""
     known = parameters()
     for name, value in named.items():
         if name not in known:

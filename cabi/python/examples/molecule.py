@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""molecule.py [FILE.pdb]: a molecule's three surfaces in closed form, and a mesh of the one that excludes water; without a
-file that of methane, from arrays."""
+"""molecule.py [FILE.pdb]: a molecule's three surfaces in closed form, and a mesh of the surface that excludes water;
+without a file the molecule is methane, from arrays."""
 import sys
 
 import numpy as np

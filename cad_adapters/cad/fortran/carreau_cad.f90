@@ -89,7 +89,7 @@ contains
 
   ! ---- Files ----
 
-  !> file: to ask it; to be closed by carreau_cad_close
+  !> file: gets the file, which the caller closes by carreau_cad_close
   subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user, loose_edges, imprint, &
       imprint_tolerance, unit, scale, min_feature)
     type(carreau_session), intent(in) :: session
@@ -109,7 +109,7 @@ contains
     call hand_over(opened, status, file)
   end subroutine carreau_cad_open
 
-  !> bytes: those of a file; format: 'step', 'iges', 'brep', or '' as the bytes say
+  !> bytes: the file; format: 'step', 'iges', 'brep', or '' to find it from the bytes
   subroutine carreau_cad_open_bytes(session, bytes, format, status, file, trap_faults, progress, user, loose_edges, imprint, &
       imprint_tolerance, unit, scale, min_feature)
     type(carreau_session), intent(in) :: session
@@ -144,7 +144,7 @@ contains
     end if
   end subroutine hand_over
 
-  !> The address of the first byte; that of nothing for an empty array, which has none.
+  !> The address of the first byte, or of a dummy for an empty array, which has none.
   function address_of(bytes) result(address)
     character(kind=c_char), intent(in), target :: bytes(:)
     type(c_ptr) :: address
@@ -215,7 +215,7 @@ contains
       imprint, imprint_tolerance, unit, scale, min_feature))
   end subroutine carreau_cad_read
 
-  !> bytes: those of a file; format: 'step', 'iges', 'brep', or '' as the bytes say
+  !> bytes: the file; format: 'step', 'iges', 'brep', or '' to find it from the bytes
   subroutine carreau_cad_read_bytes(file, bytes, format, status, trap_faults, progress, user, loose_edges, imprint, &
       imprint_tolerance, unit, scale, min_feature)
     type(carreau_cad_file), intent(in) :: file
@@ -298,7 +298,7 @@ contains
     status = c_cad_set_size(file%handle, dimension, number, size)
   end subroutine carreau_cad_set_size
 
-  ! ---- What a file holds ----
+  ! ---- Content of a file ----
 
   subroutine carreau_cad_info(file, content, status)
     type(carreau_cad_file), intent(in) :: file
@@ -388,7 +388,7 @@ contains
     figures%high = c%high
   end subroutine carreau_cad_measure_face
 
-  ! ---- What is hard to mesh ----
+  ! ---- Potential meshing problems ----
 
   !> tiny: a share of the diagonal; 1e-3 unless given
   subroutine carreau_cad_inspect(file, report, status, tiny)

@@ -8,7 +8,7 @@ module carreau_cad_c
   implicit none
   public
 
-  !> How a file is read.
+  !> Options of reading a file.
   type, bind(c) :: c_cad_options
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: trap_faults = 0, loose_edges = 0
@@ -68,7 +68,7 @@ module carreau_cad_c
     integer(c_int32_t) :: kinds = 0, dangers = 0
   end type c_cad_report
 
-  !> A place that a mesher may stumble over.
+  !> A potential meshing problem.
   type, bind(c) :: c_cad_danger
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: kind = c_null_ptr
@@ -99,7 +99,7 @@ module carreau_cad_c
     end function c_cad_open
 
     !> Does the same with the `size` bytes of a file in memory, which the call does not keep. format: "step", "iges" or
-    !! "brep" (text or binary); NULL or "": as the bytes say.
+    !! "brep" (text or binary); NULL or "": found from the bytes.
     function c_cad_open_bytes(session, bytes, size, format, options, file) result(status) &
         bind(c, name="carreau_cad_open_bytes")
       import :: c_cad_options, c_char, c_int32_t, c_int64_t, c_ptr
@@ -112,7 +112,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_open_bytes
 
-    !> Creates a file that holds nothing yet: see carreau_cad_read.
+    !> Creates an empty file: see carreau_cad_read.
     function c_cad_create(file) result(status) bind(c, name="carreau_cad_create")
       import :: c_int32_t, c_ptr
       implicit none
@@ -135,7 +135,7 @@ module carreau_cad_c
       type(c_ptr) :: error
     end function c_cad_last_error
 
-    !> Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep) as the suffix, or else the first bytes, say.
+    !> Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep), by the suffix or else by the first bytes.
     function c_cad_read(file, path, options) result(status) bind(c, name="carreau_cad_read")
       import :: c_cad_options, c_char, c_int32_t, c_ptr
       implicit none
@@ -167,9 +167,9 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_imprint
 
-    !> Names the solids, and faces without a name of their own, of a file whose format has no names (BREP). n: the
-    !! number of solids (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours,
-    !! 0xRRGGBB in sRGB, -1: none; NULL: all none.
+    !> Names the solids, and unnamed faces, of a file whose format has no names (BREP). n: the number of solids
+    !! (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours, 0xRRGGBB in sRGB, -1:
+    !! none; NULL: all none.
     function c_cad_name_solids(file, n, names, colours) result(status) bind(c, name="carreau_cad_name_solids")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -188,8 +188,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_add
 
-    !> Wants a size on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the
-    !! smallest size of its faces.
+    !> Sets a size on the face of this number, or on all faces of this name, when hphy_flag = 2.
     function c_cad_set_face_size(file, face, size) result(status) bind(c, name="carreau_cad_set_face_size")
       import :: c_char, c_double, c_int32_t, c_ptr
       implicit none
@@ -199,8 +198,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_set_face_size
 
-    !> Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number, as
-    !! carreau_cad_set_face_size does; the smallest size of an edge and its faces counts.
+    !> Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
     function c_cad_set_size(file, dimension, number, size) result(status) bind(c, name="carreau_cad_set_size")
       import :: c_double, c_int32_t, c_ptr
       implicit none
@@ -210,7 +208,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_set_size
 
-    !> Counts what the file holds.
+    !> Counts the content of a file.
     function c_cad_info(file, content) result(status) bind(c, name="carreau_cad_info")
       import :: c_cad_content, c_int32_t, c_ptr
       implicit none
@@ -229,7 +227,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_small_feature_at
 
-    !> Tells what of the file could not be read: a sentence, which names the entity. index: from 0.
+    !> Returns a sentence about an entity that could not be read. index: from 0.
     function c_cad_loss(file, index) result(loss) bind(c, name="carreau_cad_loss")
       import :: c_int64_t, c_ptr
       implicit none
@@ -238,7 +236,7 @@ module carreau_cad_c
       type(c_ptr) :: loss
     end function c_cad_loss
 
-    !> Tells of face `number`, from 1.
+    !> Gets the data of face `number`, from 1.
     function c_cad_file_face(file, number, face) result(status) bind(c, name="carreau_cad_file_face")
       import :: c_cad_face, c_int32_t, c_ptr
       implicit none
@@ -258,7 +256,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_measure_face
 
-    !> Looks for what a mesher may stumble over.
+    !> Looks for potential meshing problems.
     function c_cad_inspect(file, tiny, report) result(status) bind(c, name="carreau_cad_inspect")
       import :: c_cad_report, c_double, c_int32_t, c_ptr
       implicit none
@@ -268,7 +266,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_inspect
 
-    !> Tells a kind of surfaces and how many faces have it, as found by carreau_cad_inspect; by name.
+    !> Gets a kind of surfaces and the number of its faces, as found by carreau_cad_inspect; by name.
     function c_cad_surfaces(file, index, kind, count) result(status) bind(c, name="carreau_cad_surfaces")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -279,7 +277,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_surfaces
 
-    !> Tells a danger that carreau_cad_inspect has found; by kind, worst first.
+    !> Gets a danger that carreau_cad_inspect has found; by kind, worst first.
     function c_cad_danger_at(file, index, danger) result(status) bind(c, name="carreau_cad_danger_at")
       import :: c_cad_danger, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -298,8 +296,8 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_measure_gaps
 
-    !> Finds the point of a face, or of a part of one, at (u, v) as callbacks get them, and the parameters that its
-    !! surface has there in the file; out_uv may be NULL.
+    !> Finds the point of a face, or of a part of a face, at (u, v) as callbacks get them. out_uv gets the parameters
+    !! that its surface has there in the file; it may be NULL.
     function c_cad_point(file, face, u, v, xyz, uv) result(status) bind(c, name="carreau_cad_point")
       import :: c_double, c_int32_t, c_ptr
       implicit none

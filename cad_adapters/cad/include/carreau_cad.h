@@ -6,11 +6,11 @@
  *   carreau_mesh_generate(session);
  *
  * The rules of carreau.h hold for every function. Faces, edges and vertices have the numbers that OpenCASCADE's maps of
- * the shape give them, from 1: those are references of faces, curves and points of the geometry (carreau_geometry.h
- * tells how they are moved behind others). Faces that bend inside are cut into parts there, and are one face in meshes.
- * The u and v of a face that is turned round are exchanged, so that triangles look outwards of a solid. Lengths are in
- * millimetres, whatever the unit of a STEP or IGES file, unless options name a unit or a scale; a BREP file has none. OpenCASCADE keeps settings of its own
- * for the process; files are read one after another.
+ * the shape give them, from 1. These numbers are the references of faces, curves and points of the geometry
+ * (carreau_geometry.h describes how they are moved behind others). Faces that bend inside are cut into parts there, and
+ * are one face in meshes. The u and v of a face that is turned round are exchanged, so that triangles look outwards of a
+ * solid. Lengths are in millimetres, whatever the unit of a STEP or IGES file, unless options name a unit or a scale; a
+ * BREP file has none. OpenCASCADE keeps settings for the process; files are read one after another.
  */
 #ifndef CARREAU_CAD_H
 #define CARREAU_CAD_H
@@ -39,28 +39,28 @@ typedef struct carreau_cad_file carreau_cad_file;
 /* Gets the share that is read, 0 to 1. Returns 0, or any other value to stop. */
 typedef int32_t (*carreau_cad_progress_fn)(double fraction, void* user);
 
-/* How a file is read. */
+/* Options of reading a file. */
 typedef struct carreau_cad_options {
   size_t struct_size;
   int32_t trap_faults; /* 1: SIGSEGV, SIGBUS, SIGFPE and SIGILL that OpenCASCADE raises in a call of this library are the
-                          error of a face or of the file, as long as the file, or a geometry of it, is there; for
+                          error of a face or of the file, as long as the file, or a geometry of it, exists; for
                           programs that own their process. 0: signals are left alone, and a fault ends the program */
-  int32_t loose_edges; /* 1: edges of no face are meshed as edges. 0: only those of files without a face are */
-  carreau_cad_progress_fn progress; /* NULL: nobody is told */
+  int32_t loose_edges; /* 1: edges of no face are meshed as edges. 0: only in files without a face */
+  carreau_cad_progress_fn progress; /* NULL: no calls */
   void* user;                       /* handed to progress */
   int32_t imprint; /* 1: parts that touch share faces and edges (OpenCASCADE's general fuse); a face between two solids
                       is one face with one mesh. When the fuse fails the parts stay as they are, and a loss
-                      (carreau_cad_loss) names the reason. 0: each part has faces of its own */
+                      (carreau_cad_loss) names the reason. 0: parts do not share faces */
   int32_t reserved;
   double imprint_tolerance; /* distance up to which parts touch, in lengths of the result; 0: the tolerances of the file */
-  const char* unit; /* of the coordinates: nm, um, mm, cm, dm, m, km, mil, in, ft or yd. NULL or "": millimetres, or as
-                       they are in a BREP file, which has no unit and rejects others */
+  const char* unit; /* of the coordinates: nm, um, mm, cm, dm, m, km, mil, in, ft or yd. NULL or "": millimetres, or
+                       unchanged for a BREP file, which has no unit and rejects others */
   double scale;     /* multiplies all coordinates, after the unit; 0: 1. Other than 1: the result has no unit */
   double min_feature; /* removes features of solids below this length, before an imprint, where OpenCASCADE can
                          (carreau_cad_small_feature_at); 0: removes none */
 } carreau_cad_options;
 
-/* Reads a file and adds all of its faces to a session. *out_file gets the file, to ask it; out_file may be NULL.
+/* Reads a file and adds all of its faces to a session. *out_file gets the file; out_file may be NULL.
  * `options` may be NULL, which means all zero. The parameter eps_match becomes carreau_cad_content.match_tolerance when
  * it is 0. Faces that cannot be meshed are left out with a reason
  * (carreau_model_leave_out_face). On an error the session is as before, and carreau_last_error has the sentence.
@@ -70,13 +70,13 @@ CARREAU_CAD_API carreau_status carreau_cad_open(carreau_session* session, const 
                                                 const carreau_cad_options* options, carreau_cad_file** out_file);
 
 /* Does the same with the `size` bytes of a file in memory, which the call does not keep. format: "step", "iges" or
- * "brep" (text or binary); NULL or "": as the bytes say. Files beside it that a STEP file refers to are losses. Errors:
- * those of carreau_cad_open. */
+ * "brep" (text or binary); NULL or "": found from the bytes. Files beside it that a STEP file refers to are losses.
+ * Errors: as carreau_cad_open. */
 CARREAU_CAD_API carreau_status carreau_cad_open_bytes(carreau_session* session, const void* bytes, int64_t size,
                                                       const char* format, const carreau_cad_options* options,
                                                       carreau_cad_file** out_file);
 
-/* Creates a file that holds nothing yet: see carreau_cad_read. Free it by carreau_cad_close. Errors: ARGUMENT, MEMORY.
+/* Creates an empty file: see carreau_cad_read. Free it by carreau_cad_close. Errors: ARGUMENT, MEMORY.
  */
 CARREAU_CAD_API carreau_status carreau_cad_create(carreau_cad_file** out_file);
 
@@ -86,7 +86,7 @@ CARREAU_CAD_API void carreau_cad_close(carreau_cad_file* file);
 /* Returns the sentence of the last call on the file, "" after success. It lives until the next call on the file. */
 CARREAU_CAD_API const char* carreau_cad_last_error(const carreau_cad_file* file);
 
-/* Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep) as the suffix, or else the first bytes, say. On an error
+/* Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep), by the suffix or else by the first bytes. On an error
  * the old content stays. Errors: FILE, CANCELLED, MEMORY, ARGUMENT. */
 CARREAU_CAD_API carreau_status carreau_cad_read(carreau_cad_file* file, const char* path,
                                                 const carreau_cad_options* options);
@@ -97,53 +97,53 @@ CARREAU_CAD_API carreau_status carreau_cad_read_bytes(carreau_cad_file* file, co
                                                       const char* format, const carreau_cad_options* options);
 
 /* Makes parts that touch share faces and edges: see carreau_cad_options.imprint. Numbers of faces, edges and vertices
- * change, and sizes that were set are gone; names and colours follow. A fuse that fails is a loss (carreau_cad_loss), and the parts stay as they are.
- * Sessions that the file was added to before do not change. tolerance: distance up to which parts touch; 0: the
- * tolerances of the file. progress may be NULL. Errors: CANCELLED, MEMORY, ARGUMENT. */
+ * change, and sizes that were set are gone; names and colours follow. A fuse that fails is a loss (carreau_cad_loss), and
+ * the parts stay as they are. Sessions that the file was added to before do not change. tolerance: distance up to which
+ * parts touch; 0: the tolerances of the file. progress may be NULL. Errors: CANCELLED, MEMORY, ARGUMENT. */
 CARREAU_CAD_API carreau_status carreau_cad_imprint(carreau_cad_file* file, double tolerance,
                                                    carreau_cad_progress_fn progress, void* user);
 
-/* Names the solids, and faces without a name of their own, of a file whose format has no names (BREP). n: the number of
+/* Names the solids, and unnamed faces, of a file whose format has no names (BREP). n: the number of
  * solids (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours, 0xRRGGBB in sRGB,
  * -1: none; NULL: all none. Sizes that were set are gone. Errors: ARGUMENT, MEMORY. */
 CARREAU_CAD_API carreau_status carreau_cad_name_solids(carreau_cad_file* file, int64_t n, const char* const names[],
                                                        const int32_t colours[]);
 
-/* Adds all faces to a session; a file may be added to several, and several times. Errors: those of carreau_cad_open,
- * with the sentence in the session; ARGUMENT (the file holds nothing). */
+/* Adds all faces to a session; a file may be added to several, and several times. Errors: as carreau_cad_open, with the
+ * sentence in the session; ARGUMENT (the file is empty). */
 CARREAU_CAD_API carreau_status carreau_cad_add(carreau_cad_file* file, carreau_session* session);
 
-/* Wants a size on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
- * size of its faces. In all geometries of the file. Errors: ARGUMENT (no such face, a size that is not positive). */
+/* Sets a size on the face of this number, or on all faces of this name, when hphy_flag = 2. An edge has the smallest
+ * size of its faces. Holds in all geometries of the file. Errors: ARGUMENT (no such face, a size that is not positive). */
 CARREAU_CAD_API carreau_status carreau_cad_set_face_size(carreau_cad_file* file, const char* face, double size);
 
-/* Errors of the functions below: ARGUMENT (the file holds nothing, no such face, index or curve, a capacity that is too
+/* Errors of the functions below: ARGUMENT (the file is empty, no such face, index or curve, a capacity that is too
  * small). Texts that they give live until the file is read again or closed. */
 
-/* Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number, as
- * carreau_cad_set_face_size does; the smallest size of an edge and its faces counts. Errors: ARGUMENT. */
+/* Sets a size on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number. Otherwise
+ * as carreau_cad_set_face_size. The smallest size of an edge and its faces counts. Errors: ARGUMENT. */
 CARREAU_CAD_API carreau_status carreau_cad_set_size(carreau_cad_file* file, int32_t dimension, int32_t number,
                                                     double size);
 
-/* ---- What a file holds ---- */
+/* ---- Content of a file ---- */
 
 /* The content of a file, counted. */
 typedef struct carreau_cad_content {
   size_t struct_size;
   int32_t faces, edges, vertices;
   int32_t closed;   /* 1: no edge has one face alone */
-  const char* unit; /* of coordinates: "mm", carreau_cad_options.unit, or "" when there is none */
-  double diagonal;  /* of the box of the faces that are not left out; 0: there is none */
-  double glue_tolerance; /* how far apart edges of one face only may be that are one, as the tolerances of the file's
-                            own edges have it and its shortest edge allows (eps_glue); 0: there are no two of them */
-  double open_tolerance; /* the same whatever the lengths (eps_glue_open) */
+  const char* unit; /* of coordinates: "mm", carreau_cad_options.unit, or "" without a unit */
+  double diagonal;  /* of the box of the faces that are not left out; 0: no such face */
+  double glue_tolerance; /* bound of the distance between two edges of one face each that are one (eps_glue), by the
+                            tolerances of the file's own edges and its shortest edge; 0: fewer than two such edges */
+  double open_tolerance; /* this bound whatever the lengths (eps_glue_open) */
   int32_t losses;        /* entities with faces that could not be read: see carreau_cad_loss */
   int32_t bent_faces;    /* faces that bend inside and could not be cut there */
   int32_t left_out;      /* faces that cannot be meshed */
   int32_t references;    /* largest reference of a face, parts of cut faces included */
-  double match_tolerance; /* how far faces may be from edges and vertices that they share (eps_match): six
+  double match_tolerance; /* largest distance between faces and the edges and vertices that they share (eps_match): six
                              hundredths of the diagonal */
-  const char* notes;     /* what was passed over or repaired without the loss of a face: sentences, one a line */
+  const char* notes;     /* ignored or repaired entities, without the loss of a face: sentences, one a line */
   const char* file_unit; /* of the lengths in the file ("in", "mm", ...), "" when it has none */
   int32_t solids;
   int32_t shared_faces; /* between two solids */
@@ -151,7 +151,7 @@ typedef struct carreau_cad_content {
   int32_t reserved;
 } carreau_cad_content;
 
-/* Counts what the file holds. */
+/* Counts the content of a file. */
 CARREAU_CAD_API carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content);
 
 /* A feature below carreau_cad_options.min_feature. */
@@ -169,7 +169,7 @@ typedef struct carreau_cad_small_feature {
 CARREAU_CAD_API carreau_status carreau_cad_small_feature_at(carreau_cad_file* file, int64_t index,
                                                             carreau_cad_small_feature* out_feature);
 
-/* Tells what of the file could not be read: a sentence, which names the entity. index: from 0. NULL: no such index. */
+/* Returns a sentence about an entity that could not be read. index: from 0. NULL: no such index. */
 CARREAU_CAD_API const char* carreau_cad_loss(carreau_cad_file* file, int64_t index);
 
 /* The data of a face in the file. */
@@ -177,8 +177,8 @@ typedef struct carreau_cad_face {
   size_t struct_size;
   int32_t number;   /* from 1 */
   int32_t rgb;      /* colour, 0xRRGGBB in sRGB; -1: none */
-  const char* name; /* its own, or that of the smallest part that holds it; "": none */
-  const char* why;  /* why it cannot be meshed; "": it can */
+  const char* name; /* its own, or the name of the smallest part that holds it; "": none */
+  const char* why;  /* reason why it cannot be meshed; "": it can */
   int32_t solid;    /* number of its solid, from 1; 0: none. Triangles look out of it */
   int32_t reserved;
   const char* solid_name; /* "": none */
@@ -187,7 +187,7 @@ typedef struct carreau_cad_face {
   const char* other_solid_name; /* "": none */
 } carreau_cad_face;
 
-/* Tells of face `number`, from 1. */
+/* Gets the data of face `number`, from 1. */
 CARREAU_CAD_API carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number,
                                                      carreau_cad_face* out_face);
 
@@ -203,7 +203,7 @@ typedef struct carreau_cad_figures {
 CARREAU_CAD_API carreau_status carreau_cad_measure_face(carreau_cad_file* file, int32_t number,
                                                         carreau_cad_figures* out_figures);
 
-/* ---- What is hard to mesh ---- */
+/* ---- Potential meshing problems ---- */
 
 /* The content of a file, and the number of potential meshing problems. */
 typedef struct carreau_cad_report {
@@ -216,18 +216,18 @@ typedef struct carreau_cad_report {
   int32_t dangers; /* see carreau_cad_danger_at */
 } carreau_cad_report;
 
-/* Looks for what a mesher may stumble over. Edges shorter than `tiny` times the diagonal (0: 1e-3) and faces that are
- * narrower are dangers; so are gaps above it between the curve of an edge and its images on the faces beside,
- * tolerances above it, free edges, bends inside faces, solids that touch or overlap without a common face, and what
- * OpenCASCADE fails on. Costs some ten evaluations an edge, and up to 10 000 points that are classified against solids. */
+/* Looks for potential meshing problems. Edges shorter than `tiny` times the diagonal (0: 1e-3), and narrower faces, are
+ * dangers. So are gaps above it between the curve of an edge and its images on the faces beside, and tolerances above it.
+ * Further dangers are free edges, bends inside faces, solids that touch or overlap without a common face, and entities
+ * that OpenCASCADE fails on. Costs some ten evaluations an edge, and up to 10 000 points that are classified against solids. */
 CARREAU_CAD_API carreau_status carreau_cad_inspect(carreau_cad_file* file, double tiny,
                                                    carreau_cad_report* out_report);
 
-/* Tells a kind of surfaces and how many faces have it, as found by carreau_cad_inspect; by name. */
+/* Gets a kind of surfaces and the number of its faces, as found by carreau_cad_inspect; by name. */
 CARREAU_CAD_API carreau_status carreau_cad_surfaces(carreau_cad_file* file, int64_t index, const char** out_kind,
                                                     int32_t* out_count);
 
-/* A place that a mesher may stumble over. */
+/* A potential meshing problem. */
 typedef struct carreau_cad_danger {
   size_t struct_size;
   const char* kind; /* "tiny edge", "sliver face", "gap", "free edge", "kink", ... */
@@ -239,7 +239,7 @@ typedef struct carreau_cad_danger {
   int32_t solids[2]; /* two that touch or overlap, kinds "touching solids" and "overlapping solids"; 0: not concerned */
 } carreau_cad_danger;
 
-/* Tells a danger that carreau_cad_inspect has found; by kind, worst first. */
+/* Gets a danger that carreau_cad_inspect has found; by kind, worst first. */
 CARREAU_CAD_API carreau_status carreau_cad_danger_at(carreau_cad_file* file, int64_t index,
                                                      carreau_cad_danger* out_danger);
 
@@ -247,7 +247,7 @@ CARREAU_CAD_API carreau_status carreau_cad_danger_at(carreau_cad_file* file, int
 typedef struct carreau_cad_gaps {
   size_t struct_size;
   double largest;
-  int32_t edge, face; /* where; 0: there is none */
+  int32_t edge, face; /* the place; 0: no gap */
   int32_t beyond;     /* edges with more than twice their own tolerance */
   int32_t reserved;
 } carreau_cad_gaps;
@@ -257,8 +257,8 @@ CARREAU_CAD_API carreau_status carreau_cad_measure_gaps(carreau_cad_file* file, 
 
 /* ---- Places, references ---- */
 
-/* Finds the point of a face, or of a part of one, at (u, v) as callbacks get them, and the parameters that its surface
- * has there in the file; out_uv may be NULL. May be called from several threads at a time; keeps no sentence.
+/* Finds the point of a face, or of a part of a face, at (u, v) as callbacks get them. out_uv gets the parameters that
+ * its surface has there in the file; it may be NULL. May be called from several threads at a time; keeps no sentence.
  * Errors: CALLBACK (OpenCASCADE fails). */
 CARREAU_CAD_API carreau_status carreau_cad_point(const carreau_cad_file* file, int32_t face, double u, double v,
                                                  double out_xyz[3], double out_uv[2]);

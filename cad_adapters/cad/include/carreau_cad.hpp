@@ -18,7 +18,7 @@
 
 namespace carreau {
 
-/// A face of a CAD file: carreau_cad_face with texts of its own.
+/// A face of a CAD file: carreau_cad_face with its own texts.
 struct CadFace {
   int number = 0; ///< from 1
   std::string name, why;
@@ -64,24 +64,24 @@ class CadFile {
   /// The handle of the C interface; it stays this object's.
   [[nodiscard]] carreau_cad_file* get() const { return handle_.get(); }
 
-  /// Replaces what the file holds. trap_faults: signals of OpenCASCADE become errors, for programs that own their process.
+  /// Replaces the content. trap_faults: signals of OpenCASCADE become errors, for programs that own their process.
   void read(const std::string& path, const Progress& progress = {}, bool trap_faults = false) {
     auto options = detail::sized<carreau_cad_options>();
     options.trap_faults = trap_faults ? 1 : 0;
     read(path, options, progress);
   }
-  /// The same with all options but progress and user, which this object sets.
+  /// Does this with all options but progress and user, which this object sets.
   void read(const std::string& path, const carreau_cad_options& options, const Progress& progress = {}) {
     listen(progress, options, [&](const carreau_cad_options& all) { return carreau_cad_read(get(), path.c_str(), &all); });
   }
-  /// Replaces what the file holds by the bytes of a file; format: "step", "iges", "brep", or "" (as they say).
+  /// Replaces the content by the bytes of a file; format: "step", "iges", "brep", or "" (found from the bytes).
   void read(std::span<const std::byte> bytes, const std::string& format = "",
             const carreau_cad_options& options = detail::sized<carreau_cad_options>(), const Progress& progress = {}) {
     listen(progress, options, [&](const carreau_cad_options& all) {
       return carreau_cad_read_bytes(get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), format.c_str(), &all);
     });
   }
-  /// Makes parts that touch share faces and edges; tolerance: how far apart they may be, 0: as the file has it.
+  /// Makes parts that touch share faces and edges; tolerance: the largest distance between them, 0: as the file has it.
   void imprint(double tolerance = 0, const Progress& progress = {}) {
     listen(progress, detail::sized<carreau_cad_options>(), [&](const carreau_cad_options& all) {
       return carreau_cad_imprint(get(), tolerance, all.progress, all.user);
@@ -96,7 +96,7 @@ class CadFile {
   }
   /// Adds all faces to a session.
   void add_to(Session& session) const { session.done(carreau_cad_add(get(), session.get())); }
-  /// Wants a size on a face by its number, or on all faces of a name; with hphy_flag = 2.
+  /// Sets a size on a face by its number, or on all faces of a name; with hphy_flag = 2.
   void set_face_size(const std::string& face, double size) { done(carreau_cad_set_face_size(get(), face.c_str(), size)); }
 
   /// The same on a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3), by number.
@@ -135,7 +135,7 @@ class CadFile {
     done(carreau_cad_inspect(get(), tiny, &out));
     return out;
   }
-  /// Kinds of surfaces and how many faces have them; after inspect.
+  /// Kinds of surfaces and the number of their faces; after inspect.
   [[nodiscard]] std::vector<std::pair<std::string, int>> surfaces(const carreau_cad_report& report) const {
     std::vector<std::pair<std::string, int>> out;
     for (std::int64_t i = 0; i < report.kinds; ++i) {
@@ -229,7 +229,8 @@ class CadFile {
   std::unique_ptr<carreau_cad_file, Closed> handle_{created()};
 };
 
-/// Reads the bytes of a file and adds all of its faces to a session; format: "step", "iges", "brep", or "" (as they say).
+/// Reads the bytes of a file and adds all of its faces to a session; format: "step", "iges", "brep", or "" (found from
+/// the bytes).
 inline CadFile cad_open(Session& session, std::span<const std::byte> bytes, const std::string& format = "") {
   carreau_cad_file* made = nullptr;
   session.done(carreau_cad_open_bytes(session.get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), format.c_str(), nullptr, &made));

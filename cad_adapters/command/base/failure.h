@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why the command cannot do what it is asked.
+// The error that ends a command.
 #pragma once
 
 #include <stdexcept>

@@ -4,12 +4,13 @@
 
 namespace command {
 
-/// Before anything large is allocated: lets glibc keep what is freed instead of giving it back and asking again, and asks
-/// Linux for large pages there. Each new page of 4 KiB costs a fault.
-/// Does nothing with another C library. The library itself leaves its host's memory alone.
+/// Makes glibc keep freed memory instead of returning it to Linux, and requests large pages: each new page of 4 KiB
+/// costs a fault. Call it before the first large allocation. Does nothing with another C library. The library itself
+/// does not change the settings of its host's memory.
 void prepare_heap();
 
-/// Gives back what is free when that is much: the pieces of a large face, before its whole mesh is put together.
+/// Returns free memory to the system when there is much of it: the pieces of a large face, before its whole mesh is put
+/// together.
 void give_back_heap();
 
 }  // namespace command

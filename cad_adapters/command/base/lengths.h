@@ -20,10 +20,10 @@ struct Length {
 /// '%'.
 Length parse_length(const std::string& text, const std::string& option);
 
-/// "left=right" at the last '='. Throws Failure when there is none, or nothing on one side.
+/// "left=right" at the last '='. Throws Failure when '=' is missing, or a side is empty.
 std::pair<std::string, std::string> parse_assignment(const std::string& text, const std::string& option);
 
-/// "1024": a number above 0. nullopt: it is none.
+/// "1024": a number above 0. nullopt: not such a number.
 std::optional<int> parse_count(const std::string& text);
 
 /// "800x600". nullopt: not two numbers above 0 with an x between.

@@ -30,7 +30,7 @@ volatile std::sig_atomic_t active = 0;
 volatile std::sig_atomic_t successes = 0, unwritten = 0;
 
 void remove_staged() noexcept {
-  // Another thread may open a file between its removal and that of its folder, but only once.
+  // Another thread may create a file after the removal of files and before the removal of the folder, but only once.
   constexpr int tries = 3;
   for (int i = 0; i < tries; ++i) {
     for (const Staged& s : staged) unlink(s.file.c_str()), unlink(s.temporary.c_str());
@@ -91,7 +91,7 @@ class SignalsBlocked {
   sigset_t old_;
 };
 
-/// The same for all names of one file, whether it exists or not: its own place, behind symbolic links.
+/// Returns one name for all names of a file, whether it exists or not: its place behind symbolic links.
 std::string place_of(const std::string& given) {
   const std::string path = behind_links(given);
   const auto resolved = [](const std::string& name) {
@@ -108,7 +108,7 @@ void check(const std::string& path, const std::string& target, const std::vector
   if (std::find(suffixes.begin(), suffixes.end(), suffix_of(path)) == suffixes.end()) {
     std::string known;
     for (const std::string& each : suffixes) known += (known.empty() ? "" : ", ") + each;
-    refuse(path, "its suffix is " + std::string(suffixes.size() > 1 ? "none of " : "not ") + known);
+    refuse(path, "its suffix is not " + std::string(suffixes.size() > 1 ? "one of " : "") + known);
   }
   struct stat status {};
   const bool known = stat(target.c_str(), &status) == 0;
@@ -130,7 +130,7 @@ OutputFiles::OutputFiles(std::vector<std::string> paths, const std::vector<std::
     targets_.push_back(behind_links(path));
     check(path, targets_.back(), suffixes);
     const std::string place = place_of(path);
-    if (read.contains(place)) refuse(path, "it is what is read");
+    if (read.contains(place)) refuse(path, "it is an input");
     if (!places.insert(place).second) refuse(path, "it is named twice");
   }
   unwritten = unwritten + 1;

@@ -11,10 +11,10 @@ namespace command {
 enum class WrittenFiles { none, some, all };
 
 /// Files are written in a hidden folder beside each, and get their names together; symbolic links stay. A signal that
-/// ends the program in between removes what was written.
+/// ends the program before that removes the hidden files.
 class OutputFiles {
  public:
-  /// Throws Failure for a suffix that is none of `suffixes`, a file that comes twice or is one of `inputs`, or a folder
+  /// Throws Failure for a suffix that is not in `suffixes`, a file that comes twice or is one of `inputs`, or a folder
   /// that cannot be written in.
   OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes,
               const std::vector<std::string>& inputs = {});
@@ -26,8 +26,8 @@ class OutputFiles {
   /// that have one folder. Then the files get their own names. Throws Failure, and what `make` throws.
   void write(const std::function<void(const std::vector<std::string>& hidden)>& make);
 
-  /// Removes the files of a write() under way; for signal handlers. Tells what has been written before: all when no
-  /// object is left whose write() has not succeeded.
+  /// Removes the files of a write() under way; for signal handlers. Returns which files are complete: all when write()
+  /// succeeded for every object.
   static WrittenFiles remove_in_handler() noexcept;
 
  private:

@@ -13,7 +13,7 @@ namespace command {
 const std::vector<carreau_parameter>& known_parameters();
 std::vector<std::string> parameter_names();
 
-/// Whether the value of the parameter follows another one until it is set itself.
+/// True if the parameter has the value of another parameter until it is set itself.
 inline bool is_synonym(const carreau_parameter& parameter) { return *parameter.set_by != '\0'; }
 
 }  // namespace command

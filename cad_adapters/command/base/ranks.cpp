@@ -39,7 +39,7 @@ int first_number(std::initializer_list<const char*> variables) {
   return 0;
 }
 
-/// Variables of Open MPI; of MPICH, Intel MPI and what speaks PMI.
+/// Reads variables of Open MPI, or of MPICH, Intel MPI and other implementations with PMI.
 int processes() { return first_number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}); }
 int processes_here() { return first_number({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}); }
 
@@ -99,7 +99,7 @@ carreau_status Ranks::generate_parts(carreau_session* session, Part& part) const
 
 carreau_mesh* Ranks::mesh_of(const Part& part) const {
   carreau_mesh* mesh = nullptr;
-  if (CARREAU_MPI_FUNCTION(carreau_part_mesh)(part.get(), &mesh) != CARREAU_OK) throw Failure("There is no part of a mesh.");
+  if (CARREAU_MPI_FUNCTION(carreau_part_mesh)(part.get(), &mesh) != CARREAU_OK) throw Failure("This process has no part of the mesh.");
   return mesh;
 }
 
@@ -121,7 +121,7 @@ std::vector<std::string> Ranks::all_files(const std::vector<std::string>& output
   return all;
 }
 
-// mpirun ends all ranks when one has ended with another code than 0: what is to be printed must be out before.
+// mpirun ends all ranks when one has ended with another code than 0: all output must be flushed before.
 int Ranks::leave(int code) const {
   std::fflush(stdout);
   std::int32_t greatest = code, speaker = rank_, alone = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes that mpirun has started: they mesh together, and the first one speaks.
+// The processes that mpirun has started: they mesh together, and the first one prints.
 #pragma once
 
 #include <carreau_mpi.h>
@@ -22,7 +22,7 @@ class Ranks {
   Ranks& operator=(const Ranks&) = delete;
 
   [[nodiscard]] int size() const noexcept { return size_; }
-  /// The first one: it tells, and gives files their names. Output of the others is not shown.
+  /// True for the first rank: it prints, and gives files their names. Output of the others is not shown.
   [[nodiscard]] bool speaks() const noexcept { return rank_ == 0; }
   /// Threads for each rank of this machine, when all its cores are shared evenly.
   [[nodiscard]] int threads() const noexcept;
@@ -36,13 +36,13 @@ class Ranks {
   void write(carreau_session* session, const Part& part, const std::string& path) const;
   /// Writes the mesh by all ranks, to the path of the first one. Throws Failure.
   void write(carreau_session* session, const std::string& path) const;
-  /// Files of `outputs` and those that come with them: pieces of .pvtu, in the order of the ranks, behind all outputs.
+  /// `outputs`, then the additional files: pieces of .pvtu, in the order of the ranks.
   [[nodiscard]] std::vector<std::string> all_files(const std::vector<std::string>& outputs) const;
 
   /// The end of the program, after all that it prints: the greatest exit code of all ranks.
   int leave(int code) const;
-  /// The end after a failure: the exit code. The first of the ranks that have failed says why; where the others have not
-  /// failed it ends them.
+  /// Ends the program after a failure; returns the exit code. The first failed rank reports the reason, and ends the
+  /// other ranks if they have not failed.
   int leave_failed(const std::string& why) const;
 
  private:
@@ -50,7 +50,7 @@ class Ranks {
 
   void* library_ = nullptr;
   int comm_ = 0, rank_ = 0, size_ = 1;
-  int error_output_ = 2;  // where this rank can speak
+  int error_output_ = 2;  // where this rank can print
 };
 
 }  // namespace command

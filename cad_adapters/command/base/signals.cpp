@@ -17,13 +17,12 @@ pthread_t main_thread;  // set before the first signal is caught
 
 template <std::size_t N>
 void tell(const char (&text)[N]) noexcept {
-  // A terminal that is gone cannot be told.
+  // Ignores errors: the terminal may be gone.
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, N - 1);
 }
 
-// Nothing of a run outlives the process but files that are being written, so that there is no better moment than now:
-// not in OpenCASCADE, which reads for seconds without a question, nor in a host's routine. Only what POSIX allows in
-// a handler is called.
+// Only files under way outlive the process, so that the handler ends it at once: also while OpenCASCADE reads for
+// seconds, or in a host's routine. Calls only functions that POSIX allows in a handler.
 extern "C" void end_now(int signal) {
   // A signal that waits in the main thread, where files get their names, would run in any other thread.
   if (pthread_equal(pthread_self(), main_thread) == 0) {

@@ -4,10 +4,9 @@
 
 namespace command {
 
-/// From here on SIGINT, SIGTERM and SIGHUP end the program at once, wherever it is, as whoever sent them expects (a
-/// shell sees the signal, `$?` is 128 + its number); files that were being written are removed first, and so is a bar
-/// on the terminal. Signals that were ignored stay ignored. A file that grows above a limit of the system becomes an
-/// error of writing.
+/// From here on SIGINT, SIGTERM and SIGHUP end the program at once, wherever it is; `$?` is 128 + the signal's number.
+/// Files under way and a bar on the terminal are removed first. Signals that were ignored stay ignored. A file that
+/// grows above a limit of the system becomes an error of writing.
 void catch_signals();
 
 /// Tells the handler whether a progress bar is on the terminal.

@@ -7,8 +7,8 @@
 
 namespace command {
 
-/// Known words within a few slips (letters added, left out, changed, two exchanged), nearest first, at most three; and
-/// those that begin with the word. Capitals do not count.
+/// Known words within a few slips (letters added, left out, changed, two exchanged), nearest first, at most three; then
+/// words that begin with the word. Capitals do not count.
 std::vector<std::string> near_words(const std::string& word, const std::vector<std::string>& known);
 
 /// "; did you mean 'size'?", "; did you mean 'size' or 'size-map'?", "." without any.

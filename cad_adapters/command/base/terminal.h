@@ -7,7 +7,7 @@ namespace command {
 /// It is a terminal that moves its cursor: not a log, and TERM is not dumb.
 bool is_terminal();
 
-/// is_terminal(), and the person has not asked for none (NO_COLOR set and not empty, https://no-color.org).
+/// is_terminal(), and colours are not disabled (NO_COLOR set and not empty, https://no-color.org).
 bool shows_colours();
 
 namespace colour {

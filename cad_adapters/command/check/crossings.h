@@ -31,8 +31,8 @@ struct Crossings {
 Crossings crossings_of(carreau_mesh* mesh, const std::vector<std::int32_t>& refs, int threads);
 Crossings crossings_of(carreau_mesh* mesh, int threads);
 
-/// "faces 27 and 59: 66 pairs of triangles cross, first triangles 12 and 40 at (1, 2, 3)", at most `most` of them and
-/// a last one that counts the others.
+/// "faces 27 and 59: 66 pairs of triangles cross, first triangles 12 and 40 at (1, 2, 3)": at most `most` such
+/// sentences. A last sentence counts the others.
 std::vector<std::string> sentences_of(const Crossings& crossings, std::size_t most);
 
 /// "28 pairs of triangles cross"; "": none does.

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether indices are in range and coordinates finite.
+/// True if indices are in range and coordinates finite.
 bool can_be_measured(const MeshArrays& mesh) {
   const auto n = static_cast<std::int32_t>(mesh.vertices.size());
   for (const auto& t : mesh.triangles)

@@ -32,13 +32,13 @@ struct CheckLimits {
   int worst = 3;        ///< triangles to list
 };
 
-/// `arrays` are those of `mesh`. `known`: its crossings, when they were looked for before. Throws Failure.
+/// `arrays` belong to `mesh`. `known`: its crossings, when they were computed before. Throws Failure.
 MeshCheck check_of(carreau_mesh* mesh, const MeshArrays& arrays, const CheckLimits& limits,
                    const Crossings* known = nullptr);
-/// The same; the mesh's arrays are in memory only while they are needed.
+/// Does this with arrays that are in memory only while they are needed.
 MeshCheck check_of(carreau_mesh* mesh, const CheckLimits& limits);
 
-/// Whether the mesh has elements that are not straight triangles.
+/// True if the mesh has elements that are not straight triangles.
 bool has_elements(const carreau_cell_quality& quality);
 
 /// The object that `carreau check --json` prints, without its format. Crossings count as a defect unless they are allowed.

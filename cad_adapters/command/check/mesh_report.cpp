@@ -41,8 +41,9 @@ void for_each_side(const MeshArrays& mesh, const Put& put) {
     }
 }
 
-/// Calls visit(first, last) for the sides of each edge, by its vertices; those of one edge are sorted by triangle. Some
-/// vertices are looked at in each pass over the triangles: all sides together would take 48 bytes a triangle.
+/// Calls visit(first, last) for the sides of each edge, ordered by its vertices; sides of an edge are sorted by
+/// triangle. Each pass over the triangles takes some of the vertices: all sides together would take 48 bytes a
+/// triangle.
 template <typename Visit>
 void for_each_edge(const MeshArrays& mesh, const Visit& visit) {
   constexpr std::size_t least = std::size_t{1} << 22, passes = 8;  // sides in memory, and parts of more than that
@@ -262,8 +263,9 @@ void look_at_edges(const MeshArrays& mesh, std::size_t listed, MeshReport& repor
   find_turned(mesh, components, listed, report);
 }
 
-/// Vertices at the place of an earlier one. They are sorted along one axis after the other, and parted where the next
-/// is farther than the tolerance, until they lie together along all three: most are alone after the first.
+/// Vertices at the place of an earlier one. They are sorted along one axis after the other, and divided where the next
+/// is farther than the tolerance. This ends when they lie together along all three axes: most are alone after the
+/// first.
 class DoublePoints {
  public:
   DoublePoints(const std::vector<Point>& points, double tolerance) : points_(points), tolerance_(tolerance) {}

@@ -44,7 +44,7 @@ struct MeshReport {
   std::int64_t shared_edges = 0;  ///< of more than two triangles
   std::vector<Point> shared_at;   ///< middles of some of them
   std::int64_t turned_triangles =
-      0;                           ///< against most of those that they are connected with over edges of two triangles
+      0;                           ///< against most triangles that they are connected with over edges of two triangles
   std::vector<Point> turned_at;    ///< centres of some of them
   std::int64_t folds = 0;          ///< edges inside a face where triangles turn by more than 150 degrees
   std::vector<Point> fold_at;      ///< middles of some of them

@@ -11,7 +11,7 @@ namespace command {
 /// The members of carreau_quality by their names.
 nlohmann::ordered_json quality_json(const carreau_quality& quality);
 
-/// The same of carreau_cell_quality.
+/// The members of carreau_cell_quality by their names.
 nlohmann::ordered_json elements_json(const carreau_cell_quality& quality);
 
 }  // namespace command

@@ -10,7 +10,7 @@
 
 namespace command {
 
-/// The parser and what it fills.
+/// The parser and its results.
 class CommandLine {
  public:
   CommandLine();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int unusable = 2;
 
-/// A standard file that is closed would be the next one that opens, and what is printed would be among its bytes. The file
+/// Opens closed standard streams: otherwise the next file would get their number, and output would go into it. The file
 /// opened in its place cannot be written (or read), as before.
 void open_standard_files() {
   for (int file = 0; file < 3; ++file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options that several commands have. Each function adds a group to a command, and what it fills lives as long.
+// Options that several commands have. Each function adds a group to a command; its results must live as long.
 #pragma once
 
 #include <CLI/CLI.hpp>

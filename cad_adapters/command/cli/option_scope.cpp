@@ -62,7 +62,7 @@ Kind kind_of(const std::string& input, const InputChoice& choice, bool is_plane)
   return suffix_of(input) == ".bpt" ? bezier : cad;
 }
 
-/// Files of `carreau fields` may be .env, and an atlas names what it needs.
+/// Files of `carreau fields` may be .env, and an atlas names the missing option itself.
 bool is_checked_elsewhere(const CLI::App& sub, const Scope& scope, const InputChoice& choice) {
   const std::string option = scope.option;
   return (option == "--host" && sub.get_name() == "fields") ||

@@ -28,7 +28,8 @@ std::vector<std::string> choices_of(const std::string& type) {
   return words;
 }
 
-/// Why a word is no value of an option: it is no number, or not in its range, or none of its choices. "": it may be.
+/// The reason why a word is not a value of an option: not a number, not in its range, or not among its choices. "":
+/// valid.
 std::string choice_sentence(const std::string& name, const std::string& word, const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (const std::vector<std::string> choices = choices_of(type); !choices.empty()) {

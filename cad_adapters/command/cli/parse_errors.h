@@ -10,9 +10,9 @@ namespace command {
 
 /// "mesh, plane, ...".
 std::string command_names(const CLI::App& app);
-/// There is no such command; with what may have been meant.
+/// The error about an unknown command, with suggestions.
 std::string unknown_command(const std::string& word, const CLI::App& app);
-/// Why `words` are no command line of `sub`, with what may have been meant.
+/// The error in the command line `words` of `sub`, with suggestions.
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& sub, const std::vector<std::string>& words);
 
 }  // namespace command

@@ -83,7 +83,7 @@ int areas(const AreasOptions& options) {
   std::vector<Measured> all;
   for (const char* surface : molecule_surfaces) {
     all.push_back(measure(session.get(), options, surface));
-    require(session.get(), carreau_set_integer(session.get(), "verb", 0));  // what is left out of the file is told once
+    require(session.get(), carreau_set_integer(session.get(), "verb", 0));  // entries left out of the surface are reported once
   }
   if (!options.json) return print(all), 0;
   Json surfaces = Json::array();

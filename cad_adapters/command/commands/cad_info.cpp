@@ -25,7 +25,7 @@ std::string name_of(carreau_cad_file* file, std::int32_t number_of_face) {
   return face.name;
 }
 
-/// Kinds and how many, by name.
+/// Kinds and their counts, by name.
 std::vector<std::pair<std::string, int>> surfaces_of(carreau_cad_file* file, const carreau_cad_report& report) {
   std::vector<std::pair<std::string, int>> surfaces;
   for (std::int32_t i = 0; i < report.kinds; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `carreau check`: what a mesh in a file is worth.
+// `carreau check`: figures and defects of a mesh in a file.
 #include <cinttypes>
 #include <cstdio>
 #include <nlohmann/json.hpp>

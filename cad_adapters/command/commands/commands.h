@@ -38,7 +38,7 @@ struct InfoOptions : InputChoice {
   bool json = false;
 };
 
-/// Prints what a file of geometry holds, and what of it is hard to mesh. 0; throws Failure.
+/// Prints the content of a file of geometry, and potential meshing problems. 0; throws Failure.
 int info(const InfoOptions& options);
 /// `carreau info` on STEP, IGES and BREP files. Returns the exit code; throws Failure.
 int print_cad_info(const InfoOptions& options);
@@ -93,8 +93,8 @@ struct FieldsOptions {
   std::vector<std::string> channels;  ///< names of field_groups(); none: all
 };
 
-/// Meshes, and writes what governed the mesh of `carreau mesh` as EXR or PNG files. 1 when the files are there but not
-/// all faces have triangles.
+/// Meshes, and writes the fields of sizes and metrics behind the mesh of `carreau mesh` as EXR or PNG files. 1 when the
+/// files are written but not all faces have triangles.
 int fields(const FieldsOptions& options);
 
 /// Names of the groups of channels.

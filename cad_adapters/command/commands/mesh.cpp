@@ -70,7 +70,7 @@ bool is_one_of(const std::string& suffix, std::initializer_list<const char*> lis
   return std::find(list.begin(), list.end(), suffix) != list.end();
 }
 
-/// A format that has no such elements is told before anything is meshed. In .stl they are straight triangles.
+/// Rejects a format that has no such elements before anything is meshed. In .stl they are straight triangles.
 void refuse_elements(carreau_session* session, const std::vector<std::string>& outputs) {
   const char* element = nullptr;
   require(session, carreau_get_text(session, "element", &element));
@@ -83,7 +83,7 @@ void refuse_elements(carreau_session* session, const std::vector<std::string>& o
   }
 }
 
-/// `make` makes the mesh. Throws Failure when there is none.
+/// `make` makes the mesh. Throws Failure when it does not.
 void generate(carreau_session* session, const MeshOptions& options, CadInput& input, const SizeMap& map,
               Adaptation& adaptation, const std::function<carreau_status()>& make, FailedFaces& failed, Progress& progress) {
   require(session, input.give_to(session));
@@ -214,7 +214,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
   }
 }
 
-/// One rank tells and gives files their names.
+/// Only the first rank prints and gives files their names.
 MeshOptions options_of_rank(const MeshOptions& given, const Ranks* ranks) {
   MeshOptions options = given;
   if (ranks == nullptr) return options;
@@ -247,7 +247,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
   options.outputs = adaptation.with_fields(given.outputs);
-  check_words(options);  // what means nothing is told before a long reading
+  check_words(options);  // reports meaningless words before a long reading
   SizeMap map(options.size_map);
   if (options.plane.field > 0 && map.mesh_file().empty() && options.adapt.sol.empty() && options.plane.sizes.empty())
     throw Failure("--sol-field chooses a field of a file .sol, and no option names one.");
@@ -303,11 +303,11 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   else
     write(files);
   run.seconds_writing = writing.seconds();
-  if (!given.quiet) {  // ranks that say nothing share the work
+  if (!given.quiet) {  // silent ranks share the work
     const std::string line = part != nullptr ? "" : input->of_mesh(run.session);
     for (const std::string& before : part != nullptr ? part_lines(run, ranks->size()) : summary_lines(run)) progress.line(before);
     if (!line.empty()) progress.line(line);
-    progress.attention("crossing", part != nullptr ? crossing_lines_of_parts(run) : crossing_lines(run.crossings, *input));  // last: nobody is to miss it
+    progress.attention("crossing", part != nullptr ? crossing_lines_of_parts(run) : crossing_lines(run.crossings, *input));  // shown last
   }
   run.warnings = progress.warnings();
   if (options.json) print_json(run);

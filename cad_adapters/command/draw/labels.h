@@ -23,9 +23,8 @@ struct Label {
   int x = 0, y = 0;  ///< the middle of the text, in pixels
 };
 
-/// A place for each face that is seen in a cell: the pixel of its own that is farthest from all others, the largest
-/// faces first. Faces whose text would lie on another one have none. `seen`: the face of each pixel, row by row; 0:
-/// none.
+/// A place for each face that is seen in a cell: its pixel that is farthest from all others, the largest faces first.
+/// Faces whose text would cover another text get no label. `seen`: the face of each pixel, row by row; 0: no face.
 std::vector<Label> place_labels(const std::vector<std::int32_t>& seen, int width, int height, Grid grid);
 
 void draw_labels(const std::vector<Label>& labels, Image& image);

@@ -14,7 +14,7 @@ struct Band {
   int width = 0, first = 0, rows = 0;  ///< in samples
   std::vector<float> depth;
   std::vector<Colour> colour;
-  std::vector<std::int32_t> face;  // empty: not wanted
+  std::vector<std::int32_t> face;  // empty: not required
 };
 
 /// The ground: white, very slightly grey towards the bottom.

@@ -27,7 +27,7 @@ struct ScreenTriangle {
   std::array<std::array<double, 3>, 3> corners;  ///< x, y, depth
   Colour colour{};
   std::array<Line, 3> lines{};  ///< line i is on the side opposite to corner i
-  std::int32_t face = 0;        ///< what Image::faces tells of
+  std::int32_t face = 0;        ///< its number in `faces` of draw()
   bool light_lines = false;     ///< on dark colours
 };
 

@@ -15,11 +15,11 @@ struct View {
 };
 
 /// A view from a name (iso, front, back, left, right, top, bottom) or from a direction "x,y,z" that points from the
-/// mesh to the eye; z is up (y, when the direction is along z). Throws Failure.
+/// mesh to the eye. z is up (y, when the direction is along z). Throws Failure.
 View view_from(const std::string& text);
 
-/// Perspective projection to pixels: x right, y down from the upper left corner; depth is larger for what is nearer,
-/// and linear on the image of a plane.
+/// Perspective projection to pixels: x right, y down from the upper left corner. Depth is larger for nearer points, and
+/// linear on the image of a plane.
 class Projection {
  public:
   /// Fits the points into the rectangle [x0, x0 + width] x [y0, y0 + height] with a margin of 4 %.
@@ -27,9 +27,9 @@ class Projection {
 
   /// {x, y, depth}.
   [[nodiscard]] Point operator()(const Point& p) const;
-  /// The same place with the depth of one so much nearer to the eye.
+  /// The place on the picture with a depth nearer to the eye by `length`.
   [[nodiscard]] Point ahead(const Point& p, double length) const;
-  /// False for what is beside or behind the eye, or nearly so: only where the picture does not hold the whole mesh.
+  /// False beside or behind the eye, or nearly so: only when the picture does not hold the whole mesh.
   [[nodiscard]] bool is_before_eye(const Point& p) const { return in_camera(p)[2] < 0.9 * distance_; }
   /// The point in the frame of the camera: right, up, toward the eye.
   [[nodiscard]] Point in_camera(const Point& p) const;

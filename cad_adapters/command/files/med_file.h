@@ -16,8 +16,8 @@ void require_med();
 /// name of the face. Families of edges have groups "curve_7". Throws Failure.
 std::string med_as_gmsh(const std::string& path);
 
-/// Writes a mesh with a family a face, whose groups are "face_7" ("face_m7": -7) and the name of the face, and a family
-/// a curve with the group "curve_7". Throws Failure.
+/// Writes a mesh with a family a face and a family a curve. Groups are "face_7" ("face_m7": -7) and the name of the
+/// face, and "curve_7". Throws Failure.
 void write_med(carreau_mesh* mesh, const std::string& path);
 
 }  // namespace command

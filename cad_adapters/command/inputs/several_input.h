@@ -10,8 +10,8 @@
 
 namespace command {
 
-/// Files of triangles, Bezier patches, grids or molecules side by side: faces are those of the first file, then those of
-/// the next one, whose numbers go on, ... Throws Failure, also for files of other kinds.
+/// Files of triangles, Bezier patches, grids or molecules side by side. The faces of each file get the numbers behind
+/// the faces of the previous files. Throws Failure, also for files of other kinds.
 std::unique_ptr<CadInput> open_several(const std::vector<std::string>& paths, const InputChoice& choice);
 
 }  // namespace command

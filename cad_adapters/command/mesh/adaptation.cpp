@@ -124,7 +124,7 @@ carreau_status Adaptation::run_formula(carreau_session* session, double diagonal
   adaptation.differences = choice_.differences ? 1 : 0;
   adaptation.convergence = choice_.convergence;
   const carreau_status status = carreau_adapt(session, &adaptation, nullptr);
-  // Another process's formula has failed at a place that this one was not asked for.
+  // The formula of another process may have failed at a place that this process did not evaluate.
   const std::string sentence = carreau_last_error(session);
   if (status == CARREAU_ERR_CALLBACK && failure_.empty() && sentence.find("callback of the field") != std::string::npos)
     failure_ = "the formula '" + formula_->text() + "' has no finite value somewhere (" + sentence + ")";

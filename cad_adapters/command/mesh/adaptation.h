@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `carreau adapt`: what the next mesh follows, files of the last one or a formula.
+// `carreau adapt`: the source of sizes of the next mesh, files of the last mesh or a formula.
 #pragma once
 
 #include <carreau.h>
@@ -17,9 +17,9 @@ class Progress;
 /// As typed.
 struct AdaptChoice {
   bool is_adapt = false;           ///< the command is `carreau adapt`
-  std::string mesh, sol;           ///< the last mesh and what is known at its vertices
-  std::string use = "values";      ///< what `sol` has: "values", "sizes" or "metrics"
-  std::string transfer;            ///< fields for the next mesh; empty: those of `sol`, unless they are not values
+  std::string mesh, sol;           ///< the last mesh and the values at its vertices
+  std::string use = "values";      ///< kind of `sol`: "values", "sizes" or "metrics"
+  std::string transfer;            ///< fields for the next mesh; empty: the values of `sol`, if any
   std::string formula;             ///< of a field, in place of `mesh` and `sol`
   std::vector<std::string> names;  ///< parameters adapt_* that options stand for, "name=value"
   int iterations = 5;              ///< by a formula
@@ -27,19 +27,19 @@ struct AdaptChoice {
   double convergence = 0;          ///< share of triangles; 0: all iterations
 };
 
-/// Whether a name is that of a file of values at vertices.
+/// True if the suffix belongs to files of values at vertices.
 bool is_solution(const std::string& path);
 
-/// One run of it.
+/// A run of the command.
 class Adaptation {
  public:
-  /// Throws Failure for what does not go together, files that do not exist, and a formula that is wrong.
+  /// Throws Failure for options that contradict each other, missing files, and an invalid formula.
   explicit Adaptation(const AdaptChoice& choice);
 
   /// Files that are read.
   [[nodiscard]] std::vector<std::string> inputs() const;
-  /// `outputs` and, when there are fields for the next mesh and none of them is a .sol, one beside the first mesh that has
-  /// the format's name. Throws Failure for a .sol without fields.
+  /// Returns `outputs`. If there are fields for the next mesh and no output is a .sol, adds one beside the first mesh
+  /// that has the format's name. Throws Failure for a .sol without fields.
   [[nodiscard]] std::vector<std::string> with_fields(std::vector<std::string> outputs) const;
 
   /// Makes the mesh in a session that has its model, of this diagonal, and its parameters. A status of carreau.h; the sentence is in the

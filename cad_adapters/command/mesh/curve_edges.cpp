@@ -37,7 +37,7 @@ struct EdgesOfCurve {
 
 /// "8", "8,arithmetic:3" or "8,geometric:1.2".
 EdgesOfCurve parse_edges(const std::string& setting, const std::string& text) {
-  const char* expected = "what follows the sign is a number of edges, or N,arithmetic:RATIO or N,geometric:RATIO";
+  const char* expected = "a number of edges N, or N,arithmetic:RATIO or N,geometric:RATIO must follow the sign";
   EdgesOfCurve told;
   const std::size_t comma = text.find(',');
   if (!parse(std::string_view(text).substr(0, comma), told.edges) || told.edges < 1)
@@ -59,7 +59,7 @@ std::vector<double> parse_vertices(const std::string& setting, const std::string
     const std::size_t end = std::min(text.find(',', begin), text.size());
     double value = 0;
     if (!parse(std::string_view(text).substr(begin, end - begin), value) || (!t.empty() && !(t.back() < value)))
-      refuse(vertices_option, setting, "what follows the sign is increasing parameters with commas between them");
+      refuse(vertices_option, setting, "increasing parameters with commas between them must follow the sign");
     t.push_back(value);
     begin = end + 1;
   }

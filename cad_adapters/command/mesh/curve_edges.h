@@ -13,7 +13,7 @@ namespace command {
 void check_curve_edges(const MeshOptions& options);
 
 /// Hands the prescriptions to a session that has the model. Throws Failure: no such curve, numbers that the library
-/// refuses.
+/// rejects.
 void prescribe_curve_edges(carreau_session* session, const MeshOptions& options, const CadInput& input);
 
 }  // namespace command

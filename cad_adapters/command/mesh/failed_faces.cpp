@@ -59,7 +59,7 @@ std::string fields_name(const std::string& path, std::int32_t face, std::int32_t
   return path + (part != face ? "_part_" + std::to_string(part) : "") + ".exr";
 }
 
-/// The parameters that say what is exported, as they were, whatever happens.
+/// Restores the parameters of exports, whatever happens.
 class ExportKept {
  public:
   explicit ExportKept(carreau_session* session) : session_(session) {
@@ -90,13 +90,13 @@ FailedFaces::FailedFaces(std::string folder) : folder_(std::move(folder)) {
   if (stat(folder_.c_str(), &status) != 0) {
     if (mkdir(folder_.c_str(), 0777) != 0) refuse(folder_, std::strerror(errno));
   } else if (!S_ISDIR(status.st_mode)) {
-    refuse(folder_, "it is no folder");
+    refuse(folder_, "it is not a folder");
   }
   if (access(folder_.c_str(), W_OK | X_OK) != 0) refuse(folder_, std::strerror(errno));
 }
 
 std::string FailedFaces::stem(std::int32_t ref, const std::string& name) const {
-  constexpr std::size_t longest = 60;  // of a name within that of a file
+  constexpr std::size_t longest = 60;  // of a name within the name of a file
   std::string text = folder_ + "/face_" + std::to_string(ref);
   if (!name.empty()) text += '_';
   for (const char c : name.substr(0, longest)) {

@@ -17,7 +17,8 @@ namespace command {
 /// its fields; with its name between, when it has one (face_7_bore.mesh).
 class FailedFaces {
  public:
-  /// An empty folder: nothing is written. Throws Failure when the folder is none, or cannot be made or written in.
+  /// An empty folder: nothing is written. Throws Failure when `folder` is not a folder, or cannot be made or written
+  /// in.
   explicit FailedFaces(std::string folder);
 
   /// A face whose geometry failed, while `session` has the model with it. The sentence of the session is lost.

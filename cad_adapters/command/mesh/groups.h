@@ -11,11 +11,11 @@
 
 namespace command {
 
-/// Names faces by their solid ("part") or their colour ("color"), or takes the names of parts away, so that each face without a name of its own
-/// is a group ("face"). "": a face has its own name, or the name of its part.
-/// Then names what each rule "group=selector" selects (selection.h). A face around a solid that a rule selects gets the
-/// group's name, too, unless a rule selects the face itself. The session has the geometry of `input`. Returns sentences
-/// about entities that two rules select: the last rule counts. Throws Failure.
+/// Names faces by their solid ("part") or their colour ("color"). "face" removes the names of parts, so that each face
+/// without a name is a group. "": a face has its name, or the name of its part.
+/// Then names the entities that each rule "group=selector" selects (selection.h). A face around a solid that a rule
+/// selects gets the group's name, too, unless a rule selects the face itself. The session has the geometry of `input`.
+/// Returns sentences about entities that two rules select: the last rule counts. Throws Failure.
 std::vector<std::string> set_groups(carreau_session* session, const CadInput& input, const std::string& group_by,
                                     const std::vector<std::string>& rules);
 

@@ -23,8 +23,8 @@ struct MeshOptions : InputChoice {
   std::string size_map;                       ///< formula or file; empty: none
   double angle = 0;                           ///< degrees; 0: not given
   std::optional<double> gradation;            ///< 0: none
-  std::string element;                        ///< p1, p2, q1.0, ...; "": p1, unless the env file says otherwise
-  bool independent = false;                   ///< borders of patches that are not sharp mean nothing
+  std::string element;                        ///< p1, p2, q1.0, ...; "": as in the env file, else p1
+  bool independent = false;                   ///< ignores borders of patches that are not sharp
   std::optional<double> sharp_angle;          ///< degrees
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::optional<int> effort;                  ///< level of the parameter of that name

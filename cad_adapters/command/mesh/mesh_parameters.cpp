@@ -78,7 +78,7 @@ void set_physical_sizes(carreau_session* session, const MeshOptions& options, co
   if (lengths.size || !is_set(session, "hphydef")) set(session, "hphydef", lengths.size.value_or(0.02 * diagonal));
   double size = 0;
   require(session, carreau_get_real(session, "hphydef", &size));
-  // The bounds of the library are for sizes that a formula gives, not for what a person has typed.
+  // The bounds of the library are for sizes that a formula gives, not for typed sizes.
   if (!is_set(session, "hphymin")) set(session, "hphymin", std::min(size, diagonal) * 1e-6);
   // Beside a map, a size that was typed is an upper bound.
   const bool by_fields = !options.adapt.mesh.empty();
@@ -238,7 +238,7 @@ void check_setting(carreau_session* session, const std::string& setting, const s
   set_by_name(session, setting, 1);
 }
 
-/// The options of `carreau adapt` that are parameters; bounds of sizes are those of the estimator, too.
+/// Sets the options of `carreau adapt` that are parameters; bounds of sizes are also bounds of the estimator.
 void set_estimator(carreau_session* session, const MeshOptions& options, double diagonal) {
   if (!options.adapt.is_adapt) return;
   const Lengths lengths = lengths_of(options, diagonal);
@@ -320,13 +320,13 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set_sizes_on(options, input);
   const bool sizes_by_face = (!options.face_sizes.empty() || !options.sizes_on.empty()) && !input.answers_face_sizes();
   set(session, "threads", threads_of(options));
-  // Zones narrower than 6 % of their edges would have triangles of no shape (Q2 below .1); cutting more adds
-  // bad triangles to meshes that were asked to be coarse, and takes none away.
+  // Zones narrower than 6 % of their edges would have triangles of no shape (Q2 below .1). More cuts add bad triangles
+  // to coarse meshes without removing any.
   set(session, "CheckCloseEdges", 20);
   set(session, "CoefRectangle", 0.06);
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
   set(session, "CheckAdjacentEdges", input.has_arbitrary_borders() ? 0 : 20);
-  // Whatever made edges of a border short, triangles grow from them to the size inside.
+  // Triangles grow from short edges of a border to the size inside.
   set(session, "edge_gradation", 1.5);
   // Vertices that face each other leave triangles with right angles only.
   set(session, "stagger_strips", 1);
@@ -340,7 +340,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));
-  // Faces that are not sewn in the file; the others keep what the file says of them.
+  // Glues faces that the file does not connect; the others stay as the file connects them.
   if (const double tolerance = input.glue_tolerance(); tolerance > 0) {
     set(session, "glue_open", 1);
     set(session, "eps_glue", tolerance);

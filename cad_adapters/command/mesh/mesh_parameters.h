@@ -25,8 +25,8 @@ std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double 
 /// A sentence for each two rules of --face-size that name a face and differ.
 std::vector<std::string> contradicting_face_sizes(const MeshOptions& options, const CadInput& input);
 
-/// Gives face sizes to the input, and parameters and the size map to the session: first what this command chooses
-/// itself, then the env file, then the options, --set last. Throws Failure.
+/// Gives face sizes to the input, and parameters and the size map to the session: first the defaults of this command,
+/// then the env file, then the options, --set last. Throws Failure.
 void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map);
 
 }  // namespace command

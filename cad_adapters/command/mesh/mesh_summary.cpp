@@ -68,7 +68,7 @@ Gluing gluing_of(const CadInput& input, const std::vector<carreau_interface>& in
   return gluing;
 }
 
-/// How many curves were glued, and which are open.
+/// Counts glued curves, and lists open ones.
 std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
   const Gluing gluing = gluing_of(input, interfaces);
   if (gluing.glued == 0) return {};
@@ -77,7 +77,7 @@ std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<c
   return lines;
 }
 
-/// How many faces meet at the curves; the library's own messages tell the widest gap.
+/// Counts the faces at the curves; the library's own messages report the widest gap.
 std::string interfaces_line(const std::vector<carreau_interface>& interfaces) {
   std::int64_t shared = 0, seams = 0, open = 0, more = 0, points = 0, loose = 0;
   for (const carreau_interface& each : interfaces) {

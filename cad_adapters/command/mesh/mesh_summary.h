@@ -19,7 +19,7 @@ namespace command {
 /// The figures of the last run of a session.
 carreau_report report_of(carreau_session* session);
 
-/// A run with its results, besides what session and mesh know.
+/// A run with its results, besides the data of session and mesh.
 struct MeshRun {
   const MeshOptions& options;
   const CadInput& input;
@@ -40,15 +40,14 @@ std::string failed_faces(const std::vector<FaceResult>& faces);
 /// "2 entities of the file could not be read: #12 ADVANCED_FACE, ..."; "" when all could.
 std::string lost_entities(const CadInput& input);
 
-/// If the faces of the file close, or were glued, and the mesh has free edges: how many, and on which
-/// curves;
-/// "" when it has none, or faces failed.
+/// If the faces of the file close, or were glued, and the mesh has free edges: their number and curves. "" without free
+/// edges, or if faces failed.
 std::string unexpectedly_open(const MeshRun& run);
 
-/// A table: faces, lengths, times, files; the library's own messages tell counts, shape and the times of its phases.
+/// A table: faces, lengths, times, files; the library's own messages report counts, shape and the times of its phases.
 std::vector<std::string> summary_lines(const MeshRun& run);
 
-/// The same of a mesh that several processes keep in parts: `run.mesh` is the part of this one.
+/// The table for a mesh that several processes keep in parts: `run.mesh` is the part of this one.
 std::vector<std::string> part_lines(const MeshRun& run, int processes);
 /// Sentences about such a mesh: that it has free edges although the file closes, and that triangles cross; "": not so.
 std::string free_edges_of_parts(const MeshRun& run);
@@ -56,11 +55,12 @@ std::string crossings_of_parts(const MeshRun& run);
 /// Counts the pairs of triangles that cross, and names the command that finds their faces. Empty when nothing crosses.
 std::vector<std::string> crossing_lines_of_parts(const MeshRun& run);
 
-/// Everything about a run that a program may want, without its format: what `carreau mesh --json` prints. `delivered`: with
-/// what was delivered, for which the mesh is measured when it has not been.
+/// All results of a run for programs, without the format: the output of `carreau mesh --json`. `delivered`: with the
+/// measures of the mesh, which are computed if necessary.
 nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered);
 
-/// summary_json() on the standard output, with what was delivered when the parameter `measure` asks for it.
+/// Prints summary_json() on the standard output, with the measures of the mesh when the parameter `measure` requires
+/// them.
 void print_json(const MeshRun& run);
 
 }  // namespace command

@@ -77,7 +77,7 @@ Progress::~Progress() {
 
 void Progress::listen_to(carreau_session* session, const CadInput& input) {
   input_ = &input;
-  if (quiet_) carreau_set_integer(session, "verb", CARREAU_LEVEL_WARNING);  // what nobody reads is not computed
+  if (quiet_) carreau_set_integer(session, "verb", CARREAU_LEVEL_WARNING);  // messages that are not shown are not computed
   carreau_set_message_callback(session, on_message, this);
   carreau_set_progress_callback(session, on_progress, this);
 }
@@ -113,7 +113,7 @@ void Progress::warning(const std::string& text) {
   print_marked("warning", colour::yellow, text.c_str());
 }
 
-// Called before what else is told, so that it stands below the warnings.
+// Prints the count before any other line, so that it stands below the warnings.
 void Progress::tell_of_others() {
   if (held_back_ == 0 || quiet_) return;
   clear();

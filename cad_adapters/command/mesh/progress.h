@@ -14,9 +14,9 @@ namespace command {
 
 class CadInput;
 
-/// A bar on a terminal, a line a tenth of the way in a log, nothing when quiet (errors are always told).
-/// Errors are red, warnings yellow and the bar green on a terminal, unless NO_COLOR is set or TERM is dumb.
-/// A few warnings that differ in their numbers only are shown, and the others counted.
+/// A bar on a terminal, a line a tenth of the way in a log, nothing when quiet (errors are always shown). Errors are
+/// red, warnings yellow and the bar green on a terminal, unless NO_COLOR is set or TERM is dumb. A few warnings that
+/// differ in their numbers only are shown, and the others counted.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -29,17 +29,17 @@ class Progress {
   void listen_to(carreau_session* session, const CadInput& input);
   /// Sets the share of all work that follows: bars and lines never go back.
   void part(double from, double to);
-  /// How much of all is done, 0 to 1.
+  /// Returns the finished share of all work, 0 to 1.
   [[nodiscard]] double reached() const noexcept { return reached_; }
-  /// How much of a file is read; a log gets a line a second.
+  /// Shows the share of a file that is read; a log gets a line a second.
   void reading(double fraction);
-  /// A line of its own: what has begun, or a result.
+  /// Prints a line about the next phase, or a result.
   void line(const std::string& text);
   /// Something that may be wrong.
   void warning(const std::string& text);
-  /// Prints a marked line and those that belong to it.
+  /// Prints a marked line and its details.
   void attention(const char* word, const std::vector<std::string>& lines);
-  /// All of them, in their order, also those that were not shown.
+  /// All of them, in their order, also warnings that were not shown.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
   /// Prints a line that a quiet run shows, too.
   void error(const std::string& text);
@@ -60,7 +60,7 @@ class Progress {
   Clock::time_point drawn_;
   std::vector<std::string> warnings_;
   std::map<std::string, int> shown_;  // by text without its numbers
-  int held_back_ = 0;                 // since a warning was shown or their number told
+  int held_back_ = 0;                 // since a warning was shown or their number printed
 };
 
 }  // namespace command

@@ -60,7 +60,7 @@ void SizeMap::give_to(carreau_session* session, const CadInput& input) {
   carreau_metric_callbacks callbacks{};
   callbacks.struct_size = sizeof callbacks;
   callbacks.user = this;
-  callbacks.surface_metric = surface_metric;  // curves and points take those of the faces beside
+  callbacks.surface_metric = surface_metric;  // curves and points get the sizes of the faces beside
   require(session, carreau_set_metric_callbacks(session, &callbacks));
   if (!mesh_.empty()) require(session, carreau_set_background_mesh(session, mesh_.c_str(), solution_.c_str()));
 }
@@ -84,7 +84,7 @@ std::int32_t SizeMap::size_at(std::int32_t face, double u, double v, double& siz
     return of_face > 0 ? 0 : CARREAU_NO_ANSWER;
   }
   Place place;
-  if (!input_->locate(face, u, v, place)) return 1;  // its own failure is told
+  if (!input_->locate(face, u, v, place)) return 1;  // the geometry reports its failure itself
   size = (*formula_)(place);
   if (std::isfinite(size) && size > 0) {
     if (of_face > 0) size = std::min(size, of_face);
@@ -95,7 +95,7 @@ std::int32_t SizeMap::size_at(std::int32_t face, double u, double v, double& siz
   char number[32];
   std::snprintf(number, sizeof number, "%.6g", std::isnan(size) ? NAN : size);  // without a sign
   if (failure_.empty())
-    failure_ = "the size map '" + formula_->text() + "' gives " + number + ", which is no size, on face " +
+    failure_ = "the size map '" + formula_->text() + "' gives " + number + ", which is not a size, on face " +
                std::to_string(input_->whole_face(face)) + " at " + place_text(place);
   carreau_stop(session_);  // a failure would be the face's, and another run without it would begin
   return CARREAU_NO_ANSWER;

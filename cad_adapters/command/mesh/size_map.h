@@ -25,7 +25,7 @@ class SizeMap {
   /// Mesh of a background mesh; "" of a formula.
   [[nodiscard]] const std::string& mesh_file() const noexcept { return mesh_; }
 
-  /// Makes a session ask this map, and the face sizes of `input`, for sizes. `input` and this map outlive the runs of
+  /// Makes a session call this map, and the face sizes of `input`, for sizes. `input` and this map outlive the runs of
   /// the session. Throws Failure.
   void give_to(carreau_session* session, const CadInput& input);
 

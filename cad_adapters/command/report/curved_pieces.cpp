@@ -31,7 +31,7 @@ class Cutter {
   CurvedPieces run() {
     bool curved = false;  // the element that the triangle is of
     for (std::size_t t = 0; t < mesh_.triangles.size() && !element_of_.empty(); ++t) {
-      if (halves_[t] == 2 && curved) continue;  // its pieces came with those of the first half
+      if (halves_[t] == 2 && curved) continue;  // its pieces came with the first half
       const auto found = halves_[t] == 2 ? element_of_.end() : element_of_.find(mesh_.triangles[t]);
       curved = found != element_of_.end();
       if (curved)

@@ -29,7 +29,7 @@ std::string range_text(const Histogram& h, std::size_t i) {
 }
 
 std::string bar(const Histogram& h, std::size_t i, std::int64_t most) {
-  // The least bar that is seen: one triangle of a million is what a reader looks for.
+  // The lowest visible bar: readers look for one triangle of a million.
   const double share = static_cast<double>(h.counts[i]) / static_cast<double>(most);
   const double height = h.counts[i] > 0 ? std::max(1.5, share * drawn_height) : 0;
   char text[400];

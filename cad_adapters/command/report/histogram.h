@@ -14,7 +14,7 @@ namespace command {
 constexpr int histogram_classes = 20;
 
 struct Histogram {
-  std::array<double, histogram_classes + 1> bounds{};  ///< ascending; the ends hold what lies beyond them
+  std::array<double, histogram_classes + 1> bounds{};  ///< ascending; the end classes hold values beyond them
   std::array<std::int64_t, histogram_classes> counts{};
   std::int64_t without = 0;  ///< elements that have no value
 };

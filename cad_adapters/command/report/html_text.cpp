@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Length of the UTF-8 sequence at `at`; 0: there is none (RFC 3629: no surrogates, nothing longer than needed).
+/// Length of the UTF-8 sequence at `at`; 0: invalid (RFC 3629: no surrogates, nothing longer than needed).
 std::size_t sequence_at(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(at + k < text.size() ? text[at + k] : 0); };
   const auto follows = [&](std::size_t k, int low = 0x80, int high = 0xBF) { return byte(k) >= low && byte(k) <= high; };

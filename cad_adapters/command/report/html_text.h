@@ -8,8 +8,8 @@
 
 namespace command {
 
-/// Text as content or as the value of an attribute in quotation marks: what HTML would read as its own becomes
-/// references, control characters and bytes that are not UTF-8 become U+FFFD.
+/// Text as content or as the value of an attribute in quotation marks. Special characters of HTML become references;
+/// control characters and bytes that are not UTF-8 become U+FFFD.
 std::string html(const std::string& text);
 
 /// A number for a person: "%.4g"; "none" for NaN.
@@ -30,7 +30,7 @@ HtmlCell count_cell(std::int64_t n);
 
 struct HtmlTable {
   std::string id;                    ///< "": none
-  std::string caption;               ///< plain text, which readers of screens tell first
+  std::string caption;               ///< plain text, which readers of screens read first
   std::vector<std::string> columns;  ///< plain text
   bool sortable = false;
   std::vector<std::vector<HtmlCell>> rows = {};  ///< the first cell of each is its head

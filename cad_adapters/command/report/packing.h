@@ -8,8 +8,9 @@
 
 namespace command {
 
-/// How numbers are prepared for compression. `delta`: each is replaced by its difference from the one `stride` before
-/// it (the first ones from 0), modulo 2^(8 bytes), and differences are folded: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
+/// The preparation of numbers for compression. `delta`: each is replaced by its difference from the number `stride`
+/// before it (the first ones from 0), modulo 2^(8 bytes). Differences are folded: 0, -1, 1, -2, ... become 0, 1, 2, 3,
+/// ...
 enum class Coding { plain, delta };
 
 struct PackedNumbers {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that a report tells.
+// The content of a report.
 #pragma once
 
 #include <carreau.h>

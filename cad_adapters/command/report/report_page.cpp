@@ -14,7 +14,7 @@
 namespace command {
 namespace {
 
-/// Base64 of bytes in hexadecimal digits, as a content security policy wants a hash.
+/// Base64 of bytes in hexadecimal digits, as content security policies require for a hash.
 std::string base64_of_hex(std::string_view digits) {
   std::string bytes;
   for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
@@ -22,7 +22,7 @@ std::string base64_of_hex(std::string_view digits) {
   return base64_of(bytes);
 }
 
-/// The frame with each {{name}} replaced, once: what a part says is not looked at again.
+/// The frame with each {{name}} replaced, once: names within parts are not replaced.
 std::string filled(std::string_view frame, const std::map<std::string_view, std::string>& parts) {
   std::string page;
   for (std::size_t at = 0; at < frame.size();) {
@@ -42,13 +42,13 @@ std::string plural(std::int64_t n, const char* one, const char* many) {
   return count_text(n) + " " + (n == 1 ? one : many);
 }
 
-/// The elements, and the ones that are drawn in another way.
+/// Describes the elements, and how the page draws them.
 std::string lead_of(const ReportContent& content) {
   const MeshCheck& c = content.check;
   std::string text = plural(c.faces, "face", "faces") + ", " + plural(c.vertices, "vertex", "vertices") + ", " +
                      plural(c.triangles, "triangle", "triangles") + ".";
   if (c.cells.triangles6 + c.cells.quads8 > 0)
-    text += " Elements of order 2 are drawn curved, and measured straight between their corners but where this says otherwise.";
+    text += " Elements of order 2 are drawn curved, and measured straight between their corners unless stated otherwise.";
   if (c.cells.quads4 + c.cells.quads8 > 0)
     text += std::string(" A quadrilateral is ") + (c.cells.quads8 > 0 ? "picked" : "drawn") + " as two triangles, and counts once in histograms.";
   if (!c.measured) text += " Indices out of range or numbers that are not finite: the mesh can be neither drawn nor measured.";

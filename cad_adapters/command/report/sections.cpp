@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A member of an object, null where there is none.
+/// A member of an object; null if it is missing.
 Json member(const Json& object, const char* name) {
   return object.is_object() && object.contains(name) ? object.at(name) : Json();
 }
@@ -60,7 +60,7 @@ void add_topology(const MeshCheck& c, HtmlTable& table) {
   table.rows.push_back(row("Edges of more than two triangles", count_cell(r.shared_edges)));
   table.rows.push_back(row("Triangles turned over against their neighbours", count_cell(r.turned_triangles)));
   table.rows.push_back(row("Folds inside faces", count_cell(r.folds)));
-  table.rows.push_back(row("Vertices at the place of another one", count_cell(r.double_points)));
+  table.rows.push_back(row("Vertices at the place of another vertex", count_cell(r.double_points)));
   table.rows.push_back(row("Pairs of triangles that cross", count_cell(c.crossings.pairs)));
 }
 
@@ -106,8 +106,8 @@ std::string verdict_section(const ReportContent& content) {
       "entities of the file could not be read");
   add(static_cast<std::int64_t>(texts(member(content.run, "warnings")).size()), "warning", "warnings");
   for (const std::string& sentence : texts(member(member(content.run, "delivered"), "not_met"))) wrong.push_back(sentence);
-  if (wrong.empty()) return "<p class=\"verdict good\"><strong>Nothing is wrong with this mesh.</strong></p>\n";
-  return "<div class=\"verdict bad\"><p><strong>To look at:</strong></p>" + list_of(wrong) + "</div>\n";
+  if (wrong.empty()) return "<p class=\"verdict good\"><strong>No problems found.</strong></p>\n";
+  return "<div class=\"verdict bad\"><p><strong>Problems:</strong></p>" + list_of(wrong) + "</div>\n";
 }
 
 std::string histograms_section(const ReportContent& content) {
@@ -123,28 +123,28 @@ std::string asked_section(const ReportContent& content) {
                   .columns = {"Parameter", "Value", "Default", "Meaning"}};
   for (const AskedValue& each : content.asked)
     table.rows.push_back({text_cell(each.name), text_cell(each.value), text_cell(each.usual), text_cell(each.help)});
-  return section("asked", "What was asked", html_of(table));
+  return section("asked", "Parameters", html_of(table));
 }
 
 std::string delivered_section(const ReportContent& content) {
   const Json delivered = member(content.run, "delivered");
   if (delivered.is_null()) return "";
   HtmlTable table{.id = "measures",
-                  .caption = "The mesh against the surface and the sizes that were asked",
-                  .columns = {"Measure", "Of each", "Mean", "Least", "1 % below", "1 % above", "Largest", "Limit", "Beyond"}};
+                  .caption = "The mesh against the surface and the prescribed sizes",
+                  .columns = {"Measure", "Entities", "Mean", "Least", "1 % below", "1 % above", "Largest", "Limit", "Beyond"}};
   const Json measures = member(delivered, "measures");
   for (const auto& [name, m] : measures.items())
-    if (!member(m, "mean").is_null()) table.rows.push_back(measure_row(name, m));  // what was not measured has none
+    if (!member(m, "mean").is_null()) table.rows.push_back(measure_row(name, m));  // measures that were not computed have no mean
   const std::string share = number_text(100 * real(member(delivered, "lengths_in_range")));
-  return section("delivered", "What was delivered",
-                 "<p>" + share + " % of the edges have metric lengths from 0.7071 to 1.414; 1 is as asked.</p>\n" +
+  return section("delivered", "Measures",
+                 "<p>" + share + " % of the edges have metric lengths from 0.7071 to 1.414; 1 is as prescribed.</p>\n" +
                      html_of(table) + sub_list("Not met", texts(member(delivered, "not_met"))));
 }
 
 std::string warnings_section(const ReportContent& content) {
   constexpr std::size_t pairs = 100;  // of faces
   return section("warnings", "Warnings",
-                 sub_list("Of the run", texts(member(content.run, "warnings"))) +
+                 sub_list("Messages of the run", texts(member(content.run, "warnings"))) +
                      sub_list("Not read", texts(member(content.run, "not_read"))) +
                      sub_list("Defects", lines_of(content.check.sentences)) +
                      sub_list("Triangles that cross", sentences_of(content.check.crossings, pairs)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections of a report: each is "" where there is nothing to tell.
+// The sections of a report: each is "" if it has no content.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ std::string histograms_section(const ReportContent& content);
 std::string faces_section(const ReportContent& content);
 std::string asked_section(const ReportContent& content);
 std::string delivered_section(const ReportContent& content);
-/// Warnings of the run, what could not be read, defects, triangles that cross.
+/// Warnings of the run, unreadable entities, defects, triangles that cross.
 std::string warnings_section(const ReportContent& content);
 /// Counts, borders, parts, lengths, angles.
 std::string mesh_section(const ReportContent& content);

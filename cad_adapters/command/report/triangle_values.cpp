@@ -60,7 +60,7 @@ std::vector<std::uint8_t> halves_of(const MeshArrays& mesh) {
 std::vector<TriangleValues> shape_values(const MeshArrays& mesh, const std::vector<std::uint8_t>& halves) {
   TriangleValues quality{.key = "quality", .title = "Shape quality", .unit = "",
       .help = "Q2 of a triangle: 4 √3 area over the sum of its squared sides, 1 when it is equilateral, 0 when it is flat. "
-              "Of a quadrilateral: 1 when it is square."};
+              "For a quadrilateral: 1 when it is square."};
   TriangleValues size{.key = "size", .title = "Size", .unit = "model length",
       .help = "Side of the equilateral triangle of the same area.", .scale = Scale::logarithmic};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -81,7 +81,7 @@ std::vector<TriangleValues> surface_values(carreau_session* session, std::size_t
                       .help = "Largest distance of the surface from its triangle, at sample points.", .scale = Scale::logarithmic}),
           of_session(session, CARREAU_MEASURE_A1, triangles,
                      {.key = "a1", .title = "Angle A1", .unit = "degrees",
-                      .help = "Largest angle between the normal of a triangle and those of the surface above it."})};
+                      .help = "Largest angle between the normal of a triangle and normals of the surface above it."})};
 }
 
 }  // namespace command

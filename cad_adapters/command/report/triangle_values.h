@@ -22,11 +22,11 @@ struct TriangleValues {
   std::string help;   ///< a sentence
   Scale scale = Scale::linear;
   std::vector<double> values = {};
-  double low = 0, high = 1;  ///< ends of the colours and of the histogram, low < high; values beyond have those of the ends
+  double low = 0, high = 1;  ///< ends of the colours and of the histogram, low < high; values beyond get the end colours
 };
 
-/// The halves of quadrilaterals among the triangles of a mesh: 0: the triangle is an element itself; 1, 2: its first and
-/// its second half, (a, b, c) and (a, c, d).
+/// The halves of quadrilaterals among the triangles of a mesh. 0: the triangle is an element itself; 1, 2: the first
+/// and the second half of a quadrilateral, (a, b, c) and (a, c, d).
 std::vector<std::uint8_t> halves_of(const MeshArrays& mesh);
 
 /// Quality: Q2 (HDR eq. 1.6) of a triangle, the shape of a quadrilateral (HDR sec. 1.1.1) for both its halves. Size: the

@@ -105,7 +105,7 @@ std::vector<std::uint32_t> sides(const ViewerMesh& viewer) {
   return numbers;
 }
 
-/// Ends of what there is, for the codes; those of the colours may be narrower.
+/// Ends of the values, for the codes; the ends of the colours may be narrower.
 std::pair<double, double> ends_of(const TriangleValues& values) {
   constexpr double smallest_share = 1e-9;  // of a logarithmic scale, as for rounding errors
   double low = HUGE_VAL, high = -HUGE_VAL;

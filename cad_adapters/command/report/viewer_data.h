@@ -17,8 +17,8 @@ struct ViewerMesh {
   const std::vector<TriangleValues>& values;
 };
 
-/// <script> elements that hold data and are not run. `viewer-data`, JSON: counts, box, faces with names and colours, scales of
-/// values, and for each array how its numbers are packed (packing.h). `data-NAME`, base64: the arrays
+/// <script> elements that hold data and are not run. `viewer-data`, JSON: counts, box, faces with names and colours,
+/// scales of values, and the packing of each array (packing.h). `data-NAME`, base64: the arrays
 ///   positions  3 a vertex; x = low + number * quantum of the box
 ///   corners    3 a triangle: vertices, from 0
 ///   faces      of each triangle: index in the list of faces, ascending references
@@ -26,7 +26,7 @@ struct ViewerMesh {
 ///              diagonal of a quadrilateral
 ///   KEY        of each triangle, values.key: 0: none, else 1 to 65535 from the lowest to the highest value, by the
 ///              logarithm on a logarithmic scale
-/// Where elements are curved, what is drawn in the place of their triangles; positions of further points follow those of vertices:
+/// If elements are curved, pieces are drawn in the place of their triangles; further positions follow the vertices:
 ///   piece-corners   3 a piece: points
 ///   piece-triangle  of each piece: its triangle, ascending
 ///   piece-sides     of each piece: as sides, bit 3 + k: the side lies inside an element

@@ -32,7 +32,7 @@ std::string quoted(double x) {
   return text;
 }
 
-/// The fuse of the parts of a file, and what became of each of its shapes.
+/// The fuse of the parts of a file, and the images of each of its shapes.
 class Fuse {
  public:
   Fuse(const TopTools_ListOfShape& parts, double tolerance) {
@@ -72,8 +72,8 @@ std::string name_of(const ShapeFile& file, const TopoDS_Shape& part, int number)
   return "solid " + std::to_string(number);
 }
 
-/// A sentence about the first solid whose images do not have its volume; "" when there is none.
-/// Surfaces may move by the tolerance.
+/// A sentence about the first solid whose images do not have its volume; "" when all have. Surfaces may move by the
+/// tolerance.
 std::string find_wrong_volume(const ShapeFile& file, Fuse& fuse, double tolerance) {
   TopTools_IndexedMapOfShape solids;
   TopExp::MapShapes(file.shape, TopAbs_SOLID, solids);

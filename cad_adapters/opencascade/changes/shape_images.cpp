@@ -23,7 +23,7 @@ void add_images(const ImagesOf& images_of, const TopoDS_Shape& shape, TopTools_L
   for (TopoDS_Iterator it(shape); it.More(); it.Next()) add_images(images_of, it.Value(), images);
 }
 
-/// The images of a part; those of a shell or a compound in one compound.
+/// The images of a part; the images of a shell or a compound in one compound.
 TopTools_ListOfShape follow(const ImagesOf& images_of, const TopoDS_Shape& part) {
   TopTools_ListOfShape images;
   add_images(images_of, part, images);

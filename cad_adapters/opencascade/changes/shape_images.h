@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes that an operation of OpenCASCADE made of others, and what both measure.
+// Shapes that an operation of OpenCASCADE made of others, and measures of both.
 #pragma once
 
 #include <TopAbs_ShapeEnum.hxx>

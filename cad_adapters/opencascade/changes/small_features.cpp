@@ -222,7 +222,7 @@ class Finder {
     return group;
   }
 
-  /// Adds faces whose neighbours are all in the group: bottoms and caps. Returns how many.
+  /// Adds faces whose neighbours are all in the group: bottoms and caps. Returns their number.
   int close(std::vector<int>& group) {
     std::set<int> inside(group.begin(), group.end());
     int added = 0;
@@ -248,7 +248,7 @@ class Finder {
     found_.push_back({.kind = kind, .size = size, .faces = std::move(group), .place = {p.X(), p.Y(), p.Z()}});
   }
 
-  /// Cylinders and cones that go round an axis, in one face or several, with what closes them.
+  /// Finds cylinders and cones that go round an axis, in one face or several, with their caps.
   void find_round(const char* kind, bool concave) {
     for (int f = 1; f <= faces_.Extent(); ++f) {
       const auto is_round = [&](int g) {
@@ -279,7 +279,7 @@ class Finder {
     return turn;
   }
 
-  /// Round faces that go over smoothly into two faces at least, with those that they meet.
+  /// Finds round faces that go over smoothly into at least two faces, with adjacent round faces.
   void find_fillets() {
     const auto is_fillet = [&](int f) {
       const Look& l = look(f);
@@ -297,7 +297,7 @@ class Finder {
     }
   }
 
-  /// Whether the two longest edges to other faces are such.
+  /// True if `holds` for the two longest edges to other faces, and these are two faces.
   template <typename Holds>
   static bool has_two(const Look& look, Holds&& holds) {
     std::vector<Meeting> meetings;
@@ -330,7 +330,7 @@ class Finder {
   std::vector<SmallFeature> found_;
 };
 
-/// What is left of the faces of a file, from one operation to the next.
+/// The remaining faces of a file, from one operation to the next.
 class Remains {
  public:
   explicit Remains(const ShapeFile& file) {

@@ -11,7 +11,7 @@
 
 namespace carreau_occ {
 
-/// A feature of a solid, and what became of it.
+/// A feature of a solid, and the result for it.
 struct SmallFeature {
   std::string kind;             ///< "hole", "boss", "fillet", "chamfer", "step", "small face"
   double size = 0;              ///< a diameter of holes and bosses, a radius of fillets, a width of the others
@@ -24,10 +24,9 @@ struct SmallFeature {
 /// first face. A face belongs to one feature at most.
 std::vector<SmallFeature> find_small_features(const ShapeFile& file, double size);
 
-/// Removes them kind by kind where OpenCASCADE can extend the faces around (BOPAlgo_RemoveFeatures). What it cannot
-/// remove stays; so do all features of a kind when the solids would not stay closed, or would change their volume by
-/// more than the features' areas times `size`. Names, colours and doubts follow. Throws Standard_Failure when
-/// OpenCASCADE does.
+/// Removes them kind by kind where OpenCASCADE can extend the faces around (BOPAlgo_RemoveFeatures); others stay. All
+/// features of a kind stay when the solids would not stay closed, or when their volume would change by more than the
+/// features' areas times `size`. Names, colours and doubts follow. Throws Standard_Failure when OpenCASCADE does.
 std::vector<SmallFeature> remove_small_features(ShapeFile& file, double size, const Message_ProgressRange& progress);
 
 }  // namespace carreau_occ

@@ -25,7 +25,7 @@ double factor_to(const ShapeFile& file, const std::string& unit) {
   return unit_of(file.unit)->millimetres / to->millimetres;
 }
 
-/// One compound of the shape and of the parts that labels and doubts refer to keeps what they share.
+/// Scales one compound of the shape and of the parts of labels and doubts, so that shared entities stay shared.
 void scale_shape(ShapeFile& file, double factor) {
   TopoDS_Compound all;
   const BRep_Builder builder;

@@ -16,9 +16,10 @@ struct UnknownUnit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Multiplies the coordinates of a shape that is in millimetres, or in no unit, so that they are in `unit` (nm, um, mm,
-/// cm, dm, m, km, mil, in, ft, yd; "": as they are), and then by `scale`. Tolerances follow; so do the parts of labels
-/// and doubts. Throws UnknownUnit with a sentence: no such unit, or a file without one. Throws what OpenCASCADE throws.
+/// Multiplies the coordinates of a shape in millimetres, or without unit, so that they are in `unit`, and then by
+/// `scale`. Units: nm, um, mm, cm, dm, m, km, mil, in, ft, yd; "": as they are. Tolerances follow; so do the parts of
+/// labels and doubts. Throws UnknownUnit with a sentence: no such unit, or a file without one. Passes exceptions of
+/// OpenCASCADE on.
 void change_lengths(ShapeFile& file, const std::string& unit, double scale);
 
 struct LengthUnit {

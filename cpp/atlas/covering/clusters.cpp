@@ -78,8 +78,8 @@ class Growth {
     }
   }
 
-  /// Would the cluster stay a disc with v, and v be in a triangle of it? Its neighbours of the cluster must follow one
-  /// another.
+  /// Returns whether the cluster stays a disc with v, and v is in a triangle of it. The neighbours of v in the cluster
+  /// must follow one another.
   [[nodiscard]] bool may_join(std::int32_t v, std::int32_t cluster) {
     const auto& fan = fans_.around(v);
     std::size_t runs = 0, count = 0;
@@ -107,7 +107,7 @@ class Growth {
     return any;
   }
 
-  /// What no cluster takes as a disc joins a neighbour, and defects() tells.
+  /// Vertices that no cluster takes as a disc join a neighbour, and defects() reports them.
   void join_rest() {
     for (bool any = true; any;) {
       any = false;
@@ -187,7 +187,7 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
   if (frame.least_cosine < thresholds::steepest_cosine)
     return {thresholds::steep + thresholds::steepest_cosine - frame.least_cosine,
             cluster + " is far from its plane: the normal at vertex " + std::to_string(frame.steepest + 1) +
-                " makes an angle of cosine " + short_number(frame.least_cosine) + " with that of the plane"};
+                " makes an angle of cosine " + short_number(frame.least_cosine) + " with the normal of the plane"};
   const auto projected = [&](const std::vector<std::int32_t>& border) {
     Polygon p;
     for (const std::int32_t v : border) p.push_back(frame.project(surface.vertices[static_cast<std::size_t>(v)]));
@@ -196,7 +196,7 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
   try {
     const Polygon inner = projected(ring.inner_border), outer = projected(ring.outer_border);
     require_simple(inner, "the pure zone"), require_simple(outer, "the region"), require_annulus(inner, outer);
-    // No defect, but a shape that distorts its chart: no sentence.
+    // Not a defect, but a shape that distorts its chart: the sentence is empty.
     const StarCentre star = star_centre(inner);
     if (!star.found) return {thresholds::no_star, ""};
     const double room = std::min({star.room, room_around(outer, star.place), least_width(inner, outer, star.place)});

@@ -13,19 +13,19 @@ using Partition = std::vector<std::int32_t>;
 
 std::vector<std::vector<std::int32_t>> members_of(const Partition& partition);
 
-/// Clusters around seeds, each a disc with a pure zone: seeds are `hops` * 2 + 1 edges apart, and vertices join the
-/// nearest where it stays a disc. Most, but not all, clusters are then as a covering wants them; the others are told by
-/// `defects`. Deterministic.
+/// Clusters around seeds, each a disc with a pure zone. Seeds are `hops` * 2 + 1 edges apart, and a vertex joins the
+/// nearest cluster that stays a disc. Most clusters then meet the conditions of a covering; `defects` reports the
+/// others. Deterministic.
 Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hops);
 
-/// Of each cluster, what keeps it from being part of a well-formed covering; empty: nothing. Regions that are steep or
-/// fold count.
+/// The defect of each cluster that keeps it from being part of a well-formed covering; empty for sound clusters.
+/// Regions that are steep or fold count.
 std::vector<std::string> defects(const Triangulation& surface, const Fans& fans, const Partition& partition);
-/// Of one cluster.
+/// The defect of one cluster.
 std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition,
                       const std::vector<std::int32_t>& members);
-/// 0 for a cluster without a defect whose pure zone is well star-shaped; the larger, the further from it; from 1 on, a
-/// defect.
+/// Penalty of a cluster: 0 without a defect and with a well star-shaped pure zone, larger the farther it is from that.
+/// From 1 on it is a defect.
 double cluster_badness(const Triangulation& surface, const Fans& fans, const Partition& partition,
                        const std::vector<std::int32_t>& members);
 

@@ -12,7 +12,7 @@
 
 namespace carreau::atlas {
 
-/// A corner of a triangle T: which T, and which of its corners.
+/// A corner of a triangle T: the index of T, and the corner's index.
 struct Corner {
   std::int32_t triple = 0;
   int corner = 0;
@@ -21,13 +21,13 @@ struct Corner {
 /// The domain Omega_i of a region.
 struct Chart {
   Frame frame;
-  Annulus annulus;                    ///< what it shares; phi has a period of pi / 3 a corner
+  Annulus annulus;                    ///< the shared region; phi has a period of pi / 3 a corner
   std::vector<Corner> corners;        ///< counterclockwise: corner k has phi from k pi / 3 to (k + 1) pi / 3
   std::vector<std::int32_t> members;  ///< vertices of its cluster
   std::vector<std::int32_t> around;   ///< vertices of the region's border
 };
 
-/// Three charts that meet, counterclockwise, and which of their corners it is.
+/// Three charts that meet, counterclockwise, and the index of the corner in each.
 struct Triple {
   std::array<std::int32_t, 3> chart{0, 0, 0};
   std::array<std::int32_t, 3> slot{0, 0, 0};
@@ -43,13 +43,13 @@ struct CoveringOptions {
 
 class Covering {
  public:
-  /// With clusters of its own, and triangles divided in four as long as they find none. Throws InvalidArgument (see
+  /// Makes the clusters itself, and divides triangles in four until clusters are found. Throws InvalidArgument (see
   /// Fans), DomainError with a vertex.
   explicit Covering(const Triangulation& surface, const CoveringOptions& options = {});
-  /// With given clusters. Throws DomainError with the vertex where they do not make a well-formed covering.
+  /// Uses given clusters. Throws DomainError with the vertex where they do not make a well-formed covering.
   Covering(const Triangulation& surface, const Partition& partition, const CoveringOptions& options);
 
-  /// What is covered: the triangulation given, or its division.
+  /// The covered surface: the triangulation given, or its division.
   [[nodiscard]] const Triangulation& surface() const { return surface_; }
   [[nodiscard]] const Fans& fans() const { return fans_; }
   [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }
@@ -63,12 +63,12 @@ class Covering {
   };
   template <typename Number>
   [[nodiscard]] std::optional<OnT<Number>> on_t(std::size_t chart, const Pair<Number>& m) const;
-  /// Point of the chart at a corner of a T. Beyond its region, without meaning.
+  /// Point of the chart at a corner of a T. Beyond its region the result is meaningless.
   template <typename Number>
   [[nodiscard]] Pair<Number> from_t(std::int32_t triple, int corner, const Pair<Number>& place) const;
 
   [[nodiscard]] Zone zone(std::size_t chart, const Vec2& m) const;
-  /// The transition phi_ij. Empty where m is in no zone that both share.
+  /// The transition phi_ij. Empty if m is in no zone that both share.
   [[nodiscard]] std::optional<Vec2> transition(std::size_t i, std::size_t j, const Vec2& m) const;
   /// Weights of the three corners of a T at a place: they are alpha_i, and their sum is 1 (Atlas sec. 5.5.2).
   template <typename Number>

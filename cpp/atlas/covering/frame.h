@@ -9,7 +9,7 @@ namespace carreau::atlas {
 /// Orthonormal, right-handed.
 struct Frame {
   Vec3 origin{0, 0, 0}, u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
-  /// The smallest cosine between the normal and that of a triangle of the region; below 0 the region folds in
+  /// The smallest cosine between the normal and the normal of a triangle of the region; below 0 the region folds in
   /// projection.
   double least_cosine = 0;
   std::int32_t steepest = 0;  ///< a vertex of that triangle
@@ -18,8 +18,8 @@ struct Frame {
   [[nodiscard]] double height(const Vec3& p) const { return dot(normal, p - origin); }
 };
 
-/// Of all triangles that touch the members: the normal is their area's, corrected until the steepest one cannot be made
-/// less so by much.
+/// The frame of all triangles that touch the members: the normal of their area, corrected until the steepest triangle
+/// cannot become much less steep.
 Frame frame_of(const Triangulation& surface, const Fans& fans, const std::vector<std::int32_t>& members);
 
 /// Area vector of the triangle.

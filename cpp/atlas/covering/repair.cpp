@@ -57,8 +57,8 @@ class Repair {
       bad_[static_cast<std::size_t>(c)] = badness(members_[static_cast<std::size_t>(c)]);
   }
 
-  /// Neighbours in the cluster, which must follow one another around the vertex, and be two or more: else no disc comes
-  /// of it.
+  /// Neighbours in the cluster: they must follow one another around the vertex, and be two or more; otherwise it is no
+  /// disc.
   [[nodiscard]] bool joins_well(std::int32_t v, std::int32_t to) {
     const auto& fan = fans_.around(v);
     std::size_t runs = 0, count = 0;
@@ -69,7 +69,7 @@ class Repair {
     return count >= 2 && runs == 1;
   }
 
-  /// One move of a vertex in or beside the cluster, or of two that are neighbours to the same cluster.
+  /// Makes one improving move of a vertex in or beside the cluster, or of two neighbouring vertices to one cluster.
   bool better(std::size_t c) {
     std::set<std::int32_t> near(members_[c].begin(), members_[c].end());
     for (const std::int32_t m : members_[c]) near.insert(fans_.around(m).begin(), fans_.around(m).end());

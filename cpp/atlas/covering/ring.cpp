@@ -28,7 +28,7 @@ class RingWalk {
     find_triples();
     borders(defect);
     if (defect.empty() && ring_.spokes.size() != all)
-      defect = "the cluster with vertex " + name(own()) + " is no disc: it has a hole";
+      defect = "the cluster with vertex " + name(own()) + " is not a disc: it has a hole";
     if (defect.empty() && ring_.triples.size() < 2)
       defect = "the cluster with vertex " + name(own()) + " has " + std::to_string(ring_.triples.size()) +
                " places where three clusters meet; it needs two";
@@ -39,7 +39,7 @@ class RingWalk {
   [[nodiscard]] std::int32_t of(std::int32_t v) const { return cluster_[static_cast<std::size_t>(v)]; }
   [[nodiscard]] std::int32_t own() const { return members_.front(); }
 
-  /// Counts them, and looks whether each vertex of the cluster is in a triangle of the pure zone.
+  /// Counts them, and checks whether each vertex of the cluster is in a triangle of the pure zone.
   std::size_t spokes_of_all(std::string& defect) {
     std::size_t count = 0;
     for (const std::int32_t v : members_) {
@@ -93,7 +93,7 @@ class RingWalk {
     const auto twice = std::adjacent_find(border.begin(), border.end());
     if (twice != border.end())
       defect =
-          what + " with vertex " + name(own()) + " is no disc: its border passes vertex " + name(*twice) + " twice";
+          what + " with vertex " + name(own()) + " is not a disc: its border passes vertex " + name(*twice) + " twice";
     else if (border.size() < 3)
       defect = what + " with vertex " + name(own()) + " has a border of fewer than three vertices";
   }

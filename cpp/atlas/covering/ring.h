@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a cluster of vertices shares with others: the ring of triangles around its pure zone (Atlas sec. 5.5).
+// The ring of triangles around the pure zone of a cluster of vertices, which it shares with other clusters (Atlas sec.
+// 5.5).
 #pragma once
 
 #include <optional>
@@ -10,13 +11,13 @@
 
 namespace carreau::atlas {
 
-/// An edge from a vertex of the cluster to one of another cluster.
+/// An edge from a vertex of the cluster to a vertex of another cluster.
 struct Spoke {
   std::int32_t inner = 0, outer = 0;
   double phi = 0;  ///< set by the covering
 };
 
-/// Triangles that touch a cluster and lie not inside of it, counterclockwise: triangle k is between spokes k and k + 1.
+/// Triangles that touch a cluster and are not inside it, counterclockwise: triangle k is between spokes k and k + 1.
 struct Ring {
   std::vector<Spoke> spokes;
   std::vector<std::size_t> triples;        ///< triangles of three clusters, ascending
@@ -25,8 +26,8 @@ struct Ring {
   std::vector<std::int32_t> outer_border;  ///< of the region
 };
 
-/// The ring of a cluster. When the cluster is no disc, its region none, or no three clusters meet beside it, `defect`
-/// tells it with a vertex.
+/// The ring of a cluster. If the cluster or its region is not a disc, or no three clusters meet beside it, `defect`
+/// describes this with a vertex.
 Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members,
              std::string& defect);
 

@@ -13,7 +13,7 @@
 namespace carreau::atlas {
 namespace {
 
-/// A direction from the centre of the pure zone and the phi that it has.
+/// A direction from the centre of the pure zone and its phi.
 struct Bearing {
   double angle, phi;
 };
@@ -74,7 +74,7 @@ class StarRing {
     return list;
   }
 
-  /// Angles unwrapped, those left out that do not increase, as of triangles that lie askew. Within one turn.
+  /// Unwraps angles, and drops angles that do not increase, as of triangles that lie askew. Within one turn.
   [[nodiscard]] static std::vector<Bearing> increasing(const std::vector<Bearing>& list) {
     std::vector<Bearing> kept;
     for (const Bearing& b : list) {

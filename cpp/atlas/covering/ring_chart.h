@@ -13,9 +13,9 @@ struct RingChart {
   std::vector<double> phi;
 };
 
-/// Of a ring with phi at its spokes. Where the pure zone is star-shaped, the inner border gets vertices more, so that
-/// the middles of spokes and of triples have the same phi in all charts that share them: two charts agree best where
-/// both count most.
+/// The chart of a ring with phi at its spokes. If the pure zone is star-shaped, the inner border gets additional
+/// vertices. The middles of spokes and triples then have equal phi in all charts that share them. Two charts agree best
+/// where both have large weights.
 RingChart chart_of_ring(const Triangulation& surface, const Frame& frame, const Ring& ring);
 
 }  // namespace carreau::atlas

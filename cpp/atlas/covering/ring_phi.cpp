@@ -18,7 +18,7 @@ class RingPhi {
       for (std::size_t s = from; s < to; ++s) whole += border_length(s);
       double at = 0;
       for (std::size_t s = from; s <= to; ++s) {
-        // Spokes behind the last triple, at the start of the list, have phi below that of the first triple.
+        // Spokes behind the last triple, at the start of the list, have a smaller phi than the first triple.
         const double turns = s >= n ? -static_cast<double>(count) : 0;
         ring_.spokes[s % n].phi = sixth_turn * turns + phi(k, at, whole);
         if (s < to) at += border_length(s);
@@ -30,12 +30,12 @@ class RingPhi {
   [[nodiscard]] double length(std::int32_t a, std::int32_t b) const {
     return norm(surface_.vertices[static_cast<std::size_t>(a)] - surface_.vertices[static_cast<std::size_t>(b)]);
   }
-  /// Of the edge that the triangle behind a spoke has on a border.
+  /// Length of the edge that the triangle behind a spoke has on a border.
   [[nodiscard]] double border_length(std::size_t s) const {
     const Spoke &a = ring_.spokes[s % ring_.spokes.size()], &b = ring_.spokes[(s + 1) % ring_.spokes.size()];
     return a.inner != b.inner ? length(a.inner, b.inner) : length(a.outer, b.outer);
   }
-  /// Half of what a triple counts: the same for its three clusters.
+  /// Half of the length of a triple: equal for its three clusters.
   [[nodiscard]] double half_of_triple(std::size_t k) const {
     const std::size_t s = ring_.triples[k];
     const Spoke &a = ring_.spokes[s], &b = ring_.spokes[(s + 1) % ring_.spokes.size()];

@@ -19,7 +19,7 @@ struct Polar {
 /// Radius of the pure zone in each corner.
 inline constexpr double inner_length = std::numbers::sqrt3 / 4;
 
-/// Where the region of a corner ends. Even in phi about each side, so that it is C1 where triangles T share one.
+/// The outer end of the region of a corner. Even in phi about each side, so that it is C1 where triangles T share one.
 template <typename Number>
 Number outer_length(const Number& phi) {
   using std::cos, std::sqrt;

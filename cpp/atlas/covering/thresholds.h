@@ -4,19 +4,18 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Smallest cosine between the normal of a triangle and that of its cluster's plane. At .2, 78 degrees, lengths in the
-/// plane are a fifth of those on the surface: as much as a height field can bear.
+/// Smallest cosine between the normal of a triangle and the normal of its cluster's plane. At .2, 78 degrees, lengths
+/// in the plane are a fifth of lengths on the surface, the limit of a height field.
 inline constexpr double steepest_cosine = 0.2;
 
-/// How bad defects of clusters are for their repair: one that is no disc is worse than one that folds, that than a
-/// steep one.
+/// Penalties for the defects of clusters: no disc is worse than a fold, and a fold worse than a steep triangle.
 inline constexpr double no_disc = 3, folded = 2, steep = 1;
 
-/// The same for a pure zone without a point from which it is seen whole, and how far (as a share of its extent) that
-/// point should be from the lines of all edges: charts with one pivot distort least.
+/// Penalty of a pure zone that is not star-shaped. Room (share of the zone's extent) between its centre and the lines
+/// of all edges, below which a star-shaped zone has a penalty. Charts with one pivot distort least.
 inline constexpr double no_star = 0.5, star_room = 0.15;
 
-/// Passes over the clusters with defects; of the surfaces tried, none needed more than five.
+/// Passes over the clusters with defects; no surface in the tests needed more than five.
 inline constexpr int repair_passes = 20;
 /// Passes that better shapes, too.
 inline constexpr int shape_passes = 2;
@@ -24,7 +23,7 @@ inline constexpr int shape_passes = 2;
 /// How often triangles are divided in four where clusters stay without a plane: 64 triangles in place of one.
 inline constexpr int subdivisions = 3;
 
-/// Share of clusters without a defect from which moves of single vertices can mend the others; below, triangles are
+/// Share of clusters without a defect from which moves of single vertices can repair the others; below, triangles are
 /// divided first.
 inline constexpr double repairable = 0.8;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A closed triangulated surface and who is beside whom.
+// A closed triangulated surface and its neighbourhoods.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct Triangulation {
 /// Neighbours of vertices, in order.
 class Fans {
  public:
-  /// Throws InvalidArgument with the vertices, from 1: a border, an edge of three triangles, triangles that are turned
-  /// differently, a vertex where several fans meet, indices and coordinates that are none.
+  /// Throws InvalidArgument with the vertices, from 1, for a border, an edge of three triangles, or triangles that are
+  /// turned differently. Also for a vertex where several fans meet, and invalid indices and coordinates.
   explicit Fans(const Triangulation& surface);
 
   /// Counterclockwise, each once; with the next one a triangle.

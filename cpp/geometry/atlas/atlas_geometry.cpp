@@ -45,7 +45,7 @@ class AtlasCad final : public Cad {
 /// A side of a T, by the corner that is not on it.
 using SideOfT = std::pair<std::int32_t, int>;
 
-/// The same for both charts of a double zone: the smaller of the sides of its two triangles T.
+/// The zone behind side k, equal for both charts of a double zone: the smaller of the sides of its two triangles T.
 SideOfT zone_behind(const Chart& chart, std::size_t k) {
   const Corner &here = chart.corners[k], &next = chart.corners[(k + 1) % chart.corners.size()];
   return std::min(SideOfT{here.triple, (here.corner + 1) % 3}, SideOfT{next.triple, (next.corner + 2) % 3});

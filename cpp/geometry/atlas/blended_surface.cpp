@@ -47,8 +47,9 @@ SurfaceJet BlendedSurface::at(std::size_t chart, const Vec2& m, int order) const
 }
 
 CurveJet BlendedSurface::side(std::size_t chart, std::size_t k, double t) const {
-  // In two triangles T unfolded about their common side it is straight: the points as far from both ends of the side.
-  const double half_way = 1 / (2 * std::numbers::sqrt3);  // from the middle of the side to that of T
+  // In two triangles T unfolded about their common side it is straight: the points at equal distance from both ends of
+  // the side.
+  const double half_way = 1 / (2 * std::numbers::sqrt3);  // distance of the side's middle from T's middle
   const Jet along = half_way * Jet(t, 1, 0);
   const Polar<Jet> polar{sqrt(along * along + .25), static_cast<double>(k + 1) * sixth_turn + atan2(along, Jet(.5))};
   const Pair<Jet> m = covering_.charts()[chart].annulus.at(share_of(polar), polar.phi);

@@ -10,21 +10,22 @@
 
 namespace carreau::atlas {
 
-/// S(m) = sum of alpha_j(phi_ij m) P_j(phi_ij m): the same point whatever the chart that m is given in.
+/// S(m) = sum of alpha_j(phi_ij m) P_j(phi_ij m): the point does not depend on the chart of m.
 class BlendedSurface {
  public:
   explicit BlendedSurface(Covering covering);
 
   [[nodiscard]] const Covering& covering() const { return covering_; }
   [[nodiscard]] const Primitive& primitive(std::size_t chart) const { return primitives_[chart]; }
-  /// What was found and mended where charts disagree.
+  /// Folds that were found and repaired where charts disagree.
   [[nodiscard]] const FoldReport& folds() const { return folds_; }
   /// Point and derivatives to order two, or one for less work. Beyond the chart's region it is the chart's own
   /// primitive.
   [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m, int order = 2) const;
 
-  /// The part of a chart that is its own: of each T, what is nearer to its corner than to the others. Side k runs from
-  /// the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is C1.
+  /// The border of a chart's face: the face holds the points of each T that are nearer to its corner than to the
+  /// others. Side k runs from the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is
+  /// C1.
   [[nodiscard]] CurveJet side(std::size_t chart, std::size_t k, double t) const;
 
  private:
@@ -36,8 +37,8 @@ class BlendedSurface {
   FoldReport folds_;
 };
 
-/// Each chart becomes a face, whose reference is its rank from 1, trimmed to what is its own; double zones become
-/// curves, triple ones points.
+/// Each chart becomes a face, whose reference is its rank from 1, trimmed to the points nearest to it. Double zones
+/// become curves, triple ones points.
 BuiltGeometry build_atlas(std::shared_ptr<const BlendedSurface> surface);
 
 }  // namespace carreau::atlas

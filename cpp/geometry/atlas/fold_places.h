@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places at which the blended surface is looked at for folds.
+// Places at which the blended surface is checked for folds.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace carreau::atlas {
 
-/// A place as all charts that count there see it.
+/// A place with its coordinates and weights in all charts that count there.
 struct FoldPlace {
   struct Share {
     std::size_t chart = 0;
@@ -25,11 +25,11 @@ struct FoldPlace {
     Vec3 by_u{0, 0, 0}, by_v{0, 0, 0};
   };
   [[nodiscard]] Tangents tangents(const std::vector<Primitive>& primitives) const;
-  /// Jacobian of the surface beside that of its charts' planes: 1 on the planes, below 0 where it is turned over.
+  /// Jacobian of the surface over the Jacobian of its charts' planes: 1 on the planes, below 0 where it is turned over.
   [[nodiscard]] double jacobian(const std::vector<Primitive>& primitives) const;
 };
 
-/// Of all T, on a grid; what is the same for all of them is computed once.
+/// Places of all T on a grid; values common to all T are computed once.
 class FoldGrid {
  public:
   explicit FoldGrid(const Covering& covering);

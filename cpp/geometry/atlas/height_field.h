@@ -10,7 +10,7 @@
 namespace carreau::atlas {
 
 struct HeightField {
-  /// Of 1, x, y, x^2, x y, y^2, with x and y in units of `unit`.
+  /// Coefficients of 1, x, y, x^2, x y, y^2, with x and y in units of `unit`.
   std::array<double, 6> coefficient{};
   double unit = 1;
 
@@ -22,10 +22,10 @@ struct HeightField {
   }
 };
 
-/// By least squares through points (x, y, height); coefficients that the points do not determine are small.
+/// Fits points (x, y, height) by least squares; coefficients that the points do not determine are small.
 HeightField fit_heights(std::span<const Vec3> points);
 
-/// The heights of a chart's region: of its vertices, and of those of its border.
+/// The heights of a chart's region, at its vertices and at the vertices of its border.
 HeightField fit_heights(const Triangulation& surface, const Chart& chart);
 
 }  // namespace carreau::atlas

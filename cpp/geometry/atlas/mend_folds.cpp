@@ -30,7 +30,7 @@ Gram gram_of(const Covering& covering, const Chart& chart, const Primitive& p) {
         for (int c = 0; c < Primitive::terms; ++c)
           gram(r, c) += each * b[static_cast<std::size_t>(r)] * b[static_cast<std::size_t>(c)];
     }
-  // What the vertices do not determine moves little, too.
+  // Coefficients that the vertices do not determine also move little.
   for (int k = 0; k < Primitive::terms; ++k) gram(k, k) += thresholds::undetermined / size2;
   return gram;
 }
@@ -72,7 +72,7 @@ class FoldMender {
     std::vector<std::size_t> triples, charts;
   };
 
-  /// T that are folded, and their charts; watches places of theirs and of active charts that are not far from it.
+  /// Finds folded T, and their charts. Watches their places, and places of active charts that are nearly folded.
   Folds look(const std::vector<std::size_t>& triples) {
     Folds folds;
     watched_.clear();
@@ -102,7 +102,7 @@ class FoldMender {
     return sorted(std::move(list));
   }
 
-  /// Charts at folds get looser; where they are loose already, their neighbours move as well.
+  /// Charts at folds get a smaller anchor weight; if it is small already, their neighbours move as well.
   void activate(const std::vector<std::size_t>& folded) {
     for (const std::size_t i : folded) {
       if (rank_[i] == none) {
@@ -189,7 +189,7 @@ class FoldMender {
       now = then;
     }
   }
-  /// The energy after a step that is short enough, or the one before where none is.
+  /// The energy after a step that is short enough, or the previous energy if no step is.
   double step_down(const std::vector<MendRow>& pulling, double& damping, double now) {
     const Blocks right = downhill(pulling);
     for (; damping < thresholds::most_damping; damping *= 4) {
@@ -211,7 +211,7 @@ class FoldMender {
   FoldGrid grid_;
   std::vector<std::size_t> rank_;    ///< of each chart among the active ones, or none
   std::vector<std::size_t> active_;  ///< charts that move
-  std::vector<double> anchor_;       ///< of each of these: what distances from the start count
+  std::vector<double> anchor_;       ///< of each active chart: the weight of distances from the start
   std::vector<Gram> gram_;
   Blocks start_;
   std::vector<FoldPlace> watched_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Primitives moved until the blended surface is nowhere turned over.
+// Moves primitives until the blended surface is nowhere turned over.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace carreau::atlas {
 
-/// What the mend found and did.
+/// Numbers of folds found and charts moved.
 struct FoldReport {
   std::size_t folded_before = 0, folded_after = 0;  ///< triangles T with a place that is turned over, or nearly
   std::size_t mended_charts = 0;
 };
 
-/// Where the blended surface is turned over at a place of a fine grid on a T (ours), primitives of the charts there are
-/// moved, by least squares of what is missing and of distances to where they were, which count less the longer it
-/// takes. Those elsewhere are left as they are. Deterministic.
+/// Moves primitives of charts at folds: places of a fine grid on a T where the blended surface is turned over (ours). A
+/// least-squares fit combines the missing Jacobians and the distances from the initial positions; the distances'
+/// weights fall from round to round. Other primitives are not changed. Deterministic.
 FoldReport mend_folds(const Covering& covering, std::vector<Primitive>& primitives);
 
 }  // namespace carreau::atlas

@@ -15,7 +15,7 @@ using Block = Eigen::Matrix<double, Primitive::terms, 3>;
 using Blocks = std::vector<Block>;
 using Gram = Eigen::Matrix<double, Primitive::terms, Primitive::terms>;
 
-/// A residual of up to three primitives: what is missing, and how it follows their coefficients.
+/// A residual of up to three primitives: the missing Jacobian, and its derivatives by their coefficients.
 struct MendRow {
   double missing = 0;
   std::array<std::size_t, 3> rank{};  ///< of the primitives

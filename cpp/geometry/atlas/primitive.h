@@ -6,14 +6,14 @@
 
 namespace carreau::atlas {
 
-/// Three cubic polynomials of the chart's coordinates. A quadratic height field to begin with; where neighbours
-/// disagree places move along the plane, too: the transitions between charts are no projections.
+/// Three cubic polynomials of the chart's coordinates. It starts as a quadratic height field. If neighbours disagree
+/// places move along the plane, too: the transitions between charts are no projections.
 struct Primitive {
   static constexpr int terms = 10;
   template <typename Number>
   using BasisOf = std::array<Number, terms>;
   using Basis = BasisOf<double>;
-  /// Of 1, x, y, x^2, x y, y^2, x^3, x^2 y, x y^2, y^3, with x and y in units of `unit`.
+  /// Coefficients of 1, x, y, x^2, x y, y^2, x^3, x^2 y, x y^2, y^3, with x and y in units of `unit`.
   std::array<Vec3, terms> coefficient = zeros();
   double unit = 1;
 

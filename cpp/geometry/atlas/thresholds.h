@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that decide something about the surface of an atlas.
+// Thresholds of the surface of an atlas.
 #pragma once
 
 namespace carreau::atlas::thresholds {
 
-/// Parts of the grid on which each T is looked at: some 1500 places where charts share it. Folds are narrow: of the T
-/// of joint.off that are folded at places of this grid, 24 parts do not see two thirds, 48 parts three eighths.
+/// Parts of the grid on each T: some 1500 places that charts share. Folds are narrow: of the T of joint.off with folds
+/// on this grid, a grid of 24 parts misses two thirds, 48 parts three eighths.
 inline constexpr int grid_of_t = 96;
-/// Area of the surface beside that of its charts' planes: below, a place counts as turned over. Above 0, as what is
-/// nearly turned over is meshed poorly.
+/// Area of the surface over the area of its charts' planes: below, a place counts as turned over. The bound is above 0,
+/// because nearly folded places are meshed poorly.
 inline constexpr double least_jacobian = 0.15;
-/// What charts are moved for; above the last one, as distances pull back.
+/// Target for moved charts; above the last value, because distances pull back.
 inline constexpr double wanted_jacobian = 0.4;
-/// Places above need no look while charts move. Should one fold even so, the next round has it.
+/// Places above this value are not watched while charts move. If one folds nevertheless, the next round finds it.
 inline constexpr double watched_jacobian = 0.7;
 
-/// What distances from where the charts were count: at first, by what factor less in each round, and at least.
+/// Weight of distances from the initial positions: at first, factor of each round, and minimum.
 inline constexpr double first_anchor = 1, loosening = 0.3, least_anchor = 1e-4;
-/// Below this, neighbours move as well: before, charts at the fold alone, so that the mend stays local.
+/// Below this weight, neighbours move as well; before, charts at the fold alone, so that the repair stays local.
 inline constexpr double giving_way = 0.1;
 /// Mean square of values per coefficient that the vertices of a chart do not determine.
 inline constexpr double undetermined = 1e-3;

@@ -23,14 +23,14 @@ void check(const BezierPatch& patch, int face) {
            std::to_string(largest_bezier_degree));
   const auto points = static_cast<std::size_t>((patch.m + 1) * (patch.n + 1));
   if (patch.control.size() != points)
-    fail("the Bezier patch has " + std::to_string(patch.control.size()) + " control points where its degrees want " +
+    fail("the Bezier patch has " + std::to_string(patch.control.size()) + " control points, but its degrees require " +
          std::to_string(points));
   for (std::size_t i = 0; i < points; ++i)
     if (!is_finite(patch.control[i]) || patch.control[i].cwiseAbs().maxCoeff() > largest_coordinate)
       fail("a coordinate of control point " + std::to_string(i + 1) + " is not a number below 1e100");
 }
 
-/// By the order of corners: (0, 0), (1, 0), (1, 1), (0, 1).
+/// Corners in order: (0, 0), (1, 0), (1, 1), (0, 1).
 Vec3 corner(const BezierPatch& patch, int which) {
   const auto row = static_cast<std::size_t>(patch.n + 1), last = static_cast<std::size_t>(patch.m) * row;
   const std::size_t at[] = {0, last, last + row - 1, row - 1};

@@ -16,14 +16,15 @@ inline constexpr int bezier_sides = 4;
 
 struct BezierPatches {
   std::vector<BezierPatch> patches;
-  /// References of the sides of each patch; empty: to be found in space, by gluing.
+  /// References of the sides of each patch; empty: gluing finds them in space.
   std::vector<std::array<int, bezier_sides>> side_refs;
 };
 
-/// Face k, from 1, is patch k, on the left of its sides. Where side_refs says which sides are one curve, the corners at
-/// its ends become one, each the nearest of the other side's, and get references from 1 in the order of faces; else
-/// references are 0. Throws InvalidArgument: no patch, a degree that is not from 1 to largest_bezier_degree, a wrong
-/// number of points, one that is not finite or above 1e100, a reference that is not positive.
+/// Face k, from 1, is patch k, on the left of its sides. If side_refs marks several sides as one curve, the corners at
+/// its ends become one, each the nearest corner of the other side. They get references from 1 in the order of faces;
+/// else references are 0. Throws InvalidArgument for no patch, a degree that is not from 1 to largest_bezier_degree, or
+/// a wrong number of points. Also for a point that is not finite or above 1e100, and for a reference that is not
+/// positive.
 BuiltGeometry build_bezier(BezierPatches patches);
 
 }  // namespace carreau

@@ -10,8 +10,8 @@ namespace {
 /// Bernstein polynomials of a degree at t, [0], and their first and second derivatives.
 using Basis = std::array<std::array<double, largest_bezier_degree + 1>, 3>;
 
-/// B_i^k = (1 - t) B_i^(k-1) + t B_(i-1)^(k-1); derivatives are differences of those of lower degrees. `Degree`: int, or
-/// one that the compiler knows.
+/// B_i^k = (1 - t) B_i^(k-1) + t B_(i-1)^(k-1); derivatives are differences of derivatives of lower degrees. `Degree`:
+/// int, or a constant of the compiler.
 template <typename Degree>
 void bernstein_of(Degree degree, double t, int order, Basis& basis) {
   std::array<double, largest_bezier_degree + 1>& b = basis[0];

@@ -19,7 +19,8 @@ struct BezierPatch {
   std::vector<Vec3> control;  ///< (m + 1) x (n + 1), row by row; u grows from row to row
 };
 
-/// The members of `want` (a set of Want bits), exact but for rounding. Nothing else of the jet is touched.
+/// Sets the members of `want` (a set of Want bits), exact but for rounding. The other members of the jet are not
+/// touched.
 void evaluate(const BezierPatch& patch, unsigned want, const Vec2& uv, SurfaceJet& jet);
 
 }  // namespace carreau

@@ -10,9 +10,10 @@
 
 namespace carreau::discrete {
 
-/// The plane of (u, v) has a tile for each triangle, far from all others: triangle t of the surface, with the whole
+/// The plane of (u, v) has a tile for each triangle, far from all others. Triangle t of the surface, with the whole
 /// numbers (i, j) = (t mod w, t div w), has the corners (d i, d j), (d i + 1, d j), (d i, d j + 1), d = tile_distance.
-/// Faces are its regions, and do not matter for where a point is. There are no curves of the parameter plane.
+/// Faces are regions of the surface; the location of points does not use them. There are no curves of the parameter
+/// plane.
 inline constexpr double tile_distance = 64;
 
 class DiscreteCad final : public Cad {
@@ -25,7 +26,7 @@ class DiscreteCad final : public Cad {
   [[nodiscard]] bool reentrant() const noexcept override { return true; }
 
   [[nodiscard]] const DiscreteSurface& discrete() const noexcept { return *surface_; }
-  /// Where a triangle of the surface is.
+  /// The first corner of a surface triangle's tile.
   [[nodiscard]] Vec2 corner_of_tile(std::int32_t triangle) const noexcept;
   /// The triangle that has a place of (u, v), with room around; -1: none.
   [[nodiscard]] std::int32_t patch_of(const Vec2& uv) const noexcept;
@@ -35,7 +36,7 @@ class DiscreteCad final : public Cad {
   std::int32_t width_;
 };
 
-/// Evaluator, and a model with faces only (Face::discrete): one each reference of face_refs().
+/// Evaluator, and a model with faces only (Face::discrete): one for each reference of face_refs().
 BuiltGeometry discrete_geometry(std::shared_ptr<const DiscreteSurface> surface);
 
 }  // namespace carreau::discrete

@@ -52,7 +52,7 @@ class FlatDropper {
     dropped_.push_back(list_.origin[t]);
   }
 
-  /// Needles: a side that is rounding beside the others would stay one however the triangle is divided.
+  /// Needles: a short side within rounding would stay short however the triangle is divided.
   void join_corners() {
     UnionFind joined(vertices_.size());
     bool any = false;
@@ -90,7 +90,7 @@ class FlatDropper {
     flat_.push({length(c[k], c[(k + 1) % 3]), t});
   }
 
-  /// The longest side comes first: sides that appear are shorter, so that the work ends.
+  /// The longest side comes first: new sides are shorter, so that the work ends.
   void divide_sides() {
     for (std::size_t t = 0; t < gone_.size(); ++t)
       if (gone_[t] == 0) add_to_edges(t);

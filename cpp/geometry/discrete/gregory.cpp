@@ -35,15 +35,16 @@ void add(SurfaceJet& jet, const Jet& w, const Vec3& p) noexcept {
   jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
 }
 
-/// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives but in x = y = 0,
-/// where those along x = y are taken.
+/// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives except in x = y = 0,
+/// where the derivatives along x = y are taken.
 Jet share_of(const Jet& x, const Jet& y) noexcept {
   double a = std::max(x.f, 0.0), b = std::max(y.f, 0.0);
   const double s = a + b;
   Jet r;
   r.f = 0.5;
   if (!(s > thresholds::tiny)) return r;
-  // g = a / s: g_a = b / s^2, g_b = -a / s^2, g_aa = -2 b / s^3, g_ab = (a - b) / s^3, g_bb = 2 a / s^3.
+  // g = a / s has the derivatives g_a = b / s^2, g_b = -a / s^2, g_aa = -2 b / s^3, g_ab = (a - b) / s^3, g_bb = 2 a /
+  // s^3.
   const double s2 = s * s, ga = b / s2, gb = -a / s2;
   r.f = a / s;
   r.u = ga * x.u + gb * y.u;
@@ -69,7 +70,7 @@ SurfaceJet second_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
     add(jet, 4 * (b2[i] * ij), patch.border[4 * i + 1]);
     add(jet, 6 * (ij * ij), patch.border[4 * i + 2]);
     add(jet, 4 * (ij * b2[j]), patch.border[4 * i + 3]);
-    // Beside corner i: of side i, which keeps its planes where b(k) is 0, and of side k, where b(j) is.
+    // Weights beside corner i: for side i, which keeps its planes where b(k) is 0, and for side k, where b(j) is 0.
     const Jet weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
     add(jet, weight * share, patch.inner[2 * i]);
     add(jet, weight * rest_of(share), patch.inner[2 * k + 1]);
@@ -93,14 +94,14 @@ Net<n - 1> step_of(const Net<n>& net, const std::array<double, 3>& b) noexcept {
   return next;
 }
 
-/// -1: it is none.
+/// -1: not a corner.
 int corner_at(Vec2 uv) noexcept {
   if (uv.x() == 0 && uv.y() == 0) return 0;
   if (uv.x() == 1 && uv.y() == 0) return 1;
   return uv.x() == 0 && uv.y() == 1 ? 2 : -1;
 }
 
-/// Borders tell both derivatives there.
+/// Borders determine both derivatives there.
 SurfaceJet first_jet_at(const GregoryTriangle& patch, std::size_t corner) noexcept {
   const auto& p = patch.border;
   constexpr std::size_t last[3] = {0, 3, 9}, along_u[3] = {1, 4, 7}, along_v[3] = {11, 5, 8};  // of de Casteljau's last net
@@ -111,8 +112,8 @@ SurfaceJet first_jet_at(const GregoryTriangle& patch, std::size_t corner) noexce
   return jet;
 }
 
-/// Place and first derivatives: those of the Bezier triangle whose points inside are those of the place, and what these
-/// points change by.
+/// Place and first derivatives: the jet of the Bezier triangle with the inner points of this place, and the derivatives
+/// of these points.
 SurfaceJet first_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
   if (const int corner = corner_at(uv); corner >= 0) return first_jet_at(patch, static_cast<std::size_t>(corner));
   const std::array<double, 3> b{1 - uv.x() - uv.y(), uv.x(), uv.y()};

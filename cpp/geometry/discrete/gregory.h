@@ -19,19 +19,19 @@ Vec3 derivative_of(const Cubic& curve, double t) noexcept;
 struct GregoryTriangle {
   /// Cubics, raised in degree: side i has points[4 i .. 4 i + 3] and goes from corner i to the next one.
   std::array<Vec3, 12> border;
-  /// Points inside: inner[2 i] is the one beside the start of side i which keeps its tangent planes, inner[2 i + 1]
-  /// that beside its end.
+  /// Points inside. inner[2 i] is beside the start of side i and keeps its tangent planes; inner[2 i + 1] is beside its
+  /// end.
   std::array<Vec3, 6> inner;
 
-  /// Exact up to second derivatives, which have no limit at corners: there it is that along the bisector.
+  /// Exact up to second derivatives. They have no limit at corners: there the limit along the bisector is taken.
   [[nodiscard]] SurfaceJet at(Vec2 uv, unsigned want) const noexcept;
-  /// Largest distance of a control point from that of the flat triangle: no point of the patch is farther from the
-  /// point of the triangle with the same (u, v), nor the other way round.
+  /// Largest distance between corresponding control points of the patch and of the flat triangle. It bounds the
+  /// distance between points of the patch and of the triangle with equal (u, v), in both directions.
   [[nodiscard]] double deviation() const noexcept;
 };
 
-/// The patch between three curves, side i from corner i to the next one; normals[2 i] and normals[2 i + 1] are those of
-/// the surface at the ends of side i, across which tangents are interpolated.
+/// The patch between three curves, side i from corner i to the next one. normals[2 i] and normals[2 i + 1] are the
+/// surface's normals at the ends of side i, across which tangents are interpolated.
 GregoryTriangle gregory_triangle(const std::array<Cubic, 3>& sides, const std::array<Vec3, 6>& normals) noexcept;
 
 }  // namespace carreau::discrete

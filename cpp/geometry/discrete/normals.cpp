@@ -19,7 +19,7 @@ Vec3 unit(const Vec3& v) noexcept {
   return length > 0 ? Vec3(v / length) : Vec3::Zero();
 }
 
-/// Without what it has along a unit vector; the same vector where nothing is left.
+/// The unit vector of `n` without its component along the unit vector `t`; `n` itself if nothing remains.
 Vec3 across(const Vec3& n, const Vec3& t) noexcept {
   const Vec3 left = n - dot(n, t) * t;
   return norm(left) > thresholds::tiny ? unit(left) : n;
@@ -55,8 +55,9 @@ class SectorNormals {
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) first_.push_back(sectors.find(c));
   }
 
-  /// Means by the angles of triangles (eq. 4.96). A mean by areas replaces one that lifts an edge of a large triangle
-  /// farther than the small triangles reach that turn it: beside a rounding the flat face keeps its plane.
+  /// Means by the angles of triangles (eq. 4.96). A mean by areas replaces a mean by angles if that lifts an edge of a
+  /// large triangle too far. The limit is the reach of the small triangles that turn the mean: beside a rounding the
+  /// flat face keeps its plane.
   Frames run() const {
     Frames frames{
         .normal = means([&](std::size_t c) { return mesh_.angle(triangle(c), rank(c)); }), .reach = {}, .tangent = {}};
@@ -81,7 +82,7 @@ class SectorNormals {
     for (std::size_t c = 0; c < first_.size(); ++c) of_first[c] = of_first[first_[c]];
   }
 
-  // What follows is known at the first corner of each sector.
+  // The following values are known at the first corner of each sector.
   template <class Weight>
   [[nodiscard]] std::vector<Vec3> means(const Weight& weight) const {
     std::vector<Vec3> normal(first_.size(), Vec3::Zero());
@@ -94,7 +95,7 @@ class SectorNormals {
     return normal;
   }
 
-  // How far edges leave the tangent plane at most.
+  // Largest distance of edges from the tangent plane.
   [[nodiscard]] std::vector<double> lifts(const std::vector<Vec3>& normal) const {
     std::vector<double> lift(first_.size(), 0);
     for (std::size_t c = 0; c < first_.size(); ++c)
@@ -103,7 +104,7 @@ class SectorNormals {
     return lift;
   }
 
-  // How far triangles that turn the normal extend at least in the direction in which they turn it.
+  // Least extent of triangles that turn the normal, in the direction of the turn.
   [[nodiscard]] std::vector<double> reaches(const std::vector<Vec3>& normal) const {
     std::vector<double> reach(first_.size(), infinity);
     for (std::size_t c = 0; c < first_.size(); ++c) {
@@ -130,7 +131,7 @@ std::vector<Vec3> line_tangents(const Triangulation& mesh, const SharpLines& lin
       if (norm(tangent[index(v)]) > 0 || std::ranges::binary_search(lines.corners, v)) continue;
       const std::vector<std::int32_t> two = at.of(v);
       if (two.size() != 2) continue;
-      // Along the polyline, each edge weighing by the inverse of its length: as a parabola has it.
+      // Along the polyline, with the inverse of each edge's length as weight: the tangent of a parabola.
       const Vec3 p = at.leaving(two[0], v), q = at.leaving(two[1], v);
       Vec3 t = unit(q / dot(q, q) - p / dot(p, p));
       const auto both = mesh.sides(two[0]);
@@ -147,7 +148,7 @@ std::vector<Vec3> line_tangents(const Triangulation& mesh, const SharpLines& lin
   return tangent;
 }
 
-/// Of sharp edges. At a corner it is free: a parabola, or the straight edge.
+/// The curve of a sharp edge. At a corner it is free: a parabola, or the straight edge.
 Cubic line_curve(const Vec3& p, const Vec3& q, const Vec3& tp, const Vec3& tq) noexcept {
   const double length = norm(q - p);
   const auto along = [&](const Vec3& t) -> Vec3 { return dot(t, q - p) < 0 ? Vec3(-t) : t; };
@@ -159,7 +160,8 @@ Cubic line_curve(const Vec3& p, const Vec3& q, const Vec3& tp, const Vec3& tq) n
   return {p, z1, z2, q};
 }
 
-/// The inner points of a curve no farther from its chord than what turns the tangents reaches.
+/// Moves the inner points of a curve so that they are no farther from its chord than the reach of the triangles that
+/// turn the tangents.
 Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
   const Vec3 u = unit(z[3] - z[0]);
   const auto keep = [&](Vec3& point, double reach) {
@@ -171,8 +173,8 @@ Cubic kept_near(Cubic z, double reach_start, double reach_end) noexcept {
   return z;
 }
 
-/// The inner points of the curve of a sharp edge no farther inside the triangles of the edge than halfway to the other
-/// sides. A curve beyond these would fold patches, or bend long edges there.
+/// Moves the inner points of the curve of a sharp edge no farther inside the triangles of the edge than halfway to the
+/// other sides. A curve beyond these would fold patches, or bend long edges there.
 Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept {
   for (const Side& side : mesh.sides(e)) {
     const std::int32_t first = mesh.corner(side.triangle, side.side);
@@ -193,7 +195,7 @@ Cubic kept_outside(const Triangulation& mesh, std::int32_t e, Cubic z) noexcept 
   return z;
 }
 
-/// By vertex: the shortest sharp edge.
+/// The shortest sharp edge at each vertex.
 std::vector<double> shortest_sharp(const Triangulation& mesh, const SharpLines& lines) {
   std::vector<double> shortest(mesh.vertices.size(), infinity);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)

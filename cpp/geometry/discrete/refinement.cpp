@@ -61,7 +61,7 @@ class Refiner {
     return n;
   }
 
-  // Two halves ask for the third one, and so on.
+  // A triangle with two halves needs the third one halved, and so on.
   void close() {
     for (bool more = true; more;) {
       more = false;
@@ -111,7 +111,7 @@ class Refiner {
         const std::int32_t ma = middle(t, k), mb = middle(t, b);
         const Vec2 pa = middle_uv(t, k), pb = middle_uv(t, b);
         add(t, {c[k], ma, mb}, {uv[k], pa, pb});
-        // The shorter diagonal of what is left.
+        // The shorter diagonal of the remaining quadrilateral.
         const auto at = [&](std::int32_t v) -> const Vec3& { return mesh_.vertices[index(v)]; };
         if (norm(at(c[a]) - at(mb)) <= norm(at(c[b]) - at(ma))) {
           add(t, {ma, c[a], mb}, {pa, uv[a], pb});

@@ -68,7 +68,7 @@ class RoundEdges {
     return 0.5 * (mesh_.at(mesh_.corner(side.triangle, side.side)) + mesh_.at(mesh_.corner(side.triangle, side.side + 1)));
   }
 
-  /// How far across the facet of `from` the next edge is over which the normal turns on; none: it does not.
+  /// Distance across the facet of `from` to the next edge over which the normal turns on; empty if it does not.
   [[nodiscard]] std::optional<double> width(std::int32_t e, const Side& from) const {
     const Vec3 here = turn(from), place = middle(from);
     const double angle = bends_[offset(e)];
@@ -116,7 +116,7 @@ double gap_of(const Triangulation& mesh, const std::vector<double>& bends, const
   constexpr double step = 0.5, half = thresholds::gap_width / 2;
   const double clear = longer(thresholds::usual_sharp);
   for (double angle = thresholds::min_sharp; angle < thresholds::usual_sharp; angle += step) {
-    if (longer(angle) > 2 * clear) continue;  // most of what bends is flatter: a coarse curved surface
+    if (longer(angle) > 2 * clear) continue;  // most edges that bend are flatter: a coarse curved surface
     const double above = longer(angle + half);
     if (longer(angle - half) - above <= thresholds::gap_share * above) return angle;
   }

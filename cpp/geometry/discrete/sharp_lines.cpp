@@ -78,7 +78,7 @@ class LineFinder {
       found_.sharp[index(e)] = 1;
   }
 
-  // The paper drops lone edges; of what hangs together few edges with a free end are noise as well.
+  // The paper drops lone edges; a few connected edges with a free end are noise as well.
   void drop_few() {
     UnionFind sets(mesh_.vertices.size());
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
@@ -113,7 +113,7 @@ class LineFinder {
     return best;
   }
 
-  /// Edges of the line that ends at v, back to where it meets another one.
+  /// Edges of the line that ends at v, back to its junction with another line.
   [[nodiscard]] std::vector<std::int32_t> line_to(std::int32_t v, std::int32_t last) const {
     std::vector<std::int32_t> line{last};
     std::int32_t at = other(last, v), e = last;
@@ -129,7 +129,7 @@ class LineFinder {
     return line;
   }
 
-  // Ends are prolonged one after the other; what does not reach another line is taken back.
+  // Ends are prolonged one after the other; a prolongation that does not reach another line is removed.
   void go_on() {
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices.size()); ++v) {
       if (degree(v) != 1) continue;
@@ -156,7 +156,7 @@ class LineFinder {
     }
   }
 
-  // Lines that end on no other one: short ones are noise, long ones stay and are told.
+  // Lines with a free end: short ones are noise, long ones stay and are reported.
   void drop_faded() {
     std::vector<std::int32_t> ends;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices.size()); ++v)
@@ -168,7 +168,7 @@ class LineFinder {
         if (is_sharp(e)) last = e;
       const std::vector<std::int32_t> line = line_to(v, last);
       const bool certain = std::ranges::any_of(line, [&](std::int32_t e) { return certain_[index(e)] != 0; });
-      // Where the angle was found, flatter edges that fade out are those of a tessellation.
+      // If the angle was found, flatter edges that fade out belong to a tessellation.
       const bool clear = options_.sharp_angle ||
                          std::ranges::any_of(line, [&](std::int32_t e) { return bends_[index(e)] > thresholds::usual_sharp; });
       if (certain || (clear && static_cast<int>(line.size()) >= thresholds::least_faded)) continue;
@@ -183,7 +183,7 @@ class LineFinder {
       }
   }
 
-  // Where other than two lines meet, lines turn, or the surface is not one disc beside them.
+  // Corners are vertices where other than two lines meet, lines turn, or the surface is not one disc beside them.
   void find_corners() {
     const double cosine = std::cos(options_.corner_angle * std::numbers::pi / 180);
     const std::vector<int> discs = discs_of_vertices();

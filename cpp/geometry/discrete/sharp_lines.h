@@ -15,13 +15,13 @@ struct SharpOptions {
   /// Degrees: edges whose normals differ by more start a line (w_v). Not given: find_sharp_angle().
   std::optional<double> sharp_angle = {};
   double corner_angle = 45;  ///< degrees: a line that turns by more at a vertex has a corner there (180 - w_c)
-  /// Edges that the input marks are those of lines, and no other is sought but borders and edges with three triangles.
+  /// Only the edges that the input marks, borders and edges with three triangles form lines.
   bool marked_only = false;
   bool references = true;  ///< edges between triangles of different references are sharp
   std::vector<std::int32_t> corners = {};  ///< ascending: vertices on lines that are corners however these turn
 };
 
-/// Edges from corner to corner, or all around.
+/// Edges from corner to corner, or a closed line.
 struct Line {
   std::vector<std::int32_t> vertices;  ///< the first one again at the end of a closed line without corners
   std::vector<std::int32_t> edges;     ///< indices in Triangulation::edges
@@ -34,7 +34,7 @@ struct SharpLines {
   std::vector<Line> lines;
   std::vector<std::int32_t> region;  ///< by triangle: connected over edges that are not sharp, from 0
   std::int32_t regions = 0;
-  double sharp_angle = 0;      ///< degrees; the one given, or found
+  double sharp_angle = 0;      ///< degrees; the given angle, or the found one
   std::int64_t edges = 0;      ///< that are sharp
   std::int64_t dropped = 0;    ///< potential ones that no line goes through
   std::int64_t prolonged = 0;  ///< regular ones over which lines go on
@@ -42,7 +42,8 @@ struct SharpLines {
   std::vector<std::string> sentences = {};
 };
 
-/// Corners of triangles, 3 t + k, joined where no sharp edge is between them: a set is what a vertex has of one region.
+/// Corners of triangles, 3 t + k, joined if no sharp edge is between them: a set holds a vertex's corners in one
+/// region.
 UnionFind sectors_of(const Triangulation& mesh, const std::vector<char>& sharp);
 
 /// Throws InvalidArgument for angles out of ]0, 180].

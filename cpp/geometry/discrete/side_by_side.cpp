@@ -52,7 +52,7 @@ class Joiner {
     return static_cast<std::size_t>(std::ranges::upper_bound(first_, v) - first_.begin()) - 1;
   }
 
-  // Vertices that one surface has several of at a place were kept so: only its first one is joined to others.
+  // One surface may have several vertices at a place: only the first one is joined to other surfaces.
   void join() {
     number_.resize(flat_.vertices.size());
     std::iota(number_.begin(), number_.end(), 0);
@@ -92,7 +92,7 @@ class Joiner {
     }
   }
 
-  /// Of each surface by itself, as vertices of the whole.
+  /// Corners of each surface by itself, as vertices of the whole.
   [[nodiscard]] std::vector<std::int32_t> corners() const {
     std::vector<std::int32_t> found;
     for (std::size_t s = 0; s < given_.size(); ++s)
@@ -112,17 +112,17 @@ class Joiner {
     const auto say = [&](std::int64_t n, const std::string& what) {
       if (n > 0) sentences.push_back(std::to_string(n) + what);
     };
-    say(joined_, " vertices are those of other surfaces of triangles: the meshes are one there");
+    say(joined_, " vertices belong to other surfaces of triangles, too: the meshes are joined there");
     const std::int32_t first = given_.back().first_face;
     say(static_cast<std::int64_t>(given_.back().surface->triangles()) -
             std::ranges::count_if(mesh.refs, [&](std::int32_t ref) { return ref >= first; }),
-        " triangles are those of surfaces before: dropped");
-    say(mesh.findings.turned_triangles, " triangles ran against those of other surfaces: turned");
+        " triangles belong to earlier surfaces: dropped");
+    say(mesh.findings.turned_triangles, " triangles were oriented against other surfaces: turned");
     const std::int64_t alone = sum([](const DiscreteSurface& s) { return s.mesh().findings.manifold_breaks; });
     say(mesh.findings.manifold_breaks - alone, " edges have three triangles or more of several surfaces");
   }
 
-  // What was mended in each by itself was mended in all.
+  // Repairs of each surface are repairs of the whole.
   void add_findings(Findings& all, SharpLines& lines) const {
     for (const PlacedSurface& each : given_) {
       const Findings& own = each.surface->mesh().findings;

@@ -11,8 +11,8 @@
 
 namespace carreau::discrete {
 
-/// One Gregory triangle for each triangle: tangent planes agree over edges that are not sharp, curves over those that
-/// are, and vertices are interpolated. Safe from several threads.
+/// One Gregory triangle for each triangle. Tangent planes agree over edges that are not sharp, curves over sharp edges,
+/// and vertices are interpolated. Safe from several threads.
 class DiscreteSurface {
  public:
   /// `faces`: references of faces by triangle; empty: see face_refs().
@@ -36,7 +36,7 @@ class DiscreteSurface {
   [[nodiscard]] const Vec3& normal(std::int32_t triangle, int k) const {
     return normals_[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k % 3)];
   }
-  /// Tangents around vertices that turned back and were unfolded (eq. 4.101), and those that still do.
+  /// Tangents around vertices that turned back and were unfolded (eq. 4.101), and tangents that still turn back.
   [[nodiscard]] std::int64_t unfolded() const noexcept { return unfolded_; }
   [[nodiscard]] std::int64_t folded() const noexcept { return folded_; }
   /// No point of the surface is farther from the triangles, and no point of the triangles from the surface; model

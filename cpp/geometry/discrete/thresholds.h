@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their meaning, unit, reason and support.
 #pragma once
 
 namespace carreau::discrete::thresholds {
@@ -9,10 +9,10 @@ namespace carreau::discrete::thresholds {
 inline constexpr double flat_height = 1e-12;
 
 // Sharp angle
-/// Degrees: where the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
+/// Degrees: if the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
 inline constexpr double usual_sharp = 45;
 /// Degrees: flatter edges are no features, wherever the gap is. Tessellations of CAD programs turn by up to 12 (.2 rad)
-/// with usual settings; kinks of less move a surface little.
+/// with usual settings; smaller kinks move a surface little.
 inline constexpr double min_sharp = 20;
 /// Degrees: the width of a gap.
 inline constexpr double gap_width = 5;
@@ -42,31 +42,30 @@ inline constexpr double least_angle = 5;
 inline constexpr double share_of_largest = 0.5;
 /// Cosine of the turn of a line that goes on: it does not turn back.
 inline constexpr double least_straightness = 0.5;
-/// Edges by which a line is prolonged at most, as a multiple of those that it has: what needs more is not that line.
+/// Edges by which a line is prolonged at most, as a multiple of its own edges: a longer gap separates two lines.
 inline constexpr int most_prolongation = 2;
-/// Edges of lines that hang together and have a free end, and of a line that fades out after all: fewer are noise. The
-/// paper's one edge lets bunny.off have lines; a crease of a part that no other one meets is longer.
+/// Connected edges of lines with a free end, and edges of a line that fades out: fewer are noise. With the paper's
+/// limit of one edge, bunny.off has lines; a crease of a part without junctions is longer.
 inline constexpr int least_edges = 8, least_faded = 8;
 
 // Normals and tangents
-/// Sine of the angle between the normal of a triangle and that of its vertex: a triangle that leans
-/// less (5 degrees) does not turn the normal.
+/// Sine of the angle between the normals of a triangle and of its vertex: a triangle that leans less (5 degrees) does
+/// not turn the normal.
 inline constexpr double clear_turn = 0.087;
-/// Share. A mean of normals by areas replaces one by angles if it lifts edges by less than this share: at plane faces
-/// beside roundings it does, in noise it does not.
+/// Share. A mean of normals by areas replaces a mean by angles if it lifts edges by less than this share. It does at
+/// plane faces beside roundings, and not in noise.
 inline constexpr double lower_lift = 0.5;
 /// Times the largest bulge of the borders of a patch: no inner point is farther from its place in the flat triangle. On
 /// bunny.off it is 2.2 at the 99th percentile, on spot.obj 2 at most; on needles it is up to the ratio of sides.
 inline constexpr double max_inner_bulge = 3;
-/// Heights of the triangle: no inner point of a patch is shifted farther along the triangle. They lie a quarter of it away
+/// Heights of the triangle: no inner point of a patch is shifted farther along the triangle. Inner points lie a quarter of the height away
 /// from the sides.
 inline constexpr double max_inner_shift = 0.25;
 /// Sine of the angle between the normals beside a line: below, their cross product is no tangent of it.
 inline constexpr double clear_crease = 0.3;
 /// Sine of the angle between the two lines that bound a region at a corner: below, they span no plane.
 inline constexpr double clear_corner = 0.17;
-/// Cosine: the plane that two lines span at a corner is that of the region when its normal is no farther from the mean
-/// one.
+/// Cosine: the region's plane at a corner is the plane of two lines if its normal is no farther from the mean normal.
 inline constexpr double same_side = 0.7;
 /// Denominators of the normals' product in eq. 4.98 and normals of no length.
 inline constexpr double tiny = 1e-12;

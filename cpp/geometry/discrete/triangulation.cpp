@@ -24,7 +24,7 @@ struct SideOf {
   friend auto operator<=>(const SideOf&, const SideOf&) = default;
 };
 
-/// A triangle by its vertices, whatever way it runs.
+/// A triangle by its vertices, in either direction.
 struct Known {
   std::array<std::int32_t, 3> sorted{};
   std::int32_t triangle = -1;
@@ -197,7 +197,7 @@ std::int32_t Triangulation::find_edge(std::int32_t v, std::int32_t w) const {
   return found != edges.end() && *found == edge_of(v, w) ? static_cast<std::int32_t>(found - edges.begin()) : -1;
 }
 
-// Over edges with two triangles, breadth first; then as most triangles of the shell were.
+// Turns triangles over edges with two triangles, breadth first; then each shell follows its majority.
 void Triangulation::turn() {
   std::vector<char> turned(triangles.size(), 0);
   shell.assign(triangles.size(), -1);

@@ -30,7 +30,7 @@ class Unfolder {
       vertex_ = mesh_.corner(t, static_cast<int>(c % 3));
       normal_ = frames_.normal[c];
       if (folds(fan) == 0) continue;
-      // A window can uncover another one.
+      // Unfolding a window can uncover a further one.
       for (int round = 0; round < static_cast<int>(fan.edges.size()) && mend(fan); ++round) {
       }
       result_.folded += folds(fan);
@@ -100,8 +100,8 @@ class Unfolder {
     return folded;
   }
 
-  /// Shares the sum of the angles of a window out in the ratio of their sizes; false where nothing is folded, or
-  /// nothing can be done.
+  /// Distributes the sum of the angles of a window in the ratio of their sizes. Returns false if nothing is folded, or
+  /// the window cannot be unfolded.
   bool mend(const Fan& fan) {
     const std::vector<double> beta = turns(fan);
     const std::size_t n = beta.size();
@@ -111,7 +111,7 @@ class Unfolder {
     double sum = beta[first];
     std::size_t count = 1;
     while (sum <= 0 && count < n && (fan.closed || first + count < n)) sum += beta[(first + count++) % n];
-    while (sum <= 0 && count < n) {  // against an end: what comes before
+    while (sum <= 0 && count < n) {  // at an end, the window grows backwards
       first = (first + n - 1) % n;
       sum += beta[first], ++count;
     }

@@ -14,7 +14,7 @@ struct Unfolding {
   std::int64_t folded = 0;    ///< that still do: between two sharp edges nothing can be turned
 };
 
-/// Turns tangents of regular edges at their ends until those around each vertex follow each other.
+/// Turns tangents of regular edges at their ends until the tangents around each vertex follow each other.
 Unfolding unfold(const Triangulation& mesh, const SharpLines& lines, const Frames& frames, std::vector<Cubic>& curves);
 
 }  // namespace carreau::discrete

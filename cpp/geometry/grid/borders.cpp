@@ -104,7 +104,8 @@ class Finder {
         }
   }
 
-  /// Whether the cell is a triangle on this edge: two of them may have the same third corner, and be two sides of a fin.
+  /// Returns whether the cell is a triangle on this edge: two cells may have the same third corner, and be two sides of
+  /// a fin.
   [[nodiscard]] bool is_one_point(const EdgeUse& use, const Key& ends) const {
     return norm(inner(use, ends.first) - inner(use, ends.second)) <= tolerance_;
   }
@@ -121,8 +122,8 @@ class Finder {
     return faces;
   }
 
-  /// Curves end where other than two edges meet, where the faces at their sides change, where a border turns in (u, v),
-  /// and at points that are a whole edge of some face.
+  /// Curves end where other than two edges meet, and where the faces at their sides change. They also end where a
+  /// border turns in (u, v), and at points that are a whole edge of some face.
   void find_breaks() {
     std::map<int, std::vector<const std::vector<EdgeUse>*>> around;
     for (const auto& [ends, uses] : borders_.edges) around[ends.first].push_back(&uses), around[ends.second].push_back(&uses);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which edges on the borders of blocks are one in space, and the curves that they make.
+// Edges on the borders of blocks that are one in space, and the curves that they form.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct Chain {
 struct Borders {
   std::vector<FaceRegion> faces;
   std::vector<std::vector<Chain>> chains;  ///< [face]
-  /// Edges by the points at their ends, the smaller one first, with all their uses. Those of one point are not here.
+  /// Edges by the points at their ends, the smaller one first, with all their uses. Edges of one point are left out.
   std::map<std::pair<int, int>, std::vector<EdgeUse>> edges;
   std::vector<std::vector<int>> point_of;  ///< [block][node]: reference from 1; 0: not on a border
 

@@ -101,8 +101,8 @@ class Finder {
     return label(x, y) != region;
   }
 
-  /// Round the corner at the end of an edge, through the cells of the region that meet there: where two of them touch
-  /// by this corner only, the loop stays with its own.
+  /// Turns round the corner at the end of an edge, through the cells of the region that meet there. If two cells touch
+  /// by this corner only, the loop stays with its own cell.
   [[nodiscard]] BorderEdge next(BorderEdge edge, int region) const {
     edge.side = (edge.side + 1) % 4;
     while (!on_border(edge, region)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells of a block are there, how they hang together, and what bounds them.
+// The cells of a block, their connections, and their borders.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ Place place_of(const std::vector<double>& knots, double x) {
 
 double outside(const Place& p) { return std::max({0.0, -p.t, p.t - 1}) * p.length; }
 
-/// The nearest of the neighbours of a cell that is not there.
+/// Moves to the nearest neighbour of a missing cell.
 void go_to_neighbour(const CoonsSurface& surface, const Vec2& uv, Place& pu, Place& pv) {
   const Place u = pu, v = pv;
   double nearest = std::numeric_limits<double>::infinity();

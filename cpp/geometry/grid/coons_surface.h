@@ -21,9 +21,9 @@ struct CoonsSurface {
 
   [[nodiscard]] const Node& node(std::size_t i, std::size_t j) const { return nodes[i + u.size() * j]; }
   Node& node(std::size_t i, std::size_t j) { return nodes[i + u.size() * j]; }
-  /// All derivatives to order two; those of second order jump between cells, and are those of the cell above and to the
-  /// right on a line between cells. Outside of the cells that are there the nearest one goes on (HDR eq. 4.90, 4.91); NaN
-  /// where none is a neighbour.
+  /// All derivatives to order two. Derivatives of second order jump between cells; on a line between cells they belong
+  /// to the cell above and to the right. Outside of the cells that are there the nearest one goes on (HDR eq. 4.90,
+  /// 4.91); NaN without a neighbouring cell.
   [[nodiscard]] SurfaceJet at(const Vec2& uv) const;
   [[nodiscard]] bool has_cell(std::size_t i, std::size_t j) const { return cells.empty() || cells[i + u.size() * j] != 0; }
 };

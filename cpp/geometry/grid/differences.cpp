@@ -11,7 +11,7 @@ Vec3 parabola_derivative(const Sample& a, const Sample& b, const Sample& c, doub
 
 namespace {
 
-/// Derivatives of points [first, last) of the line, none of them missing.
+/// Derivatives of points [first, last) of the line, all of them present.
 void differentiate_run(std::span<const Sample> run, std::span<Vec3> out) {
   const std::size_t n = run.size();
   if (n < 2) return;

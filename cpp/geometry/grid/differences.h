@@ -18,10 +18,10 @@ struct Sample {
 /// The derivative at a's, b's or c's parameter `at` of the parabola through the three.
 Vec3 parabola_derivative(const Sample& a, const Sample& b, const Sample& c, double at);
 
-/// Derivatives at the points of a line; `there` tells which are not missing, and lines end beside those that are. At
-/// inner points, and at the joint of a closed line (whose last point is its first one), of the parabola through the point
-/// and its neighbours; at ends of the one through the last three. Of two points: their difference; of one: 0. Order two
-/// for even parameters; exact for parabolas.
+/// Derivatives at the points of a line; `there` marks present points, and lines end beside missing ones. At inner
+/// points, the derivative of the parabola through the point and its neighbours. The joint of a closed line (whose last
+/// point is its first one) is an inner point. Ends have the derivative of the parabola through the last three points.
+/// Two points have their difference, one point has 0. Order two for even parameters; exact for parabolas.
 std::vector<Vec3> line_derivatives(std::span<const Sample> line, std::span<const char> there, bool closed);
 
 }  // namespace carreau::grid

@@ -18,7 +18,7 @@ struct SideLine {
 
 class GridCad final : public Cad {
  public:
-  /// A face that is part of a block; several may share a surface. Not while others evaluate.
+  /// Adds a face that is part of a block; several faces may share a surface. Not while others evaluate.
   void add(int ref, std::shared_ptr<const CoonsSurface> surface, std::vector<SideLine> sides);
 
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override;

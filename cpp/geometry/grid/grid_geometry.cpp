@@ -84,7 +84,7 @@ void warn(const std::vector<Cells>& cells, GridGeometry& made) {
     if (c.regions.empty()) made.warnings.push_back(block_name(b) + " has no cell with four nodes and is left out");
     if (c.regions.size() > 1)
       made.warnings.push_back("holes cut " + block_name(b) + " into " + std::to_string(c.regions.size()) +
-                              " parts; each is a face of its own");
+                              " parts; each is a separate face");
   }
 }
 

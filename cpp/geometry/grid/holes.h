@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missing nodes that have others all around them.
+// Holes: missing nodes with nodes all around them.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace carreau::grid {
 
-/// Places the missing nodes of holes that no side of the block touches on a membrane over their rims: each is the mean
-/// of its four neighbours (thresholds::still_share). The number of nodes that were filled. Asks the monitor between
+/// Places the missing nodes of holes that no side of the block touches on a membrane over their rims. Each node is the
+/// mean of its four neighbours (thresholds::still_share). Returns the number of filled nodes. Looks for a stop between
 /// sweeps.
 std::size_t fill_holes(Block& block, const Closed& closed, Monitor& monitor);
 

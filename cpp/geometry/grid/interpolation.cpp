@@ -98,7 +98,7 @@ class Interpolator {
     surfaces_.push_back(std::move(surface));
   }
 
-  /// Whether a node has neighbours on both sides.
+  /// Returns whether a node has neighbours on both sides.
   [[nodiscard]] bool is_inner(const Place& at, bool along_u) const {
     const Block& block = blocks_[at.block];
     const int i = static_cast<int>(at.node) % block.columns, j = static_cast<int>(at.node) / block.columns;
@@ -147,7 +147,7 @@ class Interpolator {
   }
 
   [[nodiscard]] bool is_smooth(const EdgeUse& a, const EdgeUse& b) const {
-    // Faces on both sides of an edge run along it against one another when they are turned alike.
+    // Faces on both sides of an edge run along it in opposite directions when they have one orientation.
     const Place start = place(a, a.edge.start()), end = place(a, a.edge.end());
     const double turned = point(start) == point(place(b, b.edge.start())) ? -1 : 1;
     for (const Place& at : {start, end}) {
@@ -189,8 +189,8 @@ class Interpolator {
     return place(use, start ? use.edge.inner_start() : use.edge.inner_end());
   }
 
-  /// Whether a line of block b is the continuation of one of block a at an end of their edge: not where five blocks
-  /// meet, nor where the lines turn.
+  /// Returns whether a line of block b is the continuation of a line of block a at an end of their edge. It is not
+  /// where five blocks meet, nor where the lines turn.
   [[nodiscard]] bool goes_on(const EdgeUse& a, const EdgeUse& b, const Place& at) const {
     constexpr int regular = 4;
     if (const auto found = edges_at_.find(point(at)); found != edges_at_.end() && found->second > regular) return false;
@@ -213,7 +213,7 @@ class Interpolator {
     }
   }
 
-  /// Sv differenced along u and Su along v, [block][node]: the same inside.
+  /// Sv differenced along u and Su along v, [block][node]: equal inside a block.
   struct Twists {
     std::vector<Vec3> uv, vu;
     [[nodiscard]] const Vec3& along(const BorderEdge& edge, std::size_t node) const {
@@ -234,8 +234,8 @@ class Interpolator {
     share_twists(twists);
   }
 
-  /// What crosses a joined edge is differenced along it, once for both blocks: then their derivatives across it agree at
-  /// every point.
+  /// Derivatives that cross a joined edge are differenced along it, once for both blocks: then their derivatives across
+  /// it agree at every point.
   void share_twists(const std::vector<Twists>& twists) {
     SharedDerivatives shared;
     const auto slot = [&](const Place& at) { return shared.number({static_cast<int>(at.block), at.node, false}); };

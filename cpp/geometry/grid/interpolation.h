@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C1 surface through the nodes of each block, and what blocks have in common on their borders.
+// The C1 surface through the nodes of each block, and common data of blocks on their borders.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@
 
 namespace carreau::grid {
 
-/// A surface for each block. The derivative along a common border is the same in all blocks that have it, the best that
-/// one of them knows, so that the border is one curve. Where `join_angle` (radians) is positive and the normals of two
-/// blocks differ by less all along a chain, derivatives across it are central ones over both blocks, and their normals
-/// agree; `joined` counts such chains.
+/// A surface for each block. The derivative along a common border is equal in all its blocks, the best of them, so that
+/// the border is one curve. If `join_angle` (radians) is positive and the normals of two blocks differ by less all
+/// along a chain, derivatives across it are central differences over both blocks. Their normals then agree; `joined`
+/// counts such chains.
 std::vector<CoonsSurface> interpolate(const std::vector<Block>& blocks, const Borders& borders,
                                       const std::vector<Knots>& knots, const std::vector<Closed>& closed,
                                       const Options& options, std::size_t* joined = nullptr);

@@ -22,7 +22,7 @@ std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Block>& bloc
     const auto start = [&](const EdgeUse& use, int block) {
       return borders.point(block, blocks[static_cast<std::size_t>(block)], use.edge.start());
     };
-    // Both run with their region on the left: against one another where normals agree.
+    // Both run with their region on the left: in opposite directions where normals agree.
     const bool opposite = start(uses[0], a) == start(uses[1], b);
     around[static_cast<std::size_t>(a)].push_back({b, opposite});
     around[static_cast<std::size_t>(b)].push_back({a, opposite});

@@ -10,7 +10,7 @@ namespace carreau::grid {
 
 namespace {
 
-/// Numbers of all intervals of all blocks: those between columns, then those between rows.
+/// Numbers of all intervals of all blocks: first intervals between columns, then intervals between rows.
 class Intervals {
  public:
   explicit Intervals(const std::vector<Block>& blocks) {

@@ -12,9 +12,9 @@ struct Knots {
   std::vector<double> u, v;  ///< ascending, from 0
 };
 
-/// [block]: the integers, or cumulated lengths: of an interval between two columns the mean length of the edges
-/// across it (HDR sec. 4.7.3). Intervals of blocks that have a border edge in common have one length, the mean of all
-/// edges of both, so that the curves of both along it are the same.
+/// [block]: the integers, or cumulated lengths. An interval between two columns has the mean length of the edges across
+/// it (HDR sec. 4.7.3). Intervals of blocks that have a border edge in common have one length, the mean of all edges of
+/// both. So both blocks have the same curve along it.
 std::vector<Knots> find_knots(const std::vector<Block>& blocks, const Borders& borders, bool lengths);
 
 }  // namespace carreau::grid

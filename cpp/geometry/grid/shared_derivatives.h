@@ -11,10 +11,10 @@
 
 namespace carreau::grid {
 
-/// How much a derivative at a node knows, the best first.
+/// Quality of a derivative at a node, the best first.
 enum class Rank : char { inner, across, one_sided, none };
 
-/// Derivatives with regard to u or v at border nodes, of which some are one up to their signs: sets of such.
+/// Sets of derivatives with regard to u or v at border nodes that are equal up to their signs.
 class SharedDerivatives {
  public:
   struct Slot {
@@ -27,7 +27,7 @@ class SharedDerivatives {
   std::size_t number(const Slot& slot);
   /// a is sign times b.
   void unite(std::size_t a, std::size_t b, int sign);
-  /// Offers a value for slot a; the best rank wins, of equals the first.
+  /// Offers a value for slot a; the best rank wins, and the first of equal ranks.
   void offer(std::size_t a, Rank rank, const Vec3& value);
   /// Calls set(slot, value) for every slot whose set has a value.
   template <typename Set>

@@ -22,7 +22,7 @@ Vec3 mean(const Neighbours<Vec3>& n) {
   return d1 + d2 > 0 ? Vec3((d2 * n.before + d1 * n.after) / (d1 + d2)) : n.here;
 }
 
-/// to[i] = from[i] + weight (mean - from[i]) but for the ends of an open line.
+/// to[i] = from[i] + weight (mean - from[i]), except at the ends of an open line.
 template <typename Value>
 void pass(std::span<const Value> from, std::span<Value> to, bool closed, double weight) {
   const std::size_t n = from.size();
@@ -37,7 +37,7 @@ void pass(std::span<const Value> from, std::span<Value> to, bool closed, double 
   }
 }
 
-/// `moved` is room for as many values.
+/// `moved` is scratch space of equal size.
 template <typename Value>
 void smooth(std::span<Value> values, std::span<Value> moved, bool closed, const Smoothing& smoothing) {
   if (values.size() < 3) return;
@@ -67,7 +67,7 @@ bool is_smooth(const Block& block, bool columns) {
   return block.measured == Measured::radii || sum < thresholds::closed_turn * count;
 }
 
-/// Nodes of a line without missing ones, node k at first + k * step.
+/// Successive present nodes of a line, node k at first + k * step.
 struct Run {
   std::size_t first, step, count;
   bool closed;  ///< a whole closed line, without the node that repeats its first one
@@ -109,7 +109,7 @@ void smooth_runs(std::vector<Value>& values, const std::vector<Run>& runs, const
 
 double radius_of(const Vec3& p) { return std::hypot(p.x(), p.y()); }
 
-/// What smoothing moves of a node, of heights and radii.
+/// Sets the coordinate of a node that smoothing moves, for heights and radii.
 void set_moved(const Block& block, double value, Vec3& p) {
   if (block.measured == Measured::heights)
     p.z() = value;

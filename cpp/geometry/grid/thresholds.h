@@ -14,8 +14,8 @@ inline constexpr double same_node_share_of_edge = 0.1;
 inline constexpr double flat_share = 1e-12;
 /// A corner turns against its cell when its normal leans this share of the area back: rounding does not count. [Cells.*]
 inline constexpr double folded_share = 1e-6;
-/// Turn at the joint of a closed grid (in the mean), or between lines of two blocks, radians, from which on they do not go
-/// on into one another: eight cells make a circle. [Glue.*, Coons.*]
+/// Turn at the joint of a closed grid (in the mean), or between lines of two blocks, radians. From this turn on the lines do not go on into
+/// one another: eight cells make a circle. [Glue.*, Coons.*]
 inline constexpr double closed_turn = std::numbers::pi / 4;
 /// Holes are filled when no node moves by more than this share of the first sweep's largest move. [Holes.*]
 inline constexpr double still_share = 1e-9;

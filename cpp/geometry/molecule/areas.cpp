@@ -21,7 +21,7 @@ Vec3 middle_of(std::span<const Ball> balls) {
   return sum / static_cast<double>(balls.size());
 }
 
-/// Components that share an arc are of one shell.
+/// Components that share an arc belong to one shell.
 std::vector<int> shells_of(const Arrangement& a) {
   UnionFind sets(a.components.size());
   std::vector<int> first(a.arcs.size(), -1), shell(a.components.size(), -1);

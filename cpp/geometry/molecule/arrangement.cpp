@@ -88,7 +88,7 @@ void add_arcs(std::span<ArcEnd> ends, const Circle& circle, Arrangement& a, Doub
   }
 }
 
-/// The circle of a pair has no vertex: all of it is covered or none.
+/// The circle of a pair has no vertex: it is covered wholly or not at all.
 void add_whole_circle(const Circle& circle, const Neighbours& neighbours, Arrangement& a, Doubts& doubts) {
   const std::array<int, 2> but{circle.i, circle.j};
   const CoverTest test{a.balls, neighbours.of(circle.i), 1e-12 * a.balls[circle.i].radius};
@@ -128,8 +128,8 @@ double share_of(int ball, int round) {
   return static_cast<double>((hash ^ (hash >> 31)) >> 11) * 0x1p-53;
 }
 
-/// Marks arcs of at most a millionth of the smaller radius. A small loop that has a longer arc, or one of another such
-/// loop, keeps all of its arcs: the others would not close.
+/// Marks arcs of at most a millionth of the smaller radius. A small loop with a longer arc, or an arc of such a loop,
+/// keeps all of its arcs: otherwise the others would not close.
 void mark_tiny_arcs(Arrangement& a) {
   constexpr double tiny = 1e-6, small_loop = 1e3;  // small_loop: longest arc of a loop, in lengths of a tiny one
   std::vector<double> share;                       // of the length of a tiny arc
@@ -202,7 +202,7 @@ Arrangement arrange(std::span<const Ball> balls, int threads, Monitor& monitor) 
     std::set_union(before.begin(), before.end(), doubted.begin(), doubted.end(), std::back_inserter(a.moved));
   }
   throw InvalidArgument("the spheres of atoms " + std::to_string(a.moved.empty() ? 0 : a.moved.front() + 1) +
-                        " and others come too near to meeting in one point to tell how they do");
+                        " and others meet too nearly in one point to decide their order");
 }
 
 }  // namespace carreau::molecule

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What spheres leave of each other: circles, vertices, arcs and exposed components (HDR sec. 4.6.2).
+// Exposed parts of spheres: circles, vertices, arcs and components (HDR sec. 4.6.2).
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace carreau::molecule {
 
-/// Where the spheres of balls i < j cross. Its points are centre + radius (cos(a) e1 + sin(a) e2); e1, e2, axis are
-/// right-handed, and the axis points from ball i to ball j.
+/// The circle in which the spheres of balls i < j cross. Its points are centre + radius (cos(a) e1 + sin(a) e2); e1,
+/// e2, axis are right-handed, and the axis points from ball i to ball j.
 struct Circle {
   int i = 0, j = 0;
   Vec3 centre = {}, axis = {}, e1 = {}, e2 = {};
@@ -41,15 +41,15 @@ struct Arc {
   int circle = 0;
   int start = -1, end = -1;  ///< vertices; -1: the whole circle
   double a = 0, b = 0;
-  /// At most a millionth of the smaller radius long, and none of a small loop that has longer arcs: a model has a point
-  /// in its place.
+  /// True if the arc is at most a millionth of the smaller radius long: a model has a point in its place. Arcs of small
+  /// loops with a longer arc are never tiny.
   bool tiny = false;
 
   [[nodiscard]] bool whole() const { return start < 0; }
 };
 
-/// An arc as the boundary of a ball's exposed part, which lies on its left seen from outside: ball j of its circle has
-/// it forward, ball i backward.
+/// An arc as the boundary of a ball's exposed part, which lies on its left seen from outside. It is forward for ball j
+/// of its circle, backward for ball i.
 struct ArcUse {
   int arc = 0;
   bool forward = true;
@@ -63,7 +63,7 @@ struct Component {
 };
 
 struct Arrangement {
-  std::vector<Ball> balls;   ///< as given, but for radii that were moved
+  std::vector<Ball> balls;   ///< as given, except for moved radii
   std::vector<int> held_by;  ///< [ball]: the ball that holds it; -1: none
   std::vector<int> moved;    ///< balls whose radius was moved, ascending
   std::vector<Circle> circles;
@@ -78,15 +78,15 @@ struct Arrangement {
     return {c.centre, c.e1, c.e2, c.radius, arcs[use.arc].a, arcs[use.arc].b, !use.forward};
   }
   [[nodiscard]] SpaceLoop space_loop(const Loop& loop) const;
-  /// Of the union's boundary, from its components, arcs and vertices.
+  /// Euler number of the union's boundary, from its components, arcs and vertices.
   [[nodiscard]] int euler_number() const;
 };
 
-/// Linear memory; n log n for balls of similar radii of which few meet at a time. Where a decision cannot be told from
-/// rounding (four spheres through one point, three through a touching one) the radii of the balls that it is about are
-/// moved by some 1e-9 of themselves, by a rule of their ranks alone, and all is decided again: every decision is then
-/// that of one set of balls. Throws as check_balls(), and InvalidArgument when eight such rounds do not do.
-/// The result does not depend on the number of threads.
+/// Linear memory; n log n for balls of similar radii of which few meet at a time. Rounding may leave a decision open
+/// (four spheres through one point, three through a touching one). Then the radii of its balls are moved by some 1e-9
+/// of themselves, by a rule of their ranks alone. All decisions are then repeated, so that they belong to one set of
+/// balls. Throws as check_balls(), and InvalidArgument when eight such rounds fail. The result does not depend on the
+/// number of threads.
 Arrangement arrange(std::span<const Ball> balls, int threads, Monitor& monitor);
 
 }  // namespace carreau::molecule

@@ -22,7 +22,7 @@ bool holds(const Ball& p, const Ball& q, double distance) {
   return distance <= p.radius - q.radius + equal_distances * p.radius;
 }
 
-/// Cells of a grid, coded so that one sort brings the balls of a cell together.
+/// Cells of a grid, coded so that one sort groups the balls of a cell.
 class Cells {
  public:
   Cells(std::span<const Ball> balls, std::span<const int> members) {
@@ -36,7 +36,7 @@ class Cells {
     std::sort(order_.begin(), order_.end());
   }
 
-  /// use(j) for all balls of the 27 cells about a point.
+  /// Calls use(j) for all balls of the 27 cells about a point.
   template <typename Use>
   void around(const Vec3& p, const Use& use) const {
     const std::array<std::int64_t, 3> at = place(p);
@@ -66,7 +66,7 @@ class Cells {
   std::vector<std::pair<std::uint64_t, int>> order_;
 };
 
-/// Of balls with one centre the largest, the first of equal ones; tells the others.
+/// Keeps the largest of balls with one centre, the first of equal ones; `held_by` receives it for the others.
 std::vector<int> without_concentric(std::span<const Ball> balls, std::vector<int>& held_by) {
   std::vector<int> order(balls.size()), kept;
   std::iota(order.begin(), order.end(), 0);

@@ -7,7 +7,7 @@ namespace carreau::molecule {
 
 namespace {
 
-/// Which arc a vertex has on the circle of its balls 0 and 1, 0 and 2, 1 and 2.
+/// The arc of a vertex on the circle of its balls 0 and 1, 0 and 2, 1 and 2.
 using ArcsAt = std::vector<std::array<int, 3>>;
 
 int slot_of(const Vertex& v, const Circle& circle) {
@@ -80,7 +80,7 @@ void add_components(const Neighbours& neighbours, int ball, std::vector<Loop>& l
   }
 }
 
-/// A point of the sphere that no ball covers, when no circle bounds what is not covered.
+/// Returns whether the whole sphere is uncovered, when no circle bounds an uncovered part.
 bool is_bare(const Neighbours& neighbours, const Arrangement& a, int ball) {
   if (a.held_by[ball] >= 0) return false;
   return neighbours.of(ball).empty();

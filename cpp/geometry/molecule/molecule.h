@@ -17,7 +17,7 @@ struct Molecule {
   std::vector<Ball> balls;
   /// [ball]: positive and different, the references of faces; empty: ranks from 1.
   std::vector<int> numbers = {};
-  /// [ball]: names of faces, the same for atoms of a residue; empty: none.
+  /// [ball]: names of faces, equal for atoms of a residue; empty: none.
   std::vector<std::string> names = {};
   std::vector<std::string> elements = {};  ///< [ball]: symbols; empty: not known
 };
@@ -25,7 +25,7 @@ struct Molecule {
 enum class SurfaceKind {
   vws,  ///< of the union of the balls
   sas,  ///< of the union of balls whose radii the probe's is added to
-  ses   ///< of what no probe outside the balls reaches: convex parts of balls, tori, concave parts of probes
+  ses   ///< of the region that no probe outside the balls reaches: convex parts of balls, tori, concave parts of probes
 };
 
 struct SurfaceOptions {
@@ -38,14 +38,14 @@ struct SurfaceOptions {
 /// The balls whose union the surface bounds, arranged. Throws InvalidArgument, naming the atom or the probe.
 Arrangement arrange(const Molecule& molecule, const SurfaceOptions& options, Monitor& monitor);
 
-/// What is known of a surface without a mesh.
+/// Properties of a surface without a mesh.
 struct MoleculeSummary {
   std::vector<int> numbers;        ///< [ball]
   std::vector<std::string> names;  ///< [ball]; empty: none
-  UnionMeasures measures;          ///< of an ses: ball_area has convex parts only, shells are those of the sas
+  UnionMeasures measures;          ///< for an ses: ball_area has convex parts only, shells are the shells of the sas
   int euler_number = 0;            ///< of the model
   std::size_t moved = 0;           ///< radii
-  double torus = 0, concave = 0;   ///< areas of those parts of an ses
+  double torus = 0, concave = 0;   ///< areas of these parts of an ses
   std::vector<double> ball_torus, ball_concave;  ///< [ball]: shares of them; see ExcludedMeasures
 };
 

@@ -21,13 +21,13 @@ class Patch {
   [[nodiscard]] virtual std::size_t curve_count() const = 0;
   [[nodiscard]] virtual Interval interval(std::size_t curve) const = 0;
   [[nodiscard]] virtual CurveJet curve(std::size_t curve, double t) const = 0;
-  /// Of a curve in space.
+  /// Radius of a curve in space.
   [[nodiscard]] virtual double curve_radius(std::size_t curve) const = 0;
 };
 
 class PatchCad final : public Cad {
  public:
-  /// `ref` is not that of a patch added before. Not while others evaluate.
+  /// `ref` must differ from the references of earlier patches. Not while others evaluate.
   void add(int ref, std::unique_ptr<const Patch> patch);
 
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override;

@@ -26,7 +26,7 @@ double turning(const Ball& ball, const SpaceLoop& loop, double sign) {
   return sum;
 }
 
-/// Where a great circle meets a loop.
+/// The crossing of a great circle with a loop.
 struct Crossing {
   double angle = 0;
   std::size_t loop = 0;
@@ -56,7 +56,7 @@ void add_crossings(const GreatCircle& great, const SpaceArc& arc, std::size_t lo
 }
 
 /// Joins loops between which a stretch of a great circle is bare. A stretch that leaves a part through a loop comes
-/// back through the same loop, so the great circle of any two loops of a part joins them, with those between.
+/// back through the same loop. So the great circle of any two loops of a part joins them, with the loops between.
 void join_along(const GreatCircle& great, std::span<const SpaceLoop> loops,
                 const std::function<bool(const Vec3&)>& bare, UnionFind& sets) {
   std::vector<Crossing> crossings;
@@ -72,8 +72,8 @@ void join_along(const GreatCircle& great, std::span<const SpaceLoop> loops,
   }
 }
 
-/// Whether a great circle is that of an arc, so that no place tells where they meet: sides of a probe's triangle are
-/// arcs of great circles.
+/// Returns whether an arc lies on the great circle, so that they have no crossing point: sides of a probe's triangle
+/// are arcs of great circles.
 bool runs_along(const GreatCircle& great, const SpaceArc& arc) {
   constexpr double close = 1e-6;
   const Vec3 axis = cross(arc.e1, arc.e2);

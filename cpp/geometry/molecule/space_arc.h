@@ -26,17 +26,17 @@ struct SpaceArc {
   [[nodiscard]] double last() const { return backward ? a : b; }
 };
 
-/// What of a sphere lies on the left of loops, seen from outside or from inside.
+/// The part of a sphere on the left of loops, seen from outside or from inside.
 enum class Side { outer, inner };
 using SpaceLoop = std::vector<SpaceArc>;
 
-/// By the theorem of Gauss and Bonnet: of one connected part.
+/// Area of one connected part, by the theorem of Gauss and Bonnet.
 double area_on_sphere(const Ball& ball, std::span<const SpaceLoop> loops, Side side);
 /// Integral of the normal, outward or inward: half the integral of x cross dx along the border.
 Vec3 vector_area(const Ball& ball, std::span<const SpaceLoop> loops);
 
-/// Which loops bound one connected part: [loop], the first loop of its part. `bare` tells whether a point of the sphere
-/// is in some part.
+/// Which loops bound one connected part: [loop], the first loop of its part. `bare` returns whether a point of the
+/// sphere is in some part.
 std::vector<std::size_t> parts_of_loops(const Ball& ball, std::span<const SpaceLoop> loops,
                                         const std::function<bool(const Vec3&)>& bare);
 

@@ -8,11 +8,11 @@ namespace carreau::molecule {
 
 SpherePatch::SpherePatch(const Ball& ball, const Vec3& pole, std::vector<SpaceArc> border, Side side)
     : ball_(ball), x_(across(pole)), z_(pole), border_(std::move(border)) {
-  // Opposite the pole Su x Sv = x cross y, which is outwards there.
+  // Opposite the pole Su x Sv = x cross y, which points outwards there.
   y_ = side == Side::outer ? cross(x_, z_) : cross(z_, x_);
 }
 
-// With q = 1/(u^2 + v^2 + 4 r^2), eq. 4.86 seen from the centre: x = 4 r^2 u q, y = 4 r^2 v q, z = r - 8 r^3 q.
+// With q = 1/(u^2 + v^2 + 4 r^2), eq. 4.86 seen from the centre has x = 4 r^2 u q, y = 4 r^2 v q, z = r - 8 r^3 q.
 SurfaceJet SpherePatch::surface(const Vec2& uv) const {
   const double u = uv.x(), v = uv.y(), r = ball_.radius, s = 4 * r * r, q = 1 / (u * u + v * v + s);
   const double qu = -2 * u * q * q, qv = -2 * v * q * q, cube = 8 * q * q * q;
@@ -27,7 +27,7 @@ SurfaceJet SpherePatch::surface(const Vec2& uv) const {
   return jet;
 }
 
-// The inverse chart u = 2 r x / (r - z), v = 2 r y / (r - z) along an arc, by the rule of quotients.
+// The inverse chart along an arc, by the rule of quotients: u = 2 r x / (r - z), v = 2 r y / (r - z).
 CurveJet SpherePatch::curve(std::size_t curve, double t) const {
   const SpaceArc& arc = border_[curve];
   const double angle = arc.backward ? arc.a + arc.b - t : t, sign = arc.backward ? -1 : 1;

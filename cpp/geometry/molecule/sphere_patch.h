@@ -7,8 +7,8 @@
 
 namespace carreau::molecule {
 
-/// The sphere of a ball, projected from a pole that is not on the face onto the plane that touches it on the other
-/// side: eq. 4.86 with axes of its own. Outwards is away from the centre, or towards it.
+/// The sphere of a ball, projected from a pole that is not on the face onto the opposite tangent plane: eq. 4.86 with
+/// its own axes. Outwards is away from the centre, or towards it.
 class SpherePatch final : public Patch {
  public:
   /// `pole`: a unit vector. `border`: arcs on the sphere in the order of the face's curves.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double rounding = 1e-13;  // of products of three or four lengths of one size
 
-/// Of the circle's plane from the centre of p: HDR sec. 4.6.2, step 1.
+/// Offset of the circle's plane from the centre of p: HDR sec. 4.6.2, step 1.
 double plane_offset(const Ball& p, const Ball& q, double distance) {
   return (distance + (p.radius - q.radius) * ((p.radius + q.radius) / distance)) / 2;
 }
@@ -86,7 +86,7 @@ Cover CoverTest::of(const Vec3& p, std::span<const int> but, int& doubtful_ball)
 void find_vertices(std::span<const Ball> balls, const Neighbours& neighbours, int i, std::vector<Vertex>& vertices,
                    Doubts& doubts) {
   const std::span<const int> all = neighbours.of(i);
-  // Those that cover most of the sphere come first: most points are covered.
+  // Balls that cover most of the sphere come first: most points are covered.
   std::vector<std::pair<double, int>> by_cover;
   for (const int l : all)
     by_cover.push_back({plane_offset(balls[i], balls[l], norm(balls[l].centre - balls[i].centre)), l});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of three spheres, and whether balls cover points. Steps of arrange().
+// Points of three spheres, and tests whether balls cover points. Steps of arrange().
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace carreau::molecule {
 
 Circle circle_of_pair(std::span<const Ball> balls, int i, int j);
 
-/// What cannot be told from rounding: the balls that such decisions were about.
+/// Decisions that rounding leaves open: the balls of these decisions.
 class Doubts {
  public:
   void add(std::initializer_list<int> balls) { balls_.insert(balls_.end(), balls); }
@@ -23,7 +23,7 @@ class Doubts {
   std::vector<int> balls_;
 };
 
-/// Whether some ball covers a point, in the order of `others`; those of `but` are not asked.
+/// Result of a test whether some ball covers a point, in the order of `others`; balls of `but` are skipped.
 enum class Cover { no, yes, doubtful };
 struct CoverTest {
   std::span<const Ball> balls;
@@ -32,7 +32,7 @@ struct CoverTest {
   [[nodiscard]] Cover of(const Vec3& p, std::span<const int> but, int& doubtful_ball) const;
 };
 
-/// The points of spheres i < j < k, of all j and k for one i, that no ball covers: appended.
+/// Appends the points of spheres i < j < k, of all j and k for one i, that no ball covers.
 void find_vertices(std::span<const Ball> balls, const Neighbours& neighbours, int i, std::vector<Vertex>& vertices,
                    Doubts& doubts);
 

@@ -14,9 +14,9 @@ namespace carreau {
 
 namespace {
 
-/// Share of the diagonal within which a rounded crossing is a point that is there: some ulps of its coordinates.
+/// Share of the diagonal within which a rounded crossing is an existing point: some ulps of its coordinates.
 constexpr double same_point = 4e-13;
-/// Rounds of division: the pieces of one may cross by rounding in the next one.
+/// Rounds of division: the pieces of a round may cross by rounding in the next one.
 constexpr int max_rounds = 20;
 
 bool between(const Vec2& a, const Vec2& b, const Vec2& p) noexcept {
@@ -90,7 +90,7 @@ class Arranger {
     input_.curves = std::move(kept);
   }
 
-  /// Divides all segments at the points that they meet; false: they meet at their ends alone.
+  /// Divides all segments at the points that they meet; returns false if they meet at their ends alone.
   bool divide() {
     const std::size_t n = input_.curves.size();
     if (n == 0) return false;
@@ -146,7 +146,7 @@ class Arranger {
     return {std::floor(x.x() / tolerance_), std::floor(x.y() / tolerance_)};
   }
 
-  /// -1: there is none within the tolerance.
+  /// -1: no point within the tolerance.
   [[nodiscard]] int point_near(const Vec2& x) const {
     const auto [column, row] = cell_of(x);
     for (const double i : {-1.0, 0.0, 1.0})
@@ -158,7 +158,7 @@ class Arranger {
     return -1;
   }
 
-  /// The point of a crossing: one that is there, else a new one.
+  /// The point of a crossing: an existing point, else a new one.
   int crossing_of(int c, int d) {
     const Vec2 a = at(first(c)), b = at(second(c)), e = at(first(d)), f = at(second(d));
     const Vec2 ab = b - a, ef = f - e;
@@ -197,7 +197,7 @@ class Arranger {
   double tolerance_ = 0;
   std::vector<std::set<int>> on_;                     // by segment: points that divide it
   std::multimap<std::pair<double, double>, int> cells_;  // points by cells of a grid
-  int last_ = 0;                                      // a segment that crossed another one
+  int last_ = 0;                                      // a segment that crossed another
 };
 
 }  // namespace

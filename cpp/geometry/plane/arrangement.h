@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrangement of segments of a plane domain: a point where two of them meet.
+// The arrangement of segments of a plane domain: segments meet only at points.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct SegmentArrangement {
 
 /// Merges points of equal coordinates, and divides segments where others cross them or points lie on them, as Triangle
 /// does (J. R. Shewchuk, "Triangle", 1996, sec. 3). Exact predicates decide whether segments meet; crossings are
-/// rounded, and those within rounding of a point are this point. Pieces have the references of their segment. Every curve
-/// of the domain must be one segment. Throws InvalidModel when rounding leaves crossings after several rounds.
+/// rounded, and crossings within rounding of a point are this point. Pieces have the references of their segment. Every
+/// curve of the domain must be one segment. Throws InvalidModel when rounding leaves crossings after several rounds.
 SegmentArrangement arrange_segments(PlaneDomainInput& input);
 
 }  // namespace carreau

@@ -10,14 +10,14 @@
 
 namespace carreau {
 
-/// What is known beyond the ends of a spline. Of each end at most one; none: the end is free.
+/// Conditions beyond the ends of a spline. Each end has at most one; none: the end is free.
 struct SplineEnds {
   std::optional<Vec2> before, after;               ///< control points P1 and Pn, which the spline does not pass
   std::optional<Vec2> tangent_start, tangent_end;  ///< derivatives there, along the curve's direction
 };
 
-/// The n - 1 pieces of the spline through n >= 2 `points`, whose tangent at a point is half the vector from the one
-/// before to the one behind. When the first point is the last one and neither end is given, the spline wraps round.
+/// The n - 1 pieces of the spline through n >= 2 `points`. Its tangent at a point is half the vector from the previous
+/// to the next point. When the first point is the last one and neither end is given, the spline wraps round.
 std::vector<CubicPiece> catmull_rom(std::span<const Vec2> points, const SplineEnds& ends);
 
 /// The same pieces as segments.

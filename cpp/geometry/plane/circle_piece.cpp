@@ -16,7 +16,7 @@ constexpr double turn = 2 * std::numbers::pi;
 
 double angle_of(const Vec2& d) noexcept { return std::atan2(d.y(), d.x()); }
 
-/// In (0, 2 pi] counterclockwise, or in [-2 pi, 0).
+/// Angle in (0, 2 pi] counterclockwise, or in [-2 pi, 0).
 double swept(double from, double to, bool counterclockwise) noexcept {
   double angle = std::fmod(to - from, turn);
   if (counterclockwise && angle <= 0) angle += turn;

@@ -10,8 +10,8 @@
 
 namespace carreau {
 
-/// Lengths are those of the plane, angles are in radians; t has no unit. Its curvature is 1 / radius, to the left when the
-/// sweep is positive.
+/// Lengths are in the plane's unit, angles are in radians; t has no unit. Its curvature is 1 / radius, to the left when the sweep is
+/// positive.
 struct CirclePiece {
   Vec2 centre;
   double radius = 0;

@@ -10,7 +10,8 @@ namespace carreau {
 
 namespace {
 
-/// Real roots of p + q t + r t^2 strictly inside (a, b), ascending; none of a constant, and a double root once.
+/// Real roots of p + q t + r t^2 strictly inside (a, b), ascending. A constant has no root, and a double root counts
+/// once.
 struct Roots {
   int n = 0;
   std::array<double, 2> t{};
@@ -33,7 +34,7 @@ Roots roots_inside(double p, double q, double r, double a, double b) noexcept {
   return found;
 }
 
-/// Halving and cutting at extrema ends long before: each cut leaves less than half of the bend (README).
+/// Halving and cutting at extrema ends long before this depth: each cut leaves less than half of the bend (README).
 constexpr int deepest = 60;
 
 class Subdivision {
@@ -44,7 +45,7 @@ class Subdivision {
     const Vec2 from = piece_.at(a);
     const Vec2 chord = piece_.at(b) - from;
     const double d = norm(chord);
-    // A closed piece has no chord to be turned along; any direction serves to cut it.
+    // A closed piece has no chord as direction; any direction serves to cut it.
     const Vec2 along = d > 0 ? Vec2(chord / d) : Vec2{1, 0};
     const auto height = [&](double t) { return std::abs(cross(along, Vec2(piece_.at(t) - from))); };
     // g_y' = cross(along, f')  (RR-2818 sec. 3.4)
@@ -110,7 +111,7 @@ std::optional<PieceLoop> loop_of(const CubicPiece& piece) noexcept {
 
 std::optional<double> cusp_of(const CubicPiece& piece) noexcept {
   const Vec2 &a1 = piece.a[1], &a2 = piece.a[2], &a3 = piece.a[3];
-  // f' vanishes where both of its coordinates do: the extrema of the one that bends more.
+  // f' vanishes where both of its coordinates do: candidates are the extrema of the coordinate that bends more.
   const int k = std::abs(a2.x()) + std::abs(a3.x()) >= std::abs(a2.y()) + std::abs(a3.y()) ? 0 : 1;
   const Roots stops = roots_inside(a1[k], 2 * a2[k], 3 * a3[k], 0, 1);
   const double scale = norm(a1) + 2 * norm(a2) + 3 * norm(a3);

@@ -10,7 +10,7 @@
 
 namespace carreau {
 
-/// Coefficients of powers of t. Lengths are those of the plane; t has no unit.
+/// Coefficients of powers of t. Lengths are in the plane's unit; t has no unit.
 struct CubicPiece {
   std::array<Vec2, 4> a;
 
@@ -24,7 +24,7 @@ struct CubicPiece {
 CubicPiece piece_between(const Vec2& b, const Vec2& c, const std::optional<Vec2>& tangent_b,
                          const std::optional<Vec2>& tangent_c) noexcept;
 
-/// Where a piece passes a point twice, f(t1) = f(t2).
+/// A point that a piece passes twice, f(t1) = f(t2).
 struct PieceLoop {
   double t1 = 0, t2 = 1;  ///< 0 <= t1 < t2 <= 1
   Vec2 at;
@@ -33,12 +33,12 @@ struct PieceLoop {
 /// RR-2818 sec. 3.6. A piece whose ends coincide has a loop, too. Empty: none.
 std::optional<PieceLoop> loop_of(const CubicPiece& piece) noexcept;
 
-/// Whether the derivative vanishes inside the piece, and where: a cusp, at which the two parameters of a loop are one
-/// (S^2 = 4 P). Empty: no.
+/// The parameter inside the piece at which the derivative vanishes: a cusp, at which the two parameters of a loop are
+/// one (S^2 = 4 P). Empty: no.
 std::optional<double> cusp_of(const CubicPiece& piece) noexcept;
 
-/// Whether the piece turns back along its own chord: the shapes d and e of RR-2818 fig. 8, which wrong control points
-/// often cause. A piece without a chord does.
+/// Returns whether the piece turns back along its own chord: the shapes d and e of RR-2818 fig. 8, which wrong control
+/// points often cause. A piece without a chord does.
 bool turns_back(const CubicPiece& piece) noexcept;
 
 /// Parameters strictly inside (0, 1), ascending, of a polyline whose edges of length d keep each point of their arc

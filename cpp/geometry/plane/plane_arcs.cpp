@@ -113,7 +113,8 @@ void check_piece(const PlaneDomainInput& input, int c, std::size_t rank, const C
                        "; its control points may be wrong");
 }
 
-/// How often each point is an end of a curve, or passed by one.
+/// Marks the points at which a mesh has vertices: ends of curves, points of several curves, corners of polylines,
+/// imposed points.
 std::vector<char> vertices_of(const PlaneDomainInput& input) {
   std::vector<int> passes(input.points.size(), 0);
   std::vector<char> vertex(input.points.size(), 0);
@@ -129,7 +130,7 @@ std::vector<char> vertices_of(const PlaneDomainInput& input) {
   return vertex;
 }
 
-/// Ends are the points themselves: rounding of coefficients must not open loops.
+/// Ends are exactly the points: rounding of coefficients must not open loops.
 void make_polyline(const PlaneDomainInput& input, PlaneArc& arc, double eps) {
   arc.polyline.clear();
   arc.parameter.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curves of a plane domain, cut where others end, and polylines that stand for them.
+// The curves of a plane domain, cut where others end, and polylines that approximate them.
 #pragma once
 
 #include <memory>
@@ -22,10 +22,10 @@ struct PlaneArc {
   [[nodiscard]] Vec2 at(double t) const noexcept;
 };
 
-/// Cuts every curve at points where another one ends or passes, and at imposed ones. Polylines follow RR-2818 sec. 3.7
-/// with tolerance `eps`. Throws InvalidModel with file and line, curve and point: points that coincide or are not
-/// finite, curves with fewer than two points, pieces without length, loops and cusps, arcs without a circle. `warnings` gets a sentence for
-/// each piece that turns back (RR-2818 fig. 8 d, e).
+/// Cuts every curve at points where a curve ends or passes, and at imposed points. Polylines follow RR-2818 sec. 3.7 with tolerance `eps`.
+/// Throws InvalidModel with file and line, curve and point. Causes are points that coincide or are not finite, curves with fewer than two
+/// points, pieces without length, loops and cusps, or arcs without a circle. `warnings` gets a sentence for each piece that turns back
+/// (RR-2818 fig. 8 d, e).
 std::vector<PlaneArc> cut_into_arcs(const PlaneDomainInput& input, double eps, std::vector<std::string>& warnings);
 
 /// Makes the polylines again with another tolerance.

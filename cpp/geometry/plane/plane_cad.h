@@ -12,7 +12,7 @@
 namespace carreau {
 
 /// Curve `ic` of a face is one of the arcs, with parameters from 0 to its number of pieces. Second derivatives jump
-/// between pieces; at a joint they are those of the piece behind. Both ends are the points themselves, bit for bit.
+/// between pieces; a joint has the values of the piece behind. Both ends are exactly the points.
 class PlaneCad final : public Cad {
  public:
   /// of_face: indices of arcs by the reference of a face and the rank of a curve in it.
@@ -25,7 +25,7 @@ class PlaneCad final : public Cad {
   [[nodiscard]] bool reentrant() const noexcept override { return true; }
 
   [[nodiscard]] const std::vector<PlaneArc>& arcs() const noexcept { return arcs_; }
-  /// Index of the arc. Throws InvalidArgument when there is none.
+  /// Index of the arc. Throws InvalidArgument when the face has no such curve.
   [[nodiscard]] int arc_of(int face, int ic) const;
 
  private:

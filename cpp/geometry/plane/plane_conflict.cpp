@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where polylines meet that should not.
+// Conflicts of polylines that should not meet.
 #include <algorithm>
 
 #include "geometry/plane/plane_graph.h"
@@ -18,7 +18,7 @@ bool in_box(const Vec2& a, const Vec2& b, const Vec2& p) noexcept {
          p.y() <= std::max(a.y(), b.y());
 }
 
-/// A point that both have, and that is not a vertex of both.
+/// A common point that is not a vertex of both.
 std::optional<Vec2> common_point(const std::vector<Vec2>& v, const Segment& e, const Segment& f) {
   const Vec2 &a = v[e.a], &b = v[e.b], &c = v[f.a], &d = v[f.b];
   const bool at_a = e.a == f.a || e.a == f.b, at_b = e.b == f.a || e.b == f.b;

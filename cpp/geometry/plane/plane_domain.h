@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A domain of the plane as arrays or a file give it: points, curves through them, and on which side it lies.
+// A domain of the plane from arrays or a file: points, curves through them, and sides of curves.
 #pragma once
 
 #include <optional>
@@ -11,21 +11,21 @@
 
 namespace carreau {
 
-/// References are the user's own: any number, 0 for none, equal ones for several entities. Lines count from 1, 0: from
-/// memory. Names are for sentences; empty: the entity is called by its number from 1.
+/// References are the user's own: any number, 0 for none, equal numbers for several entities. Lines count from 1, 0:
+/// from memory. Names are for sentences; empty: the entity is called by its number from 1.
 struct PlanePoint {
   Vec2 xy;
   int ref = 0;
   bool imposed = false;                ///< a vertex of the mesh, also when no curve ends here
   bool may_drop = false;               ///< an imposed point outside of the domain is no error
-  std::optional<double> size = {};     ///< wanted here, > 0
-  std::optional<Metric2> metric = {};  ///< wanted here, positive definite; in place of a size
+  std::optional<double> size = {};     ///< desired here, > 0
+  std::optional<Metric2> metric = {};  ///< desired here, positive definite; in place of a size
   int line = 0;
   std::string name = {};
 };
 
 struct PlaneCurve {
-  std::vector<int> points;      ///< indices from 0 of what it passes, two or more; first == last: closed
+  std::vector<int> points;      ///< indices from 0 of its points, two or more; first == last: closed
   bool smooth = false;          ///< a spline; otherwise segments, and each of its points is a vertex
   /// Arcs of circles: a start, a point between, an end, which starts the next arc, a point between, ... Starts and ends
   /// are vertices, points between are not. From a point to itself: the circle of which both have a diameter.
@@ -37,7 +37,7 @@ struct PlaneCurve {
   std::string name = {};
 };
 
-/// A subdomain: what is on one side of a curve, as far as other curves.
+/// A subdomain: the region on one side of a curve, bounded by curves.
 struct PlaneSide {
   int curve = 0;     ///< index from 0
   bool left = true;  ///< of the curve as it runs
@@ -45,7 +45,7 @@ struct PlaneSide {
   int line = 0;
 };
 
-/// A subdomain, or a hole: what is around a point, as far as the curves.
+/// A subdomain, or a hole: the region around a point, bounded by curves.
 struct PlaneSeed {
   Vec2 at;
   bool hole = false;
@@ -53,11 +53,11 @@ struct PlaneSeed {
   int line = 0;
 };
 
-/// What is the domain where neither a side nor a seed says so.
+/// Rule for the domain where neither a side nor a seed decides.
 enum class PlaneRest {
-  outside,  ///< nothing else: sides tell all
+  outside,  ///< nothing else: sides decide
   inside,   ///< all that curves enclose but holes (Triangle's rule)
-  parity,   ///< what curves enclose; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR
+  parity,   ///< regions enclosed by curves; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR
             ///< fig. 3.1)
 };
 

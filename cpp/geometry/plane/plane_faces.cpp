@@ -28,7 +28,7 @@ class Subdomains {
   struct Claim {
     bool taken = false, hole = false;
     int ref = 0;
-    std::string by = {};  ///< "the side of curve 2"; empty: by no one
+    std::string by = {};  ///< "the side of curve 2"; empty: no claim
   };
 
   [[nodiscard]] Where where(int line) const {
@@ -48,7 +48,7 @@ class Subdomains {
     old = {.taken = true, .hole = false, .ref = ref, .by = by};
   }
 
-  /// A point where one curve ends alone; -1: there is none.
+  /// A point where one curve ends alone; -1 if all ends are joined.
   [[nodiscard]] int open_end(int curve) const {
     std::map<int, int> ends;
     for (const PlaneArc& arc : arcs_) ++ends[arc.from], ++ends[arc.to];
@@ -118,7 +118,7 @@ class Subdomains {
     if (const int end = open_end(-1); graph_.faces().empty() && end >= 0)
       throw InvalidModel(where(input_.points[end].line),
                          nothing + "its boundary is open, since only one curve ends at " + name_of_point(input_, end));
-    throw InvalidModel(where(0), nothing + "no side or region names what its curves enclose, or holes take all of it");
+    throw InvalidModel(where(0), nothing + "no side or region names a part inside its curves, or holes remove all of it");
   }
 
   [[nodiscard]] std::vector<Subdomain> grouped() const {

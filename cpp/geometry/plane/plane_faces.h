@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which faces of a plane graph are subdomains.
+// Selects the faces of a plane graph that are subdomains.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ struct Subdomain {
   int ref = 0;   ///< the user's; 0: none
 };
 
-/// In the order of their references' first appearance, those of equal references (but 0) one after another. Throws
-/// InvalidModel as build_plane_geometry() says.
+/// In the order of their references' first appearance; subdomains with equal references (but 0) follow one another.
+/// Throws InvalidModel as described at build_plane_geometry().
 std::vector<Subdomain> find_subdomains(const PlaneDomainInput& input, std::span<const PlaneArc> arcs,
                                        const PlaneGraph& graph);
 

@@ -15,8 +15,8 @@ namespace carreau {
 
 namespace {
 
-/// References of the model for entities that have references of the user: his own for the first entity of each, numbers
-/// behind the largest for the others and for those without.
+/// References of the model for entities that have references of the user. The first entity of each reference keeps it;
+/// the others and entities without reference get numbers behind the largest.
 class References {
  public:
   template <typename Range>

@@ -22,16 +22,17 @@ struct PlaneGeometry {
   Vec2 low, high;  ///< box of the curves
 };
 
-/// Faces are subdomains; a curve between two of them is in both, one inside of one is internal. References of the input
-/// are those of results; where one is 0 or stands for several entities the model numbers them itself, behind the
-/// largest, and Face::part_of, FaceCurve::shown_as and Model::shown_points lead back to it.
+/// Faces are subdomains; a curve between two of them is in both, one inside of one is internal. Results have the
+/// references of the input. If a reference is 0 or stands for several entities the model numbers them itself, behind
+/// the largest. Face::part_of, FaceCurve::shown_as and Model::shown_points lead back to it.
 ///
 /// `eps_smooth`: tolerance of the polylines (RR-2818 sec. 3.7) by which curves are compared, in shares of an edge.
-/// Where polylines conflict they are refined three times, by a factor ten each, before that is an error.
+/// Polylines that conflict are refined three times, by a factor ten each, before the conflict is an error.
 ///
-/// Throws InvalidModel with file and line, naming curves and points: what cut_into_arcs() throws; curves that cross or
-/// touch away from points; a boundary that is open; a side on which the domain would be unbounded; sides and seeds that
-/// contradict one another; points on curves that do not pass them, or outside; no domain at all.
+/// Throws InvalidModel with file and line, naming curves and points. Causes are the exceptions of cut_into_arcs();
+/// curves that cross or touch away from points; points on curves that do not pass them, or outside. Also for an open
+/// boundary, a side on which the domain would be unbounded, sides and seeds that contradict one another, and no domain
+/// at all.
 PlaneGeometry build_plane_geometry(const PlaneDomainInput& input, double eps_smooth = usual_eps_smooth);
 
 }  // namespace carreau

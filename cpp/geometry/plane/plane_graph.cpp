@@ -15,7 +15,8 @@ constexpr int unknown = -3;
 
 bool comes_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
-/// Half-planes of directions, so that a turn by less than half a circle compares two of one: 0 above, 1 below.
+/// Half-planes of directions: 0 above, 1 below. A turn by less than half a circle compares two directions of one
+/// half-plane.
 int half_plane(const Vec2& d) noexcept { return d.y() > 0 || (d.y() == 0 && d.x() > 0) ? 0 : 1; }
 
 }  // namespace
@@ -66,7 +67,7 @@ Vec2 PlaneGraph::direction(int half_edge) const noexcept {
   return (half_edge & 1) == 0 ? Vec2(line[1] - line[0]) : Vec2(line[line.size() - 2] - line.back());
 }
 
-// The half-edge that follows another one around the face on its left is the next one clockwise at its end.
+// The next half-edge around the face on the left of a half-edge is the next one clockwise at its end.
 void PlaneGraph::trace_loops() {
   const int n = 2 * static_cast<int>(arcs_.size());
   std::map<int, std::vector<int>> leaving;
@@ -91,7 +92,7 @@ void PlaneGraph::trace_loops() {
   }
 }
 
-// What is west of the leftmost vertex of a component is outside of it.
+// The region west of the leftmost vertex of a component is outside of it.
 void PlaneGraph::find_outsides(const std::map<int, std::vector<int>>& leaving) {
   for (const Leftmost& left : leftmost_) {
     const std::vector<Vec2>& line = arcs_[left.arc].polyline;
@@ -100,7 +101,8 @@ void PlaneGraph::find_outsides(const std::map<int, std::vector<int>>& leaving) {
       outside_.push_back(2 * left.arc + (turns_left ? 1 : 0));
       continue;
     }
-    // All directions point east of it, counterclockwise from the east: the last one that points up, or the last one.
+    // All directions point east of it, counterclockwise from the east: the last direction that points up, or the last
+    // one.
     const std::vector<int>& around = leaving.at(left.rank == 0 ? arcs_[left.arc].from : arcs_[left.arc].to);
     int last = around.back();
     for (const int h : around)
@@ -153,13 +155,13 @@ int PlaneGraph::half_edge_above(int edge) const noexcept {
   return 2 * e.arc + (runs_right ? 0 : 1);
 }
 
-// The face that a loop around the outside of a component lies in.
+// The face that contains a loop around the outside of a component.
 int PlaneGraph::container_of(int loop) {
   if (face_of_loop_[loop] != unknown) return face_of_loop_[loop];
   const int component = component_[first_of_loop_[loop] / 2];
   bool on_it = false;
   const int below = edge_below(leftmost_[component].at, component, on_it);
-  // Components come one after another to the left: no ring.
+  // Components follow one another to the left: no cycle.
   const int face = below < 0 ? unbounded : container_of(loop_[half_edge_above(below)]);
   return face_of_loop_[loop] = face;
 }

@@ -20,7 +20,7 @@ struct ArcConflict {
 };
 
 /// The faces of a plane graph. A half-edge is 2 arc (as the arc runs) or 2 arc + 1 (against it). Loops run with their
-/// face on the left: counterclockwise around it, clockwise around what lies in it.
+/// face on the left: counterclockwise around the face, clockwise around loops inside it.
 class PlaneGraph {
  public:
   /// Keeps references to both. The polylines must not conflict.
@@ -67,7 +67,7 @@ class PlaneGraph {
   std::vector<int> component_;      // of each arc
   std::vector<int> next_, loop_;    // of each half-edge
   std::vector<int> first_of_loop_;  // a half-edge
-  std::vector<int> outside_;        // of each component, a half-edge with what is around it on its left
+  std::vector<int> outside_;        // of each component, a half-edge with the surrounding face on its left
   std::vector<int> face_of_loop_;
   std::vector<Leftmost> leftmost_;  // of each component
   std::vector<Face> faces_;

@@ -8,10 +8,10 @@ namespace carreau {
 
 namespace {
 
-/// Of each piece: lengths of curves are those of so many chords.
+/// Chords of each piece: they give the lengths of curves.
 constexpr int steps = 32;
 
-/// From the start of an arc, at t = 0, 1 / steps, ...
+/// Lengths from the start of an arc, at t = 0, 1 / steps, ...
 std::vector<double> lengths_of(const PlaneArc& arc) {
   std::vector<double> lengths{0};
   Vec2 before = arc.polyline.front();
@@ -53,7 +53,7 @@ double PointSizes::length_at(int arc, double t) const {
   const std::vector<double>& lengths = lengths_[arc];
   const auto last = static_cast<double>(lengths.size() - 1);
   const double at = std::clamp(t * steps, 0.0, last), k = std::min(std::floor(at), last - 1);
-  // By the chord from the step before: exact where the curve is straight, whatever its speed.
+  // Adds the chord from the previous step: exact where the curve is straight, whatever its speed.
   const PlaneArc& curve = cad_->arcs()[static_cast<std::size_t>(arc)];
   return lengths[static_cast<std::size_t>(k)] + norm(Vec2(curve.at(at / steps) - curve.at(k / steps)));
 }
@@ -88,7 +88,7 @@ Prescription PointSizes::at_point(int point, Vec3 /*xyz*/) {
   if (found == points_.end() || !value_[found->second]) return {};
   const Value& value = *value_[found->second];
   if (value.is_size) return answer(value);
-  // At a point there is no parameter plane to speak of: the plane z = 0 of space.
+  // A point has no parameter plane: the metric is in the plane z = 0 of space.
   const Metric2& m = value.metric;
   return Prescription::of_space({m.a, m.b, 0, m.c, 0, (m.a + m.c) / 2});
 }

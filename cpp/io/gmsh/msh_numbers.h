@@ -16,7 +16,7 @@ class MshNumbers : public Words {
   void set_binary(bool swapped) noexcept { binary_ = true, swapped_ = swapped, count_bytes(); }
   [[nodiscard]] bool is_binary() const noexcept { return binary_; }
 
-  /// Where the next number is, for fail().
+  /// The place of the next number, for fail().
   [[nodiscard]] const char* here() noexcept {
     if (!binary_) skip_blanks();
     return position();
@@ -25,7 +25,8 @@ class MshNumbers : public Words {
   /// A count or the number of a node or element: 64 bits.
   std::int64_t size(const char* what);
   double real(const char* what);
-  /// Throws unless n records of so many numbers, or bytes in the binary form, fit in the rest of the file.
+  /// Throws unless n records fit in the rest of the file, each with `words_each` numbers, or `bytes_each` bytes in the
+  /// binary form.
   std::size_t checked_count(std::int64_t n, const char* at, const std::string& what, std::size_t words_each,
                             std::size_t bytes_each) const;
 

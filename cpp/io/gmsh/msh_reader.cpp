@@ -21,7 +21,7 @@ constexpr std::int32_t line_type = 1, triangle_type = 2, quad_type = 3, line_of_
                        quad_of_nine_nodes_type = 10;
 
 /// Number of vertices of the elements that are read (points, lines, triangles and quadrilaterals of first and second
-/// order, solids); 0: of others, without which a surface would have holes.
+/// order, solids). Returns 0 for other types, without which a surface would have holes.
 std::size_t vertices_of_type(std::int32_t type) {
   static constexpr std::pair<std::int32_t, std::size_t> known[] = {
       {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {quad_type, 4}, {line_of_order_2_type, 3},
@@ -38,7 +38,7 @@ bool is_surface(std::int32_t type) noexcept {
          type == quad_of_eight_nodes_type || type == quad_of_nine_nodes_type;
 }
 
-/// A solid: its shape, and where SolidSkin's nodes are in Gmsh's order, or its corners alone.
+/// A solid: its shape, and the positions of SolidSkin's nodes in Gmsh's order, or its corners alone.
 struct GmshSolid {
   SolidShape shape;
   std::vector<std::size_t> nodes;
@@ -109,7 +109,7 @@ void MshReader::format() {
   const std::int32_t type = in_.integer("the type of the file"), size = in_.integer("the size of its numbers");
   if (type != 0 && type != 1)
     in_.fail(at, "the type of the file is " + std::to_string(type) + " instead of 0 (ASCII) or 1 (binary)");
-  if (size != 8) in_.fail(at, "numbers of " + std::to_string(size) + " bytes are not known, but those of 8");
+  if (size != 8) in_.fail(at, "numbers of " + std::to_string(size) + " bytes are not supported; 8 bytes are");
   if (type == 0) return;
   in_.rest_of_line();
   in_.set_binary(false);
@@ -119,7 +119,7 @@ void MshReader::format() {
   if (found == swapped_one)
     in_.set_binary(true);
   else if (found != 1)
-    in_.fail(one, "the number 1, which tells the order of bytes, was expected");
+    in_.fail(one, "the number 1, which gives the order of bytes, was expected");
 }
 
 void MshReader::physical_names() {
@@ -279,8 +279,8 @@ void MshReader::elements_4() {
   }
 }
 
-/// The first tag of an element is its physical group, the second one its entity. Binary elements come in blocks of one
-/// type.
+/// The first tag of an element is its physical group, the second one its entity. Binary elements are stored in blocks
+/// of one type.
 void MshReader::elements_2() {
   const std::int32_t count = in_.Words::integer("the number of elements");  // text in both forms
   if (in_.is_binary()) in_.rest_of_line();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"): one surface a triangle reference,
+// Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"). One surface a triangle reference,
 // one curve an edge reference, one point a vertex reference that no other vertex has.
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int line_type = 1, line_of_order_2_type = 8, point_type = 15;
 
-/// Of a kind of elements; nodes have the order of the format already.
+/// The format's type of a kind of elements; nodes have the order of the format already.
 int type_of(CellKind kind) noexcept {
   switch (kind) {
     case CellKind::triangle3:
@@ -33,15 +33,15 @@ int type_of(CellKind kind) noexcept {
 struct Entity {
   int tag = 0, physical = 0;
   std::string name;                  // of the physical group
-  std::vector<std::size_t> members;  // elements, kind by kind (of a solid: those of its faces), edges or the vertex
+  std::vector<std::size_t> members;  // elements, kind by kind (for a solid: the elements of its faces), edges or the vertex
   std::vector<std::size_t> nodes;    // that belong to no entity of a lower dimension
-  std::vector<int> bounds;           // tags of the faces of a solid, negative where triangles look inwards
+  std::vector<int> bounds;           // tags of the faces of a solid, negative if triangles look inwards
 };
 
 using Entities = std::map<std::int32_t, Entity>;  // by reference
 
-/// Tags are positive in the format: other references get numbers above the largest one, and the least that are free
-/// where numbers end.
+/// Tags are positive in the format: other references get numbers above the largest one, and the least free numbers
+/// after the last number.
 void give_tags(Entities& entities) {
   int next = entities.empty() ? 0 : std::max(entities.rbegin()->first, 0);
   const auto advance = [&] { next = next == std::numeric_limits<int>::max() ? 1 : next + 1; };
@@ -127,7 +127,7 @@ class MshText {
     }
   }
 
-  /// Solids have no elements. The signed tags of the faces around them let programs fill them.
+  /// Solids have no elements. The signed tags of the faces around them enable programs to fill them.
   void collect_solids() {
     for (const auto& [ref, sides] : mesh_.names.face_solids) {
       const auto face = entities_[2].find(ref);

@@ -17,24 +17,23 @@ enum class GridFormat {
   nodes
 };
 
-/// Throws FileError, with file and line or byte and the block: no such file or format, a number that is none, counts
-/// that do not fit, a binary file where text is expected.
-/// `step` is that of heights and scans whose file does not tell it.
+/// Throws FileError, with file and line or byte and the block: no such file or format, an invalid number, counts that
+/// do not fit, a binary file in place of text. `step` is the step of heights and scans whose file does not contain it.
 grid::Grid read_grid(const std::string& path, GridFormat format = GridFormat::by_suffix, double step = 1);
 
-// The same of contents; `name` is for messages.
+// The readers below take contents; `name` is for messages.
 
-/// PLOT3D in text or binary: one block (three counts) or several (their number, three counts each; one of the three is
-/// 1, or the block is a volume, and its sides are the blocks but for those that two volumes share), then of each block all x, all y, all z, and where the numbers are so many an IBLANK for each node: 0 is a
-/// missing one. Binary files are records of Fortran or plain ones, of either byte order and precision: what fits the
-/// size of the file.
+/// PLOT3D in text or binary: one block (three counts) or several (their number, three counts each). One of the three counts is 1, or the
+/// block is a volume: its sides are the blocks, except sides that two volumes share. Then each block has all x, all y, all z and, if there
+/// are that many numbers, an IBLANK for each node: 0 is a missing one. Binary files have Fortran records or none, either byte order and
+/// either precision; the reader takes the form that fits the size of the file.
 grid::Grid read_plot3d(std::string_view content, const std::string& name);
 grid::Grid read_plot3d_text(std::string_view text, const std::string& name);
 grid::Grid read_plot3d_binary(std::string_view bytes, const std::string& name);
 
 /// Heights over a regular grid: ASCII grids of ESRI (`ncols`, `nrows`, `xllcorner` or `xllcenter`, `cellsize`,
-/// `NODATA_value`, rows from the north), the DEM of USGS, or plain text: rows of numbers from y = 0 up, all of one
-/// length, with or without a first line `columns rows [dx [dy [x y]]]`. NaN: missing.
+/// `NODATA_value`, rows from the north), the DEM of USGS, or plain text. Plain text has rows of numbers from y = 0 up,
+/// all of one length, with or without a first line `columns rows [dx [dy [x y]]]`. NaN: missing.
 grid::Grid read_heights(std::string_view text, const std::string& name, double step = 1);
 grid::Grid read_usgs_dem(std::string_view text, const std::string& name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers of grids share.
+// Functions that the readers of grids share.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace carreau {
 
-/// Whether the beginning of a file has characters of text only.
+/// True if the beginning of a file has characters of text only.
 bool is_text(std::string_view content) noexcept;
 
 /// Throws FileError when a file is binary.

@@ -23,7 +23,7 @@ using grid::Measured;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-/// Where the values of a regular grid lie.
+/// The places of the values of a regular grid.
 struct Raster {
   int columns = 0, rows = 0;
   double dx = 1, dy = 1, x = 0, y = 0;
@@ -36,7 +36,7 @@ std::vector<std::string_view> words_of_line(std::string_view line, const std::st
   return found;
 }
 
-/// The next line that has words; where the rest starts.
+/// The next line that has words; and the start of the rest.
 struct Line {
   std::vector<std::string_view> words;
   std::size_t end = 0;
@@ -119,7 +119,7 @@ Grid read_esri(std::string_view text, const std::string& name) {
   }
   Raster& raster = header.raster;
   check_raster(raster, name, words, start);
-  if (!header.centres) raster.x += raster.dx / 2, raster.y += raster.dy / 2;  // heights are those of cells
+  if (!header.centres) raster.x += raster.dx / 2, raster.y += raster.dy / 2;  // heights are values of cells
   Block block{.columns = raster.columns, .rows = raster.rows, .nodes = {}, .measured = Measured::heights};
   block.nodes.resize(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
   for (int j = raster.rows - 1; j >= 0; --j)
@@ -161,7 +161,7 @@ Grid read_matrix(std::string_view text, const std::string& name, double step) {
   return read_rows(words, raster, name);
 }
 
-/// The first line of plain text: counts, and what may follow them. Nothing: it is no header.
+/// The first line of plain text: counts, and optional numbers behind them. Empty: it is no header.
 std::optional<Raster> header_of(const Line& line, double step) {
   constexpr std::size_t most = 6;
   if (line.words.size() < 2 || line.words.size() > most || line.words.size() == 5) return {};

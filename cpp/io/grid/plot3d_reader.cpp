@@ -31,7 +31,7 @@ std::uint64_t nodes_of(const Counts& n) {
   return static_cast<std::uint64_t>(n[0]) * static_cast<std::uint64_t>(n[1]) * static_cast<std::uint64_t>(n[2]);
 }
 
-/// What is wrong with the counts of a block; "" when nothing is.
+/// The defect of the counts of a block; "" if they are sound.
 std::string defect_of(const Counts& n) {
   int ones = 0;
   for (const std::int32_t k : n) {
@@ -89,7 +89,7 @@ std::vector<double> signature_of(const Block& block) {
   return signature;
 }
 
-/// In the place of volumes their six sides, but for sides that two volumes share.
+/// Replaces volumes by their six sides, except sides that two volumes share.
 std::vector<Block> with_outer_faces(std::vector<Block> blocks, const std::vector<Counts>& counts) {
   std::vector<Block> made;
   std::map<std::vector<double>, std::size_t> of_volumes;
@@ -176,7 +176,7 @@ void check_room(const Words& words, const std::vector<Counts>& counts, const std
     throw FileError({.file = name}, std::to_string(nodes) + " nodes are announced, more than the file can hold");
 }
 
-/// How a binary file is laid out.
+/// The layout of a binary file.
 struct Layout {
   bool records = false, swapped = false, single = false, blanks = false;
   std::size_t bytes = 8;  ///< of a real number
@@ -186,7 +186,7 @@ class BinaryFile {
  public:
   BinaryFile(std::string_view bytes, const Layout& layout) : bytes_(bytes), layout_(layout) {}
 
-  /// Whether header and size fit.
+  /// True if header and size fit.
   bool fits() {
     std::uint64_t at = 0;
     std::int32_t blocks = 1;
@@ -328,7 +328,7 @@ Grid read_plot3d_binary(std::string_view bytes, const std::string& name) {
   }
   throw FileError({.file = name},
                   "the file is binary, but its " + std::to_string(bytes.size()) +
-                      " bytes are no PLOT3D: with no byte order, precision and kind of records do counts and size agree");
+                      " bytes are not PLOT3D: counts and size agree for no byte order, precision and kind of records");
 }
 
 Grid read_plot3d(std::string_view content, const std::string& name) {

@@ -38,7 +38,7 @@ struct ElementSections {
   }
 
   /// Reads `count` records of N vertices from one and a reference, by `vertex()` and `reference()`. Vertices below one
-  /// become -1, for check_indices to refuse.
+  /// become -1, which check_indices rejects.
   template <std::size_t N, class Vertex, class Reference>
   static void read(Section<N>& section, std::size_t count, Vertex&& vertex, Reference&& reference) {
     section.list.nodes.resize(count);
@@ -52,7 +52,7 @@ struct ElementSections {
     }
   }
 
-  /// Calls `refuse(what, section, i, k)` for node k of element i, the first one of a section that is no vertex.
+  /// Calls `refuse(what, section, i, k)` for node k of element i, the first invalid vertex of a section.
   template <class Refuse>
   void check_indices(std::size_t vertices, Refuse&& refuse) const {
     check("edge", edges, vertices, refuse);
@@ -68,7 +68,8 @@ struct ElementSections {
     check("hexahedron", hexahedra, vertices, refuse);
   }
 
-  /// Moves all elements into the mesh; of solids without a surface their outer faces. `fail(place, sentence)` throws; `end`: the place of what is about no one section.
+  /// Moves all elements into the mesh; of solids without a surface their outer faces. `fail(place, sentence)` throws; `end`: the place for
+  /// errors that concern several sections.
   template <class Fail>
   void give_to(FlatMesh& mesh, Place end, Fail&& fail) {
     ElementLists lists{.triangles = std::move(triangles.list),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Facts of the GMF binary format (`.meshb`; the public description is that of libMeshb): a file is the number 1 in the
+// Facts of the GMF binary format (`.meshb`; libMeshb has the public description). A file is the number 1 in the
 // writer's byte order, a version, then sections: code, position of the next section, content. `End` is the last.
 //
 //            reals      references, indices   positions   counts
@@ -41,26 +41,26 @@ constexpr GmfSizes gmf_sizes(int version) noexcept {
   return {version == 1 ? 4u : 8u, version == 4 ? 8u : 4u, version >= 3 ? 8u : 4u, version == 4 ? 8u : 4u};
 }
 
-/// Where the section after one starts that starts at `at` and holds `count` records of `record` bytes.
+/// The start of the next section if a section starts at `at` and holds `count` records of `record` bytes.
 constexpr std::uint64_t gmf_next(std::uint64_t at, int version, std::uint64_t count, std::uint64_t record) noexcept {
   const GmfSizes sizes = gmf_sizes(version);
   return at + 4 + sizes.position + sizes.count + count * record;
 }
 
-/// What a file holds.
+/// The numbers of entities in a file.
 struct GmfCounts {
   int dimension = 3;
   std::uint64_t vertices = 0, triangles = 0, edges = 0;
-  std::uint64_t cells = 0;  ///< elements, where they are not the triangles
+  std::uint64_t cells = 0;  ///< elements, if they are not the triangles
 };
 
 /// Bytes of a file of version 3, at most.
 constexpr std::uint64_t gmf_most_bytes(const GmfCounts& of) noexcept {
   const std::uint64_t vertex = 8 * static_cast<std::uint64_t>(of.dimension) + 4;
-  // Of elements of second order no more than 40 bytes, and a vertex for a quadrilateral.
+  // An element of second order takes at most 40 bytes, and a vertex if it is a quadrilateral.
   return 300 + vertex * (of.vertices + of.cells) + 16 * of.triangles + 40 * of.cells + 16 * of.edges;
 }
-/// Whether positions may need version 3.
+/// True if positions may need version 3.
 constexpr bool gmf_needs_64_bits(const GmfCounts& of) noexcept {
   return gmf_most_bytes(of) > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a part of a mesh has of the binary file of the whole one.
+// The bytes of a part of a mesh in the binary file of the whole mesh.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -12,7 +12,7 @@ namespace carreau {
 
 namespace {
 
-/// Joins what follows each other, up to a block.
+/// Joins consecutive pieces, up to a block.
 class PositionedWriter {
  public:
   explicit PositionedWriter(const PositionedSink& sink) : sink_(sink) { block_.reserve(block_size); }

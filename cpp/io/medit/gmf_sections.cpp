@@ -63,15 +63,15 @@ void GmfSections::header() {
 
 std::int32_t GmfSections::next() {
   if (section_end_ != 0) {
-    if (pos_ > section_end_) fail(section_start_, "section " + std::to_string(code_) + " is longer than it says");
-    pos_ = section_end_;  // what was not read is skipped
+    if (pos_ > section_end_) fail(section_start_, "section " + std::to_string(code_) + " is longer than its header states");
+    pos_ = section_end_;  // skips the unread rest
   }
   section_start_ = pos_;
   if (bytes_.size() - pos_ < 4 + sizes_.position) fail(bytes_.size(), "the file ends before the section End");
   code_ = raw<std::int32_t>();
   const std::int64_t end = sized(sizes_.position);
   if (code_ == static_cast<std::int32_t>(GmfCode::end)) return code_;
-  // Sections in ascending order: what every writer does, and what makes a loop impossible.
+  // Sections are in ascending order: every writer does so, and it prevents loops.
   if (end < static_cast<std::int64_t>(pos_) || static_cast<std::uint64_t>(end) > bytes_.size())
     fail(section_start_,
          "section " + std::to_string(code_) + " ends at " + std::to_string(end) + ", which is outside of the file");

@@ -21,7 +21,8 @@ class GmfSections {
 
   /// Mark of the format and version, either byte order.
   void header();
-  /// Goes to the content of the next section, whatever was read of the one before; its code, or `end`.
+  /// Goes to the content of the next section, even if the previous section was not read to its end; returns its code,
+  /// or `end`.
   std::int32_t next();
 
   [[nodiscard]] std::size_t position() const noexcept { return pos_; }
@@ -34,7 +35,7 @@ class GmfSections {
   double real(const char* what);
   /// Number of records of a section.
   std::int64_t announced() { return sized(sizes_.count); }
-  /// Throws unless `n` records of that many bytes fit in the rest of the section. `at`: where n was read.
+  /// Throws unless `n` records of that many bytes fit in the rest of the section. `at`: the place of n.
   std::size_t checked_count(std::int64_t n, std::size_t at, const char* what, std::size_t record) const;
   std::size_t count(const char* what, std::size_t record) {
     const std::size_t at = pos_;

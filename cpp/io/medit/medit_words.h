@@ -15,9 +15,9 @@ class MeditWords : public Words {
 
   /// The first word and the version behind it. `kind`: "a mesh file".
   void header(const char* kind);
-  /// Goes to the next section that is one of `wanted`: its name, or "" at the word End, or at the end of the last line
-  /// of a file without End. The dimension is read on the way; other sections that the format knows are skipped. Any other
-  /// name is an error, unless skip_any_section() was called: a misspelt "Triangels" must not pass for a mesh without triangles.
+  /// Goes to the next section with a name in `wanted`: returns its name, or "" at the word End, or at the end of the last line
+  /// of a file without End. The dimension is read on the way; other sections that the format knows are skipped. Any other name
+  /// is an error, unless skip_any_section() was called: a misspelt "Triangels" must not pass for a mesh without triangles.
   std::string_view next_section(std::initializer_list<std::string_view> wanted);
   /// Sections of other names are skipped, too.
   void skip_any_section() noexcept { takes_any_ = true; }

@@ -54,11 +54,11 @@ void append_vertex(std::string& text, int dimension, const Vec3& p, std::int32_t
 
 }  // namespace
 
-// RT-0232 sec. 4, with version 2 (reals of 64 bits) instead of 0, which today's readers refuse.
+// RT-0232 sec. 4, with version 2 (reals of 64 bits) instead of 0, which today's readers reject.
 std::string medit_text(const FlatMesh& mesh) {
   std::string text;
   text.reserve(200 + 56 * mesh.vertices.size() + 28 * mesh.triangles.size() + 20 * mesh.edges.size());
-  // Gmsh wants the version on the line of its keyword; the dimension is taken by all on a line of its own.
+  // Gmsh requires the version on the line of its keyword; all programs read the dimension from a separate line.
   text += "MeshVersionFormatted 2\n\nDimension\n";
   append_integer(text, mesh.dimension);
   text += '\n';

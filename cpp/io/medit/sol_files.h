@@ -38,7 +38,7 @@ struct Solution {
   /// Vertex by vertex. A tensor has the entries (xx, xy, yy) or (xx, xy, yy, xz, yz, zz): the lower triangle row by
   /// row, which is the order of the files.
   std::vector<double> values;
-  /// Of SolutionUse::fields: the type of each field, in place of `tensor`; otherwise empty.
+  /// For SolutionUse::fields: the type of each field, in place of `tensor`; otherwise empty.
   std::vector<ValueType> fields = {};
 
   [[nodiscard]] std::size_t components() const noexcept {
@@ -51,7 +51,7 @@ struct Solution {
   friend bool operator==(const Solution&, const Solution&) = default;
 };
 
-/// What values are read for.
+/// The use of the values.
 enum class SolutionUse {
   field,         ///< any finite numbers
   prescription,  ///< positive sizes or positive definite metrics
@@ -66,9 +66,9 @@ struct SolutionChoice {
   SolutionChoice(SolutionUse what = SolutionUse::field, std::int32_t which = 0) : use(what), field(which) {}
 };
 
-/// Reads SolAtVertices of a `.sol` (ASCII, versions 0 to 4) or `.solb` (GMF binary, versions 1 to 4, either byte
-/// order), told apart by the content; other sections are skipped. Throws FileError, with file and line or byte, for
-/// anything but one finite scalar or symmetric tensor a vertex (SolutionUse::fields: up to 64 fields), and for values that the use does not allow. A wrong choice lists the fields.
+/// Reads SolAtVertices of a `.sol` (ASCII, versions 0 to 4) or `.solb` (GMF binary, versions 1 to 4, either byte order), recognised by the
+/// content; other sections are skipped. Throws FileError, with file and line or byte, unless each vertex has one finite scalar or symmetric
+/// tensor (SolutionUse::fields: up to 64 fields). Throws it, too, for values that the use does not allow. A wrong choice lists the fields.
 Solution read_solution(const std::string& path, const SolutionChoice& choice = {});
 Solution read_solution_text(std::string_view text, const std::string& name, const SolutionChoice& choice = {});
 Solution read_solution_binary(std::string_view bytes, const std::string& name, const SolutionChoice& choice = {});
@@ -82,7 +82,7 @@ Metric3 space_tensor(const Solution& solution, std::size_t vertex) noexcept;
 std::string solution_text(const Solution& solution);
 /// GMF version 2.
 std::string solution_bytes(const Solution& solution);
-/// By suffix: `.sol` or `.solb`. Throws what solution_text throws, InvalidArgument for another suffix, FileError.
+/// By suffix: `.sol` or `.solb`. Throws the exceptions of solution_text, InvalidArgument for another suffix, FileError.
 void write_solution(const Solution& solution, const std::string& path);
 
 }  // namespace carreau

@@ -15,18 +15,18 @@ namespace {
 
 constexpr std::int32_t most_fields = 64;  // a file of more is no solution, but a mistake
 
-/// Empty when values of the type can be a size, a field or a metric, else what is wrong with it.
+/// Empty if values of the type can be a size, a field or a metric, else the reason.
 std::string refusal_of(std::int32_t type) {
   switch (static_cast<ValueType>(type)) {
     case ValueType::scalar:
     case ValueType::symmetric:
       return {};
     case ValueType::vector:
-      return "the values are vectors (type 2); scalars (1) or symmetric tensors (3) are wanted";
+      return "the values are vectors (type 2); scalars (1) or symmetric tensors (3) are required";
     case ValueType::full:
-      return "the values are tensors that are not symmetric (type 4); scalars (1) or symmetric tensors (3) are wanted";
+      return "the values are tensors that are not symmetric (type 4); scalars (1) or symmetric tensors (3) are required";
   }
-  return "type " + std::to_string(type) + " is none of 1 (scalar), 2 (vector), 3 (symmetric tensor), 4 (tensor)";
+  return "type " + std::to_string(type) + " is not 1 (scalar), 2 (vector), 3 (symmetric tensor) or 4 (tensor)";
 }
 
 std::string list_of(const std::vector<ValueType>& fields) {
@@ -51,8 +51,8 @@ Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution&
   };
   const bool any = choice.use == SolutionUse::fields;
   if (how_many < 1 || how_many > most_fields)
-    fail_number(any ? "; 1 to " + std::to_string(most_fields) + " are wanted"
-                    : "; one size, field or metric is wanted");
+    fail_number(any ? "; 1 to " + std::to_string(most_fields) + " are required"
+                    : "; one size, field or metric is required");
   std::vector<ValueType> types;
   Record record;
   for (std::int32_t i = 0; i < how_many; ++i) {
@@ -68,7 +68,7 @@ Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution&
   }
   if (choice.field == 0 && how_many > 1)
     fail_number(" (" + list_of(types) +
-                "); one size, field or metric is wanted, which the parameter sol_field chooses");
+                "); one size, field or metric is required, which the parameter sol_field chooses");
   const auto chosen = static_cast<std::size_t>(choice.field > 0 ? choice.field - 1 : 0);
   if (chosen >= types.size())
     fail("sol_field chooses field " + std::to_string(choice.field) + ", but these are there: " + list_of(types));

@@ -18,7 +18,7 @@ void check(const Solution& solution) {
     throw InvalidArgument("a solution cannot be written: its dimension is " + std::to_string(solution.dimension));
   if (solution.values.size() % solution.components() != 0)
     throw InvalidArgument("a solution cannot be written: " + std::to_string(solution.values.size()) +
-                          " values are no multiple of " + std::to_string(solution.components()));
+                          " values are not a multiple of " + std::to_string(solution.components()));
   if (solution.count() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw InvalidArgument("a solution cannot be written: it has too many vertices");
   for (std::size_t i = 0; i < solution.values.size(); ++i)
@@ -96,7 +96,7 @@ void write_solution(const Solution& solution, const std::string& path) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".solb") return write_file(path, solution_bytes(solution));
   if (suffix == ".sol") return write_file(path, solution_text(solution));
-  throw InvalidArgument("'" + path + "' has none of the suffixes of a solution file: .sol, .solb");
+  throw InvalidArgument("'" + path + "' does not have a suffix of solution files: .sol, .solb");
 }
 
 }  // namespace carreau

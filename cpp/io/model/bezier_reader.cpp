@@ -60,7 +60,7 @@ class Words {
     return word;
   }
 
-  /// What a terminal can show of a word of any bytes.
+  /// A printable form of a word of any bytes.
   static std::string printable(std::string_view word) {
     std::string shown;
     for (const char c : word.substr(0, 20)) shown += c >= ' ' && c <= '~' ? c : '?';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bezier patches in text files, as those of the Utah teapot (.bpt).
+// Bezier patches in text files, for example the Utah teapot (.bpt).
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace carreau {
 
-/// The number of patches, then for each the degrees m n and (m + 1) (n + 1) points x y z; words are separated by blanks
-/// and ends of lines. `name` is the file's, for sentences. Throws FileError with the line.
+/// The number of patches, then for each the degrees m n and (m + 1) (n + 1) points x y z. Blanks and ends of lines
+/// separate words. `name` is the file's, for sentences. Throws FileError with the line.
 std::vector<BezierPatch> parse_bezier(std::string_view text, const std::string& name);
 
 /// Throws FileError.

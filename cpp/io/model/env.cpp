@@ -11,8 +11,7 @@ namespace carreau {
 
 namespace {
 
-/// RT-0232 sec. 3.3: "un espace, une tabulation ou un signe égal"; the carriage return is that of files made on
-/// Windows.
+/// RT-0232 sec. 3.3: "un espace, une tabulation ou un signe égal"; files made on Windows have the carriage return.
 constexpr bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '=' || c == '\r'; }
 constexpr bool is_quote(char c) noexcept { return c == '\'' || c == '"'; }
 /// Bytes of UTF-8 sequences count as printable: file names have accents.
@@ -62,7 +61,7 @@ class EnvLine {
     for (;; ++pos_) {
       if (pos_ >= line_.size()) fail("the quote that opens " + shown(word.text) + " is not closed on its line");
       if (line_[pos_] == quote) {
-        const bool doubled = pos_ + 1 < line_.size() && line_[pos_ + 1] == quote;  // stands for itself, as in Fortran
+        const bool doubled = pos_ + 1 < line_.size() && line_[pos_ + 1] == quote;  // represents a quote, as in Fortran
         if (!doubled) break;
         ++pos_;
       }

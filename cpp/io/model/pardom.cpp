@@ -38,7 +38,7 @@ bool looks_like_integer(std::string_view word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// The numbers of the text in order, and where they stand.
+/// The numbers of the text in order, and their places.
 class PardomReader {
  public:
   PardomReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -126,8 +126,8 @@ double PardomReader::real(const Item& item) {
 int PardomReader::count(const Item& item, const char* things, std::size_t words_each) {
   const int n = integer(item);
   if (n < 0) fail(described(item) + " is negative: " + std::to_string(n));
-  // A number takes two characters, its separator included; the last one needs none. A plausible count goes on, so that
-  // a truncated file is told where it ends.
+  // A number takes two characters, its separator included; the last one needs none. A plausible count is accepted, so
+  // that the error of a truncated file names its end.
   constexpr int plausible = 1000;
   const std::size_t room = (text_.size() - pos_ + 1) / (2 * words_each);
   if (n > plausible && static_cast<std::size_t>(n) > room)
@@ -136,7 +136,8 @@ int PardomReader::count(const Item& item, const char* things, std::size_t words_
   return n;
 }
 
-/// What pardom_text() says behind a curve that is a part of the host's: its rank there, and the ends of the part.
+/// Reads the comment of pardom_text() behind a curve that is a part of a host's curve: its rank there, and the ends of
+/// the part.
 void PardomReader::read_part(FaceCurve& curve, int surface, int rank) {
   const std::size_t comment = text_.find_first_not_of(" \t", pos_);
   if (comment == text_.npos || !text_.substr(comment).starts_with(part_words)) return;

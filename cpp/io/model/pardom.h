@@ -11,16 +11,15 @@ namespace carreau {
 
 /// Reads the free format: numbers separated by blanks, ends of line or a comma, `!` comments, Fortran exponents. `name`
 /// goes into messages and Model::source; the `line` members are filled. Throws FileError with file and line for
-/// anything that is not as fig. 11 says: a missing number, a word that is not a number, a count that is negative or
-/// larger than the file can hold, no surface or no curve, a typc other than 1 and 2, an orientation that is neither the
-/// rank of a curve nor 0, text after the end. Ranks in messages count from 1. Rules between entities are
-/// find_model_defects'.
+/// deviations from fig. 11: a missing number, an invalid number, a count that is negative or larger than the file can
+/// hold, no surface or no curve. Also for a typc other than 1 and 2, an orientation that is neither the rank of a curve
+/// nor 0, text after the end. Ranks in messages count from 1. find_model_defects() checks rules between entities.
 Model read_pardom_text(std::string_view text, const std::string& name);
 /// Throws FileError also when the file cannot be read or is larger than 256 MiB.
 Model read_pardom(const std::string& path);
 
 /// In the layout of the manual's x.pardom.new; read_pardom_text reads it back to the same model. A part of a curve is a
-/// curve of its own, with its place in the host's curve as a comment, which read_pardom_text understands. Throws
+/// separate curve, with its place in the host's curve as a comment, which read_pardom_text understands. Throws
 /// InvalidArgument for a point that is not finite.
 std::string pardom_text(const Model& model);
 

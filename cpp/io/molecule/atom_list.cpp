@@ -40,7 +40,7 @@ double AtomList::number(std::string_view word, const char* what, int line) const
 void AtomList::add(const Vec3& centre, const std::string& element, int line) {
   const auto given = radii_.find(element);
   const auto radius = given != radii_.end() ? given->second : van_der_waals_radius(element);
-  if (!radius) fail(line, shown(element) + " is no element of the periodic table: it has no van der Waals radius");
+  if (!radius) fail(line, shown(element) + " is not an element of the periodic table: it has no van der Waals radius");
   add(centre, *radius);
   file_.molecule.elements.push_back(element);
 }

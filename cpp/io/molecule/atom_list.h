@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers of molecules share.
+// Functions that the readers of molecules share.
 #pragma once
 
 #include <set>

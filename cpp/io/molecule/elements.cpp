@@ -13,9 +13,9 @@ namespace carreau {
 
 namespace {
 
-/// Bondi 1964 for the 38 elements that he has (of D and T that of H). Alvarez 2013 for others; where he has none,
-/// Mantina et al. 2009 (At, Fr, Po, Ra, Rn) and for Pm and elements from Fm on 2.54 alpha^(1/7) bohr (Fedorov et al.
-/// 2018) of the polarizabilities of Schwerdtfeger and Nagle 2019 (of Lv the mean of its neighbours').
+/// Bondi 1964 for his 38 elements (D and T: the value of H). Alvarez 2013 for others; if he has none, Mantina et al.
+/// 2009 (At, Fr, Po, Ra, Rn) and for Pm and elements from Fm on 2.54 alpha^(1/7) bohr (Fedorov et al.
+/// 2018) of the polarizabilities of Schwerdtfeger and Nagle 2019 (Lv: the mean of its neighbours).
 constexpr std::array<std::pair<std::string_view, double>, 120> radii{{
     {"Ac", 2.80}, {"Ag", 1.72}, {"Al", 2.25}, {"Am", 2.83}, {"Ar", 1.88}, {"As", 1.85}, {"At", 2.02}, {"Au", 1.66},
     {"B", 1.91}, {"Ba", 3.03}, {"Be", 1.98}, {"Bh", 2.26}, {"Bi", 2.54}, {"Bk", 3.40}, {"Br", 1.85}, {"C", 1.70},

@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// What a file gave, and sentences on what was left out of it.
+/// The content of a file, and sentences on the omitted data.
 struct MoleculeFile {
   molecule::Molecule molecule;
   std::vector<std::string> remarks;
@@ -21,8 +21,8 @@ struct MoleculeFile {
 /// without a radius, no atom. `radii` replace radii of the table.
 MoleculeFile read_molecule(const std::string& path, const Radii& radii = {});
 
-// The same of texts; `name` is for messages.
-/// Lines "x y z radius"; what follows on a line is not read, nor is what follows '#'.
+// The readers below take texts; `name` is for messages.
+/// Lines "x y z radius"; the rest of a line is ignored, as is text behind '#'.
 MoleculeFile read_xyzr(std::string_view text, const std::string& name);
 /// The first frame: a number of atoms, a title, lines "element x y z".
 MoleculeFile read_xyz(std::string_view text, const std::string& name, const Radii& radii = {});

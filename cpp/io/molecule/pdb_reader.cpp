@@ -10,12 +10,12 @@ namespace carreau {
 
 namespace {
 
-/// Columns from 1, the last one included; what a short line does not have is empty.
+/// Columns count from 1, the last one included; columns beyond a short line are empty.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return line.size() < first ? std::string_view{} : trimmed(line.substr(first - 1, last - first + 1));
 }
 
-/// Of columns 77 and 78, or of the name of the atom: elements of two letters begin in column 13.
+/// The element from columns 77 and 78, or from the name of the atom: elements of two letters begin in column 13.
 std::string element_of(std::string_view line) {
   if (const std::string symbol = element_symbol(columns(line, 77, 78)); !symbol.empty()) return symbol;
   const std::string two = element_symbol(line.substr(std::min<std::size_t>(12, line.size()), 2));

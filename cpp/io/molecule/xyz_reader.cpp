@@ -64,7 +64,7 @@ MoleculeFile read_xyz(std::string_view text, const std::string& name, const Radi
   }
   while (lines.next(line))
     if (!trimmed(line).empty()) {
-      atoms.remark("what follows the first " + std::to_string(count) + " atoms is not read");
+      atoms.remark("lines after the first " + std::to_string(count) + " atoms are ignored");
       break;
     }
   return std::move(atoms).finished(lines.number());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Airfoils as the UIUC Airfoil Coordinates Database has them: a name, then points. In Selig's layout they run from the
-// trailing edge over the upper side to the leading edge and back below; in Lednicer's layout numbers of points come first,
-// then the upper and the lower side, each from the leading edge.
+// Airfoils as the UIUC Airfoil Coordinates Database has them: a name, then points. In Selig's layout points run from the
+// trailing edge over the upper side to the leading edge and back below. Lednicer's layout starts with numbers of points;
+// then come the upper and the lower side, each from the leading edge.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BL2D's .bl2d, what its solvers read: `p1`, three counts, vertices, edges, triangles, each with its reference.
+// BL2D's .bl2d, the input of its solvers: `p1`, three counts, vertices, edges, triangles, each with its reference.
 #include <array>
 
 #include "io/mesh_files.h"

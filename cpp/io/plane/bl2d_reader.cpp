@@ -177,7 +177,7 @@ class GeometryReader {
                       references = in_.count("the number of points with a reference", 2);
     const int at = in_.line();
     if (in_.integer("the fourth number") != 0)
-      in_.fail(at, "the fourth number of the header is not 0: what it counts is not known");
+      in_.fail(at, "the fourth number of the header is not 0: its meaning is unknown");
     const std::size_t segments = in_.count("the number of segments", 3),
                       subdomains = in_.count("the number of subdomains", 3);
     for (std::size_t i = 0; i < points; ++i) {

@@ -11,18 +11,18 @@
 
 namespace carreau {
 
-/// Where polygons of a file become splines: an end of exactly two edges of one reference at which they turn by no more
-/// than this many degrees.
+/// The angle in degrees up to which polygons of a file become splines: at an end of exactly two edges of one reference
+/// that turn by no more.
 inline constexpr double usual_corner_angle = 50;
 
 /// Reads by suffix: .poly (with the points of a .node beside it when it has none), .node, .dat (airfoils), .mesh or
-/// .meshb, .bl2d, .data, .g (with the sizes of a .hg beside it when there is one).
-/// Throws InvalidArgument for another suffix, FileError with file and line.
+/// .meshb, .bl2d, .data. Also .g, with the sizes of a .hg beside it if there is one. Throws InvalidArgument for another
+/// suffix, FileError with file and line.
 PlaneDomainInput read_plane_domain(const std::string& path);
 
-/// Triangle's format with its points in the same file, or in `nodes`. Segments may cross (PlaneDomainInput::arrange). Markers are references. Those of regions are
-/// their attributes when all are positive whole numbers, else their numbers. Inside all edges is the domain, but for
-/// holes.
+/// Triangle's format with its points in the same file, or in `nodes`. Segments may cross (PlaneDomainInput::arrange). Markers are
+/// references. Markers of regions are their attributes if all are positive whole numbers, else their numbers. The domain lies inside
+/// all edges, without holes.
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name);
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name, std::string_view nodes,
                                 const std::string& nodes_name);
@@ -33,12 +33,12 @@ PlaneDomainInput read_node_text(std::string_view text, const std::string& name);
 /// edge is closed by a segment. References: 1 of the surface, 2 of that segment.
 PlaneDomainInput read_airfoil_text(std::string_view text, const std::string& name);
 
-/// Its edges, and the sides of triangles that have no neighbour or one of another reference. Triangles say where the
-/// domain is; without any it is what edges enclose by parity, and vertices inside are imposed. `name` is for messages.
-/// Throws FileError for a mesh of dimension 3 or without edges and triangles.
+/// The edges of a mesh, and the sides of triangles that have no neighbour or a neighbour of a different reference.
+/// Triangles define the domain; without triangles edges enclose it by parity, and vertices inside are imposed. `name`
+/// is for messages. Throws FileError for a mesh of dimension 3 or without edges and triangles.
 PlaneDomainInput plane_domain_of(const FlatMesh& mesh, const std::string& name);
 
-/// BL2D: what people write, and the same compiled.
+/// BL2D: the form that users write, and the compiled form.
 PlaneDomainInput read_bl2d_data_text(std::string_view text, const std::string& name);
 PlaneDomainInput read_bl2d_g_text(std::string_view text, const std::string& name);
 

@@ -94,7 +94,7 @@ class MeshDomain {
   PlaneDomainInput input_;
 };
 
-/// Whether a chain goes on at a point (its index) from an edge `d` to an edge `e`.
+/// Returns true if a chain continues at a point (its index) from an edge `d` to an edge `e`.
 using GoesOn = std::function<bool(int point, const Vec2& d, const Vec2& e)>;
 
 /// Joins the segments of a domain that run on into chains: splines, or straight curves from end to end.
@@ -202,7 +202,7 @@ PlaneDomainInput read_plane_domain(const std::string& path) {
   if (suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d") return plane_domain_of(read_mesh(path), path);
   if (suffix != ".g")
     throw InvalidArgument("'" + path +
-                          "' has none of the suffixes of a plane domain: .poly, .node, .dat, .mesh, .meshb, .bl2d, .data, .g");
+                          "' does not have a suffix of plane domains: .poly, .node, .dat, .mesh, .meshb, .bl2d, .data, .g");
   PlaneDomainInput input = read_bl2d_g_text(read_file(path), path);
   const std::string sizes = std::filesystem::path(path).replace_extension(".hg").string();
   if (std::filesystem::exists(sizes)) set_point_sizes(input, read_bl2d_sizes_text(read_file(sizes), sizes), sizes);

@@ -30,7 +30,7 @@ Points read_points(Tokens& in) {
             markers = in.integer("the number of markers");
   if (dimension != 2) in.fail(at, "the dimension is " + std::to_string(dimension) + ", not 2");
   if (attributes < 0 || markers < 0 || markers > 1)
-    in.fail(at, "the number of attributes is negative, or that of markers neither 0 nor 1");
+    in.fail(at, "the number of attributes is negative, or the number of markers is not 0 or 1");
   for (std::size_t i = 0; i < n; ++i) {
     PlanePoint point;
     point.line = in.line();
@@ -76,7 +76,7 @@ class PolyReader {
       Tokens in(nodes_, nodes_name_, poly_rules);
       read = read_points(in);
     }
-    if (read.points.empty()) in_.fail(at, "the file has no points of its own, and there is no .node file beside it");
+    if (read.points.empty()) in_.fail(at, "the file has no points, and there is no .node file beside it");
     input_.points = std::move(read.points), index_ = std::move(read.index);
   }
 
@@ -117,7 +117,8 @@ class PolyReader {
     }
   }
 
-  /// By their attributes if all can be references: those of some and numbers of others might be the same.
+  /// Numbers the regions by their attributes if all can be references: attributes of some and numbers of others might
+  /// be equal.
   void number_regions() {
     constexpr double most = 1e9;
     const bool by_attribute = std::all_of(attributes_.begin(), attributes_.end(), [](double attribute) {

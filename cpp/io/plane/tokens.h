@@ -14,10 +14,10 @@ struct Token {
   bool starts_line = false;
 };
 
-/// What separates and ends words beside blanks.
+/// Separators and ends of words besides blanks.
 struct TokenRules {
   std::string_view comment;  ///< the rest of a line from here on is skipped; empty: there are no comments
-  bool semicolons = false;   ///< each is a word of its own
+  bool semicolons = false;   ///< each is a separate word
 };
 
 /// Walks through the words of a text; keeps references to both arguments. Errors are FileErrors with file and line.
@@ -27,9 +27,9 @@ class Tokens {
 
   [[nodiscard]] bool at_end() const noexcept { return next_ == tokens_.size(); }
   [[nodiscard]] std::size_t left() const noexcept { return tokens_.size() - next_; }
-  /// Of the next word, or of the end of the text.
+  /// The line of the next word, or of the end of the text.
   [[nodiscard]] int line() const noexcept { return at_end() ? last_line_ : tokens_[next_].line; }
-  /// True when the next word is on the line of the one before.
+  /// True if the next word is on the line of the previous word.
   [[nodiscard]] bool goes_on() const noexcept { return !at_end() && !tokens_[next_].starts_line; }
   /// Throws at the end of the text.
   Token word(const char* what);

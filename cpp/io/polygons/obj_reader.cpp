@@ -64,7 +64,7 @@ class ObjReader {
     mesh_.vertices.push_back(p);
   }
 
-  /// Vertices from 1, or from the last one back: -1. What follows a slash numbers textures and normals.
+  /// Vertices from 1, or from the last one back: -1. Numbers behind a slash refer to textures and normals.
   bool corners(std::string_view line) {
     corners_.clear();
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {

@@ -78,7 +78,7 @@ double raw_value(Number type, const char* at, bool swapped) noexcept {
   return 0;
 }
 
-/// The header's words by lines, then numbers as the header says.
+/// The header's words by lines, then numbers as the header declares.
 class PlyReader : private Words {
  public:
   PlyReader(std::string_view text, const std::string& name) : Words(text, name), cutter_(mesh_) {}
@@ -124,7 +124,7 @@ class PlyReader : private Words {
       rest_of_line();
     }
     rest_of_line();
-    if (!form_) fail(position(), "the header does not say the format");
+    if (!form_) fail(position(), "the header does not give the format");
     if (form_ == Form::ascii) return;
     count_bytes();
     swapped_ = (form_ == Form::big) != (std::endian::native == std::endian::big);

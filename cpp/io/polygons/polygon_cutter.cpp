@@ -9,7 +9,7 @@ namespace {
 
 /// Ears are searched in time that grows with the square; real files have polygons of tens of corners.
 constexpr std::size_t most_corners = 4096;
-/// Of polygons with more corners the first ear is as good as another one.
+/// In polygons with more corners, the first ear is cut.
 constexpr std::size_t few_corners = 32;
 
 double doubled_area(const Vec2& a, const Vec2& b, const Vec2& c) {

@@ -16,10 +16,10 @@ class PolygonCutter {
  public:
   explicit PolygonCutter(FlatMesh& mesh) : mesh_(mesh) {}
 
-  /// A polygon in space, perhaps not convex and not quite plane: ears are cut off, the best shaped first when there are
+  /// A polygon in space, perhaps not convex and not quite plane. Cuts off ears, the best shaped first when there are
   /// few corners, in the plane of the normal of its area. A polygon that crosses itself gives triangles that do.
-  /// Returns what is wrong with the polygon, "" when nothing is: fewer than three corners, too many, a vertex that is
-  /// not there.
+  /// Returns the defect of the polygon, "" if it is sound: fewer than three corners, too many corners, an invalid
+  /// vertex.
   std::string add(std::span<const std::int32_t> corners, std::int32_t ref);
 
  private:

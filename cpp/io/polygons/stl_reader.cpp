@@ -173,7 +173,7 @@ class TextReader {
   std::vector<Solid> solids_;
 };
 
-/// Number of triangles that a file says it has at the place where the binary form says it.
+/// Number of triangles at the place of the count in the binary form.
 std::size_t announced(std::string_view bytes) noexcept {
   std::size_t n = 0;  // little-endian whatever the machine
   for (std::size_t k = 0; k < 4; ++k)
@@ -208,7 +208,7 @@ FlatMesh read_binary(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 FlatMesh read_mesh_stl(std::string_view content, const std::string& name) {
-  // Some binary files start with "solid" too; their length is what tells them.
+  // Some binary files start with "solid" too; their length distinguishes them.
   const bool has_count = content.size() >= header_size + 4;
   if (has_count && content.size() - header_size - 4 == facet_size * announced(content))
     return read_binary(content, name);

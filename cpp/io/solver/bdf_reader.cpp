@@ -107,7 +107,7 @@ class BdfReader {
   }
   static std::size_t fields_of_line(std::string_view line) { return is_large(line) ? 4 : 8; }
 
-  /// Name and fields: between commas, or columns of 8, or of 16 where the name ends in a star.
+  /// Name and fields: between commas, or columns of 8, or of 16 if the name ends in a star.
   static std::vector<std::string_view> split(std::string_view line) {
     std::vector<std::string_view> fields;
     if (line.find(',') != std::string_view::npos) {
@@ -149,7 +149,7 @@ class BdfReader {
     card_ = {};
   }
 
-  /// Three coordinates; those left out are 0.
+  /// Three coordinates; absent ones are 0.
   Vec3 point(std::size_t first) const {
     Vec3 p;
     for (int x = 0; x < 3; ++x) {

@@ -52,7 +52,7 @@ void add_card(const char* name, const std::vector<std::size_t>& numbers, std::st
   end_line(text);
 }
 
-/// Small fields where they hold all coordinates exactly, else large ones.
+/// Small fields if they hold all coordinates exactly, else large ones.
 void add_grid(std::size_t number, const Vec3& p, std::string& text) {
   std::string fields[3];
   bool small = true;
@@ -72,7 +72,7 @@ void add_grid(std::size_t number, const Vec3& p, std::string& text) {
           "\n";
 }
 
-/// Properties have positive numbers: other references get those above the largest one.
+/// Properties have positive numbers: other references get numbers above the largest one.
 std::vector<std::size_t> properties_of(const ElementSets& sets) {
   std::size_t next = 0;
   for (const FaceSet& face : sets.faces) next = std::max<std::size_t>(next, face.ref > 0 ? std::size_t(face.ref) : 0);

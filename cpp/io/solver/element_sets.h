@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh as solvers want it: elements with numbers, in named sets.
+// A mesh for solvers: elements with numbers, in named sets.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct CurveSet {
   std::int32_t ref = 0;
   std::string name;       ///< "curve_5"
   std::size_t first = 0;  ///< from 1
-  std::vector<std::vector<std::int32_t>> edges;  ///< two ends, and the node between them where edges are curved
+  std::vector<std::vector<std::int32_t>> edges;  ///< two ends, and the node between them if edges are curved
 };
 
 /// Faces, or curves, to which the file or the host has given one name.
@@ -41,7 +41,7 @@ struct ElementSets {
   std::size_t elements = 0;  ///< of faces and curves
 };
 
-/// Names are cut to `longest` characters and then told apart by numbers, as NAME_2.
+/// Names are cut to `longest` characters, and equal ones get numbers, as NAME_2.
 ElementSets sets_of(const FlatMesh& mesh, std::size_t longest);
 
 /// Nodes of an element of second order around it: a corner, the node behind it, and so on.

@@ -97,7 +97,7 @@ class InpReader {
     const bool known = parse_number(digits, n) && (n == 27 || n == 18 || solid_of(static_cast<std::size_t>(n)));
     return known ? static_cast<std::size_t>(n) : 0;
   }
-  /// By the number of nodes.
+  /// The shape by the number of nodes.
   static std::optional<SolidShape> solid_of(std::size_t nodes) {
     if (nodes == 27) return SolidShape::hexahedron;  // nodes of faces and of the centre come last
     if (nodes == 18) return SolidShape::prism;
@@ -144,7 +144,7 @@ class InpReader {
     groups_.add(element_);
   }
 
-  /// Elements by number, in steps where GENERATE says so, or names of sets.
+  /// Elements by number, in steps after GENERATE, or names of sets.
   void members(const Keyword& keyword, std::string_view line) {
     const char* const at = line.data();
     const std::string name = keyword.value("ELSET");
@@ -163,7 +163,7 @@ class InpReader {
       return;
     }
     if (numbers.size() < 2 || numbers.size() > 3 || (numbers.size() == 3 && numbers[2] < 1))
-      in_.fail(at, "GENERATE wants a first number, a last one and perhaps a step");
+      in_.fail(at, "GENERATE requires a first number, a last number and perhaps a step");
     groups_.add_range_to(name, numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1);
   }
 
@@ -181,7 +181,7 @@ class InpReader {
   const char* element_keyword_ = nullptr;
   std::size_t expected_ = 0;  ///< nodes of an element of the keyword; 0: it is skipped
   bool is_solid_ = false;
-  bool open_ = false;         ///< its nodes go on in the next line
+  bool open_ = false;         ///< its nodes continue on the next line
   SolverElement element_;
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t longest_name = 80, number_width = 20, a_line = 16;
 
-/// Shells of three to eight nodes, whose order is that of the format, as CalculiX calls them: S6 is STRI65 in Abaqus.
+/// Shells of three to eight nodes, which have the order of the format, with the names of CalculiX: S6 is STRI65 in
+/// Abaqus.
 const char* type_of(CellKind kind) noexcept {
   switch (kind) {
     case CellKind::triangle3:

@@ -45,7 +45,7 @@ std::string fitted(double value, std::size_t width, const std::function<std::str
   std::string text = form(format_number(value));
   for (int digits = most_digits; text.size() > width && digits > 0; --digits) {
     text = form(with_digits(value, digits, std::chars_format::general));
-    // Where the general form has zeros in front, an exponent leaves more room for digits.
+    // If the general form starts with zeros, an exponent leaves more room for digits.
     if (text.size() > width) text = form(with_digits(value, digits - 1, std::chars_format::scientific));
   }
   return text;

@@ -25,7 +25,7 @@ void append(const SolverElement& element, std::int32_t ref, const SolverNodes& n
 
 void refuse_zero_bytes(const Words& in, std::string_view text) {
   const std::size_t at = text.find('\0');
-  if (at != std::string_view::npos) in.fail(text.data() + at, "a byte of value zero stands here: this is no text");
+  if (at != std::string_view::npos) in.fail(text.data() + at, "a byte of value zero stands here: this is not a text");
 }
 
 bool reference_in(std::string_view name, std::string_view before, std::int32_t& ref) {
@@ -67,7 +67,7 @@ std::int32_t SolverNodes::vertex(std::int64_t number, const char* at) const {
   return found->second;
 }
 
-/// Elements that name no set themselves have that of the first list which has them.
+/// Elements that name no set belong to the set of the first list that has them.
 void SolverGroups::take_ranges() {
   std::map<std::int64_t, std::size_t> free;
   for (std::size_t i = 0; i < elements_.size(); ++i)

@@ -39,13 +39,13 @@ class Su2Reader {
       else if (key == "MARKER_ELEMS")
         elements(in_.count("the number of elements of a marker", 2), true);
       else
-        in_.rest_of_line();  // what other programs add
+        in_.rest_of_line();  // additions of other programs
     }
     return finished();
   }
 
  private:
-  /// "NDIME=", "NDIME" before "=", or "NDIME=2" as one word: the number is what comes next.
+  /// "NDIME=", "NDIME" before "=", or "NDIME=2" as one word: the number follows.
   std::string key_of(std::string_view word) {
     const std::size_t equals = word.find('=');
     if (equals != std::string_view::npos) {
@@ -69,7 +69,7 @@ class Su2Reader {
     if (dimension_ == 0) in_.fail(in_.position(), "NPOIN comes before NDIME");
     if (!mesh_.vertices.empty()) in_.fail(in_.position(), "NPOIN comes twice");
     const std::size_t n = in_.count("the number of points", static_cast<std::size_t>(dimension_));
-    in_.rest_of_line();  // a second number counts those without halos
+    in_.rest_of_line();  // a second number counts the elements without halos
     for (std::size_t i = 0; i < n; ++i) {
       Vec3 p;
       for (int x = 0; x < dimension_; ++x) p[x] = in_.real("a coordinate of a point");
@@ -121,14 +121,14 @@ class Su2Reader {
     if (type == quad_type) lists_.quads.nodes.push_back({n[0], n[1], n[2], n[3]}), lists_.quads.refs.push_back(ref);
   }
 
-  /// What elements have as their reference until the end: the number of their marker, from 0; -1: they are of none.
+  /// The reference of elements until the end: the number of their marker, from 0; -1: no marker.
   std::int32_t marker() {
     const auto found = std::ranges::find(tags_, tag_);
     if (found == tags_.end()) return tags_.push_back(tag_), static_cast<std::int32_t>(tags_.size()) - 1;
     return static_cast<std::int32_t>(found - tags_.begin());
   }
 
-  /// References of markers: those in their names, and for others the least numbers that are left.
+  /// References of markers: from their names, otherwise the least unused numbers.
   std::vector<std::int32_t> references() {
     const char* const before = dimension_ == 2 ? "curve_" : "face_";
     std::vector<std::int32_t> refs(tags_.size(), 0);

@@ -41,7 +41,7 @@ void add_points(const FlatMesh& mesh, bool flat, std::string& text) {
   }
 }
 
-/// One marker a name; a set without a name is a marker of its own.
+/// One marker a name; a set without a name is a separate marker.
 template <typename Set>
 std::vector<NamedSets> markers_of(const std::vector<Set>& sets, const std::vector<NamedSets>& named) {
   std::vector<std::string> names;

@@ -28,7 +28,7 @@ std::optional<SolidShape> solid_of(std::int32_t descriptor) noexcept {
   return std::nullopt;
 }
 
-/// By the descriptor of an element: its tens are the family, its units the shape.
+/// The descriptor of an element gives its family (tens) and its shape (units).
 Family family_of(std::int32_t descriptor) noexcept {
   switch (descriptor / 10) {
     case 1:  // rods
@@ -201,7 +201,7 @@ class UnvReader {
     }
   }
 
-  /// Of a group, from 1; groups without a name are told apart by their rank.
+  /// The name of a group, from 1; groups without a name are distinguished by their rank.
   std::string name_of(std::size_t group) const {
     const std::string& name = named_[group - 1].name;
     return name.empty() ? "group_" + std::to_string(group) : name;
@@ -211,7 +211,7 @@ class UnvReader {
     return std::ranges::any_of(elements_, [&](const Element& each) { return each.family == family && each.group > 0; });
   }
 
-  /// Groups are faces; where there is none of faces, properties are their references.
+  /// Groups are faces; if there is no group of faces, properties are their references.
   void give_faces(FlatMesh& mesh) {
     const bool surface = std::ranges::any_of(elements_, [](const Element& each) { return each.family == Family::surface; });
     const Family family = surface ? Family::surface : Family::solid;  // whose outer faces are the surface then
@@ -231,7 +231,7 @@ class UnvReader {
     groups_.give_to(mesh, nodes_);
   }
 
-  /// Of a solid of order 2 the file lists the nodes around the bottom, upright edges, the nodes around the top.
+  /// For a solid of order 2 the file lists the nodes around the bottom, upright edges, the nodes around the top.
   static void around_first(SolidShape shape, std::vector<std::int64_t>& nodes) {
     if (nodes.size() != quadratic_count(shape)) return;
     if (shape == SolidShape::tetrahedron) {  // 0 01 1 12 2 20, 03 13 23, 3

@@ -357,7 +357,7 @@ class LegacyReader : private Words {
     const auto ref = [&](std::size_t i) {
       const double value = data.values[i];
       const bool fits = std::abs(value) <= std::numeric_limits<std::int32_t>::max() && value == std::floor(value);
-      if (!fits) fail(data.at, "a reference is no number of 32 bits");
+      if (!fits) fail(data.at, "a reference is not a number of 32 bits");
       return static_cast<std::int32_t>(value);
     };
     if (data.on_vertices)

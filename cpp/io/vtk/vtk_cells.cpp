@@ -14,7 +14,7 @@ constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polylin
                        vtk_pixel = 8, vtk_voxel = 11, vtk_quadratic_edge = 21, vtk_polyhedron = 42,
                        vtk_lagrange_curve = 68;
 
-/// A type of cells that are elements: its first nodes are those of the kind.
+/// A type of cells that are elements: its first nodes are the nodes of the kind.
 struct SurfaceType {
   std::int64_t type;
   std::size_t nodes;
@@ -26,8 +26,8 @@ constexpr SurfaceType surface_types[] = {
     {69, 3, CellKind::triangle3}, {69, 6, CellKind::triangle6}, {70, 4, CellKind::quad4},     {70, 9, CellKind::quad8},
     {76, 3, CellKind::triangle3}, {77, 4, CellKind::quad4}};
 
-/// A type of solids: corners first, of those of order 2 then the nodes on edges; of Lagrange's and Bezier's cells other
-/// nodes than those of `straight` or `curved` have orders that differ, so that corners count alone.
+/// A type of solids: corners first, then, in order 2, the nodes on edges. Lagrange's and Bezier's cells with other
+/// numbers of nodes than `straight` or `curved` have different orders, so that only corners count.
 struct SolidType {
   std::int64_t type;
   SolidShape shape;
@@ -142,7 +142,7 @@ void VtkCells::give_to(FlatMesh& mesh) {
   }
   mesh.triangle_refs.clear();
   mesh.edges = std::move(edges_);
-  // Of straight and curved edges only the ends are kept.
+  // If straight and curved edges are mixed, only the ends are kept.
   if (edge_mids_.size() == mesh.edges.size()) mesh.edge_mids = std::move(edge_mids_);
   mesh.tetrahedra = std::move(tetrahedra_);
 }

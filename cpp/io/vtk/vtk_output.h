@@ -10,8 +10,8 @@
 
 namespace carreau {
 
-/// The cells of a file: elements, so that the number of an element is that of its cell, then the edges of curves. The
-/// mesh must live as long.
+/// The cells of a file: elements, so that the number of an element is the number of its cell, then the edges of curves.
+/// The mesh must live as long.
 class VtkOutput {
  public:
   explicit VtkOutput(const FlatMesh& mesh);
@@ -23,8 +23,8 @@ class VtkOutput {
   [[nodiscard]] std::int32_t ref(std::size_t cell) const noexcept;
   /// Appends the nodes of a cell, whose order is VTK's already.
   void append_nodes(std::size_t cell, std::vector<std::int32_t>& nodes) const;
-  /// Returns the values of a field of triangles or edges for all cells: of a quadrilateral the mean of its halves, NaN
-  /// where there is none.
+  /// Returns the values of a field of triangles or edges for all cells: for a quadrilateral the mean of its halves, NaN
+  /// for cells without a value.
   [[nodiscard]] std::vector<double> values(const MeshField& field) const;
 
  private:

@@ -15,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-/// Value of a digit of base64; -1: it is none.
+/// Value of a digit of base64; -1: no digit.
 int base64_digit(char c) noexcept {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -61,8 +61,8 @@ void VtuArrays::set_appended(const XmlTag& tag) {
   has_appended_ = true;
 }
 
-/// Up to the first character that is no digit of base64, or until there are as many bytes as wanted. A length may be
-/// encoded apart from what follows it: groups of four that end with '=' are passed.
+/// Decodes up to the first character that is no digit of base64, or until there are enough bytes. A length may be
+/// encoded apart from the data behind it: groups of four that end with '=' are skipped.
 std::string VtuArrays::decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const {
   std::string bytes;
   std::uint32_t group = 0;
@@ -101,14 +101,14 @@ std::string VtuArrays::first(const VtuArray& array, const Stored& stored, std::u
 
 /// `length` bytes behind a header.
 std::string VtuArrays::behind(const VtuArray& array, const Stored& stored, std::uint64_t header, std::uint64_t length) {
-  // Every array has its own bytes: what is asked for in all is no more than the file holds.
+  // Every array has separate bytes: all arrays together need no more than the file holds.
   if (length > content_.size() - taken_)
-    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) +
+    fail(array.tag, array.shown_name() + " should have " + std::to_string(length) +
                         " bytes, more than are left: the file may be truncated");
   taken_ += length;
   const std::string bytes = first(array, stored, header + length);
   if (bytes.size() < header + length)
-    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) + " bytes, but " +
+    fail(array.tag, array.shown_name() + " should have " + std::to_string(length) + " bytes, but " +
                         std::to_string(bytes.size() - header) + " are left: the file may be truncated");
   return bytes.substr(static_cast<std::size_t>(header), static_cast<std::size_t>(length));
 }
@@ -129,7 +129,7 @@ std::string VtuArrays::bytes_of(const VtuArray& array) {
 std::string VtuArrays::inflated_bytes(const VtuArray& array, const Stored& stored, std::uint64_t blocks) {
   if (blocks == 0) return "";
   if (blocks > content_.size() / length_size_)
-    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(blocks) +
+    fail(array.tag, array.shown_name() + " should have " + std::to_string(blocks) +
                         " compressed blocks, more than the file holds");
   const std::uint64_t size = (ZlibBlocks::fixed_numbers + blocks) * length_size_;
   const std::string header = first(array, stored, size);
@@ -139,7 +139,7 @@ std::string VtuArrays::inflated_bytes(const VtuArray& array, const Stored& store
   const ZlibBlocks sizes = ZlibBlocks::of(numbers);
   for (const std::uint64_t each : sizes.compressed)  // before their sum, which could overflow
     if (each > content_.size())
-      fail(array.tag, array.shown_name() + " says that it has a block of " + std::to_string(each) +
+      fail(array.tag, array.shown_name() + " should have a block of " + std::to_string(each) +
                           " bytes, more than are left: the file may be truncated");
   const std::string bytes = behind(array, stored, size, sizes.compressed_size());
   try {
@@ -181,7 +181,7 @@ std::vector<T> VtuArrays::numbers_of_bytes(const VtuArray& array, std::string_vi
     } else {
       if (bytes.size() % sizeof(Stored) != 0)
         fail(array.tag, array.shown_name() + " has " + std::to_string(bytes.size()) +
-                            " bytes, which are no numbers of " + std::to_string(sizeof(Stored)));
+                            " bytes, which are not numbers of " + std::to_string(sizeof(Stored)));
       values.reserve(bytes.size() / sizeof(Stored));
       for (std::size_t i = 0; i < bytes.size(); i += sizeof(Stored))
         values.push_back(static_cast<T>(raw_number<Stored>(bytes.data() + i, swapped_)));

@@ -18,10 +18,10 @@ struct VtuArray {
   [[nodiscard]] std::string shown_name() const;
 };
 
-/// How the numbers of a file are stored, and where.
+/// The storage of the numbers of a file, and their places.
 class VtuArrays {
  public:
-  /// Keeps references to both arguments. `root`: the tag VTKFile. Throws FileError for what is not known.
+  /// Keeps references to both arguments. `root`: the tag VTKFile. Throws FileError for unknown forms.
   VtuArrays(std::string_view content, const std::string& name, const XmlTag& root);
 
   /// The tag AppendedData. Throws FileError.
@@ -43,7 +43,7 @@ class VtuArrays {
   std::vector<T> numbers_of_bytes(const VtuArray& array, std::string_view bytes) const;
   template <typename T>
   std::vector<T> numbers(const VtuArray& array, bool finite);
-  /// The bytes of an array and what may follow them.
+  /// The bytes of an array and the text behind them.
   struct Stored {
     std::string_view bytes;
     bool base64 = false;
@@ -55,7 +55,7 @@ class VtuArrays {
   [[nodiscard]] std::string bytes_of(const VtuArray& array);
   [[nodiscard]] std::string inflated_bytes(const VtuArray& array, const Stored& stored, std::uint64_t blocks);
   [[nodiscard]] std::string decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const;
-  /// Number i of what lies before the bytes of an array.
+  /// Number i of the header before the bytes of an array.
   [[nodiscard]] std::uint64_t header_number(std::string_view header, std::size_t i) const;
   void check_count(const VtuArray& array, std::size_t found, std::size_t expected) const;
 

@@ -100,7 +100,7 @@ std::size_t VtuReader::text_size(const VtuArray& array) {
   }
 }
 
-/// Reads the tags: where the arrays are.
+/// Reads the tags: the places of the arrays.
 void VtuReader::collect(VtuArrays& numbers) {
   std::string section;
   for (XmlTag tag = tags_.next();; tag = tags_.next()) {
@@ -211,7 +211,7 @@ std::vector<std::int32_t> VtuReader::refs(const VtuArray& array, const std::vect
   return result;
 }
 
-/// Values of triangles and of edges; a list of which all are NaN was made to fill the array.
+/// Values of triangles and of edges; a list of NaN alone only fills the array of the writer.
 void VtuReader::add_cell_field(const std::string& name, int components, const std::vector<double>& values) {
   MeshField field{.name = name, .on_vertices = false, .components = components, .values = {}};
   const auto n = static_cast<std::size_t>(components);
@@ -295,7 +295,7 @@ void VtuReader::add_fields(VtuArrays& numbers) {
     add_refs(numbers, on_vertices);
     for (const auto& [name, each] : pieces_.front().sections[section]) {
       if (name == "reference" || name == "vtkGhostType") continue;
-      // Made of what is known of faces: add_faces() has it.
+      // add_faces() has read it from the data of faces.
       if (of_faces && !on_vertices && (name == "status" || name == "rgb")) continue;
       add_field(numbers, name, on_vertices);
     }
@@ -314,7 +314,7 @@ void VtuReader::add_strings(VtuArrays& numbers, const VtuArray& array, std::stri
   }
 }
 
-/// What the writer tells of faces.
+/// The writer's data of faces.
 void VtuReader::add_faces(VtuArrays& numbers) {
   const Arrays& arrays = field_data_;
   const auto found = arrays.find("face_reference"), status = arrays.find("face_status"),

@@ -124,7 +124,7 @@ void add_solids(VtuFile& file, const VtkOutput& all) {
   file.array("solids", 2, solids);
 }
 
-/// For each cell what programs that look at cells only would not find: the status of its face (edges: 0), and its
+/// For each cell the data that programs for cells only would not find: the status of its face (edges: 0), and its
 /// colour when any face has one.
 void add_face_data(VtuFile& file, const VtkOutput& all) {
   const FlatMesh& mesh = all.mesh();
@@ -154,14 +154,14 @@ void add_cell_data(VtuFile& file, const VtkOutput& cells) {
   file.xml("<CellData Scalars=\"reference\">\n");
   file.array("reference", 1, refs);
   add_face_data(file, cells);
-  // VTK wants a value for every cell; NaN says that a cell has none and is left out of colour ranges.
+  // VTK requires a value for every cell; NaN marks a cell without a value, which colour ranges leave out.
   for (const MeshField& field : cells.mesh().fields)
     if (!field.on_vertices) file.array(field.name, field.components, cells.values(field));
   file.xml("</CellData>\n");
 }
 
-/// Strings are arrays of the bytes of their characters, each string ended by a zero. Not VTK's own type for strings,
-/// <Array type="String">: programs that know DataArray alone refuse such a file.
+/// Strings are arrays of the bytes of their characters, each string ended by a zero. VTK's own type for strings, <Array
+/// type="String">, is not used: programs that know DataArray alone reject such a file.
 void add_strings(VtuFile& file, const std::string& name, const std::vector<std::string>& texts) {
   std::string codes;
   std::size_t count = 0;
@@ -183,7 +183,7 @@ void add_names(VtuFile& file, const std::string& kind, const std::map<int, std::
   add_strings(file, kind + "_name", texts);
 }
 
-/// Field data: what is known of each face, and the names of curves, points and solids.
+/// Field data: data of each face, and the names of curves, points and solids.
 void add_faces(VtuFile& file, const FlatMesh& mesh) {
   if (mesh.faces.empty()) return;
   std::vector<std::int32_t> refs, status, colours;

@@ -16,7 +16,7 @@ constexpr bool is_of_name(char c) noexcept {
          c == ':' || c == '.';
 }
 
-/// The five entities that XML has of its own; others stay as they are.
+/// The five predefined entities of XML; others stay as they are.
 std::string unescaped(std::string_view text) {
   static constexpr std::pair<std::string_view, char> entities[] = {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};

@@ -18,7 +18,7 @@ struct XmlTag {
   const char* after = nullptr;  ///< of the character behind its '>'
   std::map<std::string, std::string, std::less<>> attributes{};
 
-  /// Value of an attribute; "" when there is none.
+  /// Value of an attribute; "" if absent.
   [[nodiscard]] std::string attribute(std::string_view key) const;
 };
 

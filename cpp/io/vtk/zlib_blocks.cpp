@@ -9,7 +9,7 @@
 namespace carreau {
 
 namespace {
-// No zlib stream holds more than this for each of its bytes: what claims more is not believed.
+// No zlib stream holds more than this for each of its bytes: larger claims are rejected.
 constexpr std::uint64_t best_ratio = 1032;
 }  // namespace
 
@@ -35,7 +35,7 @@ std::string inflated(const ZlibBlocks& blocks, std::string_view bytes) {
       throw std::runtime_error("block " + std::to_string(i + 1) + " of its " +
                                std::to_string(blocks.compressed.size()) + " compressed blocks " + why);
     };
-    if (size / best_ratio > stored) fail("is said to hold more than can be compressed into it");
+    if (size / best_ratio > stored) fail("is too large for its compressed bytes");
     const std::size_t before = whole.size();
     whole.resize(before + static_cast<std::size_t>(size));
     uLongf written = static_cast<uLongf>(size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compressed arrays of VTK XML files: blocks of zlib behind a header that tells their sizes.
+// Compressed arrays of VTK XML files: blocks of zlib behind a header with their sizes.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,17 @@ struct ZlibBlocks {
   std::uint64_t block = 0, last = 0;
   std::vector<std::uint64_t> compressed;
 
-  /// Numbers of a header before those of each block.
+  /// Numbers of a header before the numbers of the blocks.
   static constexpr std::size_t fixed_numbers = 3;
   /// `numbers`: the whole header.
   static ZlibBlocks of(std::span<const std::uint64_t> numbers);
   [[nodiscard]] std::uint64_t compressed_size() const noexcept;
-  /// Of block i once it is not compressed any more.
+  /// Size of block i after decompression.
   [[nodiscard]] std::uint64_t size_of(std::size_t i) const noexcept;
 };
 
-/// What the blocks hold. Throws std::runtime_error, with a part of a sentence, when they are not what the header says.
-/// `bytes`: of all blocks, one behind the other, as many as compressed_size().
+/// The content of the blocks. Throws std::runtime_error, with a part of a sentence, if they do not agree with the
+/// header. `bytes`: of all blocks, one behind the other, as many as compressed_size().
 std::string inflated(const ZlibBlocks& blocks, std::string_view bytes);
 
 }  // namespace carreau

@@ -28,8 +28,8 @@ std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Tangents& at_
                                              const Vec3& chord) const {
   const auto& [su, sv] = at_a;
   constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
-  // The step of (u, v) whose image is the chord, but for its part across the tangent plane. Not the way that is
-  // shortest in a metric: around a pole whose metric differs by direction that is a spiral.
+  // The step of (u, v) whose image is the chord, without its part across the tangent plane. This is not the shortest
+  // way in a metric: around a pole whose metric differs by direction that is a spiral.
   const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), x = dot(su, chord), y = dot(sv, chord);
   const Vec2 way{g * x - f * y, e * y - f * x};  // times the determinant
   std::optional<Vec2> best;

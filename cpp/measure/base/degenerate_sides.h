@@ -20,9 +20,9 @@ class DegenerateSides {
   /// `index`: of the face in SurfaceMesh::faces.
   DegenerateSides(const FaceMesh& face, std::int32_t index);
 
-  /// Where on the side that ends at local vertex `p` the straight way from `a` arrives; su, sv: derivatives at a;
-  /// `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of the side stands for the
-  /// pole in (u, v). Where no side ends at p, as in meshes free of patches, `at_pole` says along which axis it runs; empty where that is zero.
+  /// Returns the point at which the straight way from `a` arrives on the side that ends at local vertex `p`; su, sv: derivatives at a;
+  /// `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of the side represents the pole in (u, v). If no
+  /// side ends at p, as in cross-patch meshes, `at_pole` gives the axis of the way; empty if that is zero.
   [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, const Tangents& at_pole, const Vec2& a, const Tangents& at_a, const Vec3& chord) const;
 
  private:

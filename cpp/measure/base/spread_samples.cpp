@@ -8,7 +8,7 @@ namespace carreau {
 
 namespace {
 
-// Of a vertex of the atlas, by face and (u, v).
+// Places of a vertex of the atlas, by face and (u, v).
 std::vector<SurfacePlace> places_of(const Charts& charts, Cad& cad, const SurfacePlace& vertex) {
   std::int32_t v = -1;
   for (int i = 0; i < 3; ++i)

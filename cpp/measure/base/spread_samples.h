@@ -17,11 +17,11 @@ struct SpreadAtlas {
   const Charts* charts = nullptr;
   std::span<const std::vector<std::int32_t>> feet;  ///< [face][local vertex]
 
-  /// Whether normals over a triangle of the atlas point to the other side than those of a face.
+  /// True if the normals over a triangle of the atlas and the normals of a face point to opposite sides.
   [[nodiscard]] bool is_turned(std::int32_t face, std::int32_t triangle) const;
 };
 
-/// Of a triangle of the mesh whose corners are of several charts. Three evaluations.
+/// Samples a triangle of the mesh whose corners are of several charts. Three evaluations.
 SpreadTriangle spread_triangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t face, std::size_t triangle);
 
 /// The surface over a place of a spread triangle.
@@ -31,7 +31,7 @@ struct SpreadSample {
   int rank = 0;              ///< of the node on the side, or of the weights
   std::int32_t face = -1;    ///< index in SurfaceMesh::faces; -1: not found
   Vec2 uv;
-  bool turned = false;  ///< the normal there is that of the other side
+  bool turned = false;  ///< the normal there points to the other side
   Vec3 flat;  ///< the place of the triangle itself
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a mesh, each with what is around it.
+// The triangles of a mesh, each with its neighbourhood.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ namespace carreau {
 
 namespace {
 
-// Ranks in the lattice: corners, what lies on side i from corner i on, and inside.
+// Ranks in the lattice: corners, places on side i from corner i on, and inside.
 constexpr std::array<std::size_t, 3> corner_ranks{0, 4, 14};
 constexpr std::array<std::array<std::size_t, 3>, 3> side_ranks{{{1, 2, 3}, {8, 11, 13}, {12, 9, 5}}};
 constexpr std::array<std::size_t, 3> inner_ranks{6, 7, 10};
@@ -88,7 +88,7 @@ ChartedPlaces::Map ChartedPlaces::map_of(std::int32_t triangle) const {
   return map;
 }
 
-// Where the middle of the image lies over the middle of the chord, by the cubic that has the derivatives at the ends.
+// The middle of the image over the middle of the chord, by the cubic that has the derivatives at the ends.
 Vec2 ChartedPlaces::over_chord(std::int32_t a, std::int32_t b) const {
   const AtVertex &p = vertex_[a], &q = vertex_[b];
   if (!p.regular || !q.regular) return {0, 0};

@@ -24,14 +24,15 @@ struct ChartedPlace {
 
 /// An edge of the mesh between two triangles of (u, v) of one face.
 struct SharedEdge {
-  std::array<std::int32_t, 2> beside{-1, -1};  ///< those triangles, of the face
+  std::array<std::int32_t, 2> beside{-1, -1};  ///< the triangles beside, in the face
   std::int32_t place = -1, from = 0, to = 0;   ///< the first of its places; local vertices
 };
 
-/// Of one face; places of vertices and edges that triangles share are evaluated once. Keeps references to its arguments.
+/// Places of one face; the places of vertices and edges that triangles share are evaluated once. Keeps references to its
+/// arguments.
 ///
-/// Edges between triangles are parabolas of (u, v) whose images are over their chords, as far as derivatives at their ends tell: straight edges of (u, v)
-/// bend away from them in the tangent plane.
+/// Edges between triangles are parabolas of (u, v) whose images lie over their chords, to the order of the derivatives at their ends:
+/// straight edges of (u, v) bend away from them in the tangent plane.
 class ChartedPlaces {
  public:
   /// `first`: rank of the first triangle of the face in the mesh. `shared`: an entry for each edge, as new.
@@ -43,19 +44,19 @@ class ChartedPlaces {
 
   /// Sees the lattices of these triangles.
   void see(std::span<const std::int32_t> triangles);
-  /// That of the k-th one.
+  /// Places of the k-th triangle.
   [[nodiscard]] std::array<BoundPlace, TriangleBound::lattice_size> lattice(std::size_t k) const;
   /// Other places of the triangles seen last.
   [[nodiscard]] std::vector<BoundPlace> see(std::span<const ChartedPlace> places);
 
  private:
   using Ranks = std::array<std::int32_t, TriangleBound::lattice_size>;
-  /// Where a triangle is in (u, v). At a pole it is the sector between the ways from its other corners.
+  /// A triangle's map to (u, v). At a pole it is the sector between the ways from its other corners.
   struct Map {
     std::array<Vec2, 3> corner;
     std::array<Vec2, 3> bulge;  ///< of the middles of sides
     int pole = -1;
-    std::array<Vec2, 2> arrival;  ///< of the ways from the next corner and the one after it
+    std::array<Vec2, 2> arrival;  ///< end points of the ways from the next corner and the one after it
     [[nodiscard]] Vec2 at(const PlaceInTriangle& place) const;
   };
   struct AtVertex {

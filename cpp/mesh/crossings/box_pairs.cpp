@@ -74,7 +74,7 @@ void BoxPairs::start(std::size_t part, Meeting& meeting) const {
   meeting.todo.push_back({{level, part}, {root, 0}});
 }
 
-// What comes before a meets it in its own part.
+// The part of an earlier node finds its pairs with a.
 bool BoxPairs::find_some(Meeting& meeting) const {
   meeting.blocks.clear();
   while (!meeting.todo.empty() && meeting.blocks.size() < most_kept) {

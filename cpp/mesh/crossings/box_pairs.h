@@ -16,22 +16,23 @@
 
 namespace carreau {
 
-/// All pairs of triangles whose closed boxes have a point in common: a tree of boxes is asked against itself, so that
-/// neighbours go down together. In parts, which do not depend on the number of threads and may be asked from several.
-/// The tree is over blocks of triangles that are neighbours in space, and halves their list: it needs no links, and
-/// boxes of triangles are made when they are compared. So it takes ten bytes a triangle.
+/// All pairs of triangles whose closed boxes have a point in common. Searches a tree of boxes against itself, so that
+/// neighbours descend together. Works in parts, which do not depend on the number of threads; several threads may
+/// search different parts. The tree halves a list of blocks, each of triangles that are neighbours in space. It needs
+/// no links, and boxes of triangles are made when they are compared. So it takes ten bytes a triangle.
 class BoxPairs {
  public:
   using Box = BoxTree::Box;
   using Triangle = std::array<std::int32_t, 3>;
 
-  /// Of the triangles of `numbers`, whose indices lie in range and whose coordinates are finite. Refers to vertices and
-  /// triangles. Throws Cancelled soon after `monitor` was asked to stop.
+  /// `numbers` are indices in range of triangles with finite coordinates. Refers to vertices and triangles. Throws
+  /// Cancelled soon after `monitor` received a request to stop.
   BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> numbers,
            Monitor& monitor, int threads);
 
-  /// The same without pairs of one set: some of them may come all the same. `order`: neighbours near each other, as far
-  /// as they may be apart from those of other sets; `set`: by triangle of the mesh; -1: of none.
+  /// Like the constructor above, without pairs of one set; may report some of them nevertheless. `order`: neighbours
+  /// near each other, except that triangles of different sets may be far apart; `set`: by triangle of the mesh; -1: in
+  /// no set.
   BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> order,
            std::span<const std::int32_t> set, Monitor& monitor, int threads);
 
@@ -58,7 +59,7 @@ class BoxPairs {
  private:
   static constexpr std::size_t block_size = 16, blocks_of_part = 64;  // [time only]
 
-  /// Of the halves of the list: block << level is its first block.
+  /// A node of the halved list: block << level is its first block.
   struct Node {
     std::size_t level = 0, index = 0;
     [[nodiscard]] std::size_t begin() const noexcept { return index << level; }
@@ -69,7 +70,7 @@ class BoxPairs {
     std::size_t block = static_cast<std::size_t>(-1), size = 0;
     std::array<Box, block_size> boxes;
   };
-  /// The blocks of a part, those that were asked for.
+  /// The requested blocks of a part.
   struct Part {
     std::size_t first = 0;  // block
     std::vector<Loaded> blocks;
@@ -98,7 +99,7 @@ class BoxPairs {
   void find_sets(std::span<const std::int32_t> set);
   void load(std::size_t block, Loaded& loaded) const;
   void start(std::size_t part, Meeting& meeting) const;
-  /// Whether there are any more.
+  /// True if it found more blocks.
   bool find_some(Meeting& meeting) const;
   void go_down(const Node& a, const Node& b, std::vector<std::pair<Node, Node>>& todo) const;
 
@@ -109,7 +110,7 @@ class BoxPairs {
     const std::int32_t* of_a = order_.data() + own.block * block_size;
     const std::int32_t* of_b = order_.data() + other.block * block_size;
     const Box &all_of_a = box({0, own.block}), &all_of_b = box({0, other.block});
-    std::array<std::uint8_t, block_size> near_b;  // those of a
+    std::array<std::uint8_t, block_size> near_b;  // ranks in `own`
     std::size_t count = 0;
     for (std::size_t k = 0; k < own.size; ++k)
       if (!all_of_b.is_apart(boxes[k])) near_b[count++] = static_cast<std::uint8_t>(k);
@@ -130,7 +131,7 @@ class BoxPairs {
   std::vector<std::int32_t> order_;
   std::size_t blocks_ = 0;
   std::vector<std::size_t> first_;  // by level: in boxes_
-  std::vector<Box> boxes_;          // of nodes, level by level: those of blocks first
+  std::vector<Box> boxes_;          // boxes of nodes, level by level: the blocks first
   std::vector<std::int32_t> set_;   // of nodes: the set of all their triangles, or -1; empty: none is known
 };
 

@@ -15,14 +15,14 @@ namespace {
 using Triangle = std::array<std::int32_t, 3>;
 
 constexpr std::size_t at_once = 4096;  // triangles between two looks for a stop, or of one task
-constexpr std::size_t one_of = 3;      // where more are asked all are looked through [time only]
+constexpr std::size_t one_of = 3;      // beyond this share of requested triangles, compares all [time only]
 
 /// Numbers of places, by their bits.
 class PlaceNumbers {
  public:
   explicit PlaceNumbers(std::span<const Vec3> places) : places_(places), slots_(std::bit_ceil(2 * places.size() + 1), none) {}
 
-  /// The first vertex with this place that was asked for or, where it is none and `v` is given, v from now on.
+  /// Returns the first vertex with this place that was registered. If there is none, registers `v` if it is given.
   std::int32_t find(const Vec3& p, std::int32_t v = none) {
     for (std::size_t slot = hash(p) & mask();; slot = (slot + 1) & mask()) {
       if (slots_[slot] == none) return slots_[slot] = v;
@@ -57,7 +57,7 @@ BoxTree::Box box_of(std::span<const Vec3> vertices, const Triangle& t) noexcept 
   return box;
 }
 
-/// Triangles of the mesh of before by the smallest number of their corners' places; each is found once.
+/// Triangles of the previous mesh, by the smallest number of their corners' places; each is found once.
 class TrianglesByPlaces {
  public:
   TrianglesByPlaces(const SearchedMesh& before, Monitor& monitor)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that cross in a mesh many of whose triangles another one had, too.
+// Finds crossing triangles in a mesh that shares many triangles with a previous mesh.
 #pragma once
 
 #include <array>
@@ -22,18 +22,19 @@ struct SearchedMesh {
   std::span<const TriangleIntersection> pairs;  ///< all that cross
 };
 
-/// What find_intersections() says, in less time where many triangles are as they were `before`: pairs of these are not asked again.
+/// Returns the result of find_intersections(), in less time if many triangles are as they were `before`: pairs of these are not
+/// compared again.
 Intersections find_intersections_again(const SearchedMesh& before, std::span<const Vec3> vertices,
                                        std::span<const std::array<std::int32_t, 3>> triangles, std::size_t limit,
                                        const Crew& crew, Monitor& monitor);
 
-/// By triangle: 1 where `before` has none with corners at the same places, to the last bit, or where that crosses another one. Each triangle
-/// of `before` is the same as one at most.
+/// For each triangle: 1 if `before` has no identical triangle, corners compared to the last bit, or if that one crosses another. Each
+/// triangle of `before` matches at most one triangle.
 std::vector<char> changed_triangles(const SearchedMesh& before, std::span<const Vec3> vertices,
                                     std::span<const std::array<std::int32_t, 3>> triangles, Monitor& monitor);
 
-/// By triangle: 1 where it is one of `asked`, or its closed box has a point in common with that of one. All of them where that is
-/// not worth a search. The same for any number of threads.
+/// For each triangle: 1 if it is in `asked`, or if its closed box has a point in common with the box of one in `asked`. Selects
+/// all triangles if a search costs more. The result does not depend on the number of threads.
 std::vector<char> near_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const std::vector<char>& asked, int threads, Monitor& monitor);
 

@@ -15,9 +15,9 @@ namespace carreau {
 
 namespace {
 
-// Triangles that are looked at together; smaller sets are not worth it. [time only]
+// Triangles that are searched together; smaller sets are not searched. [time only]
 constexpr std::size_t triangles_at_once = 32768, least_graph = 24;
-// How often triangles at vertices where a set hangs together by a corner only are left out. [time only]
+// Most removals of triangles at vertices that alone connect parts of a set. [time only]
 constexpr int most_repairs = 3;
 
 using Triangle = std::array<std::int32_t, 3>;
@@ -43,7 +43,7 @@ class HalfEdges {
   [[nodiscard]] std::int32_t to(std::int32_t half) const noexcept {
     return corners_[static_cast<std::size_t>(half) + 1];
   }
-  /// The half edge beyond; negative where an edge has not two triangles that are turned alike.
+  /// The half edge beyond; negative if the edge does not have two triangles of equal orientation.
   [[nodiscard]] std::int32_t beyond(std::int32_t half) const noexcept {
     return beyond_[static_cast<std::size_t>(half)];
   }
@@ -73,7 +73,7 @@ class HalfEdges {
     if (other >= 0) beyond_[static_cast<std::size_t>(other)] = open_edge;
     other = no_pair;
   }
-  // The same for both directions.
+  // The slot is equal for both directions.
   static std::size_t place_of(std::int32_t a, std::int32_t b) noexcept {
     const auto low = static_cast<std::uint32_t>(std::min(a, b)), high = static_cast<std::uint32_t>(std::max(a, b));
     return ((std::uint64_t{low} << 32 | high) * 0x9E3779B97F4A7C15U) >> 32;
@@ -89,7 +89,7 @@ class Graphs {
   Graphs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const TriangleView> views)
       : vertices_(vertices), triangles_(triangles), views_(views) {}
 
-  /// Puts them graph by graph. `graph`: by triangle of the mesh; the numbers count from 0. How many there are.
+  /// Puts them graph by graph. `graph`: by triangle of the mesh; the numbers count from 0. Returns their number.
   std::int32_t find(std::span<std::int32_t> some, std::span<std::int32_t> graph, Monitor& monitor) {
     halves_.set(triangles_, some);
     some_ = some;
@@ -125,7 +125,8 @@ class Graphs {
            1 - 2 * (side_ & 1);
   }
 
-  // All that hang together by edges and are seen from the side from which this one is seen best, and the lines round them.
+  // Collects all triangles that are connected by edges and visible from the best side of this one, and the lines round
+  // them.
   void grow(std::int32_t seed) {
     side_ = view(static_cast<std::size_t>(seed)).side;
     members_.assign(1, seed);
@@ -182,7 +183,7 @@ class Graphs {
     });
   }
 
-  // Those of none first, the others in their order.
+  // Triangles without a graph come first, the others in their order.
   void put_graph_by_graph(std::span<std::int32_t> some) {
     std::vector<std::size_t> next(static_cast<std::size_t>(count_) + 2, 0);
     for (const std::int32_t g : of_) ++next[static_cast<std::size_t>(g + 2)];
@@ -195,12 +196,12 @@ class Graphs {
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
   std::span<const TriangleView> views_;
-  // Of the triangles at hand:
+  // State of the current triangles:
   std::span<const std::int32_t> some_;
   HalfEdges halves_;
   std::vector<std::int32_t> of_;
   std::int32_t count_ = 0;
-  // Of the graph at hand:
+  // State of the current graph:
   std::int8_t side_ = 0;
   std::vector<std::int32_t> members_;
   std::vector<OutlineEdge> outline_;

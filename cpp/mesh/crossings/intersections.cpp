@@ -22,7 +22,7 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr std::int8_t no_axis = -1;
 
-/// An axis along which the triangle has an area, the one with most of it if doubles can tell; no_axis: it has none.
+/// An axis along which the triangle has an area, the largest one if doubles can decide; no_axis: it has no area.
 int axis_of(const Corners& t) noexcept {
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
   const double x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
@@ -32,8 +32,8 @@ int axis_of(const Corners& t) noexcept {
   return no_axis;
 }
 
-/// Whether a plane along an edge of s and along the axis has s on one side of it and t on the other, but for corners
-/// that are ends of that edge: what they have in common is then what such corners span.
+/// True if a plane along an edge of s and along the axis separates s and t, except for corners that are ends of that
+/// edge. Such corners then span the common points of s and t.
 bool parted_by_edges_of(const Corners& s, const Corners& t, int axis) noexcept {
   const int inside = turn(axis, s[0], s[1], s[2]);  // of each corner, seen from the edge opposite to it
   if (inside == 0) return false;
@@ -62,7 +62,7 @@ Vec3 middle_over(const Corners& t, int axis, const Vec3& p, const Vec3& q) noexc
 bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) noexcept {
   const int sa = turn(axis, p, q, a), sb = turn(axis, p, q, b);
   const int sp = turn(axis, a, b, p), sq = turn(axis, a, b, q);
-  // All on one line: whether they overlap, the other sides of the triangle or its corners tell.
+  // All on one line: the other sides of the triangle or its corners decide whether they overlap.
   return sa * sb <= 0 && sp * sq <= 0 && (sa != 0 || sb != 0);
 }
 
@@ -79,7 +79,7 @@ bool meets_in_plane(const Vec3& p, const Vec3& q, const Corners& t) noexcept {
   return false;
 }
 
-/// Whether p - q, p != q, has a point in common with the closed triangle t.
+/// True if p - q, p != q, has a point in common with the closed triangle t.
 bool segment_meets(const Vec3& p, const Vec3& q, const Corners& t, Vec3& place) noexcept {
   const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
   if (sp * sq > 0) return false;
@@ -88,7 +88,7 @@ bool segment_meets(const Vec3& p, const Vec3& q, const Corners& t, Vec3& place) 
     place = middle_over(t, axis_of(t), p, q);
     return true;
   }
-  // The line crosses the plane in one point: inside where it passes all sides in one sense.
+  // The line crosses the plane in one point: inside if it passes all sides in one sense.
   const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]), c = orientation(p, q, t[2], t[0]);
   if (std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0) return false;
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
@@ -143,8 +143,8 @@ bool intersect(const Corners& s, const Corners& t, int axis, Vec3& place) noexce
 
 using Indices = std::array<std::int32_t, 3>;
 
-/// Whether a plane of parted_by_edges_of() along an edge of s that ends at a vertex of both does part them: nearly all
-/// neighbours lie so. `inside`: how s is turned, seen along the axis.
+/// True if a plane of parted_by_edges_of() along an edge of s that ends at a common vertex separates them: this holds
+/// for nearly all neighbours. `inside`: orientation of s, seen along the axis.
 bool parted_at_neighbour(std::span<const Vec3> vertices, const Indices& s, const Indices& t, int axis,
                          int inside) noexcept {
   int in_t = 0, in_s = 0;  // bits of corners of t that s has, of s that t has
@@ -163,7 +163,7 @@ bool parted_at_neighbour(std::span<const Vec3> vertices, const Indices& s, const
   return false;
 }
 
-/// What of a mesh can be asked.
+/// The searchable triangles of a mesh.
 struct SoundTriangles {
   std::vector<std::int32_t> numbers;
   std::vector<TriangleView> view;  // by triangle of the whole mesh
@@ -174,7 +174,7 @@ Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t
           vertices[static_cast<std::size_t>(t[2])]};
 }
 
-/// `wanted`: by triangle; empty: all.
+/// `wanted`: 1 for the triangles to search; empty: all.
 SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                const std::vector<char>& wanted, int threads, Monitor& monitor) {
   const bool finite = std::all_of(vertices.begin(), vertices.end(), [](const Vec3& p) { return is_finite(p); });
@@ -254,7 +254,7 @@ Intersections get(PacketReader& packet) {
   return found;
 }
 
-/// Pairs of sound triangles, one of which at least is `asked`; empty: all.
+/// Finds crossings between sound triangles, at least one of each pair in `asked`; empty: all.
 Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices> triangles, SoundTriangles sound,
                          const std::vector<char>& asked, std::size_t limit, const Crew& crew, Monitor& monitor) {
   std::vector<std::int32_t> order =

@@ -30,13 +30,13 @@ struct IntersectionOptions {
 };
 
 /// Decided exactly, in a time of the order of (n + count) log n. Vertices at one place are one vertex: edges that
-/// faces have twice do not cross. Passed over, since find_defects tells of them: triangles with an index out of range,
-/// a coordinate that is not finite, or without area. Throws Cancelled soon after `monitor` was asked to stop.
+/// faces have twice do not cross. Ignores triangles that find_defects reports: with an index out of range, a coordinate
+/// that is not finite, or without area. Throws Cancelled soon after `monitor` received a request to stop.
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor);
 
-/// The same question for two triangles with area; corners are one when their coordinates are equal. `place` is set
-/// when they cross; may be null.
+/// The test for two triangles with area; corners are one when their coordinates are equal. `place` is set when they
+/// cross; may be null.
 bool triangles_intersect(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t, Vec3* place) noexcept;
 
 }  // namespace carreau

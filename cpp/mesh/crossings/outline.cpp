@@ -11,12 +11,12 @@ namespace carreau {
 
 namespace {
 
-// Pairs of edges that are looked at, for each edge. [time only]
+// Pairs of edges that are compared, for each edge. [time only]
 constexpr std::size_t most_pairs_per_edge = 256;
 
 bool is_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
-// Of two edges on one line, b where they meet: whether they lie on both sides of it.
+// True if two edges on one line that meet at b lie on both sides of it.
 bool is_between(const Vec2& a, const Vec2& b, const Vec2& c) noexcept { return is_before(a, b) == is_before(b, c); }
 
 // More than the end of one that is the beginning of the other. Their boxes meet.
@@ -64,7 +64,7 @@ bool are_simple(std::span<const OutlineEdge> edges) {
   return true;
 }
 
-// Edges of each line one after the other: -1 where there is none.
+// The edge that follows each edge on its line; -1: none.
 std::vector<std::int32_t> followers(std::span<const OutlineEdge> edges) {
   std::vector<std::int32_t> next;
   next.reserve(edges.size());
@@ -76,7 +76,7 @@ std::vector<std::int32_t> followers(std::span<const OutlineEdge> edges) {
   return next;
 }
 
-// How often simple lines go round counterclockwise: by the corner that comes first along the axes, which is convex; -1:
+// Number of turns of simple lines counterclockwise: by the corner that comes first along the axes, which is convex; -1:
 // some line is not closed.
 int counterclockwise_lines(std::span<const OutlineEdge> edges) {
   const std::vector<std::int32_t> next = followers(edges);

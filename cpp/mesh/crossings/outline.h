@@ -13,14 +13,14 @@ namespace carreau {
 /// A directed edge, the set on its left.
 struct OutlineEdge {
   std::int32_t from, to;  ///< vertices
-  Vec2 p, q;              ///< where they are
+  Vec2 p, q;              ///< their places
 };
 
 /// Vertices from which more than one edge starts, ascending. Sorts the edges by their first vertices.
 std::vector<std::int32_t> pinched_vertices(std::vector<OutlineEdge>& edges);
 
-/// Whether the edges, sorted, none of their vertices pinched, are closed simple lines without a common point of which
-/// one goes counterclockwise and all others clockwise; false, too, where that would take long to find out. Exact.
+/// True if the edges, sorted and without pinched vertices, are closed simple lines without a common point, one
+/// counterclockwise and all others clockwise. Returns false, too, if the test would take long. Exact.
 bool goes_round_once(std::span<const OutlineEdge> edges);
 
 }  // namespace carreau

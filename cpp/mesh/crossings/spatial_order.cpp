@@ -15,17 +15,17 @@ namespace {
 
 using Box = BoxTree::Box;
 
-// Triangles that one thread sorts at once, and those of a task that deals them out to cells. [time only]
+// Triangles that one thread sorts at once, and triangles of a task that distributes them to cells. [time only]
 constexpr std::size_t most_sorted = 1 << 16, most_dealt = 1 << 17;
 // Neighbouring cells with fewer triangles are sorted together. [time only]
 constexpr std::size_t least_sorted = 1 << 12;
-// Triangles with one code that are left as they are, and those that are sorted without digits. [time only]
+// Triangles with one code that stay unsorted, and triangles that are sorted without digits. [time only]
 constexpr std::size_t crowd = 16, few = 128;
-// Bits of each coordinate of cells that triangles are dealt out to.
+// Bits of each coordinate of the cells that triangles are distributed to.
 constexpr int cell_bits = 4;
 constexpr std::size_t cells = std::size_t{1} << (3 * cell_bits);
-// Bits of each coordinate of the codes that triangles are sorted by, and of each of the three digits that codes have:
-// cells of the finest grid are smaller than triangles of one size on a surface are. [time only]
+// Bits of each coordinate of the codes that triangles are sorted by, and of each of the three digits of a code. Cells
+// of the finest grid are smaller than the triangles of a surface meshed with one size. [time only]
 constexpr int code_bits = 8, code_bits_of_many = 10;
 constexpr std::size_t many = 1 << 14;
 
@@ -56,7 +56,7 @@ class Grid {
   }
 
  private:
-  // Any value at all, where numbers are too large to be subtracted.
+  // Any value at all, if numbers are too large to be subtracted.
   [[nodiscard]] std::uint32_t step(const Vec3& p, int axis) const noexcept {
     const double x = (p[axis] - low_[axis]) * scale_;
     return x > 0 ? static_cast<std::uint32_t>(std::min(x, last_)) : 0;
@@ -109,7 +109,7 @@ class SpatialSort {
       small_.push_back(range);
   }
 
-  /// Sorts by cells of the range's box: those with few triangles are small, those with many large.
+  /// Sorts by cells of the range's box: cells with few triangles are small, cells with many large.
   void deal_out(const Range& range, std::vector<Range>& large) {
     const std::size_t tasks = (range.size() + most_dealt - 1) / most_dealt;
     const auto each = [&](const auto& work) {
@@ -183,7 +183,7 @@ class SpatialSort {
     }
   }
 
-  // The lowest digit first; those that are equal stay in their order.
+  // Sorts by the lowest digit first; equal keys keep their order.
   static void sort_by_digits(Keys& keys, int bits) {
     constexpr std::size_t digits = 3;
     const std::uint32_t last = (1U << bits) - 1;

@@ -12,10 +12,10 @@
 
 namespace carreau {
 
-/// `numbers` of triangles, so that triangles near each other in the list are near each other in space: by the bits of
-/// their centres' coordinates in turn (Morton 1966, "A computer oriented geodetic data base"). Where many triangles
-/// have the same bits, they are sorted again in a box of their own. Needs four bytes a triangle more. The same for any
-/// number of threads. Throws Cancelled soon after `monitor` was asked to stop.
+/// Orders the `numbers` of triangles so that neighbours in the list are neighbours in space. Sorts by the interleaved
+/// bits of their centres' coordinates (Morton 1966, "A computer oriented geodetic data base"). If many triangles have
+/// equal bits, sorts them again in their box. Needs four bytes a triangle more. The order does not depend on the number
+/// of threads. Throws Cancelled soon after `monitor` received a request to stop.
 std::vector<std::int32_t> spatial_order(std::span<const Vec3> vertices,
                                         std::span<const std::array<std::int32_t, 3>> triangles,
                                         std::vector<std::int32_t> numbers, Monitor& monitor, int threads);

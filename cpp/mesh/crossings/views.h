@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From where a triangle is seen. Private to mesh/.
+// Directions from which a triangle is visible. Private to mesh/.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ inline Vec2 along(int axis, const Vec3& p) noexcept {
   return axis == 0 ? Vec2{p.y(), p.z()} : axis == 1 ? Vec2{p.z(), p.x()} : Vec2{p.x(), p.y()};
 }
 
-/// How a triangle is turned, seen along an axis. Exact.
+/// The orientation of a triangle, seen along an axis. Exact.
 inline int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   return orientation(along(axis, a), along(axis, b), along(axis, c));
 }
@@ -24,11 +24,11 @@ inline int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) noexcept 
 /// of three is .577 and more. [time only]
 inline constexpr double least_along_squared = 0.25;
 
-/// The six ways along the axes are sides: 2 axis where the triangle is turned counterclockwise, 2 axis + 1 clockwise.
+/// The six ways along the axes are sides: 2 axis if the triangle is turned counterclockwise, 2 axis + 1 clockwise.
 struct TriangleView {
   static constexpr std::int8_t none = -1;
 
-  std::int8_t side = none; ///< exact: of the axis with most of the area if doubles can tell; none: there is no area
+  std::int8_t side = none; ///< exact: seen along the axis of the largest area if doubles can decide; none: no area
   std::uint8_t good = 0;   ///< bits of the sides from which it is well seen, by doubles
 
   [[nodiscard]] bool any() const noexcept { return side != none; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes elements other than straight triangles unusable.
+// Defects of elements other than straight triangles.
 #include <algorithm>
 #include <map>
 
@@ -22,7 +22,7 @@ class CellDefects {
   std::vector<std::string> run() {
     for (const FaceMesh& face : mesh_.faces) check_lists(face);
     check_curves();
-    if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    if (!defects_.empty()) return std::move(defects_);  // the checks below need sound indices
     used_.assign(mesh_.mid_vertices.size(), 0);
     for (const FaceMesh& face : mesh_.faces) check_face(face);
     for (const CurveMesh& curve : mesh_.curves)
@@ -108,7 +108,7 @@ class CellDefects {
     }
   }
 
-  // (u, v) of faces that are turned over in part tell nothing (FaceMesh::triangles), nor where it is of several charts.
+  // Ignores (u, v) of faces that are partly turned over (FaceMesh::triangles) or of several charts.
   void check_jacobian(const FaceMesh& face, const Cell& cell, std::size_t c, bool in_plane) {
     if (cell.kind == CellKind::triangle3) return;
     const auto n = static_cast<std::size_t>(node_count(cell.kind));

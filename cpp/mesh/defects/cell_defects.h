@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes elements other than straight triangles unusable. For find_defects().
+// Defects of elements other than straight triangles. For find_defects().
 #pragma once
 
 #include <string>
@@ -9,10 +9,11 @@
 
 namespace carreau {
 
-/// One sentence a defect of a mesh whose straight triangles are sound: lists that do not fit, nodes on edges that faces
-/// do not share or nothing holds, Jacobians that are not positive in (u, v) or in space (Bernstein coefficients).
+/// Returns one sentence a defect of a mesh whose straight triangles are sound. Checks sizes of lists, nodes on edges
+/// that faces do not share or no element uses, and Jacobians that are not positive in (u, v) or in space (Bernstein
+/// coefficients).
 std::vector<std::string> find_cell_defects(const SurfaceMesh& mesh);
-/// The same of a mesh as files have it, of its elements alone.
+/// Checks the elements of a mesh of a file.
 std::vector<std::string> find_cell_defects(const FlatMesh& mesh);
 
 }  // namespace carreau

@@ -18,7 +18,7 @@ class DefectFinder {
 
   std::vector<std::string> run() {
     check_indices();
-    if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    if (!defects_.empty()) return std::move(defects_);  // the checks below need sound indices
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) check_triangles(f);
     check_duplicates();
     check_unused();
@@ -154,7 +154,7 @@ class DefectFinder {
     for (const FaceMesh& face : mesh_.faces)
       for (const auto& t : face.triangles)
         for (const std::int32_t v : t) used[face.vertex[v]] = 1;
-    // A curve of faces that failed keeps its vertices: they are what a later attempt starts from. Wires have edges.
+    // A curve of faces that failed keeps its vertices: a later run starts from them. Wires have edges.
     for (const CurveMesh& curve : mesh_.curves) {
       const bool lost = std::any_of(curve.uses.begin(), curve.uses.end(),
                                     [this](const CurveMeshUse& u) { return !meshed(mesh_.faces[u.face]); });
@@ -165,7 +165,7 @@ class DefectFinder {
       if (used[v] == 0) add("vertex " + std::to_string(v) + ": belongs to no triangle");
   }
 
-  // Where each edge lies on curves: one entry a triangle that must be there.
+  // The required positions of edges on curves: one entry a triangle.
   std::vector<EdgeUse> expected_on_curves() {
     std::vector<EdgeUse> expected;
     for (const CurveMesh& curve : mesh_.curves)

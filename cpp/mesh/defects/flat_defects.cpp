@@ -21,7 +21,7 @@ class FlatDefectFinder {
     check_lists();
     check_vertices();
     check_indices();
-    if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    if (!defects_.empty()) return std::move(defects_);  // the checks below need sound indices
     for (const std::string& sentence : find_cell_defects(mesh_)) add(sentence);
     check_triangles();
     check_duplicates();

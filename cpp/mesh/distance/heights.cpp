@@ -45,7 +45,7 @@ class Seen {
   std::size_t count_ = 0;
 };
 
-/// A polygon in the plane, widened, and what lies over it.
+/// A widened polygon in the plane, and the points over it.
 class Window {
  public:
   Window(std::span<const Vec3> polygon, const Vec3& normal) : origin_(polygon[0]), up_(normal) {

@@ -19,8 +19,8 @@ class HeightSearch {
 
   /// The largest height of the mesh over a convex polygon with this unit normal: no point of the polygon is farther from
   /// the mesh. Triangles are followed from `start` over all edges that lie over the polygon. They cover the polygon if no
-  /// border of the mesh lies over it and all triangles are turned alike, since the degree of the projection is constant
-  /// then. Empty where they do not, or where a height exceeds `enough`.
+  /// border of the mesh lies over it and all triangles have equal orientation, since the degree of the projection is
+  /// constant then. Empty if they do not, or if a height exceeds `enough`.
   [[nodiscard]] std::optional<double> largest_over(std::span<const Vec3> polygon, const Vec3& normal, std::int32_t start,
                                                    double enough) const;
 

@@ -29,7 +29,7 @@ double shape_of(std::span<const Vec3> x, std::size_t n) noexcept {
   return diameter > 0 ? regular * rho / diameter : 0;
 }
 
-// From corner i along the side to corner i + 1, or, `back`, to the one before.
+// Derivative at corner i along the side to corner i + 1, or, if `back`, to the previous corner.
 Vec3 tangent(CellKind kind, std::span<const Vec3> x, std::size_t n, std::size_t i, bool back) noexcept {
   const Vec3 &a = x[i], &b = x[back ? (i + n - 1) % n : (i + 1) % n];
   if (!is_quadratic(kind)) return b - a;

@@ -10,16 +10,17 @@
 
 namespace carreau {
 
-/// What one element is worth.
+/// The quality of one element.
 struct CellQuality {
-  /// sigma of the regular polygon over sigma = h / rho (HDR sec. 1.1.1): h is the diameter of the polygon of the
+  /// sigma of the regular polygon over sigma = h / rho (HDR sec. 1.1.1). h is the diameter of the polygon of the
   /// corners, rho the least inradius of the triangles of two sides that meet. 1 for a square (sigma = 2 + 2 sqrt 2) and
   /// an equilateral triangle (2 sqrt 3).
   double shape = 0;
-  /// Least sine of the angles at its corners, over that of the regular polygon; negative where one is turned over.
+  /// Least sine of the angles at its corners, over the sine of the regular polygon; negative if a corner is turned
+  /// over.
   double scaled_jacobian = 0;
   double least_jacobian = 0;           ///< Jacobian::least(): positive for a valid element
-  double angle_min = 0, angle_max = 0;  ///< degrees, between the tangents of its sides; above 180 where turned over
+  double angle_min = 0, angle_max = 0;  ///< degrees, between the tangents of its sides; above 180 if turned over
   double area = 0;                      ///< of the curved element
 };
 
@@ -31,12 +32,12 @@ struct CellSummary {
   Distribution shape, scaled_jacobian, least_jacobian;
   double angle_min_deg = 0, angle_max_deg = 0;
   double area = 0;            ///< of the curved elements
-  double triangle_share = 0;  ///< of the area, that of triangles
+  double triangle_share = 0;  ///< share of triangles in the area
   std::size_t invalid = 0;    ///< elements whose least Jacobian is not positive
 };
 CellSummary summarise_cells(const FlatMesh& mesh);
 
-/// The elements of a mesh, its triangles where FlatMesh::cells is empty: use(index, cell, nodes, first triangle).
+/// The elements of a mesh, its triangles if FlatMesh::cells is empty: use(index, cell, nodes, first triangle).
 template <typename Use>
 void for_cells(const FlatMesh& mesh, const Use& use) {
   std::array<Vec3, 8> nodes;

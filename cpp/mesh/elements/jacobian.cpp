@@ -74,8 +74,8 @@ double squared_area(const Vec2& s, const Vec2& t) noexcept {
   return n > 0 ? n * n : 0;
 }
 
-// With S and T the sides of the straight triangle, and no derivative further than e from S, f from T, no coefficient is further
-// than b = e |T| + f |S| + e f from S x T, and none further than 2 b from their mean.
+// S and T are the sides of the straight triangle. If derivatives differ by at most e from S and f from T, coefficients differ
+// by at most b = e |T| + f |S| + e f from S x T, and by at most 2 b from their mean.
 template <typename V>
 double bound_of_least(std::span<const V> x) noexcept {
   const V ab = 2 * x[3] - x[0] - x[1], bc = 2 * x[4] - x[1] - x[2], ca = 2 * x[5] - x[2] - x[0];

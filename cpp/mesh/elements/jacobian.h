@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jacobians of elements, by their Bernstein coefficients: where all are positive the element is valid everywhere, not
-// at some points only.
+// Jacobians of elements, by their Bernstein coefficients: if all are positive the element is valid everywhere, not at
+// some points only.
 #pragma once
 
 #include <array>
@@ -12,27 +12,27 @@
 namespace carreau {
 
 /// Bernstein coefficients of x_s cross x_t, the derivatives of an element by the coordinates of its reference (the unit
-/// triangle or the unit square): vectors of degree 0, 2, (1, 1) or (3, 3). Degree 2: the corners, then the coefficients
-/// of the sides in the order of cells.h; (1, 1): the corners in their order; (3, 3): c[4 i + k] of the powers i of s and
-/// k of t. Of a plane element only z differs from 0.
+/// triangle or the unit square). They are vectors of degree 0, 2, (1, 1) or (3, 3). Degree 2: the corners, then the
+/// coefficients of the sides in the order of cells.h; (1, 1): the corners in their order; (3, 3): c[4 i + k] of the
+/// powers i of s and k of t. In a plane element only z differs from 0.
 struct Jacobian {
   int count = 0;
   std::array<Vec3, 16> c;
 
   /// The integral of the normal over the reference triangle or square, up to a factor: it depends on the border alone.
   [[nodiscard]] Vec3 mean() const noexcept;
-  /// Least coefficient along the mean normal over the mean: 1 where the Jacobian is constant, positive: the element is
-  /// valid. 0 or less where the mean vanishes.
+  /// Least coefficient along the mean normal over the mean: 1 for a constant Jacobian, positive: the element is valid.
+  /// 0 or less if the mean vanishes.
   [[nodiscard]] double least() const noexcept;
-  /// The same along a direction that is given: of plane elements {0, 0, 1}.
+  /// The least along a given direction: {0, 0, 1} for plane elements.
   [[nodiscard]] double least_along(const Vec3& direction) const noexcept;
 };
 
 /// `nodes`: node_count(kind) positions in the order of cells.h.
 Jacobian jacobian(CellKind kind, std::span<const Vec3> nodes) noexcept;
 
-/// A number that Jacobian::least() of a curved triangle is not below, from its straight one and the bends of its sides, at a
-/// tenth of the cost; -infinity: they do not tell. Of plane triangles the straight one is counterclockwise.
+/// A lower bound of Jacobian::least() of a curved triangle, from its straight triangle and the bends of its sides, at a
+/// tenth of the cost; -infinity: no bound. The straight triangle of a plane triangle must be counterclockwise.
 double least_of_triangle6(std::span<const Vec3> nodes) noexcept;
 double least_of_triangle6(std::span<const Vec2> nodes) noexcept;
 

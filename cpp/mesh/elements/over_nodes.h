@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Straight triangles over all nodes of elements of second order: what estimators and background meshes work on.
+// Straight triangles over all nodes of elements of second order, for estimators and background meshes.
 #pragma once
 
 #include "mesh/flat_mesh.h"
@@ -7,9 +7,9 @@
 
 namespace carreau {
 
-/// Four triangles in the place of one of six nodes, six in that of a quadrilateral of eight: those at its corners and
-/// the halves of what is left. Nodes on edges become vertices and keep their numbers; edges of curves are halves. A mesh of first order
-/// stays as it is.
+/// Replaces each triangle of six nodes by four triangles, and each quadrilateral of eight by six: the triangles at its corners and the
+/// halves of the rest. Nodes on edges become vertices and keep their numbers; edges of curves are halves. A mesh of first order stays
+/// as it is.
 SurfaceMesh straight_over_nodes(const SurfaceMesh& mesh);
 FlatMesh straight_over_nodes(FlatMesh mesh);
 

@@ -13,12 +13,12 @@
 
 namespace carreau {
 
-/// Entries. In memory at once, where there are not many more.
+/// Entries. Number in memory at once, if there are not many more.
 inline constexpr std::size_t entries_at_once = std::size_t{1} << 22;
 
 /// Calls use(v, entries) for each vertex v that has any, ascending; `entries` (std::span<Entry>) may be sorted there.
-/// `list` is called several times, with a function put(v, entry), and calls it for all that there is, in the same order
-/// each time: a part of the vertices is looked at in each pass, so that only a part of the entries is in memory.
+/// `list` is called several times, with a function put(v, entry), and calls it for all entries, in equal order each
+/// time. Each pass uses the entries of a part of the vertices, so that only they are in memory.
 template <typename Entry, typename List, typename Use>
 void by_smallest_vertex(std::size_t vertices, const List& list, const Use& use, std::size_t least = entries_at_once) {
   constexpr std::size_t passes = 8;  // over more entries than that

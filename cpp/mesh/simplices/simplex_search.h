@@ -21,20 +21,20 @@ struct NearestOnSimplices {
   double distance = infinity;  ///< 0 inside a tetrahedron
 };
 
-/// The nearest point of one simplex of these corners; a flat one is that of its faces, sides or corners. `simplex` of
-/// the result is -1.
+/// The nearest point of one simplex of these corners; if the simplex is flat, the nearest point of its faces, sides or
+/// corners. `simplex` of the result is -1.
 NearestOnSimplices nearest_on_simplex(const Vec3& p, std::span<const Vec3> corners) noexcept;
 
-/// Simplices of space in a BoxTree; those of a plane have z = 0. Copies what it is given. nearest() is safe from
-/// several threads.
+/// Simplices of space in a BoxTree; plane simplices have z = 0. Copies its arguments. nearest() is safe from several
+/// threads.
 class SimplexSearch {
  public:
   SimplexSearch() = default;
   /// Indices lie in range, coordinates are finite.
   SimplexSearch(std::span<const Vec3> vertices, std::span<const Simplex> simplices);
 
-  /// The nearest point; of simplices equally near, the one of the lowest index. `guess`, any simplex (one found
-  /// nearby), saves time and changes nothing. Not for an empty tree.
+  /// The nearest point; of equally near simplices, the lowest index is returned. `guess`, any simplex (one found
+  /// nearby), saves time and changes nothing. Requires a tree that is not empty.
   [[nodiscard]] NearestOnSimplices nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
   /// Longest edge of a simplex.
   [[nodiscard]] double longest_edge(std::int32_t simplex) const noexcept;

@@ -21,8 +21,8 @@ struct PatchElsewhere {
 struct FaceOutcome {
   std::optional<PatchMesh> patch;          ///< empty: the face failed
   std::optional<PatchElsewhere> elsewhere = {};  ///< set: the patch stays with a process, and is empty for all others
-  std::optional<ControlSpace> space;       ///< what was meshed in; empty when it could not be sampled
-  std::string failure;                     ///< why the domain could not be meshed; empty when it was
+  std::optional<ControlSpace> space;       ///< the metric of the mesh; empty when it could not be sampled
+  std::string failure;                     ///< the reason why the domain could not be meshed; empty when it was
   std::string remark;                      ///< a remark on a mesh that was made in another way
   std::optional<LimitError> beyond_limit;  ///< set when it failed because its mesh has too many triangles
   /// Members of CompositeReport.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inspectors look at the assembled mesh and return requests for a finer one. None of them meshes. Private to pipeline/.
+// Inspectors look at the assembled mesh and return requests for a finer one. Inspectors never mesh. Private to
+// pipeline/.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct RefinementRequests {
   bool patch_elements = false;   ///< patches place their vertices for quadrilaterals, and the mesh keeps them
 };
 
-/// One kind of fault that a finer mesh can mend.
+/// One kind of fault that a finer mesh can repair.
 class Inspector {
  public:
   virtual ~Inspector() = default;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Patches of an earlier round of a run: a face with the same input has the same mesh.
-// Private to pipeline/.
+// Patches of an earlier round of a run: a face with equal input has an equal mesh. Private to pipeline/.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,7 @@ struct CompositeRun {
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
   /// Shows progress; `share` counts from the end of the gradation.
   void show_progress(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
-  /// Reports a sentence once; nothing while a mesh may still be given up.
+  /// Reports a sentence once; nothing while a mesh may still be discarded.
   void report(Level level, const std::string& what);
   /// Reports that the prescribed edges of a curve stay although a rule requires others.
   void report_kept(int curve, const std::string& what_requires_others);
@@ -49,7 +49,7 @@ struct CompositeRun {
   [[nodiscard]] bool is_slave(std::size_t face) const { return !periodic.empty() && periodic.pair_of_slave[face] >= 0; }
   /// True if an inspector may request a finer mesh.
   [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
-  /// The face has no mesh; others go on.
+  /// The face has no mesh; the run continues with the others.
   void fail(std::size_t face, const std::string& why);
 
   const Model& model;
@@ -70,20 +70,22 @@ struct CompositeRun {
   RefinedDomains domains;                         ///< refine_boundaries()
   std::vector<NarrowPatch> between;               ///< the same; of narrow.strips
   std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
-  /// The process that keeps each patch, which is empty elsewhere: all_have where patches do not stay; no_process: there is none.
+  /// The process that owns each patch; other processes hold an empty one. all_have: patches are not distributed; no_process: the
+  /// patch has no owner.
   std::vector<int> keeper;
   std::map<std::size_t, std::string> remarks;     ///< the same; remarks on faces that were meshed
   CompositeResult result;                         ///< assemble_patches()
-  /// The input of the mesh, which the next round refines: its curves, and by face what sizes inside grow from.
+  /// The input of the mesh, which the next round refines: its curves, and by face the sources of sizes inside.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
   std::vector<std::vector<EdgeSizes::Source>> turned;  ///< carry_patches(); by master: triangles whose images are turned over
-  KnownPatches known;          ///< mesh_patches(), where rounds may follow
+  KnownPatches known;          ///< mesh_patches(), if rounds may follow
   std::set<std::string> reported;  ///< once, however often something is meshed
   bool trying = false;
 };
 
-/// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws what the host throws, LimitError and Cancelled.
+/// The steps, in their order; composite.cpp and mesh_rounds.cpp call them. Each throws the host's exceptions, LimitError and
+/// Cancelled.
 
 /// Grades the prescribed sizes of the whole model if a gradation is given. One size everywhere keeps every gradation.
 void grade_sizes(CompositeRun& run);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of the recipe itself: what they are, in which unit, why, and what supports them.
+// Thresholds of this folder: their meaning, unit, reason and evidence.
 #pragma once
 
 #include <cstddef>
@@ -13,37 +13,38 @@ namespace carreau::thresholds::patches {
 /// Times that a patch is meshed again because the lift disagrees.
 /// [Verification.DipsOfTheSizesThatNoSampleHitsAreMeshed]
 inline constexpr int most_corrections = 3;
-/// Times that it is because it has missed places of small sizes; each time those beside the ones found come to light.
-/// [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
+/// Rounds that sample a face again because it has missed places of small sizes. Each round finds the missed places
+/// beside known ones. [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
 inline constexpr int most_refills = 6;
-/// Ratio of triangles. A mesh that would become so many times larger has not missed a place: its sizes are damaged
-/// nearly everywhere. [BadModels.SurfaceThatJumpsInManyPlaces]
+/// Ratio of triangles. A mesh with a larger ratio has not missed a place: its sizes are wrong nearly everywhere.
+/// [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr double most_growth = 1000;
-/// Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
+/// Tangent of the angle by which triangles may lean if long sizes are bounded for it: a ninth more area at worst.
 /// [Leaning.TrianglesOfRatio100LieOnTheSurface]
 inline constexpr double most_lean = 0.5;
-/// Ratio by which sizes then grow from one edge to the next: where the curvature vanishes along a line they would jump.
+/// Ratio by which sizes then grow from one edge to the next: at lines of zero curvature they would jump.
 /// [Leaning.ShortEdgesAreNotBounded]
 inline constexpr double gentle = 1.5;
 /// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
 inline constexpr double most_growth_bounded = 64;
-/// Share of the extent squared. A patch of less area is what rounding leaves of a line. [BadModels.SurfaceWithoutArea]
+/// Share of the extent squared. A patch of less area is a line with rounding errors. [BadModels.SurfaceWithoutArea]
 inline constexpr double no_area = 1e-14;
 
 // Jumps of a surface (face_job)
-/// Edges that are looked at before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
+/// Edges that are checked before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t most_looked_at_first = 30;
 /// Halvings of an edge, to 1e-9 of it; more would compare numbers that are rounded.
 /// [BadModels.DerivativesThatVanishOnABorderAreNoJump]
 inline constexpr int jump_halvings = 30;
 /// Share of the chord that must be left; a surface as steep as a square root leaves 3e-5. [as above]
 inline constexpr double jump_share = 0.1;
-/// Share of coordinates, more than what evaluators leave. [as above]
+/// Share of coordinates, above the errors of evaluators. [as above]
 inline constexpr double jump_noise = 1e-10;
 
 // Short edges (patch_step)
-/// Share of the size prescribed at both ends. Shorter edges let sizes grow from them; those of a curve that is one edge
-/// or several are at least 0.7 and 0.8 of it. [ShortEdges.WithoutThemNothingChanges]
+/// Share of the size prescribed at both ends. Sizes grow from edges that are shorter than this share. A curve cut into
+/// one edge or into several has edges of at least 0.7 and 0.8 of the prescribed size.
+/// [ShortEdges.WithoutThemNothingChanges]
 inline constexpr double short_share = 0.7;
 
 // Guarantees (curve_steps)
@@ -51,15 +52,15 @@ inline constexpr double short_share = 0.7;
 inline constexpr int most_curve_halvings = 4;
 
 // Progress (curve_steps, run)
-/// Curves that are cut between two reports where several threads cut them. [time only]
+/// Curves that are cut between two reports, if several threads cut them. [time only]
 inline constexpr std::size_t curves_at_once = 64;
-/// Shares of the whole: of the gradation, where there is one; and, of what comes after it, of curves and of patches.
-/// [GradedModel.TellsItsProgressAndStops]
+/// Shares of the run: the gradation if there is one, then shares of the rest for curves and for patches.
+/// [GradedModel.ReportsItsProgressAndStops]
 inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share = 0.85;
 
 // Memory (run)
-/// Bytes that a triangle may cost while a patch is meshed, the mesh itself and copies included: twice what a whole process
-/// takes (docs/scale.md), for metrics, curved elements and copies of hosts.
+/// Bytes that a triangle may cost while a patch is meshed, with the mesh itself and copies. Twice the memory of a whole
+/// process (docs/scale.md) leaves room for metrics, curved elements and copies of hosts.
 /// [Memory.AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh]
 inline constexpr double bytes_per_triangle = 200;
 /// Triangles over the square of the edges of the boundary: 4 / sqrt(3) / 16, unit equilateral triangles in a square.
@@ -77,22 +78,22 @@ namespace carreau::thresholds::crossings {
 /// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them
 /// again.
 inline constexpr std::size_t most_known = 2'000'000;
-/// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
+/// Pairs of triangles that are checked; a model whose parts share places has as many pairs as triangles there.
 inline constexpr std::size_t most_pairs = 100'000;
-/// Surfaces meet over two triangles that cross where Newton's method finds a common point in so many steps, within a
-/// share of the longest edge, and the sine between their normals is no less than this. [share: rounding; steps:
+/// Surfaces meet at two crossing triangles if Newton's method finds a common point in this number of steps. The point
+/// lies within a share of the longest edge, and the sine between the normals is at least this. [share: rounding; steps:
 /// quadratic convergence takes four]
 inline constexpr int newton_steps = 8;
 inline constexpr double meets_within = 1e-6, least_slope = 0.1;
 /// Projections from one face to the other and back. The first one finds the distance of parallel faces.
-/// [FaceGap.OfConcentricCylindersIsTheDifferenceOfTheirRadii]
+/// [FaceGap.ConcentricCylindersHaveTheDifferenceOfTheirRadii]
 inline constexpr int projections = 3;
 /// Share of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
 inline constexpr double no_sagitta = 1e-12;
 /// Share of the gap that the larger sagitta may fill. [CloseWalls.ThatCrossByTheirChordsAreParted]
 inline constexpr double sagitta_share = 0.5;
-/// Shares of the longest edge of a triangle that crosses another one. If a gap needs less than the smaller one, no mesh
-/// of the prescribed size shows it: the faces meet.
+/// Shares of the longest edge of a triangle that crosses another triangle. If a gap needs less than the smaller one, no
+/// mesh of the prescribed size shows it: the faces meet.
 inline constexpr double least_share = 0.125, most_share = 0.6;
 /// Share of an edge times the sine between both surfaces. Surfaces nearer to each other meet beside the triangles that
 /// cross. [without it the teapot, whose spout crosses its body, is meshed again at .3]

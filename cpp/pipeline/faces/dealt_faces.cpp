@@ -101,7 +101,7 @@ class Sent {
   int rank_;
   std::mutex mutex_;
   std::vector<std::string> faces_;
-  std::map<std::size_t, PatchMesh> kept_;  // by job; where patches stay
+  std::map<std::size_t, PatchMesh> kept_;  // by job; if patches stay
   std::vector<std::int32_t> aside_;
   std::atomic<std::size_t> first_failed_{static_cast<std::size_t>(-1)};
 };
@@ -236,7 +236,7 @@ ReceivedFace face_of(PacketReader& packet) {
 void read(const std::string& packet, const std::string& teller, Received& received) {
   PacketReader reader(packet);
   const auto known = [&](std::int64_t i) {
-    if (static_cast<std::uint64_t>(i) >= received.faces.size()) throw Error(teller + " has sent a face that nobody knows");
+    if (static_cast<std::uint64_t>(i) >= received.faces.size()) throw Error(teller + " has sent an unknown face");
     return static_cast<std::size_t>(i);
   };
   if (reader.integer() != packet_version) throw Error(teller + " runs another version of the library");
@@ -312,7 +312,7 @@ void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
       faces.on_finished(i, *std::exchange(found->second.outcome, std::nullopt));
       continue;
     }
-    if (!all.faces[i]) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
+    if (!all.faces[i]) throw Error("no process has meshed a distributed face");  // a process has stopped
     ReceivedFace face = *std::exchange(all.faces[i], std::nullopt);
     report(face.messages, monitor);
     if (!face.outcome) face.error.raise();

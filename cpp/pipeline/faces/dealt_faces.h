@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces dealt out to the processes of a team. Private to pipeline/.
+// Distributes faces to the processes of a team. Private to pipeline/.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// The faces to mesh, with their order; the same in all processes.
+/// The faces to mesh, with their order; equal in all processes.
 struct DealtFaces {
   Team& team;
   std::span<std::unique_ptr<SteppedTask>> jobs;  ///< FaceJob; one that this process has meshed is null afterwards
@@ -22,17 +22,17 @@ struct DealtFaces {
   std::vector<double> expected;                  ///< triangles, by job, judged by boundaries
   double least_shared = 0;                       ///< triangles of a face that all make together
   int threads = 1;
-  bool parts = false;  ///< patches stay with the process that has meshed them; those that all make are kept by one each, in turn
+  bool parts = false;  ///< patches stay with the process that meshed them; the processes own the patches that all made together in turn
   /// Called from the thread that runs when job `i` is begun, the `begun`-th of all processes.
   std::function<void(std::size_t i, std::size_t begun)> on_begun;
-  /// Called for 0, 1, 2, ... in every process, with the same outcomes; where patches stay, in one of them with the patch.
+  /// Called for 0, 1, 2, ... in every process, with equal outcomes; if patches stay, in one of them with the patch.
   std::function<void(std::size_t i, FaceOutcome)> on_finished;
 };
 
-/// First the faces that all make together. Then each process takes a face whenever a thread of it has none, then all tell each other what came of them. A face
-/// whose samples promise so many triangles more than its boundary that it is more than a process's share is put aside, and made by all at the end. The error of
-/// the first face in order comes out of all processes, after the outcomes before it; that of a process that has none
-/// of its faces to blame (a stop, no memory) comes first, as that of a face made together does. Messages of faces reach all hosts, in order of the faces.
+/// First the faces that all make together. Then each process takes a face whenever one of its threads is free, and at the end all exchange
+/// the outcomes. A process puts a face off if its samples require more than its share of triangles; all processes mesh it together at the
+/// end. All processes throw the error of the first face in order, after the outcomes before it. An error without a face (a stop, no memory)
+/// comes first, as does an error of a face made together. Messages of faces reach all hosts, in order of the faces.
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor);
 
 }  // namespace carreau

@@ -26,8 +26,8 @@ namespace {
 
 using namespace thresholds::patches;
 
-/// True if the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
-/// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
+/// True if the surface jumps between two places. Halves the edge repeatedly, taking the longer half: on a continuous
+/// surface the chord shrinks, even if derivatives vanish at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
   const double whole = norm(q - p);
@@ -72,7 +72,7 @@ void FaceJob::step(Monitor& monitor) {
       case Step::none:
         break;
     }
-  } catch (const LimitError& error) {  // other faces go on, as for a DomainError
+  } catch (const LimitError& error) {  // the run continues with other faces, as for a DomainError
     if (take_best(monitor)) return;
     beyond_limit_ = error.where().face != 0 ? error : LimitError(Where{.face = input_.ref}, error.what());
     fail(beyond_limit_->what());
@@ -124,7 +124,7 @@ void FaceJob::sample(Monitor& monitor) {
     space_ = sampled(monitor, &facts);
   } catch (const UnevenSpeed& speed) {
     even_out(speed, monitor);
-    return;  // and the same step again
+    return;  // and repeats the step
   }
   input_.one_size = facts.isotropic;
   bound_growth_from_edges(monitor);
@@ -168,7 +168,7 @@ void FaceJob::mesh(Monitor& monitor) {
 
 void FaceJob::lift(Monitor& monitor) {
   std::vector<Vec2> places;
-  std::optional<std::vector<std::int32_t>> bad;  // triangles, where they are known
+  std::optional<std::vector<std::int32_t>> bad;  // triangles, if known
   {
     const Stopwatch watch(report_.seconds_lift);
     lift_patch(input_, *cad_, *mesh_, monitor, asking_positions());
@@ -179,7 +179,7 @@ void FaceJob::lift(Monitor& monitor) {
       places.insert(places.end(), steep.begin(), steep.end());
     }
   }
-  // Samples at a jump promise triangles without end.
+  // Samples at a jump require triangles without end.
   refuse_jumps(most_looked_at_first, monitor);
   const bool again = refill_undersampled(places, monitor);
   if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {
@@ -201,7 +201,7 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
   if (bounded_rounds_ == 0) prescribed_ = agreement;
   if (!best_ || agreement.better_than(best_->agreement))
     best_.emplace(Attempt{std::move(*mesh_), std::move(*space_), agreement, bounded_rounds_ > 0});
-  if (best_->agreement.wrong() && squares_) {  // equilateral triangles may follow the surface where halves of squares do not
+  if (best_->agreement.wrong() && squares_) {  // equilateral triangles may follow the surface if halves of squares do not
     squares_ = false;
     space_.emplace(best_->space);
     next_ = Step::mesh;
@@ -214,8 +214,8 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
     take_best(monitor);
 }
 
-// First long sizes are bounded by the curvature along them; then they also grow gently: where it vanishes along a line
-// they would jump. False: there is nothing more to try.
+// First bounds long sizes by the curvature along them; then also bounds their growth: at lines of zero curvature they
+// would jump. Returns false if no more bounds are left.
 bool FaceJob::sample_bounded(Monitor& monitor) {
   if (++bounded_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
   input_.limits.lean = most_lean;
@@ -226,7 +226,7 @@ bool FaceJob::sample_bounded(Monitor& monitor) {
   return space_->measure() <= std::min(most, static_cast<double>(options_.max_triangles));
 }
 
-// False: there is none.
+// Returns false if there is none.
 bool FaceJob::take_best(Monitor& monitor) {
   if (!best_) return false;
   const SurfaceAgreement agreement = best_->agreement;
@@ -276,7 +276,7 @@ void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
   even->cad = reparametrised(*cad_, input_.ref, even->map);
   even->rules.emplace(rules_->asking(*even->cad));
   even->host_domain = input_.domain, even->host_cad = cad_, even->host_rules = rules_;
-  input_.limits.field = nullptr;  // it knows nothing of such faces, or (u, v) only
+  input_.limits.field = nullptr;  // the field does not know such faces, or depends on (u, v) only
   input_.domain = &even->domain, cad_ = even->cad.get(), rules_ = &*even->rules;
   even_ = std::move(even);
 }
@@ -285,7 +285,7 @@ void FaceJob::return_to_host(Monitor& monitor) {
   const PlaneDomain& host = even_->host_domain->plane;
   const std::size_t turned = carreau::return_to_host(host, even_->map, *mesh_, monitor);
   if (input_.slope > 0)
-    space_.reset();  // sizes along edges are judged by what governed
+    space_.reset();  // sizes along edges are compared with the field that governed them
   else
     space_ = returned_to_host(host, even_->map, *space_, monitor);
   if (turned > 0)
@@ -294,7 +294,7 @@ void FaceJob::return_to_host(Monitor& monitor) {
                " turned over in (u, v), not in space");
 }
 
-// True if the mesh has missed places that the control space knows correctly. Other places are added to `places`.
+// True if the mesh has missed places that the control space knows correctly. Adds other places to `places`.
 bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   const std::size_t vertices = mesh_->plane.vertices.size();
   if (refills_ == most_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
@@ -353,7 +353,7 @@ void FaceJob::refuse_jumps(std::size_t most, Monitor& monitor) const {
     if (jumps(*cad_, input_.ref, edge.from, edge.to))
       throw DomainError(Where{.face = input_.ref, .uv = host_uv(0.5 * (edge.from + edge.to))},
                         "the surface jumps: an edge of its mesh is " + format_number(edge.ratio) +
-                            " times as long as the derivatives say; it is not continuous there");
+                            " times as long as by the derivatives; it is not continuous there");
   }
 }
 

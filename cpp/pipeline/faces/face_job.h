@@ -19,7 +19,8 @@
 
 namespace carreau {
 
-/// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. The mesh step alone calls no host.
+/// Samples, meshes and lifts; repeats the last two while the lift finds details that the sampling has missed. The mesh step
+/// alone calls no host.
 class FaceJob final : public SteppedTask {
  public:
   /// Keeps references to `cad` and `options`.
@@ -37,9 +38,10 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
-  /// The same face from its beginning, for all processes of the team to make it together, step by step, and share the work.
+  /// The job of this face from its beginning, for all processes of the team to make it together, step by step, and share
+  /// the work.
   [[nodiscard]] std::unique_ptr<FaceJob> shared() const;
-  /// Triangles that its samples promise, when it has been sampled and not been meshed; else 0.
+  /// Triangles that its samples require, when it has been sampled and not been meshed; else 0.
   [[nodiscard]] double promised() const noexcept {
     return next_ == Step::mesh && space_ && !mesh_ && !best_ && !squares_ ? space_->measure() : 0;
   }
@@ -101,7 +103,7 @@ class FaceJob final : public SteppedTask {
   bool evened_out_ = false;     // once is enough
   std::optional<ControlSpace> space_;
   SampledNormals normals_;
-  /// The best mesh so far, while another one is tried.
+  /// The best mesh so far, while the job makes another mesh.
   struct Attempt {
     PatchMesh mesh;
     ControlSpace space;

@@ -95,8 +95,8 @@ void require_same_curves(Team& team, const CompositeRun& run) {
     const std::size_t c = first_other(all[0], all[r]);
     const std::string which =
         c < run.topology.curves.size() ? "curve " + std::to_string(run.topology.curves[c].ref) : "the number of curves";
-    throw InvalidModel(which + " is another one on rank " + std::to_string(r) +
-                       " than on rank 0: its callbacks or parameters differ; all ranks must mesh the same model");
+    throw InvalidModel(which + " differs on rank " + std::to_string(r) +
+                       " from rank 0: its callbacks or parameters differ; all ranks must mesh the same model");
   }
 }
 
@@ -113,7 +113,7 @@ void require_same_mesh(Team& team, const SurfaceMesh& mesh) {
   }
   team.require_same("mesh", sum.text(), [](int rank) {
     return "the mesh of rank " + std::to_string(rank) +
-           " is another one than that of rank 0: its callbacks or parameters differ, or its host does not answer twice the same";
+           " differs from the mesh of rank 0: its callbacks or parameters differ, or its host does not answer twice the same";
   });
 }
 

@@ -10,20 +10,21 @@
 
 namespace carreau {
 
-/// The least of what the processes allow: machines differ in memory, and the mesh must not depend on the one that made it.
+/// The minimum over the processes: machines differ in memory, and the mesh must not depend on the machine.
 [[nodiscard]] std::int64_t least_of(Team& team, std::int64_t most_triangles);
 
-/// Throws Error, which names process and curve, where a process has cut one in another way than the first process: its
-/// callbacks or parameters are others.
+/// Throws Error, which names process and curve, if a process has cut a curve differently from the first process: its
+/// callbacks or parameters differ.
 void require_same_curves(Team& team, const CompositeRun& run);
 
-/// The same for the answers of hosts at a few vertices of each patch: positions and prescribed sizes.
+/// Throws Error if the hosts' answers differ at a few vertices of each patch: positions and prescribed sizes.
 void require_same_surfaces(Team& team, const CompositeRun& run);
 
-/// The same of what a face that all make together was sampled as: its pieces fit together only where it is the same.
+/// Throws Error if the processes sampled a face that all make together differently: its pieces would not fit together.
 void require_same_samples(Team& team, int face, const ControlSpace& space);
 
-/// The same for the whole mesh: every process makes the steps after the patches, from answers of its own host.
+/// Throws Error if the assembled meshes differ: every process makes the steps after the patches, from answers of its
+/// own host.
 void require_same_mesh(Team& team, const SurfaceMesh& mesh);
 
 }  // namespace carreau

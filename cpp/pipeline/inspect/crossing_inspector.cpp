@@ -31,7 +31,7 @@ std::vector<std::pair<std::int32_t, int>> segments_of(const CompositeRun& run, c
   return segments;
 }
 
-// The pairs of triangles of an earlier mesh, without those of faces that were found to meet since.
+// The pairs of triangles of an earlier mesh, without pairs of faces that were found to meet since.
 std::int64_t avoidable(const CrossingRequests& earlier, const FacePairs& meeting) {
   std::int64_t pairs = 0;
   for (const CrossingRequest& request : earlier.requests)
@@ -39,7 +39,7 @@ std::int64_t avoidable(const CrossingRequests& earlier, const FacePairs& meeting
   return pairs;
 }
 
-// The faces of a plane domain lie beside one another, and the triangles of each are turned the same way.
+// The faces of a plane domain lie beside one another, and the triangles of each have equal orientation.
 bool covers_a_plane_once(const CompositeRun& run) {
   const std::vector<FaceMesh>& faces = run.result.mesh.faces;
   return run.model.plane && std::all_of(faces.begin(), faces.end(),

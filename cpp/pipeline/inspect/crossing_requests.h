@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests for smaller triangles where triangles cross although their faces are apart. Private to pipeline/.
+// Requests for smaller triangles at triangles that cross although their faces are apart. Private to pipeline/.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ class Crossings {
 /// Pairs of faces, by index, ascending.
 using FacePairs = std::set<std::pair<int, int>>;
 
-/// A request to mesh two faces finer where their triangles cross.
+/// A request to mesh two faces finer at their crossing triangles.
 struct CrossingRequest {
   std::pair<int, int> faces;
   std::map<std::int32_t, double> triangles;               ///< by number: the share that its edges are to have
@@ -57,7 +57,7 @@ struct CrossingRequests {
 };
 CrossingRequests find_requests(const CompositeRun& run, const Crossings& crossings, FacePairs& meeting);
 
-/// A part of the requests: what faces and curves are to have.
+/// A part of the requests, by faces and curves.
 struct RefinementPlan {
   std::vector<std::vector<EdgeSizes::Source>> sources;    ///< by face
   std::set<std::pair<std::int32_t, std::int32_t>> edges;  ///< to be halved if they lie on curves, by vertices

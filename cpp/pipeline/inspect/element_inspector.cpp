@@ -38,7 +38,7 @@ QuadraticReport make_once(CompositeRun& run) {
   report = make_quadratic(work);
   const std::vector<CuspEnd> cusps = report.cusps;
   if (!cusps.empty()) report = make_quadratic(work, cusps);
-  // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
+  // A few triangles are allowed: two replace a quadrilateral that cannot be valid.
   for (int round = 0; round < most_partings && run.options.element == Element::q2_0; ++round) {
     if (!part_invalid_quads(report, run.result.mesh)) break;
     report = make_quadratic(work, cusps);

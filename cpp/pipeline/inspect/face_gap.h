@@ -8,7 +8,7 @@
 
 namespace carreau {
 
-/// Over one place where two triangles cross.
+/// The gap at a place at which two triangles cross.
 struct FaceGap {
   double width = 0;    ///< least distance found between the two pieces of the faces; 0: they meet
   double sagitta = 0;  ///< largest distance between the triangles and their faces, at the place and at centroids
@@ -16,8 +16,8 @@ struct FaceGap {
   Vec3 place;          ///< between the points of that distance
 };
 
-/// Looks for a common point first, by Newton's method on both tangent planes. If there is none over the two triangles,
-/// projects points of one face to the other by turns. Throws what the host throws.
+/// Looks for a common point first, by Newton's method on both tangent planes. If the two triangles have no common
+/// point, projects points from one face to the other in turn. Throws the host's exceptions.
 FaceGap measure_gap(Cad& cad, const FaceTriangle& s, const FaceTriangle& t, const Vec3& place);
 
 }  // namespace carreau

@@ -11,7 +11,8 @@ namespace carreau {
 
 namespace {
 
-// Points of a curve between the ends of a side; its arc then leaves them by a 64th of what it leaves the side by.
+// Points of a curve between the ends of a side: the arc deviates from their polyline by a 64th of its deviation from
+// the side.
 constexpr int arc_points = 7;
 
 std::uint64_t key_of(std::int32_t v, std::int32_t w) {

@@ -38,11 +38,11 @@ struct OnFace {
 };
 
 /// A triangle and the piece of the face over it. Sides on curves follow their curves, because a chord may leave the
-/// face: across a hole, a triangle lies where the face does not. Positions in the plane of the triangle are
-/// orthonormal, in model length.
+/// face: across a hole, a triangle has no face over it. Positions in the plane of the triangle are orthonormal, in
+/// model length.
 class FaceTriangle {
  public:
-  /// Evaluates the curves of its sides at a few points, and the face at one. Throws what the host throws.
+  /// Evaluates the curves of its sides at a few points, and the face at one. Throws the host's exceptions.
   FaceTriangle(const SurfaceMesh& mesh, int face, int local, const CurveEdges& edges,
                const std::vector<DiscreteCurve>& curves, const CurveModel& model);
 
@@ -56,7 +56,7 @@ class FaceTriangle {
   [[nodiscard]] Vec2 position_of(const Vec3& point) const {
     return {dot(point - origin_, e1_), dot(point - origin_, e2_)};
   }
-  /// The face's point at a position. Throws what the host throws.
+  /// The face's point at a position. Throws the host's exceptions.
   [[nodiscard]] OnFace evaluate(Cad& cad, const Vec2& at) const;
   /// The position of the point of p's tangent plane that is nearest to x.
   [[nodiscard]] Vec2 project(const OnFace& p, const Vec3& x) const;

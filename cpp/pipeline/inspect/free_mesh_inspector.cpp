@@ -29,7 +29,7 @@ namespace {
 
 using namespace thresholds::elements;
 
-/// Holds the messages on a mesh that may be given up.
+/// Holds the messages on a mesh that may be discarded.
 class HeldMonitor final : public Monitor {
  public:
   explicit HeldMonitor(Monitor& to) : to_(to) {}
@@ -57,7 +57,7 @@ struct Made {
   double shape = 0;            ///< mean
   double elements = 0;
 
-  /// Faults that smaller elements may mend.
+  /// Faults that smaller elements may repair.
   [[nodiscard]] std::size_t faults() const noexcept { return invalid + crossings.fresh.size(); }
 };
 
@@ -138,7 +138,7 @@ class FreeMeshInspector final : public Inspector {
     return true;
   }
 
-  // Rounds go on while faults are left and the finer meshes stay within their bound.
+  // Rounds continue while faults are left and the finer meshes stay within their bound.
   [[nodiscard]] bool remeshing_continues() const {
     return is_free_ && round_ < most_divisions && now_.faults() > 0 && left_ >= 0;
   }
@@ -203,7 +203,7 @@ class FreeMeshInspector final : public Inspector {
     return segments;
   }
 
-  // Patches have smaller sizes beside borders that are shorter than the size, for the sake of their shapes. The user did not prescribe these.
+  // Patches have smaller sizes beside borders that are shorter than the size, to improve their shapes. The user did not prescribe these.
   static void raise_sizes(CompositeRun& run) {
     const std::optional<double> size = run.rules.constant();
     if (!size || run.graded.field || std::ranges::any_of(run.curves, &DiscreteCurve::prescribed)) return;
@@ -225,7 +225,7 @@ class FreeMeshInspector final : public Inspector {
   From from_ = From::remeshing;
   int round_ = 0;
   bool is_first_ = true;
-  bool is_free_ = false;      // the mesh of now
+  bool is_free_ = false;      // the current mesh
   Made now_;                  // the same
   InvalidInSpace invalid_;    // the same
   Messages messages_;         // the same

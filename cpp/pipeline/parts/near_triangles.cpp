@@ -18,14 +18,14 @@ namespace {
 using Corners = std::array<std::int32_t, 3>;
 using Box = BoxTree::Box;
 
-// Of one box: some 0.3 bytes a triangle reach all processes; and of one of those in boxes that meet others, 4 bytes a triangle. [time
-// and memory only]
+// Triangles in one box. All processes receive the large boxes, some 0.3 bytes a triangle; the small boxes inside boxes that meet
+// others cost 4 bytes a triangle. [time and memory only]
 constexpr std::size_t triangles_of_box = 256, triangles_of_small_box = 16;
-// Sides of a box over those of its first triangle's: neighbours in the order may be far apart in space, and a box over both meets what
-// is near neither. Twice what compact groups of such numbers have. [time and memory only]
+// Largest ratio of the sides of a box to the sides of the box of its first triangle: neighbours in the order may be far apart, and
+// their common box would meet unrelated ones. Twice the ratios of compact groups. [time and memory only]
 constexpr double widest_box = 32, widest_small_box = 8;
 
-/// Which of two processes looks: each for half of the others.
+/// The process of two that searches: each does so for half of the others.
 int looks(int a, int b) noexcept { return (a + b) % 2 == 0 ? std::min(a, b) : std::max(a, b); }
 
 Box box_of(const std::vector<Vec3>& vertices, const Corners& corners) {
@@ -125,7 +125,7 @@ std::string packed(const std::vector<Box>& boxes) {
   return packet.take();
 }
 
-/// Boxes of the processes that `wanted` selects, without this one.
+/// Boxes of the other processes that `wanted` selects.
 std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::vector<Box>& own, const std::function<bool(int)>& wanted) {
   std::vector<Box> boxes;
   const std::vector<std::string> all = team.exchange(step, packed(own));
@@ -138,7 +138,7 @@ std::vector<Box> boxes_of_others(Team& team, std::string_view step, const std::v
   return boxes;
 }
 
-/// Those that others look at.
+/// Own triangles that other processes need.
 std::vector<TriangleOfFace> triangles_to_show(const CompositeRun& run, const OwnTriangles& own, const Groups& groups, const Groups& small,
                                               const std::vector<Box>& lookers) {
   std::vector<TriangleOfFace> shown;
@@ -167,7 +167,7 @@ struct OtherTriangle {
   Corners corners{};
 };
 
-/// Takes what others show, as far as it is near one's own.
+/// Keeps the boxes and triangles of other processes that are near its own.
 class Receiver {
  public:
   Receiver(const CompositeRun& run, const std::vector<Box>& own, std::vector<Vec3>& vertices)
@@ -209,7 +209,7 @@ void add_face(const FaceMesh& face, NearTriangles& near) {
 }  // namespace
 
 TriangleOfFace NearTriangles::origin(std::int32_t triangle) const {
-  const auto next = std::upper_bound(first.begin(), first.end(), triangle);  // faces without triangles have none of them
+  const auto next = std::upper_bound(first.begin(), first.end(), triangle);  // faces without triangles have no rows
   const auto face = static_cast<std::int32_t>(next - first.begin()) - 1;
   const std::int32_t rank = triangle - *(next - 1);
   const auto others = locals.find(face);

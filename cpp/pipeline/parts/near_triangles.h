@@ -23,7 +23,7 @@ struct NearTriangles {
   [[nodiscard]] TriangleOfFace origin(std::int32_t triangle) const;
 };
 
-/// One of two processes searches for crossings between them: each triangle of the other that may cross one of its own reaches it. All
+/// One of two processes searches for crossings between them: it receives each triangle of the other that may cross its own. All
 /// processes call it.
 NearTriangles near_triangles(const CompositeRun& run);
 

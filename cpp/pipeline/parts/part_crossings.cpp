@@ -76,7 +76,7 @@ std::vector<TriangleOfFace> triangles_of(const std::vector<Pair>& pairs) {
   return all;
 }
 
-/// Corners of those that are kept here: number of a vertex on curves or -1, place, (u, v).
+/// The corners that this process owns: number of a vertex on curves or -1, place, (u, v).
 std::string corners_here(const CompositeRun& run, const std::vector<TriangleOfFace>& triangles) {
   const MeshShares& shares = *run.result.shares;
   PacketWriter packet;

@@ -17,9 +17,9 @@ struct PartCrossings {
   Intersections found;  ///< triangles are numbered in `mesh`, face after face
 };
 
-/// Each process looks for those between its own triangles, and between these and the triangles of others that are near them: boxes of
-/// some hundred triangles reach all, and then the triangles in boxes of two processes. `limit`: of Intersections::pairs. All processes
-/// call it.
+/// Each process looks for crossings between its own triangles, and between these and near triangles of other processes. Boxes of some
+/// hundred triangles reach all processes, and then the triangles in boxes of two processes. `limit`: of Intersections::pairs. All
+/// processes call it.
 PartCrossings find_part_crossings(const CompositeRun& run, std::size_t limit);
 
 }  // namespace carreau

@@ -14,8 +14,8 @@
 
 namespace carreau {
 
-/// Rows of `mesh`: own triangles first, ascending by their numbers in the whole mesh, then ghosts: the triangles of other processes
-/// that have a vertex of an own one. Own vertices first, then those of other processes, both ascending.
+/// Rows of `mesh`: own triangles first, ascending by their numbers in the whole mesh, then ghosts. Ghosts are triangles of other
+/// processes that have an own vertex. Own vertices come first, then vertices of other processes, both ascending.
 struct PartMesh {
   int rank = 0, processes = 1;
   FlatMesh mesh;  ///< without faces and fields; edges of curves, each in one of the parts
@@ -26,12 +26,12 @@ struct PartMesh {
 
   // Counts of the whole mesh.
   std::int64_t vertices = 0, triangles = 0, curve_edges = 0;
-  std::int64_t loose_edges = 0;  ///< of those, on curves of no face
+  std::int64_t loose_edges = 0;  ///< the part of them on curves of no face
   std::vector<WholeFace> faces;  ///< with the triangles of all processes
   QualitySummary quality;        ///< sums are rounded otherwise than in one process
   std::int64_t crossings = -1;   ///< pairs of triangles that cross; -1: not searched
-  /// Those that a file has, by vertices of the whole mesh, with their references: of curves without faces, or of all. Rank 0 alone has
-  /// them, and all their number.
+  /// Edges for files, by vertices of the whole mesh, with their references: edges of curves without faces, or of all curves. Rank 0
+  /// alone has them, and all their number.
   std::int64_t file_edges = 0;
   std::vector<std::array<std::int32_t, 2>> file_edge_vertices;
   std::vector<std::int32_t> file_edge_refs;
@@ -42,8 +42,8 @@ inline std::string needs_whole_mesh(const std::string& what) {
   return "a mesh that several processes keep in parts cannot have " + what + ": that needs the whole mesh";
 }
 
-/// The part of this process of a result in parts (CompositeResult::shares), which is used up. `all_edges`: files have those of all
-/// curves. All processes call it.
+/// The part of this process of a result in parts (CompositeResult::shares), which is used up. `all_edges`: include the edges of
+/// all curves, which files require. All processes call it.
 PartMesh make_part(Team& team, CompositeResult result, bool all_edges, int threads);
 
 }  // namespace carreau

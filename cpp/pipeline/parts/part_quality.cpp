@@ -85,8 +85,8 @@ Distribution distribution_of_all(Team& team, const std::vector<double>& values, 
   return d;
 }
 
-/// Edges with at least one vertex inside a face are of one process. What there is of those between vertices of curves, and of these
-/// vertices, comes together.
+/// Edges with at least one vertex inside a face are of one process. Edges between vertices of curves, and these vertices, are
+/// summed over the processes.
 class Edges {
  public:
   Edges(const SurfaceMesh& mesh, const MeshShares& shares)
@@ -153,7 +153,7 @@ class Edges {
     for_sides(face, [&](std::int32_t a, std::int32_t b) {
       if (b >= on_curves_) others[next[static_cast<std::size_t>(b - first)]++] = a;
     });
-    auto begin = others.begin();  // each list ends where the next one began
+    auto begin = others.begin();  // each list starts at the end of the previous one
     for (std::size_t v = 0; v < n; ++v) {
       const auto end = others.begin() + static_cast<std::ptrdiff_t>(next[v]);
       std::sort(begin, end);

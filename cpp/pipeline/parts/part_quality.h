@@ -8,8 +8,8 @@
 
 namespace carreau {
 
-/// summarise_quality() of the whole mesh, in all processes, which all call it. Extremes, percentiles and counts are those of one process;
-/// sums are added up in another order.
+/// summarise_quality() of the whole mesh, in all processes, which all call it. Extremes, percentiles and counts equal the ones of a run
+/// of one process; sums are added up in a different order.
 QualitySummary summarise_parts(Team& team, const SurfaceMesh& mesh, const MeshShares& shares, int threads);
 
 }  // namespace carreau

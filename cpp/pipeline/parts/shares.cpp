@@ -37,7 +37,7 @@ void refuse_parts(const CompositeOptions& options, const SizeRules& rules) {
   if (options.element != Element::p1)
     what = "other elements than p1 (parameter element)";
   else if (options.independent)
-    what = "a mesh that is free of its patches (parameter patches)";
+    what = "cross-patch remeshing (parameter patches)";
   else if (options.cracks)
     what = "cracks (parameter cracks)";
   else if (options.gradation > 0 && !(rules.constant() && options.proximity == 0))

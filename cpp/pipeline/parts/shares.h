@@ -12,13 +12,14 @@ namespace carreau {
 /// Throws InvalidArgument if an option requires the whole mesh. Callers check before they mesh.
 void refuse_parts(const CompositeOptions& options, const SizeRules& rules);
 
-/// The same where narrow faces are to vanish: before a face is meshed.
+/// Rejects narrow faces that are to vanish, before a face is meshed.
 void refuse_narrow_parts(const NarrowModel& narrow);
 
 /// Sends the sentences on each process's own faces to all. Before, `of_face` is "" for faces of other processes.
 void share_sentences(Team& team, std::vector<std::string>& of_face);
 
-/// The shares of all processes, after assemble(): numbers are those that one process gives. All processes call it.
+/// The shares of all processes, after assemble(); the numbers equal the numbers of a run of one process. All processes
+/// call it.
 MeshShares share_out(const CompositeRun& run);
 
 /// Numbers in the whole mesh of the vertices that this process has: vertices on curves first, then vertices of its faces.

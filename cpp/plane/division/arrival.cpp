@@ -14,7 +14,7 @@ namespace carreau::plane {
 
 namespace {
 
-/// When, in units walked, and from where.
+/// Time in units walked, and starting place.
 struct Arrival {
   double time = infinity, place = 0;
 };

@@ -100,7 +100,7 @@ class Chains {
     cut_chain(start, v);
   }
 
-  // Into edges that have the same share each of what may be its length and its turns.
+  // Cuts into edges with equal shares of the possible length and of the turns.
   void cut_chain(int start, int end) {
     std::vector<double> upto;  // shares, by link
     double sum = 0;
@@ -123,7 +123,7 @@ class Chains {
       v = other_end(link.edge, v);
       result_.edges.push_back(link.edge);
       const bool last = k + 1 == chain_.size();
-      // Whether the next link would be farther from where this edge should end.
+      // Continues if the end of the next link is nearer to the edge's intended end.
       if (!last && 0.5 * (upto[k] + upto[k + 1]) < next) continue;
       PlaneEdge coarse = domain_.edges[link.edge];
       coarse.a = number(a), coarse.b = number(v);

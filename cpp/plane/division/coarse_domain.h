@@ -13,7 +13,7 @@ namespace carreau::plane {
 struct CoarseDomain {
   PlaneDomain domain;
   std::vector<int> fine;   ///< by vertex: its number in the domain that it was made of
-  std::vector<int> first;  ///< by edge, and one more: where its edges start in `edges`
+  std::vector<int> first;  ///< by edge, and one more: the first of its edges in `edges`
   std::vector<int> edges;  ///< of the domain that it was made of, from end a of each coarse edge to its end b
 
   [[nodiscard]] std::span<const int> edges_of(std::size_t coarse) const noexcept {

@@ -22,7 +22,7 @@ namespace carreau::plane {
 
 namespace {
 
-// Whether most of the mesh would be improved once more: in narrow domains separators lie along the middle.
+// True if the zone would be most of the mesh and be improved twice: in narrow domains separators lie along the middle.
 bool is_mostly_zone(const Pieces& pieces, double triangles) {
   return 4.0 * zone_layers * static_cast<double>(pieces.separators.size()) > most_of_zone * triangles;
 }
@@ -33,10 +33,10 @@ double coarse_edge(double triangles) {
   return separator_length * std::sqrt(std::sqrt(std::max(triangles / many_for_longer_separators, 1.0)));
 }
 
-// Empty where separators find no way.
+// Empty if separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
   const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
-  const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
+  const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish together
   if (parts < 2) return {};
   const double edge = coarse_edge(context.known.triangles);
   ControlSpace wide = context.metric;
@@ -52,7 +52,7 @@ std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
   return make_pieces(context.domain, coarse, mesh, partition, context.metric, edge);
 }
 
-// Whether a piece has edges of the domain. Around a pole, where layers come from the fan of another piece, it may lie
+// True if a piece has edges of the domain. Around a pole, where layers come from the fan of another piece, it may lie
 // between separators alone.
 bool layers_can_start(const Piece& piece) {
   const auto rests = [&](int v) { return piece.on_separator[v] != 0; };
@@ -95,7 +95,7 @@ std::vector<MeshedPiece> mesh_pieces(const Pieces& pieces, const ZoneContext& co
                                  {put_piece, get_piece}, mesh_piece);
 }
 
-// Memory comes page by page, which takes longer than what is written there: a stop is looked for on the way.
+// The system provides memory page by page, which takes longer than the writing: checks for a stop on the way.
 template <class T>
 void resize(std::vector<T>& values, std::size_t n, Monitor& monitor) {
   values.reserve(n);
@@ -137,7 +137,7 @@ class Assembly {
     std::sort(removed_.begin(), removed_.end());
     for (std::size_t v = zone_.whole.size(); v < zone_.vertices.size(); ++v) added_.push_back(used[v] == 0 ? -1 : 0);
   }
-  // Numbers of the whole mesh without those that are removed.
+  // Numbers of the whole mesh without removed vertices.
   [[nodiscard]] std::int32_t final_number(std::int32_t whole) const {
     if (removed_.empty() || whole < removed_.front()) return whole;
     return whole -
@@ -168,7 +168,7 @@ class Assembly {
     const PlaneMesh& mesh = joined_.mesh(p);
     std::vector<std::int32_t> number(mesh.vertices.size());
     const std::size_t shared = joined_.pieces.pieces[p].whole.size();
-    // Those inside have consecutive numbers but for some that are removed.
+    // Inner vertices have consecutive numbers, without some removed ones.
     const std::int32_t inside = joined_.inside[p];
     auto gone = std::lower_bound(removed_.begin(), removed_.end(), inside);
     for (std::size_t v = 0; v < number.size(); ++v) {
@@ -199,7 +199,7 @@ class Assembly {
     put_until(mesh.triangles.size());
   }
 
-  // Its vertices have moved; those of the domain have not.
+  // Vertices of the zone have moved; vertices of the domain have not.
   void put_zone() {
     std::vector<std::int32_t> number(zone_.vertices.size(), -1);
     for (std::size_t v = 0; v < zone_.vertices.size(); ++v)
@@ -230,7 +230,7 @@ bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& opti
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                                       const PlaneMesherOptions& options, Monitor& monitor, double a_piece) {
-  (void)triangulate_boundary(domain, monitor);  // pieces do not see what is wrong between them
+  (void)triangulate_boundary(domain, monitor);  // pieces cannot detect faults between them
   const InnerEdges inner(domain);
   const ZoneContext context{domain, inner, metric, known, options, monitor};
   try {

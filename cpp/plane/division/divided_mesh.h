@@ -13,12 +13,12 @@
 
 namespace carreau::plane {
 
-/// Whether there are triangles enough, by what the metric promises.
+/// True if the metric promises enough triangles.
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept;
 
-/// `a_piece`: triangles that a piece has, about. The same for any number of threads. Empty: the domain cannot be
-/// divided, or a piece cannot be meshed. Throws DomainError for a domain that is wrong as a whole; LimitError,
-/// Cancelled.
+/// `a_piece`: triangles that a piece has, about. The mesh does not depend on the number of threads. Empty: the domain
+/// cannot be divided, or a piece cannot be meshed. Throws DomainError for a domain that is wrong as a whole;
+/// LimitError, Cancelled.
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                                       const PlaneMesherOptions& options, Monitor& monitor,
                                       double a_piece = triangles_a_piece);

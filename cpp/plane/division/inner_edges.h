@@ -18,7 +18,7 @@ class InnerEdges {
       if (edge.kind != PlaneEdgeKind::boundary) edges_.push_back({key(edge.a, edge.b), edge.kind});
     std::sort(edges_.begin(), edges_.end(), [](const Edge& e, const Edge& f) { return e.key < f.key; });
   }
-  /// Of the edge between two vertices of the domain; PlaneEdgeKind::boundary: there is none, or it is one.
+  /// The kind of the edge between two vertices of the domain; PlaneEdgeKind::boundary: no inner edge.
   [[nodiscard]] PlaneEdgeKind kind(std::int32_t a, std::int32_t b) const noexcept {
     const std::int64_t wanted = key(a, b);
     const auto found =

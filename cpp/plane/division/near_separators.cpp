@@ -12,7 +12,7 @@ namespace carreau::plane {
 
 namespace {
 
-/// Numbers without those of what is removed.
+/// Numbers without the removed items.
 class Left {
  public:
   template <typename All, typename IsRemoved>
@@ -69,7 +69,7 @@ class Layers {
   }
 
  private:
-  // Vertices where the piece touches itself have triangles that no walk from one to the next finds.
+  // Vertices at which the piece touches itself have triangles that no walk from one to the next finds.
   void find_pinched(const Piece& piece) {
     std::vector<std::int32_t> edges(piece.whole.size(), 0);
     for (const PlaneEdge& edge : piece.domain.edges)
@@ -95,7 +95,7 @@ class Layers {
     sort_once(around_);
   }
 
-  // To the corners of the triangles around the front. Where several bands meet, the first one goes on.
+  // Spreads to the corners of the triangles around the front. If several bands meet, the first one continues.
   void spread(std::int32_t now) {
     for (const std::int32_t k : around_) {
       const auto& corners = mesh_.triangles[k].v;

@@ -12,15 +12,15 @@
 
 namespace carreau::plane {
 
-/// What of the mesh of a piece is near separators.
+/// The part of a piece's mesh near separators.
 struct NearSeparators {
-  std::vector<std::int32_t> vertices;   ///< those less than zone_layers layers away
+  std::vector<std::int32_t> vertices;   ///< vertices less than zone_layers layers away
   std::vector<std::int32_t> level;      ///< by these: layers from the separators
   std::vector<std::int32_t> band;       ///< by these: the separator, or Pieces::several
-  std::vector<std::int32_t> triangles;  ///< those that have one of these vertices, ascending
+  std::vector<std::int32_t> triangles;  ///< triangles with one of these vertices, ascending
 };
 
-/// `mesh`: that of the piece, of which `result` has been made. `separator`: as that of Pieces.
+/// `mesh`: the triangulation of the piece, which `result` was made from. `separator`: see Pieces.
 NearSeparators near_separators(const Piece& piece, const std::vector<std::int32_t>& separator,
                                const Triangulation& mesh, const PlaneMesh& result, Monitor& monitor);
 

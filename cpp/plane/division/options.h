@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the plane mesher is asked for.
+// Options of the plane mesher.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ class Team;
 
 struct PlaneMesherOptions {
   bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
-  bool squares = false;       ///< points for quadrilaterals: those of lattices of unit squares; `frontal` says nothing
+  bool squares = false;       ///< points for quadrilaterals, on lattices of unit squares; ignores `frontal`
   bool shape_trials = false;  ///< changes of the mesh around its worst triangles are tried, the best is kept
-  /// Of a curved surface, indexed: changes leave no edges along which it turns more than it did along those before, and
-  /// add none between two vertices of curves. Null: a plane.
+  /// Normals of a curved surface, indexed. Changes leave no edges along which it turns more than along the edges
+  /// before, and add no edges between two vertices of curves. Null: a plane.
   const SampledNormals* normals = nullptr;
   std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
-  /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), as places of each: what is still far
-  /// from all vertices when points have been placed gets a seed, from which the front goes on.
+  /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), each as its places. After the
+  /// placement, places still far from all vertices receive a seed, from which the front continues.
   std::span<const std::vector<Vec2>> undersampled = {};
-  /// By vertex of the domain, or empty: layers go on from no edge that has an end that is not 0.
+  /// For each vertex of the domain, or empty: layers do not start from an edge with a nonzero end.
   std::span<const std::uint8_t> resting = {};
   int threads = 1;  ///< at work on a large domain; the mesh does not depend on it
   /// Processes that mesh this domain together, each with this call, null: this one alone. The mesh does not depend on it.

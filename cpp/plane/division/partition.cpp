@@ -77,8 +77,8 @@ class Division {
     return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > least_coarse_quality * (pq + qr + rp));
   }
 
-  // Sectors: where layers arrive that start at a stretch of the border. Separators lie across these layers, or where
-  // those from several sides meet. Clumps go where their first triangle does.
+  // Sectors: targets of the layers that start at a stretch of the border. Separators lie across these layers, or
+  // between layers from several sides. Clumps follow their first triangle.
   void cut_into_sectors(int parts) {
     const std::vector<double> place = arrivals(coarse_, domain_);
     monitor_.checkpoint();
@@ -86,7 +86,7 @@ class Division {
     std::iota(triangles.begin(), triangles.end(), 0);
     std::stable_sort(triangles.begin(), triangles.end(),
                      [&](std::int32_t s, std::int32_t t) { return place[s] < place[t]; });
-    std::vector<double> upto(n_);  // by triangle: the share of what comes before it
+    std::vector<double> upto(n_);  // by triangle: the share of the preceding triangles
     const double whole = std::accumulate(coarse_.weight.begin(), coarse_.weight.end(), 0.0);
     double sum = 0;
     for (const std::int32_t t : triangles) upto[t] = sum / whole * parts, sum += coarse_.weight[t];
@@ -104,9 +104,9 @@ class Division {
     return k < parts ? k : k - parts;
   }
 
-  // In sectors. On a single loop they may start anywhere, and do where their separators are shortest, if that makes
-  // much of a difference; where there are several loops, the first sector starts with the first one. Two sectors start
-  // with the loop, too.
+  // Start of the first sector, in sectors. On a single loop sectors may start anywhere; they start at the shortest
+  // separators if these are much shorter. On several loops, the first sector starts with the first loop. Two sectors
+  // start with the loop, too.
   [[nodiscard]] double start_of_sectors(const std::vector<double>& upto, int parts) const {
     double best = 0;
     if (parts < 4 || !is_one_loop()) return best;
@@ -155,7 +155,7 @@ class Division {
                        [&](std::int32_t u) { return u >= 0 && clump_.find(u) == clump_.find(t); });
   }
 
-  // Of each part the largest piece that hangs together stays; others join the part beyond most of their sides.
+  // The largest connected piece of each part stays; other pieces join the part beyond most of their sides.
   Partition connected() {
     std::vector<std::int32_t> piece(n_, -1), part_of;
     std::vector<double> weight;

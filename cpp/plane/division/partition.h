@@ -15,7 +15,7 @@
 
 namespace carreau::plane {
 
-/// A mesh of which parts are made.
+/// A coarse mesh that is divided into parts.
 struct CoarseMesh {
   PlaneMesh mesh;
   std::vector<std::array<std::int32_t, 3>> beyond;  ///< by triangle and side (opposite to its corner); -1: nothing
@@ -27,9 +27,9 @@ struct CoarseMesh {
 CoarseMesh make_coarse_mesh(const CoarseDomain& domain, const ControlSpace& metric, double length, Field::Known known,
                             const PlaneMesherOptions& options, Monitor& monitor);
 
-/// By triangle: the part that it belongs to, from 0. Parts are connected, and their borders are as short as the sides
-/// of triangles of the mesh let them be; they keep off degenerate sides and triangles that
-/// are badly shaped. There may be fewer parts than asked for.
+/// For each triangle: its part, from 0. Parts are connected, and their borders are as short as the sides of the mesh's
+/// triangles permit. Borders avoid degenerate sides and badly shaped triangles. There may be fewer parts than
+/// requested.
 struct Partition {
   std::vector<std::int32_t> part;
   int parts = 0;

@@ -15,7 +15,7 @@ namespace carreau::plane {
 
 namespace {
 
-// Of the metric along separators, whose points are a unit apart.
+// Samples of the metric along separators, whose points are a unit apart.
 constexpr double samples_a_unit = 8;
 
 using Ends = std::pair<std::int32_t, std::int32_t>;
@@ -183,7 +183,7 @@ class PieceMaker {
   std::vector<Known> imposed_;        // coarse edges, by their ends
   std::vector<Known> separators_;     // by the parts on both sides
   std::vector<std::int32_t> points_;  // of each cut their number, then themselves
-  std::vector<std::int32_t> cut_;     // where they start, by triangle and side
+  std::vector<std::int32_t> cut_;     // their starts, by triangle and side
   std::vector<std::int32_t> number_;  // by vertex of the coarse mesh; -1: none yet
   std::vector<double> upto_;          // the length of an edge up to each of its samples
   Pieces result_;

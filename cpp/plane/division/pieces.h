@@ -13,15 +13,15 @@ namespace carreau::plane {
 
 struct Piece {
   PlaneDomain domain;
-  std::vector<std::int32_t> whole;  ///< by vertex of the domain: that of the whole one, or from there on of separators
-  std::vector<std::uint8_t> on_separator;  ///< by vertex of the domain: whether it is none of the whole domain
+  std::vector<std::int32_t> whole;  ///< by vertex of the domain: its number in the whole domain, or, from there on, on separators
+  std::vector<std::uint8_t> on_separator;  ///< by vertex of the domain: 1 if it does not belong to the whole domain
   double triangles = 0;                    ///< expected
 };
 
 struct Pieces {
   std::vector<Piece> pieces;
-  std::vector<Vec2> separators;         ///< vertices on separators that are none of the whole domain
-  std::vector<std::int32_t> separator;  ///< by vertex of the whole domain, then by those: of which one; none, several
+  std::vector<Vec2> separators;         ///< vertices on separators that do not belong to the whole domain
+  std::vector<std::int32_t> separator;  ///< by vertex of the whole domain, then by vertices on separators: the separator; none, several
   static constexpr std::int32_t none = -1, several = -2;
 };
 

@@ -13,7 +13,7 @@ namespace carreau::plane {
 
 namespace {
 
-/// Triangles of a zone whose places are to be filled anew, as a domain.
+/// Triangles of a zone whose places will be filled again, as a domain.
 class Void {
  public:
   Void(const Zone& zone, const ZoneContext& context, std::span<const std::array<std::int32_t, 3>> triangles,
@@ -41,7 +41,7 @@ class Void {
   }
 
   PlaneDomain domain;
-  std::vector<std::int32_t> of;  ///< by vertex of the domain: that of the zone
+  std::vector<std::int32_t> of;  ///< by vertex of the domain: the vertex of the zone
   double expected = 0;           ///< triangles
 
  private:

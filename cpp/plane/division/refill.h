@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Layers of pieces end anywhere at a separator. What is near it is placed anew, by layers from both sides.
+// Layers of pieces end anywhere at a separator. Places the vertices near a separator again, by layers from both sides.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct Refilled {
   std::vector<Vec2> added;  ///< vertices; numbered from the number of the zone's on
 };
 
-/// The triangles of the zone, those around free vertices of the innermost layers replaced. Where that fails, as they
-/// are.
+/// The triangles of the zone; the triangles around free vertices of the innermost layers are replaced. If that fails,
+/// they stay as they are.
 Refilled refill(const Zone& zone, std::span<const std::uint8_t> free, const ZoneContext& context, Monitor& monitor);
 
 }  // namespace carreau::plane

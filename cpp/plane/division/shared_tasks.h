@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks of a divided domain: by the threads of this process, or by those of a team of them.
+// Tasks of a divided domain: for the threads of this process, or of a team of processes.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@
 
 namespace carreau::plane {
 
-// The imposed vertices get the host's own numbers back: the frame's are equal, but for the smallest.
+// The imposed vertices get the host's numbers back: the frame's numbers are equal, except the smallest.
 PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation, const Frame& frame) {
   PlaneMesh mesh;
   mesh.vertices.reserve(triangulation.vertices.size());

@@ -14,10 +14,10 @@ namespace carreau::plane {
 
 struct UndividedMesh {
   PlaneMesh mesh;
-  int fixed = 0;  ///< the first vertices: imposed ones, and those of the fans of degenerate sides
+  int fixed = 0;  ///< the first vertices: imposed vertices, and vertices of the fans of degenerate sides
 };
 
-/// The same as the mesher works on it, with neighbours. Triangles and vertices that are removed are still there.
+/// The state of the mesher, with neighbours. Triangles and vertices that are removed are still there.
 struct UndividedWork {
   BoundaryMesh framed;
   int fixed = 0;
@@ -30,11 +30,11 @@ UndividedWork work_undivided(const PlaneDomain& domain, const ControlSpace& metr
 UndividedMesh mesh_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                              const PlaneMesherOptions& options, Monitor& monitor);
 
-/// The same before it is improved.
+/// Like mesh_undivided(), without the improvement.
 UndividedMesh place_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                               const PlaneMesherOptions& options, Monitor& monitor);
 
-/// What a triangulation in a frame is outside of it. The domain's vertices are its own.
+/// A triangulation of a frame as a mesh outside of the frame. The mesh has the domain's vertices.
 PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation, const Frame& frame);
 
 }  // namespace carreau::plane

@@ -38,7 +38,7 @@ class TrianglesAround {
   UnfilledVector<std::int32_t> triangles_;
 };
 
-// Layers of vertices from those that have level 0, up to `most`.
+// Marks layers of vertices from the vertices of level 0, up to `most`.
 void spread(Triangles triangles, std::vector<std::uint8_t>& level, int most, Monitor& monitor) {
   monitor.checkpoint();
   const TrianglesAround around(triangles, level.size());
@@ -110,7 +110,7 @@ class ZoneMaker {
   const JoinedPieces& joined_;
   std::vector<std::int32_t> shared_;  // numbers in the zone, by vertex of the whole mesh
   std::vector<std::int32_t> number_;  // the same by vertex of the piece
-  std::vector<std::int32_t> near_;    // by vertex of the piece: its place among those near separators
+  std::vector<std::int32_t> near_;    // by vertex of the piece: its place among the vertices near separators
   Zone zone_;
 };
 

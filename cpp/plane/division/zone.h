@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The zone around separators, where a mesh is improved once more after its pieces have been joined.
+// The zone around separators, which is improved once more after the pieces have been joined.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace carreau::plane {
 
-/// What the improvement of a zone asks for.
+/// The input of the improvement of a zone.
 struct ZoneContext {
   const PlaneDomain& domain;
   const InnerEdges& inner;  ///< of the domain
@@ -24,13 +24,13 @@ struct ZoneContext {
   Monitor& monitor;
 };
 
-/// Some layers of triangles on both sides of all separators. Vertices keep their numbers; those that are removed are in
-/// no triangle.
+/// Some layers of triangles on both sides of all separators. Vertices keep their numbers; removed vertices are in no
+/// triangle.
 struct Zone {
   std::vector<Vec2> vertices;
-  std::vector<std::int32_t> whole;  ///< by vertex: that of the whole mesh; fewer than vertices, new ones come last
+  std::vector<std::int32_t> whole;  ///< by vertex: its number in the whole mesh; fewer entries than vertices, new ones come last
   std::vector<std::uint8_t> fixed;  ///< by vertex: imposed, or on the rim of the zone
-  std::vector<std::uint8_t> level;  ///< by vertex: layers from the separators; those that came later: zone_layers
+  std::vector<std::uint8_t> level;  ///< by vertex: layers from the separators; new vertices: zone_layers
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> band;  ///< by triangle: the separator that it belongs to; Pieces::several: several
 };
@@ -40,7 +40,7 @@ struct MeshedPiece {
   NearSeparators near;
 };
 
-/// The whole mesh before its zone is improved: vertices of the domain, those of separators, then those inside of
+/// The whole mesh before its zone is improved: vertices of the domain, vertices of separators, then vertices inside of
 /// pieces.
 struct JoinedPieces {
   const Pieces& pieces;
@@ -57,7 +57,7 @@ struct JoinedPieces {
 
 JoinedPieces join(const Pieces& pieces, std::span<const MeshedPiece> meshes);
 
-/// The zone, improved: first the bands along separators, each by itself, then where several of them meet.
+/// The zone, improved: first the bands along separators, each separately, then the places at which several meet.
 Zone improved_zone(const JoinedPieces& joined, const ZoneContext& context);
 
 }  // namespace carreau::plane

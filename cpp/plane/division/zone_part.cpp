@@ -15,7 +15,7 @@ namespace carreau::plane {
 
 namespace {
 
-/// A part of the zone in numbers of its own: vertices that stay come first.
+/// A part of the zone in local numbers: vertices that stay come first.
 class PartOfZone {
  public:
   PartOfZone(const Zone& zone, const Refilled& refilled, std::span<const std::uint8_t> free, const ZoneContext& context,
@@ -68,7 +68,7 @@ class PartOfZone {
         ++start[T.v[i]];
       }
     }
-    // By the vertex that a half-edge leaves.
+    // Half-edges by the vertex that they leave.
     for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
     std::vector<HalfEdge> leaving(3 * mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -106,12 +106,12 @@ class PartOfZone {
   std::vector<std::int32_t> of_;
 };
 
-/// Some triangles of a zone with their vertices, in numbers of its own in the same order: there may be many parts, and
-/// work on one should not depend on how large the whole is.
+/// Some triangles of a zone with their vertices, in local numbers of equal order. There may be many parts, and work on
+/// one should not depend on the size of the whole.
 class Excerpt {
  public:
   Excerpt(const Zone& of, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free_of) : whole_(of) {
-    UnfilledVector<std::int32_t> local(of.vertices.size());  // those of these triangles alone
+    UnfilledVector<std::int32_t> local(of.vertices.size());  // vertices of these triangles only
     for (const std::int32_t t : triangles)
       for (const std::int32_t v : of.triangles[t]) local[v] = -1;
     for (const std::int32_t t : triangles)

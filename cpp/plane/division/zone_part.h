@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a zone as a triangulation of its own, optimised.
+// A part of a zone as a separate triangulation, optimised.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace carreau::plane {
 
-/// What has become of some triangles of a zone.
+/// The changes of some triangles of a zone.
 struct ZonePart {
   std::vector<std::int32_t> moved;  ///< vertices that may have
   std::vector<Vec2> to;

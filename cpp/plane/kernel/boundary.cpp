@@ -34,8 +34,8 @@ class BoundaryMesher {
   }
   [[nodiscard]] Vec2 uv(int v) const { return domain_.vertices[v]; }
 
-  // Two triangles around everything. Their corners are a little out of line, so that no side of a rectangular domain
-  // sees two of them alike.
+  // Two triangles around everything. Their corners are a little out of line, so that their distances from a side of a
+  // rectangular domain differ.
   void make_box() {
     Vec2 low = frame_.inward(domain_.vertices[0]), high = low;
     mesh_.vertices.resize(domain_.vertices.size() + 4);
@@ -110,7 +110,7 @@ class BoundaryMesher {
     throw_at(std::isfinite(at) ? a + at * d : a, name_of(edge) + " crosses " + name_of_edge_between(domain_, u, v));
   }
 
-  // Recovered edges have spoiled what was Delaunay: swap back, exactly, which always ends.
+  // Recovered edges have spoiled the Delaunay property: swaps back, exactly, which always ends.
   void make_delaunay() {
     std::vector<HalfEdge> open;
     open.reserve(3 * mesh_.triangles.size());
@@ -176,7 +176,7 @@ class BoundaryMesher {
     if (side_[u] == -side_[t]) {
       const int a = mesh_.triangles[t].v[next3[i]], b = mesh_.triangles[t].v[prev3[i]], v = a < count_ ? a : b;
       throw_at(v < count_ ? uv(v) : uv(domain_.edges[0].a),
-               "what is inside the domain cannot be told: loops are turned against each other");
+               "the inside of the domain is ambiguous: loops are turned against each other");
     }
     if (side_[u] == 0) queue_.push_back(u);
     side_[u] = side_[t];
@@ -206,8 +206,8 @@ class BoundaryMesher {
       if (edge.kind == PlaneEdgeKind::internal && mesh_.find_edge(edge.a, edge.b) == no_edge) check_inside(edge);
   }
 
-  // Both ends of an internal edge can lie on the boundary, and the edge outside; a vertex where loops touch has
-  // several fans, of which find_edge sees one.
+  // Both ends of an internal edge can lie on the boundary, and the edge outside; a vertex at which loops touch has
+  // several fans, and find_edge finds only one.
   void check_inside(const PlaneEdge& edge) const {
     for (const Triangle& T : mesh_.triangles)
       for (int i = 0; i < 3; ++i)

@@ -11,8 +11,8 @@ namespace carreau::plane {
 
 namespace {
 
-// Whether cross(p, q) is positive, decided by its rounding errors: p and q are rounded differences of coordinates
-// ([shewchuk-1997] sec. 4.3); 0: the exact predicate must tell.
+// Sign of cross(p, q), decided by its rounding errors: p and q are rounded differences of coordinates ([shewchuk-1997]
+// sec. 4.3); 0: the exact predicate must decide.
 inline int sign_of_cross(double px, double py, double qx, double qy, double& value) noexcept {
   const double left = px * qy, right = py * qx;
   value = left - right;
@@ -28,12 +28,13 @@ bool Triangulation::too_near(const Vec2& p, int v, double d2, const InsertRules&
   if (std::find(rules.exempt.begin(), rules.exempt.end(), v) != rules.exempt.end()) return false;
   if (in_chart) return true;
   const Vertex& w = vertices[v];
-  // Both ends must agree: a metric that varies would refuse on one side what it wants on the other.
+  // The mean of both ends decides: a metric that varies would otherwise reject from one side an edge that it accepts
+  // from the other.
   return 0.5 * (d2 + squared(w.metric(), w.x - p.x(), w.y - p.y())) < rules.distance2;
 }
 
-// Whether the new point lies in the circle through a, d, b, which are all far from it, in the mean of their metrics and
-// its own: opposite angles sum to more than pi. sum is the area of a, d, p and d, b, p together.
+// True if the new point lies in the circle through a, d, b, which are all far from it, in the mean of their metrics and
+// its metric: opposite angles sum to more than pi. sum is the area of a, d, p and d, b, p together.
 bool Triangulation::in_far_circle(const Metric2& metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
                                   double area) const noexcept {
   const Metric2 m = metric + vertices[a.v].metric() + vertices[b.v].metric() + vertices[d.v].metric();
@@ -58,7 +59,7 @@ void Triangulation::reserve_cavity(std::size_t triangles_in) {
   stack_.resize(n);
 }
 
-// alpha < 1 in RR-2928 eq. 5-8. Where all is near to p one metric stands for the product of four; farther away the mean
+// alpha < 1 in RR-2928 eq. 5-8. If all are near to p, one metric replaces the product of four; farther away the mean
 // tensor of the four vertices does (README, "Differs").
 bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart) {
   return chart != nullptr ? dig_in<true>(p, metric, start, rules, chart)
@@ -116,7 +117,7 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
         if (std::max({A.d2, B.d2, D.d2}) > near2) {
           const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
           if (D.d2 <= near2)
-            inside = true;  // a sliver between what is near and what is far
+            inside = true;  // a sliver between a near and a far vertex
           else if (near_a && near_b)
             inside = inside &&
                      (charted ? dot(charted_[e.a], charted_[e.b]) : dot(metric, Vec2{A.x, A.y}, Vec2{B.x, B.y})) < 0;
@@ -132,7 +133,7 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
             ++point_count;
             const int ia = next3[i], ib = prev3[i];  // corner ia is b, corner ib is a
             const std::int32_t a = e.a;
-            // Of the two new edges the second takes the place of e.
+            // The second of the two new edges takes the place of e.
             e.a = d, e.outside = N.n[ib], e.crossed = false, e.area = db;
             e.imposed = static_cast<std::uint8_t>(N.imposed >> ib & 1);
             e.degenerate = static_cast<std::uint8_t>(N.degenerate >> ib & 1);
@@ -172,7 +173,7 @@ void Triangulation::fill(int p) {
     cavity_[cavity_size_++] = static_cast<std::int32_t>(triangles.size());
     triangles.emplace_back();
   }
-  // Plain addresses: bytes are written, which might be their vectors', for all that a compiler can tell.
+  // Plain addresses: for the compiler, bytes written could be a part of the vectors themselves.
   Triangle* const all = triangles.data();
   Vertex* const all_vertices = vertices.data();
   const RimEdge* const rim = rim_.data();

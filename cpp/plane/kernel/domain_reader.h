@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a domain must satisfy before it is triangulated, and sentences about its edges.
+// Requirements on a domain before its triangulation, and sentences about its edges.
 #pragma once
 
 #include <string>

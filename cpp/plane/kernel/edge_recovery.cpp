@@ -50,7 +50,7 @@ class Recovery {
     return p_.x() != q_.x() ? (w.x() > p_.x()) == (q_.x() > p_.x()) : (w.y() > p_.y()) == (q_.y() > p_.y());
   }
 
-  // The triangle at a that the segment enters, and the corner of a in it. -1: result_ tells.
+  // The triangle at a that the segment enters, and the corner of a in it. -1: result_ decides.
   int first_triangle(int& corner) {
     const HalfEdge there = mesh_.find_edge(a_, b_);
     if (there != no_edge) {

@@ -9,7 +9,7 @@ namespace carreau::plane {
 struct RecoveredEdge {
   HalfEdge edge = no_edge;     ///< of a triangle that has the edge, when it could be made
   int vertex = -1;             ///< otherwise: the vertex that lies on it,
-  HalfEdge imposed = no_edge;  ///< or the imposed edge that it crosses (or the border)
+  HalfEdge imposed = no_edge;  ///< alternatively, the imposed edge that it crosses (or the border)
 };
 
 /// Replaces the triangles that the segment from vertex a to vertex b crosses by triangles on both sides of it. Exact;

@@ -21,12 +21,12 @@ struct Frame {
 /// The control space as seen from the frame.
 class Field {
  public:
-  /// What is known of a field beforehand.
+  /// Known properties of a field.
   struct Known {
-    /// There may be places where it does. False without layers: points amid long edges, where these do not lead, come from
-    /// both ends of an arc, and folded charts do not see that they meet.
+    /// True if the field may bend somewhere. False without layers: points amid long edges then come from both ends of an
+    /// arc, and folded charts do not detect that they meet.
     bool bends;
-    double triangles;  ///< of unit edges that the domain holds, which may be a part of that of the space
+    double triangles;  ///< number of unit triangles in the domain, which may be a part of the space's domain
   };
   Field(const ControlSpace& space, const Frame& frame, Known known) noexcept
       : space_(space),
@@ -35,14 +35,14 @@ class Field {
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
         known_(known) {}
-  /// The same with sizes so many times as large.
+  /// The field with its sizes multiplied by `times`.
   [[nodiscard]] Field coarser(double times) const noexcept {
     Field coarse = *this;
     const double share = 1 / (times * times);
     coarse.aa_ *= share, coarse.ab_ *= share, coarse.bb_ *= share, coarse.known_.triangles *= share;
     return coarse;
   }
-  /// Whether charts serve anywhere in the domain of the space. Looks at all of it.
+  /// True if charts are useful anywhere in the domain of the space. Searches all of it.
   [[nodiscard]] static bool may_bend(const ControlSpace& space) noexcept {
     return space.measure() >= fewest_for_charts && space.largest_bend() > least_bend;
   }
@@ -66,7 +66,7 @@ class Field {
   [[nodiscard]] double length_at_middle(const Vec2& p, const Vec2& q) const noexcept { return length(at(0.5 * (p + q)), q - p); }
   /// Parameters of the host.
   [[nodiscard]] Vec2 outward(const Vec2& p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
-  /// Whether there may be places where it bends.
+  /// True if there may be places where the field bends.
   [[nodiscard]] bool bends() const noexcept { return known_.bends; }
   /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).
   [[nodiscard]] Bend bend(const MetricSlopes& slopes, const Chart& chart) const noexcept;

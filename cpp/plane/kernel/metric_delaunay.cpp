@@ -11,7 +11,7 @@ namespace carreau::plane {
 
 namespace {
 
-// The largest cotangent of an angle, that of the smallest one, which lies between the two longest sides.
+// The largest cotangent of an angle: the smallest angle lies between the two longest sides.
 double sharpness(const Triangulation& mesh, int p, int q, int r) noexcept {
   const Vertex &P = mesh.vertices[p], &Q = mesh.vertices[q], &R = mesh.vertices[r];
   const Metric2 m = P.metric() + Q.metric() + R.metric();

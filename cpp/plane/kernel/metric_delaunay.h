@@ -10,10 +10,10 @@
 
 namespace carreau::plane {
 
-/// Swaps until no swap makes the flatter of two triangles less flat, flatness being judged by the smallest angle in the
-/// mean metric of a triangle's own corners: where the metric is constant that is Delaunay's criterion, and where it
-/// varies swaps cannot run in circles. Starts with the edges of the triangles `start`. Needs the metrics at the
-/// vertices; imposed edges stay.
+/// Swaps until no swap makes the flatter of two triangles less flat. The smallest angle in the mean metric of a
+/// triangle's corners measures flatness: in a constant metric this is Delaunay's criterion, and in a varying metric
+/// swaps cannot run in circles. Starts with the edges of the triangles `start`. Needs the metrics at the vertices;
+/// imposed edges stay.
 void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> start, Monitor& monitor);
 
 }  // namespace carreau::plane

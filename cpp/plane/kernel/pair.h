@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Both coordinates in one register: each operation rounds as those of single numbers do, at half the instructions.
+// Both coordinates in one register: each operation rounds like operations on single numbers, at half the instructions.
 // Private to plane.
 #pragma once
 

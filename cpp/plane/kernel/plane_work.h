@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the passes over the mesh of one domain have in common.
+// Common data of the passes over the mesh of one domain.
 #pragma once
 
 #include "plane/kernel/frame.h"
@@ -16,7 +16,7 @@ struct PlaneWork {
   const Field& field;
   Monitor& monitor;
   Shapes shapes{mesh, field};
-  int fixed = 0;  ///< imposed vertices, and those of the fans of degenerate sides
+  int fixed = 0;  ///< imposed vertices, and vertices of the fans of degenerate sides
 };
 
 }  // namespace carreau::plane

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of which one look tells that passes over edges and triangles would leave them as they are: nearly all of a
-// large mesh. Private to plane.
+// Triangles that one test shows to be settled: passes over edges and triangles would leave them as they are. Nearly all
+// triangles of a large mesh are settled. Private to plane.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace carreau::plane {
 
-/// By triangle. An edge between two that are acute is Delaunay in the mean metric of the four vertices; what is good needs
-/// no mending, what is fine no local search.
+/// By triangle. An edge between two acute triangles is Delaunay in the mean metric of the four vertices. A good triangle
+/// needs no repair, a fine one no local search.
 struct Settled {
   static constexpr std::uint8_t acute = 1, good = 2, fine = 4;
   std::vector<std::uint8_t> of;
@@ -31,10 +31,10 @@ struct Settled {
   }
 };
 
-/// Where the metrics M of the corners differ by at most alike_share of the least eigenvalue of their mean N, in
-/// spectral norm, the metric of the fourth vertex beyond an edge of two such triangles differs from N by at most 2.5
-/// times as much, and the mean of the four by an eighth of N: angles of cosine acute_cosine remain acute. Lengths in the
-/// mean of two corners are at least 1 - alike_share of those in N, squared.
+/// If the metrics M of the corners differ by at most alike_share of the least eigenvalue of their mean N, in spectral
+/// norm, the metric of the fourth vertex beyond an edge of two such triangles differs from N by at most 2.5 times as
+/// much. The mean of the four differs by at most an eighth of N: angles of cosine acute_cosine remain acute. Squared
+/// lengths in the mean of two corners are at least 1 - alike_share of the squared lengths in N.
 inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex& R) noexcept {
   // Two by two: of lists a compiler makes loops.
   const auto least = [](auto x, auto y, auto z) { return std::min(std::min(x, y), z); };
@@ -56,7 +56,7 @@ inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex
   return static_cast<std::uint8_t>(Settled::acute | (good ? Settled::good : 0) | (fine ? Settled::fine : 0));
 }
 
-/// Where the field bends none is known to be settled.
+/// In a field that bends no triangle is known to be settled.
 inline void find_settled(const PlaneWork& work, Settled& settled) {
   const Triangulation& mesh = work.mesh;
   const std::size_t n = mesh.triangles.size();

@@ -10,8 +10,8 @@
 
 namespace carreau::plane {
 
-// Kinks of the field, or bends too strong for second order, make charts that lie: what one tells of distances in six
-// directions must be what the tensors halfway do.
+// Charts at kinks of the field, or at bends too strong for second order, are wrong: distances in six directions must
+// agree between the chart and the tensors halfway.
 Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
   const double by_shapes = bend_of_shapes(slopes);
   if (!(by_shapes > least_bend) || by_shapes > most_bend) return Bend::none;
@@ -68,7 +68,7 @@ double Shapes::quality(int p, int q, int r) const noexcept {
   return orientation(mesh_.at(p), mesh_.at(q), mesh_.at(r)) > 0 ? lengths(p, q, r).quality() : 0;
 }
 
-// By two points of Gauss on each edge.
+// Lengths by two points of Gauss on each edge.
 Lengths Shapes::integrated_lengths(int p, int q, int r) const {
   constexpr double first = 0.2113248654051871;
   const auto squared = [&](int a, int b) {
@@ -91,7 +91,7 @@ double Shapes::quality_at_centroid(int p, int q, int r) const {
       return std::min(l.quality(), 2 * std::numbers::sqrt3 / straight_area * area / (l.a + l.b + l.c));
     };
     const double roughly = shape_of(lengths(p, q, r));
-    // The tensor halfway says little of long edges that leave a thin layer and come back, or cross it.
+    // The tensor halfway is inaccurate for long edges that leave a thin layer and come back, or cross it.
     return roughly < integrated_quality ? shape_of(integrated_lengths(p, q, r)) : roughly;
   }
   return 2 * std::numbers::sqrt3 * area /

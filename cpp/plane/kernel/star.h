@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles around a vertex, and what is done with them as a whole.
+// The triangles around a vertex, and operations on them as a whole.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace carreau::plane {
 struct Star {
   std::vector<std::int32_t> triangles, link;
 
-  /// Of vertex v. False: v lies on the border, and only a part was collected.
+  /// Collects the star of vertex v. False: v lies on the border, and only a part was collected.
   bool collect(const Triangulation& mesh, int v);
 };
 
-/// Whether an edge at v, whose star it is, is imposed.
+/// True if an edge at v, whose star is given, is imposed.
 [[nodiscard]] bool has_imposed_spoke(const Triangulation& mesh, const Star& star, int v);
 
 /// Draws v, whose star it is, into its neighbour link[k]. The vertex loses its triangle; the two triangles on that edge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thresholds of the plane mesher in one table: value, unit, reason, and what supports it (README, "Thresholds").
+// The thresholds of the plane mesher in one table: value, unit, reason and evidence (README, "Thresholds").
 #pragma once
 
 #include <cstddef>
@@ -8,34 +8,33 @@
 namespace carreau::plane {
 
 // Numbers (kernel/triangulation)
-/// Triangles. In one piece: a side has four times its triangle's number and more, in 32 bits; what improves meshes adds a
+/// Triangles. Limit of one piece: a side has four times its triangle's number and more, in 32 bits; improvements add a
 /// few. [Placement.IsBoundByNumbersOf32Bits]
 inline constexpr std::int64_t most_triangles_of_a_piece = 500'000'000;
 static_assert(4 * (most_triangles_of_a_piece + most_triangles_of_a_piece / 16) < INT32_MAX);
 
 // Bends of the field (kernel/frame, kernel/shapes)
-/// Bend a unit. From here on a chart takes the place of the tensor: a size that grows by a tenth, or directions
-/// that turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors. [0.5: worst
-/// of swirl 0.79 to 0.72]
+/// Bend a unit. From here on a chart replaces the tensor. Tensors are still accurate enough if a size grows by a tenth,
+/// or if directions turn so that an edge's sagitta is a tenth of a unit. [0.5: worst of swirl 0.79 to 0.72]
 inline constexpr double least_bend = 0.4;
-/// Bend a unit. Beyond, charts are of no use: of a unit triangle in a chart the plane keeps 1 - bend / (2 sqrt(3))
-/// of its area where its height is along the bend, which here is little more than a quarter. [3.1: worst of swirl
-/// at 51 : 1 0.36 to 0.24]
+/// Bend a unit. Beyond, charts are of no use. The plane keeps 1 - bend / (2 sqrt(3)) of the area of a unit triangle
+/// whose height in the chart is along the bend; here this is little more than a quarter. [3.1: worst of swirl at 51 : 1
+/// 0.36 to 0.24]
 inline constexpr double most_bend = 2.5;
 /// Triangles. In coarser meshes of patches with poles and creases charts reach too far. [12 500: coarse swirl at 51
 /// : 1 has 13 % more triangles, Q2 0.870 to 0.855]
 inline constexpr double fewest_for_charts = 10'000;
-/// Share of a length. What a chart tells of distances and what tensors halfway tell; else the field has a kink
+/// Share of a length. Tolerance between distances in a chart and by the tensors halfway; beyond, the field has a kink
 /// there. [0.08: worst of swirl at 51 : 1 0.36 to 0.07]
 inline constexpr double chart_tolerance = 0.1;
-/// Squared units. Longer edges of bent triangles are taken for what they are: too long. [2.4 and 3.8: lengths in
-/// range of swirl at 51 : 1 +- 0.5 %]
+/// Squared units. Longer edges of bent triangles are known to be too long. [2.4 and 3.8: lengths in range of swirl at
+/// 51 : 1 +- 0.5 %]
 inline constexpr double longest_bent2 = 3;
-/// Share. Where the field bends, straight triangles have less area than their lengths say; so much of it is well
-/// enough. [0.4 and 0.6: worst of swirl at 51 : 1 0.36 to 0.30]
+/// Share. In a field that bends, straight triangles have less area than their lengths imply; this share is sufficient.
+/// [0.4 and 0.6: worst of swirl at 51 : 1 0.36 to 0.30]
 inline constexpr double straight_area = 0.5;
-/// Q2. Of worse bent triangles the lengths are integrated: the tensor halfway says little of long edges that leave
-/// a thin layer and come back. [0.87: Q2 of swirl at 51 : 1 0.870 to 0.868]
+/// Q2. The lengths of worse bent triangles are integrated: the tensor halfway is inaccurate for long edges that leave a
+/// thin layer and come back. [0.87: Q2 of swirl at 51 : 1 0.870 to 0.868]
 inline constexpr double integrated_quality = 0.7;
 
 // Kinds of fields (kernel/shapes)
@@ -43,8 +42,7 @@ inline constexpr double integrated_quality = 0.7;
 /// paraboloid and torus 1.3 to 1.4]
 inline constexpr double graded_change = 1.3;
 /// Ratio of determinants. 40 % of the size. A few triangles of a field of slope 0.26 change as much before they are
-/// smoothed; where it jumps more of them do. [3.2: a field of slope 0.26 counts as rough, degrees of six 90 to 82
-/// %]
+/// smoothed; at jumps more of them do. [3.2: a field of slope 0.26 counts as rough, degrees of six 90 to 82 %]
 inline constexpr double rough_change = 4;
 /// Share of the triangles. [Graded in quality_test]
 inline constexpr double graded_share = 0.15;
@@ -56,8 +54,8 @@ inline constexpr std::size_t classified_sample = 1000;
 inline constexpr std::size_t fewest_for_lattice = 4000;
 
 // Kernel (kernel/cavity, triangulation, metric_delaunay, domain_reader)
-/// Squared units. Within this distance the metric or chart of the new point speaks for the others; a chart errs by
-/// the cube of it. [7 and 11: longest edges on turning fields 2.5 to 2.0, Q2 of smooth ones alike]
+/// Squared units. Within this distance the metric or chart of the new point replaces the others; a chart's error grows
+/// with its cube. [7 and 11: longest edges on turning fields 2.5 to 2.0, equal Q2 of smooth ones]
 inline constexpr double near2 = 9;
 /// Share. Nearly cocircular points are left as they are: rounding must not dig. [any other value changes symmetric
 /// meshes by rounding; boundary_test, cocircular vertices]
@@ -65,21 +63,21 @@ inline constexpr double cavity_tolerance = 1e-12;
 /// Share. Nearly cocircular vertices keep their diagonal, so that swaps cannot run in circles.
 /// [MeshPlane.IsTheSameBitForBit; 1e-11: 2 of 42 meshes change by rounding]
 inline constexpr double swap_tolerance = 1e-9;
-/// Triangles. Of a walk, after which it turns at random: in a triangulation that is not Delaunay a fixed order
+/// Triangles. Length of a walk after which it turns at random: in a triangulation that is not Delaunay a fixed order
 /// could go round in circles. [20 and 80: no figure changes; without it a walk may not end]
 inline constexpr std::size_t fixed_order_steps = 40;
 /// Triangles. Larger meshes do not fit in the cache and are sorted once. [time only]
 inline constexpr std::size_t renumbered_from = 200'000;
-/// Triangles. Whose places are called for beforehand. [time only]
+/// Triangles. Prefetch distance of their places. [time only]
 inline constexpr std::size_t renumbered_ahead = 16;
-/// Power of 2. Of the domain's box: below, coordinates inside would lose their last bits to underflow.
+/// Power of 2. Extent of the domain's box: below, coordinates inside would lose their last bits to underflow.
 /// [boundary_test, tiny and huge coordinates]
 inline constexpr int least_exponent = -900;
 /// Power of 2. Above, the box overflows. [boundary_test, tiny and huge coordinates]
 inline constexpr int largest_exponent = 1020;
 
 // Stops (all): work between two looks at the monitor, well within a tenth of a second
-/// Triangles or vertices. A few operations each. [MeshPlane.LooksForAStopThroughout, as those below]
+/// Triangles or vertices. A few operations each. [MeshPlane.LooksForAStopThroughout, as the following]
 inline constexpr int steps_between_checks = 1 << 16;
 /// Points or swaps.
 inline constexpr int insertions_between_checks = 4096;
@@ -87,33 +85,33 @@ inline constexpr int insertions_between_checks = 4096;
 inline constexpr int shapes_between_checks = 1 << 15;
 /// Edges.
 inline constexpr int integrals_between_checks = 256;
-/// Elements. Of arrays that are allocated.
+/// Elements. Length of allocated arrays.
 inline constexpr std::size_t elements_between_checks = 1 << 20;
 
 // Distances of new points (placement)
 /// Units. Circumradius of a triangle that is small enough (equilateral: 0.577). [0.56: 20 % fewer triangles than
-/// wanted; 0.87: length 1.05 where few are wanted]
+/// expected; 0.87: length 1.05 with few triangles]
 inline constexpr double small_radius = 0.70;
-/// Units. Circumradius that asks for one more point. [0.70: 20 % more triangles where sizes are rough; 1.09: 25 %
+/// Units. Circumradius that requires one more point. [0.70: 20 % more triangles where sizes are rough; 1.09: 25 %
 /// fewer]
 inline constexpr double large_radius = 0.87;
-/// Units. Least distance of a point of a layer to other vertices. [0.60: lengths in range on turning fields 82 to
-/// 76 %; 0.94: 12 % fewer triangles than wanted]
+/// Units. Least distance of a point of a layer to other vertices. [0.60: lengths in range on turning fields 82 to 76 %;
+/// 0.94: 12 % fewer triangles than expected]
 inline constexpr double layer_distance = 0.75;
-/// Units. The same of circumcentres and, in algebraic placement, of points on edges, [0.56: 5 % more triangles in
+/// Units. Least distance of circumcentres and, in algebraic placement, of points on edges, [0.56: 5 % more triangles in
 /// algebraic meshes, length 0.97; 0.87: 23 % fewer, 1.13]
 inline constexpr double point_distance = 0.7;
-/// Units. and of circumcentres in a second pass. [0.48: lengths in range of turning fields 85 to 81 %; 0.75: 6 %
-/// fewer triangles]
+/// Units. Least distance of circumcentres in a second pass. [0.48: lengths in range of turning fields 85 to 81 %; 0.75:
+/// 6 % fewer triangles]
 inline constexpr double last_distance = 0.6;
-/// Units. Of points on long edges of bent triangles, which join what is far apart: crowded ones are removed in the
-/// end, but edges that cannot be swapped would stay. [0.2 and 0.3: worst of swirl at 51 : 1 0.36 to 0.34 and 0.33]
+/// Units. Distance of points on long edges of bent triangles, which join distant places: crowded points are removed in
+/// the end, but edges that cannot be swapped would stay. [0.2 and 0.3: worst of swirl at 51 : 1 0.36 to 0.34 and 0.33]
 inline constexpr double bent_edge_distance = 0.25;
-/// Triangles on the way to a circumcentre. In a metric that is stretched a thousand times those of flat triangles lie
-/// at the other end of the mesh, and no point is wanted there. [Of 260 000 that gave a point none was 256 away: the
-/// examples, the CAD files at 2 %, 5 %, by angle and by direction]
+/// Triangles on the way to a circumcentre. In a metric that is stretched a thousand times, the circumcentres of flat
+/// triangles lie at the other end of the mesh, and no point is needed there. [Of 260 000 that gave a point none was 256
+/// away: the examples, the CAD files at 2 %, 5 %, by angle and by direction]
 inline constexpr int farthest_circumcentre = 256;
-/// Units. Of a seed: never wanted in a triangle that is small enough, nor in one that circumcentre insertion
+/// Units. Distance of a seed: never reached in a triangle that is small enough, nor in one that circumcentre insertion
 /// leaves. [UndersampledRegions.AreMeshed]
 inline constexpr double seed_distance = 1;
 /// Lengths of the edge, at most of one. Least height over an imposed edge. [0.5: lengths 0.93 to 0.99, but degrees
@@ -129,8 +127,8 @@ inline constexpr double least_apex_height2 = 0.3;
 /// Rounds. Apex and centroid of its triangle, each by the other. [1: degrees of six on swirl 92.6 to 91.8 %; 4: as
 /// 2]
 inline constexpr int chart_rounds = 2;
-/// Points. Of a layer that go in first, far from each other. [32: longest edge of paraboloid 1.31 to 1.42; 128: of
-/// stretched 1.30 to 1.44]
+/// Points. Stride of the first points of a layer to insert. [32: longest edge of paraboloid 1.31 to 1.42; 128:
+/// of stretched 1.30 to 1.44]
 inline constexpr int first_stride = 64;
 /// Units. Candidates nearer to each other become one. [0.44: 15 % fewer triangles on a coarse sphere, length 1.06;
 /// 0.69: degrees of six on ellipses 100 to 67 %]
@@ -143,26 +141,25 @@ inline constexpr double wide_gap = 1.5;
 /// Sixth parts of a turn. Added to the angle of a corner before it is cut to whole triangles. [0.3 and 0.5: lengths
 /// in range on rings and a spiral - 1 %]
 inline constexpr double corner_rounding = 0.4;
-/// Intervals. Half of those that share a point more or less. [2: degrees of six on coarse discs 62 to 51 %; 10: 2 %
-/// more triangles where sizes are rough]
+/// Intervals. Half of the intervals that share a surplus or a lack of points. [2: degrees of six on coarse discs 62 to
+/// 51 %; 10: 2 % more triangles where sizes are rough]
 inline constexpr int strain_window = 5;
-/// Edges. Misfit that makes a point more or less, in small meshes [0.7 and 1.1: degrees of six on a coarse cone and
+/// Edges. Misfit that adds or removes a point, in small meshes [0.7 and 1.1: degrees of six on a coarse cone and
 /// ellipses 87 to 62, 100 to 80 %]
 inline constexpr double strain_limit_small = 0.9;
-/// Edges. and in large ones, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst 0.91 to
-/// 0.85]
+/// Edges. Misfit in large meshes, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst
+/// 0.91 to 0.85]
 inline constexpr double strain_limit_large = 1.3;
-/// Triangles. Where the second takes over. [8000: longest edge of a paraboloid 1.31 to 1.37]
+/// Triangles. Size from which the second limit applies. [8000: longest edge of a paraboloid 1.31 to 1.37]
 inline constexpr double large_mesh = 10000;
 
 // Circumcentres and points on edges (placement/circumcentres, algebraic)
 /// Points. In one triangle, one after the other. [8: longest edge of rough sizes 1.75 to 1.99; 2: 2 % more
 /// triangles]
 inline constexpr int circumcentre_attempts = 4;
-/// Units a share of missing triangles. 1 % of points more where the radius is less by 0.045,
-/// [Graded.EdgesAreOfUnitLength]
+/// Units a share of missing triangles. 1 % more points for a radius less by 0.045, [Graded.EdgesAreOfUnitLength]
 inline constexpr double radius_a_share = 4.5;
-/// Units. but never as small as that of many triangles that the front makes. [Graded.EdgesAreOfUnitLength]
+/// Units. Limit of the reduction: the radius stays above the one of many triangles of the front. [Graded.EdgesAreOfUnitLength]
 inline constexpr double largest_reduction = 0.1;
 /// Units. Edges about a larger radius become longer than 1.5. [0.04: length at slope 0.26 0.9925 to 0.9921]
 inline constexpr double largest_rise = 0.05;
@@ -173,7 +170,7 @@ inline constexpr double shorter_edge = 0.9;
 inline constexpr int most_pieces = 4096;
 
 // Degenerate sides (placement/degenerate_sides)
-/// Rays. 0.2 units apart round a pole, if all are alike. [16 and 66: no figure changes, only bits]
+/// Rays. 0.2 units apart round a pole, if all are equal. [16 and 66: no figure changes, only bits]
 inline constexpr int rays = 33;
 /// Units. Between rays at unit height; else there are more of them, [metrics that differ by direction at a pole]
 inline constexpr double widest_ray_gap = 0.4;
@@ -181,16 +178,16 @@ inline constexpr double widest_ray_gap = 0.4;
 inline constexpr std::size_t most_rays = 512;
 /// Units. Between places on a ray. [0.04 and 0.06: no figure changes, only bits]
 inline constexpr double ray_step = 0.05;
-/// Steps. 1.5 units: a layer fits between the ring and what is beyond it. [15: degrees of six on a coarse cone 87
-/// to 59 %]
+/// Steps. 1.5 units: a layer fits between the ring and the domain beyond it. [15: degrees of six on a coarse cone 87 to
+/// 59 %]
 inline constexpr std::size_t steps_of_room = 30;
-/// Units. Below, no ring. [MeshPlane.SurroundsAnApexWithThreeTriangles, as those below]
+/// Units. Below, no ring. [MeshPlane.SurroundsAnApexWithThreeTriangles, as the following]
 inline constexpr double least_room = 0.5;
 /// Heights. Width of the triangles of a wide fan.
 inline constexpr double narrowest_fan = 0.5;
 /// Units. Least distance of a ring point to other vertices.
 inline constexpr double ring_distance = 0.5;
-/// Heights. Of a lateral edge that takes part in the fan.
+/// Heights. Length of a lateral edge in the fan.
 inline constexpr double longest_lateral = 1.6;
 /// Heights.
 inline constexpr double shortest_lateral = 0.5;
@@ -199,101 +196,102 @@ inline constexpr double shortest_lateral = 0.5;
 /// Passes. Swaps can run in circles in a metric that varies. [5: shapes on turning fields, p1 0.39 to 0.38; 20: as
 /// 10]
 inline constexpr int delaunay_passes = 10;
-/// Share of the least eigenvalue. Metrics of corners that differ by no more are much alike (settled.h). [by the proof
+/// Share of the least eigenvalue. Metrics of corners that differ by no more are similar (settled.h). [by the proof
 /// there; time only, as the next five]
 inline constexpr double alike_share = 0.2;
-/// Cosine. Of the largest angle of a triangle whose edges need no test: more than the 0.125 that metrics may err by.
+/// Cosine. Largest angle of a triangle whose edges need no test: more than the 0.125 that metrics may err by.
 inline constexpr double acute_cosine = 0.2;
-/// Squared units in the mean metric. Longer than crowded_length2 in the mean of any two alike: 0.52 / (1 - 0.2) = 0.65.
+/// Squared units in the mean metric. Longer than crowded_length2 in the mean of any two similar metrics: 0.52 / (1 -
+/// 0.2) = 0.65.
 inline constexpr double surely_not_crowded2 = 0.66;
 /// Q2 in the mean metric. More than doubtful_quality, beyond rounding.
 inline constexpr double surely_not_bad = 0.86;
-/// Triangles. Whose vertices are called for beforehand.
+/// Triangles. Prefetch distance of their vertices.
 inline constexpr std::size_t settled_ahead = 12;
 /// Squared units, and shortest edges of the triangle. Longer than any edge that points a unit apart leave.
 /// [MeshPlane.LongStripsAreDelaunayInTheMetric, LongStripsOfOneLayerDoNotLean]
 inline constexpr double long_edge2 = 9;
 /// Passes. [1: degrees of six on a coarse disc 62 to 57 %; 4: as 2]
 inline constexpr int degree_passes = 2;
-/// Q2. A swap for the sake of degrees leaves no triangle worse than this. [0.48: degrees of six on algebraic meshes
-/// 83 to 72 %; 0.75: on coarse poles 87 to 67 %]
+/// Q2. A swap for better degrees leaves no triangle worse than this. [0.48: degrees of six on algebraic meshes 83 to 72
+/// %; 0.75: on coarse poles 87 to 67 %]
 inline constexpr double degree_swap_quality = 0.6;
 /// Q2. A layer that is shifted by one edge leaves triangles of 0.6 until vertices move; none may be much worse.
 /// [0.4: longest edge of paraboloid 1.31 to 1.43; 0.6: degrees of six 83 to 78 %]
 inline constexpr double shifted_quality = 0.5;
-/// Steps. Of a degree pair along its layer, [2: degrees of six 91.7 to 92.4 %, but longest edges 1.31 to 1.42]
+/// Steps. Reach of a degree pair along its layer, [2: degrees of six 91.7 to 92.4 %, but longest edges 1.31 to 1.42]
 inline constexpr int pair_reach_even = 1;
-/// Steps. and where sizes are graded: more pairs are there. [1: degrees of six at slope 0.26 90 to 88 %; 6: as 3]
+/// Steps. The reach in graded sizes, which have more pairs. [1: degrees of six at slope 0.26 90 to 88 %; 6: as 3]
 inline constexpr int pair_reach_graded = 3;
 /// Squared units. Mean over a vertex' edges below which it may go. [0.7: length at slope 0.26 0.990 to 0.986]
 inline constexpr double dense_length2 = 0.9;
-/// Squared units. Of the edges that are left then, [2.1: length at slope 0.26 0.990 to 0.982; 3.2: longest edges
-/// 1.45 to 1.49]
+/// Squared units. Length of the remaining edges, [2.1: length at slope 0.26 0.990 to 0.982; 3.2: longest edges 1.45 to
+/// 1.49]
 inline constexpr double longest_thinned2 = 2.6;
-/// Q2. and for the worst triangle, before smoothing. [0.36: no figure changes; 0.56: degrees of six 83.3 to 83.2 %]
+/// Q2. The limit for the worst triangle, before smoothing. [0.36: no figure changes; 0.56: degrees of six 83.3 to 83.2
+/// %]
 inline constexpr double thinned_quality = 0.45;
 
 // Smoothing (optimise/smoothing, optimise)
-/// Of a parallelogram in the metric (ideal: 0.87). After a move; else it is taken back. [0.16: lengths in range on
-/// rough sizes 91.5 to 92.2 %; 0.25: longest edges on turning fields 2.5 to 2.2]
+/// Area of a parallelogram in the metric after a move (ideal: 0.87); a smaller one undoes it. [0.16: lengths in range
+/// on rough sizes 91.5 to 92.2 %; 0.25: longest edges on turning fields 2.5 to 2.2]
 inline constexpr double least_area = 0.2;
 /// Rounds. Then all moves of the pass are taken back.
 inline constexpr int undo_rounds = 20;
-/// Share. Of unit lengths in the aim, the rest being equilateral triangles; [0.04 and 0.06: lengths in range on
-/// turning fields - 0.3 %]
+/// Share. Weight of unit lengths in the aim, against equilateral triangles; [0.04 and 0.06: lengths in range on turning
+/// fields - 0.3 %]
 inline constexpr double pull_even = 0.05;
-/// Share. where sizes are graded, whose lengths are farther off. [0.08 and 0.12: longest edges at slope 0.26 1.45
-/// to 1.46 and 1.43, worst 0.81 to 0.82 and 0.80]
+/// Share. Weight in graded sizes, whose lengths are less accurate. [0.08 and 0.12: longest edges at slope 0.26 1.45 to
+/// 1.46 and 1.43, worst 0.81 to 0.82 and 0.80]
 inline constexpr double pull_graded = 0.1;
-/// Root of the determinant over the trace. Of what is kept of metrics in single precision.
+/// Root of the determinant over the trace. Bound for metrics in single precision.
 /// [MeshPlane.WildMetricsStillGiveAValidMesh]
 inline constexpr double most_stretched = 1e-15;
 /// Root of the determinant. The same. [MeshPlane.WildMetricsStillGiveAValidMesh]
 inline constexpr double least_root = 1e-30;
 
 // Bad triangles (optimise/bad_triangles, mending)
-/// Q2. Worse triangles are mended. [0.64: p1 of rough sizes 0.80 to 0.71; 1: twice the time]
+/// Q2. Worse triangles are improved. [0.64: p1 of rough sizes 0.80 to 0.71; 1: twice the time]
 inline constexpr double bad_quality = 0.8;
-/// Q2 in the mean metric of the vertices. Worse ones are looked at: those metrics are at hand. [0.68: shapes are
+/// Q2 in the mean metric of the vertices. Worse ones are tested: these metrics are at hand. [0.68: shapes are
 /// overlooked; 1: half as much time again, 6 of 42 meshes change]
 inline constexpr double doubtful_quality = 0.85;
-/// Q2. Below, shape goes before size: points are added over short edges. [0.56: more triangles than wanted on
-/// turning fields, lengths in range 85.4 to 84.7 %]
+/// Q2. Below, shape goes before size: points are added over short edges. [0.56: more triangles than expected on turning
+/// fields, lengths in range 85.4 to 84.7 %]
 inline constexpr double refine_quality = 0.45;
 /// Passes. [3: worst of algebraic sizes 0.81 to 0.68; 12: as 6]
 inline constexpr int mending_passes = 6;
-/// Q2, or share of the penalty. What a change must gain. [0.8e-3 and 1.25e-3: 5 of 42 meshes change, no figure by
+/// Q2, or share of the penalty. Required gain of a change. [0.8e-3 and 1.25e-3: 5 of 42 meshes change, no figure by
 /// more than 0.1 %]
 inline constexpr double mending_gain = 1e-3;
 /// Lengths of the edge. Height of a vertex over a short edge. [0.7 and 1.1: lengths in range on turning fields -
 /// 0.3 %]
 inline constexpr double over_short_edge = 0.9;
-/// Squared units. Of an edge that a removal leaves; longer ones may be halved. [2.5: longest edge of internal
-/// curves 1.45 to 1.52; OfTrianglesInCorners]
+/// Squared units. Length of an edge that a removal leaves; longer ones may be halved. [2.5: longest edge of internal
+/// curves 1.45 to 1.52; TrianglesInCorners]
 inline constexpr double longest_after_removal2 = 2.0;
 /// Squared units. Sizes that change much over a triangle leave shorter edges: an end goes. [0.42: more triangles on
 /// coarse poles, degrees of six 87 to 69 %]
 inline constexpr double crowded_length2 = 0.52;
-/// Squared units. Of the edges that are left then, [2.6: length on a coarse disc 1.01 to 1.06]
+/// Squared units. Length of the remaining edges, [2.6: length on a coarse disc 1.01 to 1.06]
 inline constexpr double longest_uncrowded2 = 2.1;
-/// Q2. and of the worst triangle. [0.75: lengths in range on rough sizes 91.5 to 89.7 %]
+/// Q2. Shape of the worst triangle. [0.75: lengths in range on rough sizes 91.5 to 89.7 %]
 inline constexpr double uncrowded_quality = 0.6;
 /// Shapes. Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing
-/// but bad triangles. It is counted by shapes, since a fine boundary far from all other vertices gives stars of
-/// thousands; this least is a few tenths of a second, [time only; 2 million: coarse swirl at 51 : 1 is cut off]
+/// but bad triangles. It is counted in shapes, since a fine boundary far from all other vertices gives stars of
+/// thousands. This minimum is a few tenths of a second, [time only; 2 million: coarse swirl at 51 : 1 is cut off]
 inline constexpr std::int64_t mending_shapes = 4'000'000;
 /// Shapes. [time only]
 inline constexpr std::int64_t mending_shapes_a_triangle = 24;
-/// Longest sides. Good triangles of metrics have the inverse of the metric's ratio, of some ten thousand at most;
-/// points put on edges are on them but for rounding.
-/// [AnisotropicField.FieldsThatEdgesCannotFollowLeaveNoFlatTriangle]
+/// Longest sides. Good triangles of metrics have the inverse of the metric's ratio, some ten thousand at most; points
+/// on edges are on them up to rounding. [AnisotropicField.FieldsThatEdgesCannotFollowLeaveNoFlatTriangle]
 inline constexpr double flat_height = 1e-7;
 
 // Local search (optimise/local_search, search_zone, zone_moves)
 /// Q2. Better triangles are left alone. [LocalSearch; 0.92: twice the time, and no worst one is raised]
 inline constexpr double searched_quality = 0.88;
-/// Q2 in the mean metric of the corners, where these are much alike. Better triangles are no worse than searched_quality
-/// in the metric of their middle. [0.9: none of 63 meshes changes; time only]
+/// Q2 in the mean metric of the corners, if these are similar. Better triangles are no worse than searched_quality in
+/// the metric of their middle. [0.9: all of 63 meshes stay; time only]
 inline constexpr double surely_not_searched = 0.93;
 /// Passes. [with none here and below, the mesh of frame.step by 8 degrees changes]
 inline constexpr int search_passes = 8;
@@ -301,39 +299,40 @@ inline constexpr int search_passes = 8;
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
 inline constexpr std::int64_t search_shapes_a_triangle = 48;
-/// Shapes. and where nothing helps, strips between fixed borders, there is an end sooner:
+/// Shapes. The limit until the first success: strips between fixed borders cannot be improved.
 inline constexpr std::int64_t first_search_shapes = 2'400;
 /// Shapes.
 inline constexpr std::int64_t first_search_shapes_a_triangle = 4;
-/// Shapes. each success allows for more.
+/// Shapes. Increase of the limit for each success.
 inline constexpr std::int64_t search_shapes_a_success = 12'000;
-/// Share of the mean cost. What a change must gain, [0.8 to 1.25 times: no figure changes; ends the search]
+/// Share of the mean cost. Required gain of a change, [0.8 to 1.25 times: no figure changes; ends the search]
 inline constexpr double change_gain = 0.01;
-/// Share of the mean cost. and a round of moves after it, to be followed by another one. [0.8 to 1.25 times: no
+/// Share of the mean cost. Required gain of a round of moves, which another round then follows. [0.8 to 1.25 times: no
 /// figure changes; ends the rounds]
 inline constexpr double round_gain = 0.02;
-/// Rounds. up to these. [as above]
+/// Rounds. Most of these rounds. [as above]
 inline constexpr int relaxing_rounds = 4;
 /// Changes. Followed through. [2: one of 17 meshes changes for the better, one for the worse; 10: as 5]
 inline constexpr std::size_t most_promising = 5;
-/// Squared units. Of edges that a change leaves, unless some were longer [3: longest edge of rough sizes 1.75 to
+/// Squared units. Length of edges that a change leaves, unless some were longer [3: longest edge of rough sizes 1.75 to
 /// 1.97]
 inline constexpr double longest_left2 = 2.4;
-/// Squared units. or shorter before. [0.32: lengths in range of rough sizes 91.5 to 91.1 %]
+/// Squared units. Lower bound of the length, unless some were shorter before. [0.32: lengths in range of rough sizes
+/// 91.5 to 91.1 %]
 inline constexpr double shortest_left2 = 0.4;
-/// Squared units. Of an edge that is split. [0.9: 7 of 17 meshes change, degrees of six on ellipses 73 to 67 %]
+/// Squared units. Length of an edge that is split. [0.9: 7 of 17 meshes change, degrees of six on ellipses 73 to 67 %]
 inline constexpr double least_split2 = 1.1;
-/// Q2. Of triangles that a collapse leaves, before moves. [0.04: no figure changes]
+/// Q2. Shape of triangles that a collapse leaves, before moves. [0.04: no figure changes]
 inline constexpr double least_collapse_quality = 0.05;
-/// Cost. That of a triangle of Q2 .97: vertices amid such ones need not move. [time only]
+/// Cost. The cost of a triangle of Q2 .97: vertices amid such triangles need not move. [time only]
 inline constexpr double cheap_enough = 0.2;
 /// Moves. At one distance. [1: p1 of ellipses 0.88 to 0.86; 6: as 3]
 inline constexpr int turns_a_step = 3;
 /// Squared chord of unit normals. A turn of the surface along an edge that leaves no flat spot: 20 degrees.
 /// [MiddleRows in tests/cpp/surface/improve]
 inline constexpr double least_turn2 = 0.12;
-/// Share. What is better by less is no better: where meshes are symmetric, the last bits of a host's numbers would
-/// decide. [LocalSearch.RaiseTheWorstOfEllipses, by symmetry]
+/// Share. A smaller gain is no gain: in symmetric meshes, the last bits of a host's numbers would decide.
+/// [LocalSearch.RaiseTheWorstOfEllipses, by symmetry]
 inline constexpr double tie = 1e-6;
 
 // Squares (placement/squares, placement/cross_field)
@@ -341,9 +340,9 @@ inline constexpr double tie = 1e-6;
 inline constexpr double square_distance = 0.7;
 /// Lengths of the edge, at most of one. Least height over an imposed edge.
 inline constexpr double square_height = 0.6;
-/// Units. Circumradius that asks for one more point (half a unit square: 0.707).
+/// Units. Circumradius that requires one more point (half a unit square: 0.707).
 inline constexpr double large_square_radius = 1;
-/// Length of the mean of the crosses of two imposed edges that meet. Below, the corner does not tell a direction.
+/// Length of the mean of the crosses of two imposed edges that meet. Below, the corner does not determine a direction.
 inline constexpr double least_cross = 0.7;
 /// Units. Edges of the mesh that carries crosses, away from the boundary: they are smooth there.
 inline constexpr double background_size = 1.6;
@@ -352,26 +351,26 @@ inline constexpr double many_for_background = 4000;
 /// Nodes of the coarsest level, and sweeps on the others.
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
-/// Of unit crosses. Sweeps end where none moves farther in one: a thousandth of a degree.
+/// Change of unit crosses. Sweeps end when no cross moves farther in one: a thousandth of a degree.
 inline constexpr double cross_at_rest = 1e-5;
 
 // Division of large domains (division)
-/// Triangles. Of a piece, about. [90 000: a fifth more time on one thread at a million]
+/// Triangles. Approximate size of a piece. [90 000: a fifth more time on one thread at a million]
 inline constexpr double triangles_a_piece = 250'000;
-/// Pieces reach from the border to where layers meet: more of them would become narrow.
+/// Pieces reach from the border to the meeting of the layers: more of them would become narrow.
 inline constexpr double most_sectors = 64;
 /// Triangles. Smaller domains are not divided.
 inline constexpr double least_divided = 250'000;
-/// Units. Of the edges of the coarse mesh, on which separators lie. [12: sphere has 1200 triangles fewer, degrees of
-/// six 99.0 to 98.7 %]
+/// Units. Length of the edges of the coarse mesh, on which separators lie. [12: sphere has 1200 triangles fewer,
+/// degrees of six 99.0 to 98.7 %]
 inline constexpr double separator_length = 8;
 /// Triangles. In larger meshes they are longer by the fourth root: one thread makes the coarse mesh. [time only]
 inline constexpr double many_for_longer_separators = 1e6;
 /// Places of the first sector that are tried on a single loop, for four sectors and more. [1: square has separators 1.75
 /// times as long]
 inline constexpr int starts_of_sectors = 8;
-/// Share of the length of separators that start with the loop. Others are taken below. [1: degrees of six on a sphere of
-/// 290 000 triangles in pieces of 90 000 98.15 to 97.9 %]
+/// Share of the length of separators that start with the loop. Separators that start elsewhere must be shorter than this
+/// share. [1: degrees of six on a sphere of 290 000 triangles in pieces of 90 000 98.15 to 97.9 %]
 inline constexpr double much_shorter = 0.75;
 /// Radians. Turn of the boundary over one coarse edge.
 inline constexpr double most_coarse_turn = 0.45;
@@ -379,12 +378,12 @@ inline constexpr double most_coarse_turn = 0.45;
 inline constexpr double shortest_coarse2 = 0.16, least_coarse_quality = 0.5;
 /// Coarse triangles between degenerate sides and separators.
 inline constexpr int rings_at_degenerate_sides = 2;
-/// Layers of vertices on each side of a separator, itself among them, whose points are placed anew.
+/// Layers of vertices on each side of a separator, the separator included, whose points are placed again.
 inline constexpr int refilled_layers = 3;
 /// Layers of triangles beside a separator that are improved when pieces have been joined, [8: Q2 better by 1e-5] and
 /// around places where several separators meet.
 inline constexpr int zone_layers = 5, meeting_layers = 7;
-/// Share of the triangles that lie in the zone. Domains where it is larger are not divided.
+/// Share of the triangles that lie in the zone. Domains with a larger share are not divided.
 inline constexpr double most_of_zone = 0.3;
 
 }  // namespace carreau::plane

@@ -63,7 +63,7 @@ int Triangulation::locate(const Vec2& p, int hint) const noexcept {
 
 void Triangulation::renumber_if_large() {
   if (triangles.size() < renumbered_from) return;
-  // By counting on the largest vertex of each.
+  // Counting sort by the largest vertex of each.
   const auto key = [](const Triangle& T) { return std::max({T.v[0], T.v[1], T.v[2]}); };
   std::vector<std::int32_t> next(vertices.size() + 1, 0), rank(triangles.size());
   for (const Triangle& T : triangles) ++next[key(T) + 1];

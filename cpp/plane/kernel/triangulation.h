@@ -25,11 +25,11 @@ struct Vertex {
   }
 };
 
-/// How the directions and shapes of the field change about a vertex.
+/// The change of the field's directions and shapes about a vertex.
 enum class Bend : std::uint8_t {
   none,    ///< mean tensors of vertices do
-  smooth,  ///< a chart tells distances
-  kinked,  ///< the field must be asked halfway, neither will do
+  smooth,  ///< a chart gives distances
+  kinked,  ///< the field must be evaluated halfway, neither chart nor tensor is accurate
 };
 
 /// Half-edge i of triangle t lies opposite to its corner i and is written 4 t + i; -1: nothing beyond.
@@ -99,12 +99,12 @@ class Triangulation {
   /// Triangle that contains p (on its border counts), walking from triangle `hint`; -1 when the walk leaves the
   /// triangulation or meets an imposed edge.
   [[nodiscard]] int locate(const Vec2& p, int hint) const noexcept;
-  /// The same; -1 also when p is more than `most_steps` triangles away.
+  /// Like locate(); returns -1 also when p is more than `most_steps` triangles away.
   [[nodiscard]] int locate_near(const Vec2& p, int hint, int most_steps) const noexcept;
 
   /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.
-  /// False: the point is refused by the rules, or lies on an imposed edge or a vertex.
-  /// `chart`: that of p, where the field bends much.
+  /// Returns false if the rules reject the point, or if it lies on an imposed edge or a vertex. `chart`: the chart of
+  /// p, if the field bends much.
   bool dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart = nullptr);
   /// The triangles dug out, until they are filled.
   [[nodiscard]] std::span<const std::int32_t> cavity() const noexcept { return {cavity_.data(), cavity_size_}; }
@@ -116,16 +116,16 @@ class Triangulation {
   [[nodiscard]] const RimPoint& rim_point(std::int32_t k) const noexcept { return points_[k]; }
 
   /// Sorts the triangles of a large mesh by their vertices, so that passes over them find memory in order. The kernel
-  /// leaves the numbers of what it removes to what it makes, anywhere.
+  /// reuses the numbers of removed triangles for new ones anywhere.
   void renumber_if_large();
 
-  /// The last triangles of the list take the places of those that are removed (without vertices).
+  /// The last triangles of the list take the places of the removed ones (without vertices).
   void drop_removed();
 
   /// Exchanges the diagonal of the two triangles at half-edge (t, i). They keep their numbers; the new diagonal is edge
   /// 1 of t and edge 2 of the other.
   void swap_edge(int t, int i) noexcept;
-  /// Whether both triangles of the other diagonal are counterclockwise. Exact.
+  /// True if both triangles of the other diagonal are counterclockwise. Exact.
   [[nodiscard]] bool can_swap(int t, int i) const noexcept;
   /// Puts vertex m, which lies on edge i of t, not imposed, between its ends: the two triangles keep their numbers, two
   /// more come last. Edge 0 of each of the four is a half of the edge.

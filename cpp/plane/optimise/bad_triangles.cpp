@@ -13,7 +13,7 @@ namespace {
 /// Triangles that are helped.
 enum class Helped : std::uint8_t { crowded, crowded_or_bad };
 
-// Neither crowded nor doubtful, beyond any doubt of rounding: what is true of nearly all triangles, in one go.
+// True if a triangle is neither crowded nor doubtful, beyond rounding: one test that nearly all triangles pass.
 bool is_good(const Triangulation& mesh, const Triangle& T) {
   constexpr double sure = 1 + 1e-9, quality2 = sure * doubtful_quality * doubtful_quality / 12;
   const Vertex &P = mesh.vertices[T.v[0]], &Q = mesh.vertices[T.v[1]], &R = mesh.vertices[T.v[2]];
@@ -29,12 +29,12 @@ bool needs_help(const PlaneWork& work, Helped helped, int t) {
   if (T.v[0] < 0 || T.done == Done::frozen || (work.mesh.bends.empty() && is_good(work.mesh, T))) return false;
   if (is_crowded(work, t)) return true;
   if (helped == Helped::crowded) return false;
-  // Lengths of bent triangles may tell of an area that they have not.
+  // Lengths of bent triangles may imply an area that they do not have.
   const bool doubtful = work.shapes.is_bent(T) || work.shapes.quality(T.v[0], T.v[1], T.v[2]) < doubtful_quality;
   return doubtful && work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]) < bad_quality;
 }
 
-// Returns the triangles that were looked at, some of them several times.
+// Returns the tested triangles, some of them several times.
 std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled) {
   const auto total = static_cast<std::int32_t>(work.mesh.triangles.size());
   std::vector<std::int32_t> open, looked_at;

@@ -10,12 +10,13 @@
 
 namespace carreau::plane {
 
-/// Removes vertices of edges much too short, where that makes no triangle bad. Leaves removed triangles in the list.
+/// Removes vertices of edges that are much too short, if that makes no triangle bad. Leaves removed triangles in the
+/// list.
 void remove_crowded_vertices(PlaneWork& work);
 
-/// Bad triangles, left where layers met or where sizes jump, and crowded ones: moves, swaps, removals and insertions
-/// that each make what they touch better. Returns the triangles that were looked at: all others are good. `settled`: what
-/// is known of the triangles, before and after.
+/// Improves bad triangles, left at meetings of layers or at jumps of sizes, and crowded ones: moves, swaps, removals
+/// and insertions that each improve the triangles that they touch. Returns the tested triangles: all others are good.
+/// `settled`: the state of the triangles, before and after.
 std::vector<std::int32_t> mend_bad_triangles(PlaneWork& work, Settled& settled);
 
 }  // namespace carreau::plane

@@ -67,8 +67,8 @@ int triangle_beside(const Triangulation& mesh, Pair pair, bool left) {
   return (on_left == left ? he : other) >> 2;
 }
 
-// The pair takes up to `reach` steps along its layer, each a swap that gives the next two vertices its degrees, until
-// it meets something that it becomes smaller with; else all is as before. `swapped`: scratch, the new diagonals.
+// The pair takes up to `reach` steps along its layer, each a swap that gives the next two vertices its degrees. It
+// stops where a defect cancels a part of it; otherwise all steps are undone. `swapped`: scratch, the new diagonals.
 bool move_pair(PlaneWork& work, Degrees& degrees, Pair pair, bool left, int reach,
                std::vector<std::pair<std::int32_t, std::int32_t>>& swapped) {
   Triangulation& mesh = work.mesh;

@@ -37,7 +37,7 @@ Degrees count_degrees(const PlaneWork& work) {
 
 namespace {
 
-// Whether the diagonal of c a d b, edge i of t, is to be swapped.
+// True if the diagonal of c a d b, edge i of t, is to be swapped.
 bool wants_swap(const PlaneWork& work, const Degrees& degrees, int t, int i) {
   const Triangle& A = work.mesh.triangles[t];
   const HalfEdge o = A.n[i];
@@ -49,11 +49,11 @@ bool wants_swap(const PlaneWork& work, const Degrees& degrees, int t, int i) {
          work.shapes.quality(c, d, b) > degree_swap_quality;
 }
 
-// What one look tells of triangles, as bits.
-constexpr std::uint8_t uneven = 1;   // an edge between two of these may want a swap, no other does
-constexpr std::uint8_t changed = 2;  // since the pass began: what was refused elsewhere would be again
+// Marks of triangles, as bits.
+constexpr std::uint8_t uneven = 1;   // only an edge between two of these may be swapped
+constexpr std::uint8_t changed = 2;  // since the pass began: other edges would be rejected again
 
-// Marks the triangles whose edges see the degree of v: those around it, and those beyond.
+// Marks the triangles whose edges depend on the degree of v: the triangles around it, and their outer neighbours.
 void mark_around(const Triangulation& mesh, int v, std::uint8_t bits, std::vector<std::uint8_t>& marks) {
   const auto mark = [&](int t) { marks[t] = static_cast<std::uint8_t>(marks[t] | bits); };
   for_each_around(mesh, v, [&](int t) {
@@ -63,7 +63,7 @@ void mark_around(const Triangulation& mesh, int v, std::uint8_t bits, std::vecto
   });
 }
 
-// A swap needs an excess at an end, or a lack beyond: where the corners of one triangle have neither it takes a lack of
+// A swap needs an excess at an end, or a lack beyond. If the corners of one triangle have neither, it takes a lack of
 // three at the fourth vertex.
 std::vector<std::uint8_t> mark_uneven(const Triangulation& mesh, const Degrees& degrees) {
   std::vector<std::uint8_t> marks(mesh.triangles.size());

@@ -9,7 +9,8 @@
 
 namespace carreau::plane {
 
-/// By vertex, counted in triangles (at most 255). On the border a vertex of angle w wants w / 60 degrees of them.
+/// For each vertex, counted in triangles (at most 255). On the border a vertex of angle w should have w / 60 degrees
+/// triangles.
 struct Degrees {
   std::vector<std::uint8_t> found, wanted;
 

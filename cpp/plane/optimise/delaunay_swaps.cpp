@@ -19,7 +19,7 @@ bool sum_exceeds_pi(double dot_c, double area_c, double dot_d, double area_d) no
   return s < -swap_tolerance * scale;
 }
 
-// By Simpson's rule: on an edge of several units sizes may change manifold, as beside a waist.
+// Uses Simpson's rule: on an edge of several units sizes may change manifold, for example beside a waist.
 double squared_length_along(const PlaneWork& work, int u, int v) {
   const Vertex &U = work.mesh.vertices[u], &V = work.mesh.vertices[v];
   const Vec2 d = V.point() - U.point();
@@ -28,8 +28,8 @@ double squared_length_along(const PlaneWork& work, int u, int v) {
   return sum * sum / 36;
 }
 
-// Cosines by the lengths of the edges. What is long is swapped if that makes it shorter: over more than about two units
-// straight lines say little.
+// Cosines by the lengths of the edges. Long edges are swapped if that makes them shorter: over more than about two
+// units straight lines are inaccurate.
 bool wants_bent_swap(const PlaneWork& work, int a, int b, int c, int d) {
   const Shapes& shapes = work.shapes;
   const double ab = shapes.squared_length(a, b);
@@ -40,7 +40,7 @@ bool wants_bent_swap(const PlaneWork& work, int a, int b, int c, int d) {
   return sum_exceeds_pi(abc.a + abc.b - ab, std::sqrt(abc.area2()), abd.a + abd.b - ab, std::sqrt(abd.area2()));
 }
 
-// Delaunay in the mean metric of the four vertices, or by lengths where the field bends.
+// Delaunay in the mean metric of the four vertices, or by lengths if the field bends.
 bool wants_swap(const PlaneWork& work, int t, int i) {
   const Triangulation& mesh = work.mesh;
   const Triangle& A = mesh.triangles[t];
@@ -57,7 +57,7 @@ bool wants_swap(const PlaneWork& work, int t, int i) {
   return sum_exceeds_pi(dot(m, ca, cb), cross(ca, cb), dot(m, da, db), cross(db, da)) && mesh.can_swap(t, i);
 }
 
-// Beside a fine border sizes may be longer than a strip is wide: there edges are long that are none of three units.
+// Beside a fine border sizes may be longer than the width of a strip: long edges there are shorter than three units.
 bool has_long_edge(const Triangulation& mesh, const Triangle& T) {
   double shortest2 = 1, longest2 = 0;
   for (int i = 0; i < 3; ++i) {
@@ -67,9 +67,9 @@ bool has_long_edge(const Triangulation& mesh, const Triangle& T) {
   return longest2 > long_edge2 * shortest2;
 }
 
-// Where hundreds of edges lean over dozens of units one swap gains less than the metrics of neighbouring triangles
-// differ by, and angles taken in these do not tell which diagonal is better; lengths measured along them do. Their sum
-// falls, so that there is an end. Starts with the triangles listed, and adds those that it has changed.
+// If hundreds of edges lean over dozens of units, the gain of one swap is less than the difference of neighbouring
+// metrics, and angles in these do not determine the better diagonal. Lengths measured along the diagonals do. Their sum
+// falls, so that there is an end. Starts with the triangles listed, and adds changed triangles.
 void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
   Triangulation& mesh = work.mesh;
   const auto length_along = [&](int p, int q) {
@@ -134,7 +134,7 @@ Settled swap_to_delaunay(PlaneWork& work) {
     changed.swap(next);
   }
   // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many delaunay_passes.
-  // Where no edge is long, swaps run in circles between triangles that are as good as each other.
+  // If no edge is long, swaps run in circles between equally good triangles.
   if (!mesh.bends.empty()) return settled;
   std::erase_if(changed, [&](std::int32_t t) { return !has_long_edge(mesh, mesh.triangles[t]); });
   if (changed.empty()) return settled;

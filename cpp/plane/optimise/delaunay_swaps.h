@@ -8,7 +8,7 @@
 namespace carreau::plane {
 
 /// Over the whole mesh, a bounded number of passes; then at long edges as many swaps as raise the smaller of two
-/// smallest angles. Where the field bends by lengths of edges. Returns what is settled of the triangles as they are now.
+/// smallest angles. In a field that bends, lengths of edges decide. Returns the settled states of the current triangles.
 Settled swap_to_delaunay(PlaneWork& work);
 
 }  // namespace carreau::plane

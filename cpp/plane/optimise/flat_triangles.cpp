@@ -24,7 +24,7 @@ bool is_flat(const Triangulation& mesh, int t) {
   return T.v[0] >= 0 && T.done != Done::frozen && height(mesh, T.v[0], T.v[1], T.v[2]) < flat_height;
 }
 
-// By the swap that leaves the higher triangles; whether none of the two is flat.
+// Swaps to the higher triangles; returns true if neither of the two is flat.
 bool raise_by_swap(Triangulation& mesh, int t) {
   const Triangle& T = mesh.triangles[t];
   int best = -1;
@@ -40,7 +40,8 @@ bool raise_by_swap(Triangulation& mesh, int t) {
   return true;
 }
 
-// Where the edge under it is imposed, or all around is flat: by drawing a vertex that moves freely into a neighbour.
+// If the edge under it is imposed, or all triangles around are flat: merges a vertex that moves freely into a
+// neighbour.
 bool raise_by_removal(PlaneWork& work, Star& star, int t) {
   Triangulation& mesh = work.mesh;
   for (const std::int32_t v : Triangle(mesh.triangles[t]).v) {
@@ -56,7 +57,7 @@ bool raise_by_removal(PlaneWork& work, Star& star, int t) {
 
 }  // namespace
 
-// What is raised may let its neighbours be, too.
+// Raising a triangle may raise its neighbours, too.
 bool raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful) {
   Triangulation& mesh = work.mesh;
   std::sort(doubtful.begin(), doubtful.end());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles without area. Where straight edges cannot follow the field, a vertex put on an edge that is not swapped
-// leaves a triangle between the edge and its own halves, whose lengths, each by a tensor of its own, speak for it, or
-// against all that could take its place. There the plane alone decides.
+// Triangles without area. If straight edges cannot follow the field, a vertex put on an edge that is not swapped leaves
+// a triangle between the edge and its two halves. Its lengths, each in a separate tensor, seem good, or better than any
+// replacement. There the plane alone decides.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace carreau::plane {
 
-/// Swaps or removes what is flat in the plane among the triangles listed. Whether there was any.
+/// Swaps or removes the triangles listed that are flat in the plane. Returns true if there was any.
 bool raise_flat_triangles(PlaneWork& work, std::vector<std::int32_t> doubtful);
 
 }  // namespace carreau::plane

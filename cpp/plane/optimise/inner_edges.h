@@ -30,7 +30,7 @@ inline void list_edges(const Triangulation& mesh, std::int32_t first, std::int32
   edges.resize(static_cast<std::size_t>(to - edges.data()));
 }
 
-/// Those of them between triangles t and u of which calls_for(t, u) is true, as it is of few.
+/// The edges between triangles t and u for which calls_for(t, u) is true: few.
 template <typename CallsFor>
 void list_calling_edges(const Triangulation& mesh, std::int32_t first, std::int32_t end, std::vector<HalfEdge>& edges,
                         const CallsFor& calls_for) {
@@ -46,7 +46,7 @@ void list_calling_edges(const Triangulation& mesh, std::int32_t first, std::int3
   }
 }
 
-/// Calls for what the edges some places after k will ask for.
+/// Prefetches the data that edges some places after k need.
 inline void prefetch_beyond(const Triangulation& mesh, const std::vector<HalfEdge>& edges, std::size_t k) {
   constexpr std::size_t far = 24, near = 12;
   if (k + far < edges.size()) {
@@ -61,9 +61,9 @@ inline void prefetch_beyond(const Triangulation& mesh, const std::vector<HalfEdg
   }
 }
 
-/// Calls use(t, i) for the inner edges between two triangles t < u of which calls_for(t, u) is true when their batch
-/// begins, and in a batch for all edges after the first of which use(t, i) tells that it has changed something: as if all
-/// were used, if use(t, i) does nothing for an edge that calls for nothing.
+/// Calls use(t, i) for the inner edges between two triangles t < u for which calls_for(t, u) is true when their batch
+/// begins. In a batch, calls it for all edges after the first use(t, i) that returns true for a change. The result equals
+/// the result of calls for all edges if use(t, i) ignores edges that need nothing.
 template <typename CallsFor, typename Use>
 void for_calling_edges(const Triangulation& mesh, Monitor& monitor, const CallsFor& calls_for, const Use& use) {
   std::vector<HalfEdge> calling, all;

@@ -75,7 +75,7 @@ std::vector<Change> list_changes(const SearchZone& zone, int t) {
   return changes;
 }
 
-// The zone as it was, and what it must come to.
+// The previous state of the zone, and the required cost.
 struct Target {
   ZoneCost before;
   bool on_surface;
@@ -122,7 +122,7 @@ const Change* best_of(SearchZone& zone, const std::vector<Change>& changes, cons
   return best;
 }
 
-// Whether something was changed for the better around t.
+// Returns true if something around t improved.
 bool improve_around(SearchZone& zone, int t, bool on_surface) {
   zone.collect(t);
   const Target target{zone.cost(infinity), on_surface};
@@ -145,7 +145,7 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   return false;
 }
 
-// Those that are to be searched around, worst first, by shapes that are rounded.
+// Triangles to search around, worst first, by rounded shapes.
 class BadTriangles {
  public:
   BadTriangles(const PlaneWork& work, const Settled& settled) : work_(work), in_vain_(work.mesh.triangles.size(), 0) {
@@ -153,7 +153,8 @@ class BadTriangles {
       if (!settled.is_fine(t)) changed_.push_back(t);
   }
 
-  /// Of the triangles that have changed since the last call; the others are good, or were searched around in vain.
+  /// Lists the triangles that have changed since the last call; the others are good, or a search around them has
+  /// failed.
   [[nodiscard]] std::vector<std::pair<double, std::int32_t>> list() {
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bad triangles that no single change mends: each change around them is tried with the moves and swaps that make room
-// for it, worst triangles first, and the best one is kept.
+// Bad triangles that no single change repairs. The search makes each change around them with the moves and swaps that
+// it needs, worst triangles first, and keeps the best one.
 #pragma once
 
 #include "control_space/sampled_normals.h"
@@ -9,9 +9,9 @@
 
 namespace carreau::plane {
 
-/// Not where fields bend. On surfaces that are no planes, whose `normals` are given, no change adds an edge between two
-/// fixed vertices, nor edges along which the surface turns more than along those that were there: flat spots. `settled`:
-/// what optimise() has left.
+/// Requires a field that does not bend. On curved surfaces, whose `normals` are given, no change adds an edge between
+/// two fixed vertices. No change adds edges along which the surface turns more than along the previous edges: flat
+/// spots. `settled`: the result of optimise().
 void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const SampledNormals* normals);
 
 }  // namespace carreau::plane

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was found out about triangles, edges and stars, for as long as their vertices stay where they are. Private to
-// plane/.
+// Results for triangles, edges and stars, valid as long as their vertices stay where they are. Private to plane/.
 #pragma once
 
 #include <bit>
@@ -29,12 +28,12 @@ inline PlaceKey key_of_side(PlaceKey from, PlaceKey to) noexcept { return from ^
 inline PlaceKey key_of_triangle(PlaceKey p, PlaceKey q, PlaceKey r) noexcept {
   return key_of_side(p, q) + key_of_side(q, r) + key_of_side(r, p);
 }
-/// Of the diagonal ab of the quadrilateral c a d b, from whatever side.
+/// Key of the diagonal ab of the quadrilateral c a d b, equal from both sides.
 inline PlaceKey key_of_diagonal(PlaceKey c, PlaceKey a, PlaceKey b, PlaceKey d) noexcept {
   return key_of_side(c, a) + key_of_side(a, d) + key_of_side(d, b) + key_of_side(b, c) + 3 * (a + b);
 }
 
-/// Of a star: the vertex and its link; place(v): the key of the place of v.
+/// Key of a star: the vertex and its link; place(v): the key of the place of v.
 template <typename Place>
 PlaceKey key_of_star(int v, const std::vector<std::int32_t>& link, const Place& place) {
   PlaceKey sum = 5 * place(v), last = place(link.back());
@@ -46,7 +45,7 @@ PlaceKey key_of_star(int v, const std::vector<std::int32_t>& link, const Place& 
   return sum;
 }
 
-/// Remembers the last of those that share a place in it.
+/// Keeps the last value of the keys that share a slot.
 template <typename Value>
 class Memo {
  public:

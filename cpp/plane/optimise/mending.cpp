@@ -12,9 +12,9 @@ namespace carreau::plane {
 
 namespace {
 
-// What moves make small: bad triangles weigh much; one that is turned over outweighs everything.
+// Moves minimise this: bad triangles have a high penalty; a triangle that is turned over has an infinite one.
 double penalty(double quality) noexcept { return quality > 0 ? 1 / (quality * quality) : infinity; }
-// Of the best shape, 1, and a thousandth for the rounding of much stretched metrics.
+// The penalty of the best shape, 1, less a thousandth for the rounding of very stretched metrics.
 constexpr double least_penalty = 0.999;
 
 double shape(const Mending& m, const Triangle& T) { return m.work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]); }
@@ -37,7 +37,7 @@ bool swap(Mending& m, int t) {
   return false;
 }
 
-// To the best of places around, at shrinking distances in the metric; whether that gains. Of the link collected.
+// Moves to the best of places around, at shrinking distances in the metric; true if that gains. Uses the collected link.
 bool move_to_best(Mending& m, int v) {
   Triangulation& mesh = m.work.mesh;
   Vertex& P = mesh.vertices[v];
@@ -54,7 +54,7 @@ bool move_to_best(Mending& m, int v) {
       const Vertex kept = P;
       const Vec2 to = centre + circle.vector(step * d);
       P.x = to.x(), P.y = to.y();
-      // Shapes depend on it only where the field bends.
+      // Shapes depend on it only if the field bends.
       if (!mesh.bends.empty()) P.set_metric(m.work.field.at(P.point()));
       const double now = cost(best);
       if (now < best)
@@ -84,8 +84,8 @@ bool move(Mending& m, int v) {
   return true;
 }
 
-// Removes a vertex that moves freely by drawing it into one of its neighbours, when no edge becomes long and the worst
-// triangle better; where vertices are crowded it is enough that it does not become bad.
+// Removes a vertex that moves freely by merging it into one of its neighbours, if no edge becomes long and the worst
+// triangle improves. If vertices are crowded, the worst triangle only must not become bad.
 bool remove(Mending& m, int v, bool crowded) {
   Triangulation& mesh = m.work.mesh;
   if (!m.star.collect(mesh, v) || has_imposed_spoke(mesh, m.star, v)) return false;
@@ -133,8 +133,8 @@ double worst_around(const Mending& m, int v, bool spaced) {
   return worst;
 }
 
-// A new vertex near p, at the best place for the triangles about it, if the worst of those becomes better. `spaced`:
-// and if it makes no edge that is as short as those that go.
+// Adds a vertex near p, at the best place for the triangles about it, if the worst of these improves. `spaced`: and if
+// it makes no edge as short as the removed edges.
 bool insert(Mending& m, Vec2 p, int t, bool spaced) {
   Triangulation& mesh = m.work.mesh;
   const int start = is_finite(p) ? mesh.locate(p, t) : -1;
@@ -166,8 +166,8 @@ bool insert(Mending& m, Vec2 p, int t, bool spaced) {
   return true;
 }
 
-// A triangle on an edge much shorter than its sides: a new vertex over that edge, where triangles become better by it.
-// Where an imposed edge is short and sizes are large, shape asks for points that size does not.
+// For a triangle on an edge much shorter than its sides: adds a vertex over that edge, if this improves triangles. At a
+// short imposed edge in large sizes, shape requires points that size does not.
 bool insert_over_short_edge(Mending& m, int t) {
   const auto& vertices = m.work.mesh.vertices;
   const Triangle& T = m.work.mesh.triangles[t];
@@ -185,8 +185,8 @@ bool insert_over_short_edge(Mending& m, int t) {
   return insert(m, p, t, false);
 }
 
-// An edge of a bad triangle, or of one beside it, on which a vertex fits: the layers of two borders that meet at a
-// corner may leave one triangle in the place of three.
+// Halves an edge of a bad triangle, or of one beside it, if a vertex fits. The layers of two borders that meet at a
+// corner may leave one triangle in place of three.
 bool halve_edge(Mending& m, int t) {
   const Triangulation& mesh = m.work.mesh;
   const Triangle T = mesh.triangles[t];

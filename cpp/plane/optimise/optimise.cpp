@@ -17,8 +17,8 @@ namespace carreau::plane {
 
 namespace {
 
-// Shares of successive passes: long moves carry strain far, the short ones beside them take back the ripples that these
-// leave (Chebyshev's semi-iteration, its longest moves cut off for the sake of triangles that turn over).
+// Shares of successive passes: long moves carry strain far, the short ones beside them remove the ripples that these
+// leave. This is Chebyshev's semi-iteration, with its longest moves cut off because triangles would turn over.
 constexpr double far_first[] = {1.6, 1.6}, short_last[] = {1, 0.7};
 constexpr double spread[] = {1, 2.5, 1.4, 0.7}, once[] = {1};
 
@@ -41,8 +41,9 @@ Settled optimise(PlaneWork& work, std::size_t whole) {
     smooth(work, arrays, spread, {.pull = pull_even, .by_size = false});
     update_metrics(work);
   } else {
-    // There is more to relax. Where pairs cancel, what they held apart must move, and again after the removals. Metrics
-    // follow once: to ask where sizes change costs as much as two passes, and gains nothing before the long one.
+    // There is more to relax. After pairs have cancelled, the vertices between them must move, and again after the
+    // removals. Metrics are updated once: evaluating them in graded sizes costs as much as two passes, and gains
+    // nothing before the long one.
     const SmoothingAim aim{.pull = pull_graded, .by_size = true};
     cancel_degree_pairs(work, degrees, pair_reach_graded);
     smooth(work, arrays, once, aim);
@@ -50,7 +51,7 @@ Settled optimise(PlaneWork& work, std::size_t whole) {
     cancel_degree_pairs(work, degrees, pair_reach_graded);
     smooth_evenly(work, arrays, {.passes = 7, .slowest = 0.05}, aim);
     update_metrics(work);
-    remove_crowded_vertices(work);  // smoothing mends more of the bad ones than single moves do
+    remove_crowded_vertices(work);  // smoothing improves more of the bad ones than single moves do
     work.mesh.drop_removed();
     smooth_evenly(work, arrays, {.passes = 2, .slowest = 0.5}, aim);
   }

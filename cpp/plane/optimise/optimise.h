@@ -9,12 +9,12 @@
 
 namespace carreau::plane {
 
-/// Leaves removed triangles without vertices (-1) and removed vertices without a triangle. `whole`: triangles of the mesh
-/// of which this is a part, if it is more. Returns what is known of the triangles that are left.
+/// Leaves removed triangles without vertices (-1) and removed vertices without a triangle. `whole`: number of triangles
+/// of the mesh, if this is a part of it. Returns the known states of the remaining triangles.
 Settled optimise(PlaneWork& work, std::size_t whole = 0);
 
-/// After place_squares(): what the other passes look for is equilateral, and halves of squares are not. Flat triangles
-/// are raised.
+/// After place_squares(): the other passes prefer equilateral triangles, and halves of squares are not equilateral.
+/// Flat triangles are raised.
 void mend_squares(PlaneWork& work);
 
 }  // namespace carreau::plane

@@ -15,10 +15,10 @@ namespace carreau::plane {
 namespace {
 
 constexpr std::size_t prefetch_distance = 12;
-// The same in the plane, times the root of the determinant of the sum of three metrics.
+// The limit in the plane, times the root of the determinant of the sum of three metrics.
 constexpr double least_area_in_sum = 3 * least_area;
 
-// Of the triangle of three vertices. `enough(area)`: whether that is enough of it in the metric.
+// True if the triangle of three vertices has area. `enough(area)`: returns true if that is enough in the metric.
 template <typename Enough>
 inline bool has_area(const Vertex& A, const Vertex& B, const Vertex& C, const Enough& enough) noexcept {
   // The order of orientation(): its sign is decided by the same bound.
@@ -51,7 +51,7 @@ void propose_in_chart(const PlaneWork& work, std::vector<Vec2>& proposals, const
   }
 }
 
-// `bends`, here and below: whether the field may bend, so that each triangle must be asked.
+// `bends`, here and below: true if the field may bend, so that each triangle must be tested.
 template <bool bends>
 inline bool is_sound(const PlaneWork& work, const SmoothingArrays& arrays, std::size_t t) {
   const Triangle& T = work.mesh.triangles[t];
@@ -68,9 +68,9 @@ inline bool is_sound(const PlaneWork& work, const SmoothingArrays& arrays, std::
   return has_area(A, B, C, [det](double area) { return area * area * det > 9 * least_area * least_area; });
 }
 
-// What passes need of the metrics, which stay as they are until the last of them. Where sizes vary triangles count by
-// the inverse of the size. That of its square would make the sum of their defects, each relative to the triangle,
-// least; but where sizes jump it draws vertices to the small ones.
+// Prepares the metrics for passes; they stay constant until the last pass. In varying sizes triangles are weighted by
+// the inverse of the size. The inverse of its square would minimise the sum of their defects, each relative to the
+// triangle, but at jumps of sizes it draws vertices to the small ones.
 void prepare(const Triangulation& mesh, SmoothingArrays& arrays, bool by_size) {
   arrays.before.resize(mesh.vertices.size());
   arrays.steady.clear();
@@ -87,7 +87,7 @@ void prepare(const Triangulation& mesh, SmoothingArrays& arrays, bool by_size) {
     if (!by_size) {
       arrays.heights.push_back(equilateral_height(root_of_determinant(m)));
     } else {
-      // Of numbers that fit into single precision, whatever the metric.
+      // Numbers that fit into single precision, whatever the metric.
       const double root = std::max({root_of_determinant(m), most_stretched * (m.a + m.c), least_root});
       const double height = equilateral_height(root);
       const auto single = static_cast<float>(std::sqrt(root));
@@ -99,20 +99,20 @@ void prepare(const Triangulation& mesh, SmoothingArrays& arrays, bool by_size) {
   }
 }
 
-// Each triangle proposes to each of its vertices the place where it would be equilateral in its metric, or, as far as
-// that is the aim, where its sides would have unit length: lower over long bases, higher over short ones.
-// Lists the triangles that the moves before have spoiled, since all is at hand: they still tell where they would go.
+// Each triangle proposes to each of its vertices the place where it would be equilateral in its metric. The aim of unit
+// lengths lowers this place over long bases and raises it over short ones. Also lists the triangles that the previous
+// moves have spoiled, since all data are at hand: they still make proposals.
 template <bool by_size, bool bends>
 void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
   const Triangulation& mesh = work.mesh;
   std::vector<std::int32_t>& spoiled_triangles = arrays.spoiled;
   arrays.proposals.assign(mesh.vertices.size(), {});
   spoiled_triangles.clear();
-  // The height of a unit isosceles triangle over that of an equilateral one is, to first order in the squared base,
-  // 1 + slope - slope * base.
+  // The ratio of the height of a unit isosceles triangle to the height of an equilateral one is, to first order in the
+  // squared base, 1 + slope - slope * base.
   const double slope = 2.0 / 3 * pull, third = slope / 3;
   const std::size_t n = mesh.triangles.size();
-  // Plain addresses: what is written might be their vectors', for all that a compiler can tell.
+  // Plain addresses: for the compiler, data written could be a part of the vectors themselves.
   const Triangle* const triangles = mesh.triangles.data();
   const Vertex* const vertices = mesh.vertices.data();
   const SmoothingArrays::Steady* const steady = arrays.steady.data();
@@ -180,7 +180,8 @@ void find_spoiled(const PlaneWork& work, SmoothingArrays& arrays) {
   }
 }
 
-// The vertices of the triangles listed go back, then those of triangles around them that are spoiled by that.
+// The vertices of the triangles listed return to their places, then the vertices of triangles around them that this
+// spoils.
 template <bool bends>
 void undo_spoiling_moves(PlaneWork& work, SmoothingArrays& arrays) {
   std::vector<std::int32_t>& spoiled = arrays.spoiled;
@@ -256,8 +257,8 @@ void smooth(PlaneWork& work, SmoothingArrays& arrays, std::span<const double> sh
   run(work, arrays, passes, aim);
 }
 
-// In a lattice of equilateral triangles the mean of a vertex' proposals is that of its six neighbours: of what a wave
-// lacks it returns shares from 0, for the longest, to 1.5.
+// In a lattice of equilateral triangles the mean of a vertex' proposals is the mean of its six neighbours: it returns
+// shares of a wave's lack from 0, for the longest, to 1.5.
 void smooth_evenly(PlaneWork& work, SmoothingArrays& arrays, EvenDamping damping, SmoothingAim aim) {
   constexpr double fastest = 1.5;
   const double middle = 0.5 * (fastest + damping.slowest), half = 0.5 * (fastest - damping.slowest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves of all vertices at once, each some of the way to where its triangles would be equilateral.
+// Moves of all vertices at once, each some of the way to the places at which its triangles would be equilateral.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace carreau::plane {
 
-/// What moves are after.
+/// The aim of moves.
 struct SmoothingAim {
   double pull;   ///< 0: equilateral triangles; 1: unit lengths
-  bool by_size;  ///< triangles count by the inverse of the size wanted
+  bool by_size;  ///< triangles are weighted by the inverse of the prescribed size
 };
 
-/// Passes that damp waves of the mesh evenly: all those of whose lack one pass returns `slowest` or more.
+/// Passes that damp waves of the mesh evenly: all waves for which one pass returns `slowest` or more of the lack.
 struct EvenDamping {
   int passes;
   double slowest;
@@ -24,15 +24,15 @@ struct EvenDamping {
 
 /// Scratch, kept from one call to the next.
 struct SmoothingArrays {
-  /// Of a triangle: the mean of its corners' metrics, scaled so that it turns a base into the height of the equilateral
-  /// triangle on it; the weight of proposals, whose square is the root of the determinant of the sum of those metrics.
-  /// In single precision, as vertices have them: passes read all of it time and again.
+  /// For each triangle: the mean of its corners' metrics, scaled so that it turns a base into the height of the
+  /// equilateral triangle on it. Also the weight of proposals, whose square is the root of the determinant of the sum
+  /// of these metrics. In single precision, as vertices have them: passes read all of it time and again.
   struct Steady {
     float a, b, c, weight;
   };
-  std::vector<Steady> steady;                 // where triangles count by size
+  std::vector<Steady> steady;                 // if triangles count by size
   std::vector<double> heights;                // elsewhere: of equilateral triangles, over their bases
-  std::vector<Vec2> proposals;                // by vertex, weighed and summed up
+  std::vector<Vec2> proposals;                // by vertex, weighted and summed up
   std::vector<double> weights;                // their sums: exact, or places would shift by a share of the box
   std::vector<Vec2> before;                   // places before the last pass
   std::vector<std::int32_t> spoiled, undone;  // triangles spoiled by moves; vertices whose moves were taken back

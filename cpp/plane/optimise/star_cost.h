@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the shapes of a star cost. Private to plane/optimise.
+// The cost of the shapes of a star. Private to plane/optimise.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace carreau::plane {
 
 /// Sum of cost(shape) over the triangles of v and its link. Once it is `enough` the rest does not matter. `asked`
-/// counts the shapes asked for.
+/// counts the evaluated shapes.
 template <typename Cost>
 double star_cost(const Shapes& shapes, int v, const std::vector<std::int32_t>& link, double enough, const Cost& cost,
                  std::int64_t& asked) {
@@ -25,15 +25,15 @@ double star_cost(const Shapes& shapes, int v, const std::vector<std::int32_t>& l
   return sum;
 }
 
-/// What costs of single triangles are at least, and the one of the star that is asked first: moves that gain nothing
-/// mostly make that one worse which was worst before.
+/// A lower bound of the cost of single triangles, and the first triangle of the star to evaluate: moves without gain
+/// mostly worsen the triangle that was worst before.
 struct StarBound {
   double least;
   std::size_t hardest = 0;
 };
 
-/// star_cost(), infinite once that one cannot be below `enough`, whatever the triangles not yet asked cost: the sum is in
-/// the same order, so it decides the same. A share of `rounding` is left for sums.
+/// star_cost(), but infinite as soon as it cannot be below `enough`, whatever the remaining triangles cost. The sum is in
+/// equal order, so the decision is equal. A share of `rounding` is left for sums.
 template <typename Cost>
 double bounded_star_cost(const Shapes& shapes, int v, const std::vector<std::int32_t>& link, double enough, const Cost& cost,
                          StarBound& bound, std::int64_t& asked) {

@@ -33,7 +33,7 @@ void search_at(SearchZone& zone, int v, double step, int turns, double& best) {
   }
 }
 
-// Where v, whose star is collected, is best; its old place, if no other is better. `in_vain`: steps of the first
+// The best place of v, whose star is collected; its old place, if no place is better. `in_vain`: steps of the first
 // length.
 Vec2 best_place(SearchZone& zone, int v, bool quick, bool in_vain) {
   Vertex& P = zone.work.mesh.vertices[v];
@@ -48,7 +48,7 @@ Vec2 best_place(SearchZone& zone, int v, bool quick, bool in_vain) {
     if (one > most) most = one, worst = k;
   }
   if (best < static_cast<double>(n) * cheap_enough) return old.point();
-  // What is worst is asked first: most moves need no more.
+  // The worst triangle is evaluated first: most moves need no more.
   std::rotate(link.begin(), link.begin() + static_cast<std::ptrdiff_t>(worst), link.end());
   for (const double step : steps) {
     if (in_vain && step == steps[0]) continue;
@@ -77,7 +77,7 @@ void move(SearchZone& zone, int v, bool quick) {
   if (to != from) zone.place(v, to);
 }
 
-// Whether the diagonal ab of the quadrilateral c a d b costs less when it is swapped: edge i of t.
+// True if the diagonal ab of the quadrilateral c a d b, edge i of t, costs less after a swap.
 bool wants_swap(SearchZone& zone, int t, int i, int d) {
   const Triangle& T = zone.work.mesh.triangles[t];
   const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]];

@@ -6,7 +6,7 @@
 
 namespace carreau::plane {
 
-/// Swaps and moves, each kept if it costs less. `quick`: to see what a change promises.
+/// Swaps and moves, each kept if it costs less. `quick`: estimates the gain of a change.
 void relax_zone(SearchZone& zone, bool quick);
 
 }  // namespace carreau::plane

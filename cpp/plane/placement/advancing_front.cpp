@@ -13,8 +13,8 @@ namespace carreau::plane {
 
 namespace {
 
-// Where the field bends, the triangle is isosceles in the chart about its own centroid, which is found in chart_rounds
-// with it.
+// In a field that bends, the triangle is isosceles in the chart about its centroid, which is found in chart_rounds with
+// it.
 Candidate apex_in_charts(const Placement& placement, const FrontEdge& edge, const Vec2& first) {
   const Triangulation& mesh = placement.mesh;
   const Vec2 a = mesh.at(edge.a), b = mesh.at(edge.b);

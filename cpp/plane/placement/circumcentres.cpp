@@ -62,8 +62,8 @@ bool halve(Placement& placement, int t) {
   return insert_near(placement, 0.5 * (mesh.at(T.v[next3[i]]) + mesh.at(T.v[prev3[i]])), t, bent_edge_distance);
 }
 
-// Layers that must gain points all along make too few, those that must lose them too many. Where sizes are graded, what
-// is missing of the expected number lowers the radius that asks for a point, what is too many raises it.
+// Layers that must gain points all along make too few, layers that must lose points too many. In graded sizes, a lack
+// against the expected number lowers the radius that requires a point, an excess raises it.
 double graded_radius(const Placement& placement, double radius) {
   if (placement.shapes.classify() != Sizes::graded) return radius;
   const double missing =
@@ -79,7 +79,7 @@ void insert_circumcentres(Placement& placement, double radius, double distance) 
   const double graded = graded_radius(placement, radius);
   const double radius2 = radius * radius, graded2 = graded * graded;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    // Those that are done, nearly all, have a smaller radius.
+    // The done ones, nearly all, have a smaller radius.
     if (mesh.triangles[k].done != Done::no) continue;
     const auto t = static_cast<int>(k);
     for (int attempt = 0; attempt < circumcentre_attempts && mesh.triangles[t].done == Done::no; ++attempt) {

@@ -7,7 +7,7 @@
 namespace carreau::plane {
 
 /// A point at the circumcentre of each triangle of a larger circumradius than `radius`, at least `distance` from all
-/// vertices. Where sizes are graded, and points missing or too many, the radius is a little less or more.
+/// vertices. In graded sizes, a lack or an excess of points changes the radius a little.
 void insert_circumcentres(Placement& placement, double radius, double distance);
 
 }  // namespace carreau::plane

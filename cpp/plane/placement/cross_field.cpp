@@ -26,7 +26,7 @@ Complex times(Complex a, Complex b) noexcept {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-// Of a unit number, on the side of positive ones.
+// Square root of a unit number, on the side of positive ones.
 Complex square_root(Complex z) noexcept {
   if (z.real() >= 0) {
     const double x = std::sqrt((1 + z.real()) / 2);
@@ -40,7 +40,7 @@ Complex square_root(Complex z) noexcept {
 struct Level {
   struct Link {
     std::int32_t to;
-    Complex transport;  // of what is at `to` to here, times its weight
+    Complex transport;  // of the cross at `to` to here, times its weight
   };
   std::vector<std::int32_t> start;
   std::vector<Link> links;
@@ -48,7 +48,7 @@ struct Level {
   std::vector<Complex> value;
   std::vector<char> fixed;
   std::vector<std::int32_t> aggregate;  // node of the coarser level
-  std::vector<Complex> up;              // what is there, in the frame here
+  std::vector<Complex> up;              // the remote cross, in the frame here
 
   [[nodiscard]] std::size_t size() const { return value.size(); }
 };
@@ -58,7 +58,7 @@ struct Triple {
   std::int32_t from, to;
   Complex transport;
 };
-// Of a few, stable.
+// Stable sort of a few items.
 template <typename Iterator, typename Less>
 void insertion_sort(Iterator first, Iterator last, const Less& less) {
   for (Iterator x = first; x != last; ++x)
@@ -70,7 +70,7 @@ void set_links(Level& level, const std::vector<Triple>& triples) {
   for (const Triple& t : triples) ++end[t.from + 1];
   for (std::size_t i = 0; i < level.size(); ++i) end[i + 1] += end[i];
   std::vector<Level::Link> all(triples.size());
-  for (const Triple& t : triples) all[end[t.from]++] = {t.to, t.transport};  // end[i] is that of row i afterwards
+  for (const Triple& t : triples) all[end[t.from]++] = {t.to, t.transport};  // end[i] is the end of row i afterwards
   level.start.reserve(level.size() + 1), level.links.reserve(triples.size());
   level.start.assign(1, 0);
   for (std::size_t i = 0, first = 0; i < level.size(); ++i) {

@@ -28,11 +28,11 @@ struct MetricFrame {
 /// Parallel along an edge are crosses that make the same angle with it at both ends, in the metrics there.
 class CrossField {
  public:
-  /// Of a mesh that has metrics at its vertices. Crosses at imposed edges are tangent to them; inside their squared
-  /// differences along edges have the least sum. Keeps a reference to the mesh.
+  /// The field of a mesh that has metrics at its vertices. Crosses at imposed edges are tangent to them; inside their
+  /// squared differences along edges have the least sum. Keeps a reference to the mesh.
   CrossField(const Triangulation& mesh, Monitor& monitor);
-  /// One arm of the cross at p, a unit vector of the frame of `at_p`. `triangle`: of the mesh, near p; it becomes the
-  /// one that holds p, where that is known.
+  /// One arm of the cross at p, a unit vector of the frame of `at_p`. `triangle`: a triangle of the mesh near p; it
+  /// becomes the triangle that holds p, if known.
   [[nodiscard]] std::complex<double> arm(const Vec2& p, const MetricFrame& at_p, int& triangle) const;
 
  private:

@@ -21,8 +21,8 @@ struct Ring {
   std::vector<std::vector<Vec2>> ray;  // ray[k][i]: at i steps
 };
 
-// Places at multiples of the ray_step along a ray, as far as there is room. `hint`: the triangle that it begins in; -1:
-// it is not looked where it goes.
+// Places at multiples of the ray_step along a ray, within the room. `hint`: the triangle in which the ray begins; -1:
+// does not follow the triangles.
 std::vector<Vec2> walk(const Placement& placement, const Vec2& from, const Vec2& direction, int hint) {
   const bool inside = hint >= 0;
   std::vector<Vec2> ray{from};
@@ -69,7 +69,7 @@ Ring sample_ring(const Placement& placement, const DegenerateSide& side) {
     share.push_back(static_cast<double>(k) / (rays - 1));
     ring.ray.push_back(ray_at(share.back()));
   }
-  // Where sizes differ by direction rays that are evenly spaced in the frame are not in the metric.
+  // If sizes differ by direction, rays that are evenly spaced in the frame are not so in the metric.
   for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < most_rays;) {
     const auto &ray = ring.ray[k], &next = ring.ray[k + 1];
     const std::size_t unit = std::min({static_cast<std::size_t>(1 / ray_step), ray.size() - 1, next.size() - 1});
@@ -113,7 +113,7 @@ std::vector<Vec2> points_on(const Field& field, const Ring& ring, double height,
   return points;
 }
 
-// fan: from the side of a to that of b. The first half is joined to a, the other to b.
+// fan: from the side of a to the side of b. The first half is joined to a, the other to b.
 bool freeze_fan(Triangulation& mesh, const DegenerateSide& side, const std::vector<std::int32_t>& fan) {
   const int n = static_cast<int>(fan.size()), middle = n / 2;
   if (n < 2) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Degenerate sides (HDR sec. 4.5.4): an edge of the parameter plane that is one point in space, the apex. The metric
-// near it is clamped, so that neither fronts nor the kernel can be trusted there: the fan of triangles that surrounds
-// the apex is built first, and never touched again.
+// near it is clamped, so that fronts and the kernel are unreliable there. The fan of triangles that surrounds the apex
+// is built first, and never changed again.
 #pragma once
 
 #include "mesh/plane_mesh.h"

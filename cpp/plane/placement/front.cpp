@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int32_t none = -1, more_than_one = -2;
 
-// Whether nothing to be done lies beyond edge i of T.
+// True if no triangle beyond edge i of T remains to be processed.
 bool ends_at(const Triangulation& mesh, const Triangle& T, int i) {
   const HalfEdge other = T.n[i];
   return other == no_edge || (T.imposed >> i & 1) != 0 || mesh.triangles[other >> 2].done != Done::no;
@@ -82,7 +82,7 @@ void Front::connect(const Triangulation& mesh) {
   }
 }
 
-// Where several edges leave a vertex (loops that touch, the end of an internal curve), the next one is the first met by
+// If several edges leave a vertex (loops that touch, the end of an internal curve), the next one is the first found by
 // turning round the vertex through triangles that are not done.
 std::int32_t Front::next_around(const Triangulation& mesh, const FrontEdge& edge) const {
   int t = edge.edge >> 2, i = edge.edge & 3;

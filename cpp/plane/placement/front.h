@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The front: edges between triangles that are small enough and those that are not.
+// The front: edges between triangles that are small enough and triangles that are not.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Front {
   std::vector<std::int32_t> several;  ///< edges that leave such vertices
   std::span<const std::uint8_t> resting;
 
-  /// Of the whole mesh; a degenerate side is none of it, since no layer starts at a point of space.
+  /// The front of the whole mesh. A degenerate side does not belong to it, since no layer starts at a point of space.
   void find(const Placement& placement);
   /// Around the triangles touched, which are cleared.
   void find_again(Placement& placement);

@@ -43,8 +43,8 @@ bool near_degenerate_side(const Placement& placement, const Vec2& p, Metric2 met
   return false;
 }
 
-// By their circumradius in the metric of the point, whose lengths are at hand, and, if small enough, in the mean of
-// their vertices; in charts where the field bends.
+// Judges triangles by their circumradius in the metric of the point, whose lengths are at hand, and, if small enough,
+// in the mean of their vertices. Uses charts if the field bends.
 void judge_star(Placement& placement, int v, Metric2 metric) {
   constexpr double r2 = small_radius * small_radius;
   Triangulation& mesh = placement.mesh;

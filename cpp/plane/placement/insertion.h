@@ -14,11 +14,11 @@ namespace carreau::plane {
 /// An edge of the domain that is one point in space.
 struct DegenerateSide {
   std::int32_t a, b;
-  int least_fan, wide_fan;  ///< triangles wanted around the point of space
+  int least_fan, wide_fan;  ///< triangles required around the point of space
   bool surrounded = false;  ///< by a fan that is frozen
 };
 
-/// What the passes that place points have in common.
+/// Common data of the passes that place points.
 struct Placement {
   /// Caches the metric at the vertices.
   Placement(PlaneWork& work, std::int64_t triangle_limit);
@@ -62,10 +62,10 @@ struct Candidate {
 void judge(Placement& placement, int t);
 void judge_all(Placement& placement);
 
-/// Inserts p, which lies in triangle `start`, if its metric distance to all vertices of its cavity is at least
-/// `distance`, and it keeps its height over imposed edges. Judges the new triangles.
+/// Inserts p, which lies in triangle `start`. Requires its metric distance to all vertices of its cavity to be at least
+/// `distance`, and its height over imposed edges to suffice. Judges the new triangles.
 bool try_insert(Placement& placement, Vec2 p, int start, double distance);
-/// The triangle is looked for from the candidate's edge on.
+/// The search for the triangle starts at the candidate's edge.
 bool try_insert(Placement& placement, const Candidate& candidate, double distance);
 
 /// Fills the cavity that was dug for p, and judges the new triangles.

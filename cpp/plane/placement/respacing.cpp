@@ -68,7 +68,7 @@ void merge_and_extend(const Placement& placement, Layer& layer, bool closed) {
   chain.swap(spaced);
 }
 
-// One point more or less than there are: `wanted` - 1 at equal distances between candidates low and high of the chain.
+// Adds or removes one point: `wanted` - 1 at equal distances between candidates low and high of the chain.
 void share_evenly(Layer& layer, int low, int high, int wanted) {
   double total = 0;
   for (int k = low; k < high; ++k) total += layer.gaps[k];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A layer keeps the number of points of the one before; where the metric wants more or fewer, some are added or merged.
+// A layer keeps the number of points of the previous layer; if the metric requires more or fewer, some are added or
+// merged.
 #pragma once
 
 #include <vector>

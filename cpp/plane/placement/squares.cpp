@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A mesh of the same domain whose vertices know the field, with larger triangles inside where there are many.
+/// A mesh of this domain whose vertices know the field, with larger triangles inside if there are many.
 Triangulation background_of(const Placement& placement) {
   Triangulation background = placement.mesh;
   const bool many = placement.field.measure() >= many_for_background;

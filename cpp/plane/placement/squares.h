@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points placed for quadrilaterals: those of a lattice of unit squares that follows a field of crosses.
+// Places points for quadrilaterals, on a lattice of unit squares that follows a field of crosses.
 #pragma once
 
 #include "plane/placement/insertion.h"

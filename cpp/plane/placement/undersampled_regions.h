@@ -6,8 +6,8 @@
 
 namespace carreau::plane {
 
-/// Starts a mesh at such a place: a unit triangle, from whose sides layers go on as from a boundary. False: the place
-/// is outside, or not far from all vertices.
+/// Starts a mesh at such a place: a unit triangle, from whose sides layers continue as from a boundary. False: the
+/// place is outside, or not far from all vertices.
 bool seed_region(Placement& placement, Vec2 place);
 
 }  // namespace carreau::plane

@@ -36,7 +36,7 @@ std::vector<CurveEdge> edges_of_curves(const SurfaceMesh& mesh) {
   return edges;
 }
 
-// Where the entities of a flat mesh come from: vertex and triangle of the surface mesh (-1: none of space).
+// The origin of the entities of a flat mesh: vertex and triangle of the surface mesh (-1: not in space).
 struct FlatSources {
   std::vector<std::int32_t> vertex;
   std::vector<std::int64_t> triangle;
@@ -52,7 +52,7 @@ class FaceAppender {
     flat_.dimension = plane ? 2 : 3;
   }
 
-  /// `first`: the first triangle of the face among those of the mesh.
+  /// `first`: the first triangle of the face among the triangles of the mesh.
   void append(const FaceMesh& face, std::size_t first) {
     // Parts of a face share their vertices of space.
     const bool goes_on = !flat_.faces.empty() && flat_.faces.back().ref == face.part_of && face.part_of != 0;
@@ -170,7 +170,7 @@ FlatMesh supports_as_mesh(const ExportSource& source) {
   std::set<int> done;
   for (std::size_t f = 0; f < source.supports.of_face.size(); ++f)
     for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
-      // Of curves that are one in space the first stands for all, as everywhere.
+      // The first of several curves that are one in space represents all, as everywhere.
       const FaceCurve& curve = source.model.faces[f].curves[c];
       if (!done.insert(curve.ref).second) continue;
       const std::vector<Vec3>& xyz = source.supports.of_face[f][c].xyz;
@@ -184,7 +184,7 @@ FlatMesh supports_as_mesh(const ExportSource& source) {
   return flat;
 }
 
-// What there is of a face that has failed.
+// Appends the known boundary of a face that has failed.
 void append_boundary(const ExportSource& source, std::size_t f, FlatMesh& flat) {
   for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
     const FaceCurve& curve = source.model.faces[f].curves[c];
@@ -198,7 +198,7 @@ void append_boundary(const ExportSource& source, std::size_t f, FlatMesh& flat) 
   }
 }
 
-// The curves of a face's parts without triangles; those that have some are not shown. Empty: all have.
+// The curves of a face's parts without triangles; curves of other parts are not shown. Empty: all have.
 std::optional<FlatMesh> boundary_of_failed(const ExportSource& source, int ref) {
   FlatMesh flat;
   flat.dimension = 2;
@@ -212,7 +212,7 @@ std::optional<FlatMesh> boundary_of_failed(const ExportSource& source, int ref) 
   }
   if (!any) return std::nullopt;
   if (!known)
-    throw InvalidArgument(Where{.face = ref}, "the face was left out of the mesh: nothing is known of its domain");
+    throw InvalidArgument(Where{.face = ref}, "the face was left out of the mesh: its domain is unknown");
   return flat;
 }
 
@@ -279,7 +279,7 @@ struct FlatEdge {
   friend auto operator<=>(const FlatEdge&, const FlatEdge&) = default;
 };
 
-// Replaces the edges by those of all triangles; one that a seam gives two places in (u, v) comes twice there.
+// Replaces the edges by the edges of all triangles; an edge that a seam gives two places in (u, v) comes twice there.
 std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, const MeshEvaluation& delivered,
                                     const FlatSources& sources) {
   std::vector<FlatEdge> all;

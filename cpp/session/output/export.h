@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `call export` writes (RT-0232 sec. 4).
+// The output of `call export` (RT-0232 sec. 4).
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// What an export is made from.
+/// The input of an export.
 struct ExportSource {
   const SurfaceMesh& mesh;
   const std::vector<double>& vertex_size;
@@ -23,11 +23,11 @@ struct ExportSource {
   bool with_fields = true;                    ///< size, Q1 and Q2, which a few formats hold
 };
 
-/// `option` is "", allsurf3d, allsurf2d, onesurf3d, onesurf2d or smo3d; `face` the reference that onesurf* want;
-/// `with_edges` is flag = 1. onesurf2d of a face without triangles: its curves in the parameter plane, as their
-/// supports have them, so that one sees what could not be meshed. Fields, if wanted: size (vertices), Q1 and Q2 (triangles) in
-/// 3-D. Throws InvalidArgument for a face that does not exist or an unknown option. With `delivered`: its values as
-/// fields, in 2-D as well, and with_edges gives every edge once, with reference 0 inside faces.
+/// `option` is "", allsurf3d, allsurf2d, onesurf3d, onesurf2d or smo3d; `face` the reference for onesurf*; `with_edges` is
+/// flag = 1. onesurf2d of a face without triangles exports its curves in the parameter plane, as their supports have them,
+/// which shows why meshing failed. Optional fields: size (vertices), Q1 and Q2 (triangles) in 3-D. Throws InvalidArgument for
+/// a face that does not exist or an unknown option. With `delivered`: its values as fields, in 2-D as well, and with_edges
+/// gives every edge once, with reference 0 inside faces.
 FlatMesh export_mesh(const ExportSource& source, const std::string& option, int face, bool with_edges);
 
 }  // namespace carreau

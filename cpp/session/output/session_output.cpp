@@ -35,7 +35,7 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   PartCad cad(whole_cad, parts_of(meshed.model));
   const double diag = s.result.report.diag;
   set_parameter_boxes(meshed.model, meshed.supports, cad);
-  // Silently: who asks for pictures has not asked for a report.
+  // Measures without messages: the user requested pictures, not a report.
   std::optional<MeshEvaluation> measured;
   const auto evaluation_here = [&]() -> const MeshEvaluation& {
     if (s.delivered) return *s.delivered;
@@ -62,7 +62,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   CheckedCad whole_cad(*s.cad);
   PartCad cad(whole_cad, parts_of(s.model));
   const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
-  // What stops a run only leaves something out here.
+  // Errors that would stop a run only remove data here.
   std::optional<ModelSupports> supports;
   std::shared_ptr<BackgroundField> background;
   try {

@@ -14,8 +14,8 @@
 
 namespace carreau {
 
-/// The i below n for which holds(i), ascending; lists that are long enough are searched by all processes of a crew, who
-/// must hold the same. The same for any crew. `step`: of Team::exchange.
+/// The i below n for which holds(i), ascending. All processes of a crew, which must hold equal values, search long
+/// lists together. The result does not depend on the crew. `step`: of Team::exchange.
 template <typename Holds>
 std::vector<std::int32_t> all_that_hold(std::size_t n, const Crew& crew, std::string_view step, Monitor& monitor,
                                         const Holds& holds) {

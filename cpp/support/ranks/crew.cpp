@@ -33,7 +33,7 @@ std::vector<double> shared_rows(const Crew& crew, std::string_view step, const R
   for (std::size_t i = 0; i < pieces; ++i) {
     std::string& bytes = pieces_of_all[i];
     if (bytes.size() != (last_of(i) - first_of(i)) * rows.width * sizeof(double))
-      throw Error("what another process has sent are other rows than those that were dealt out");
+      throw Error("another process has sent other rows than its own");
     if (!bytes.empty()) std::memcpy(all.data() + first_of(i) * rows.width, bytes.data(), bytes.size());
     bytes = {};
   }

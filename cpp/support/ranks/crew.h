@@ -16,15 +16,16 @@
 
 namespace carreau {
 
-/// Who shares work: the processes of a team, or this one alone, and the threads of each. Results do not depend on it.
+/// The resources that share work: the processes of a team, or this one alone, and the threads of each. Results do not
+/// depend on it.
 struct Crew {
   Team* team = nullptr;  ///< null: this process alone
   int threads = 1;       ///< of each process
 };
 
-/// What work(i, monitor) gives for each i below n: each is called once, in one of the processes. `bound`: from the
-/// thread that calls, since a host is asked that others must not ask. put(packet, result) and get(packet) carry results from one process
-/// to the others. With a team all processes call it, and errors come out as those of deal_out().
+/// Returns the result of work(i, monitor) for each i below n; each is called once, in one of the processes. `bound`: calls work from the
+/// calling thread only, for hosts that other threads must not call. put(packet, result) and get(packet) carry results from one process
+/// to the others. With a team all processes call it, and errors propagate as in deal_out().
 template <typename Result, typename Work, typename Put, typename Get>
 std::vector<Result> shared_work(const Crew& crew, std::string_view step, std::size_t n, bool bound, const Work& work,
                                 const Put& put, const Get& get, Monitor& monitor) {
@@ -56,8 +57,8 @@ struct Rows {
   bool bound = false;       ///< to the calling thread
 };
 
-/// fill(first, last, out, monitor) puts rows first to last - 1 to `out`, for pieces that do not depend on the crew. All processes
-/// get all rows.
+/// fill(first, last, out, monitor) writes rows first to last - 1 to `out`, for pieces that do not depend on the crew. All
+/// processes get all rows.
 using FillRows = std::function<void(std::size_t first, std::size_t last, double* out, Monitor& monitor)>;
 std::vector<double> shared_rows(const Crew& crew, std::string_view step, const Rows& rows, const FillRows& fill, Monitor& monitor);
 

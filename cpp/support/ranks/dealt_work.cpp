@@ -19,7 +19,7 @@ namespace {
 
 using Work = std::function<std::string(std::size_t, Monitor&)>;
 
-/// What this process has done. Used by several threads.
+/// The completed work of this process. Used by several threads.
 class Done {
  public:
   void add(std::size_t i, std::string result, SharedError error) {
@@ -49,7 +49,7 @@ class Done {
   std::vector<Piece> pieces_;
 };
 
-/// Takes work until there is none left. Where only the calling thread may take, others do what it has taken.
+/// Takes work until none is left. If only the calling thread may take, other threads do the work that it took.
 class Taker final : public SteppedTask {
  public:
   Taker(Team& team, std::size_t n, const Work& work, Done& all) : team_(team), n_(n), work_(work), all_(all) {}
@@ -83,7 +83,7 @@ class Taker final : public SteppedTask {
   bool finished_ = false;
 };
 
-// The error that is nobody's but this process's; none when all went on to the end.
+// An error that only this process has; empty if all work has ended.
 SharedError do_own_share(Team& team, std::size_t n, int threads, const Work& work, Done& done, Monitor& monitor) {
   try {
     std::vector<std::unique_ptr<SteppedTask>> takers;
@@ -108,7 +108,7 @@ void read(std::string_view packet, const std::string& teller, std::vector<Result
   if (const SharedError error{reader.text()}; error.any()) error.raise(teller);
   for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
     const auto i = static_cast<std::uint64_t>(reader.integer());
-    if (i >= results.size()) throw Error(teller + "has sent work that nobody knows");
+    if (i >= results.size()) throw Error(teller + "has sent unknown work");
     results[i].error.bytes = reader.text();
     results[i].bytes = reader.text();
     results[i].known = true;
@@ -129,7 +129,7 @@ std::vector<std::string> deal_out(Team& team, std::string_view step, std::size_t
   bytes.reserve(n);
   for (Result& result : results) {
     if (result.error.any()) result.error.raise();
-    if (!result.known) throw Error("no process has done work that was dealt out");  // a process has stopped
+    if (!result.known) throw Error("no process has done a distributed piece of work");  // a process has stopped
     bytes.push_back(std::move(result.bytes));
   }
   return bytes;

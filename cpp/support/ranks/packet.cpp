@@ -10,7 +10,7 @@ namespace {
 // Points are put as memory has them: their coordinates one after the other (support/vec.h asserts it).
 
 [[noreturn]] void refuse() {
-  throw Error("what another process has sent ends early: all processes must run the same version of the library");
+  throw Error("the data of another process end early: all processes must run the same version of the library");
 }
 
 }  // namespace

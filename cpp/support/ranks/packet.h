@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values as bytes and back: what one process tells another of the same program.
+// Converts values to bytes and back: messages between processes of one program.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ class PacketWriter {
   std::string bytes_;
 };
 
-/// Gives the values back in the order in which they were put. Throws Error where the bytes end before that: they are
-/// those of another version of the program.
+/// Gives the values back in the order in which they were put. Throws Error if the bytes end earlier: another version of
+/// the program wrote them.
 class PacketReader {
  public:
   /// Keeps a view of `bytes`.

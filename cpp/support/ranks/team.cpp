@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-/// As they are told; a value never means another class. `other`: no class of ours.
+/// Codes in messages; a value never means another class. `other`: no class of ours.
 enum class ErrorKind : int { other, argument, model, file, callback, domain, limit, cancelled, plain, memory };
 
 std::string packed(ErrorKind kind, const char* sentence, const Where& where) {
@@ -113,7 +113,7 @@ std::string Team::teller(int rank) const {
   return "rank " + std::to_string(rank) + " of " + std::to_string(size()) + ": ";
 }
 
-// A process that leaves says so in place of a step.
+// A process that leaves reports this in place of a step.
 std::vector<std::string> Team::exchange(std::string_view step, std::string_view mine) {
   if (over_) throw Cancelled("another process has left the run");
   PacketWriter packet;
@@ -143,7 +143,7 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
                   std::string(step) + "\" (step " + std::to_string(step_) + ")");
     }
     const std::size_t size = reader.count(1);
-    all[r].erase(0, all[r].size() - size);  // what comes before it
+    all[r].erase(0, all[r].size() - size);  // the text before it
     given.push_back(std::move(all[r]));
   }
   return given;
@@ -189,7 +189,7 @@ void Team::refuse_leavers(const std::vector<std::string>& all) {
   }
 }
 
-// What follows is an error in all processes.
+// The rest is an error in all processes.
 int Team::first_other(std::string_view step, std::string_view mine) {
   const std::vector<std::string> all = exchange(step, mine);
   for (std::size_t r = 1; r < all.size(); ++r)
@@ -215,7 +215,7 @@ void Team::leave(const SharedError& error) noexcept {
   }
   try {
     link_.exchange(told);
-  } catch (...) {  // the others have been told, or the link has failed for them, too
+  } catch (...) {  // the other processes know, or the link has failed for them, too
   }
 }
 

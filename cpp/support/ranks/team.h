@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes that make one mesh together: each holds all that is small, and the jobs are dealt out.
+// Processes that make one mesh together: each holds all small data, and the jobs are distributed.
 #pragma once
 
 #include <cstddef>
@@ -17,27 +17,28 @@
 
 namespace carreau {
 
-/// How the processes of a team reach each other: one class a communication library.
+/// The link between the processes of a team: one class a communication library.
 class TeamLink {
  public:
   virtual ~TeamLink() = default;
-  /// Of this process, from 0; the same as long as the object lives.
+  /// Rank of this process, from 0; constant while the object lives.
   [[nodiscard]] virtual int rank() const noexcept = 0;
   [[nodiscard]] virtual int size() const noexcept = 0;
   /// take() may be called from several threads at a time; false: only from the thread that runs.
   [[nodiscard]] virtual bool takes_from_any_thread() const noexcept = 0;
-  /// Adds `count` to a number that all processes share, and gives what it was before. exchange() makes it 0. Throws Error.
+  /// Adds `count` to a number that all processes share, and returns its previous value. exchange() makes it 0. Throws
+  /// Error.
   virtual std::int64_t take(std::int64_t count) = 0;
-  /// Waits for all processes, and gives what each has given, by rank. Throws Error when it has failed, which it does in
-  /// all processes or in none, and std::bad_alloc in one that has no memory for the answer.
+  /// Waits for all processes, and returns the values that they gave, by rank. Throws Error when it has failed, which it
+  /// does in all processes or in none, and std::bad_alloc in one that has no memory for the answer.
   virtual std::vector<std::string> exchange(std::string_view mine) = 0;
 };
 
 /// The error of one process, to be thrown in all of them.
 struct SharedError {
-  std::string bytes;  ///< empty: none, or no memory to tell it
+  std::string bytes;  ///< empty: no error, or no memory to describe it
 
-  /// Of an exception.
+  /// Describes an exception.
   static SharedError of(const std::exception_ptr& error);
   [[nodiscard]] bool any() const noexcept { return !bytes.empty(); }
   /// Throws one of the class, sentence and place of the first; `teller` comes before the sentence ("rank 2: ").
@@ -45,8 +46,8 @@ struct SharedError {
   [[noreturn]] void raise(const std::string& teller = "") const;
 };
 
-/// What a run of a team keeps to: all processes take part in the same exchanges in the same order, and one that leaves
-/// the run by an error tells the others at their next exchange. Used by the thread that runs, but for take().
+/// All processes take part in equal exchanges in equal order. A process that leaves the run by an error informs the
+/// others at their next exchange. The running thread uses it, except for take().
 class Team {
  public:
   /// Keeps a reference to `link`.
@@ -56,36 +57,37 @@ class Team {
   [[nodiscard]] int size() const noexcept { return link_.size(); }
   [[nodiscard]] bool takes_from_any_thread() const noexcept { return link_.takes_from_any_thread(); }
 
-  /// The next job of `n` that no process has taken since the last exchange; empty: there is none left.
+  /// The next job of `n` that no process has taken since the last exchange; empty: all jobs are taken.
   std::optional<std::size_t> take(std::size_t n);
   /// No process takes a job any more until the next exchange.
   void stop_taking();
-  /// What all processes give for `step`, by rank. Throws the error of a process that has left the run, and Error where
-  /// processes are at different steps.
+  /// Returns the values of all processes for `step`, by rank. Throws the error of a process that has left the run, and
+  /// Error if processes are at different steps.
   std::vector<std::string> exchange(std::string_view step, std::string_view mine);
-  /// The same of what mine() gives, which may throw: the error of the first process that has one comes out of all, with its class
-  /// and sentence. A stop, and what is no Error, are thrown at once: the process leaves the run.
+  /// exchange() of the results of mine(), which may throw: all processes throw the error of the first process that has one, with
+  /// its class and sentence. Throws stops, and exceptions that are not Errors, at once: the process leaves the run.
   std::vector<std::string> exchange_results(std::string_view step, const std::function<std::string()>& mine);
-  /// The same of much: use(rank, what it gives) for one process after another, so that none ever holds what all give.
+  /// Like exchange_results() for large values: calls use(rank, value) for one process after another, so that no process
+  /// ever holds all values.
   void exchange_in_turn(std::string_view step, std::string mine, const std::function<void(int, const std::string&)>& use);
-  /// Throws Failure with `sentence(rank)` of the first process whose value is another one than that of rank 0.
+  /// Throws Failure with `sentence(rank)` of the first process whose value differs from the value of rank 0.
   template <typename Failure = Error>
   void require_same(std::string_view step, std::string_view mine, const std::function<std::string(int)>& sentence) {
     if (const int rank = first_other(step, mine); rank > 0) throw Failure(sentence(rank));
   }
 
-  /// Calls body(), a whole run, in all processes: what it throws in one of them reaches all. All must call it.
+  /// Calls body(), a whole run, in all processes: an exception in one of them reaches all. All must call it.
   void run(const std::function<void()>& body);
 
  private:
-  int first_other(std::string_view step, std::string_view mine);  // 0: there is none
+  int first_other(std::string_view step, std::string_view mine);  // 0: all values agree
   void refuse_leavers(const std::vector<std::string>& all);
   void leave(const SharedError& error) noexcept;
   [[nodiscard]] std::string teller(int rank) const;
 
   TeamLink& link_;
   std::int64_t step_ = 0;
-  bool over_ = false;  // some process has left the run: none waits for another one any more
+  bool over_ = false;  // a process has left the run: no process waits for others any more
 };
 
 /// Sums up values that are too many to be copied for checksum(): FNV-1a of words of 64 bits, with their halves folded,

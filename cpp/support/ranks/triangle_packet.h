@@ -25,7 +25,7 @@ inline void put_triangles(PacketWriter& packet, const TriangleList& triangles) {
 inline TriangleList triangles_of(PacketReader& packet) {
   constexpr std::size_t each = sizeof(TriangleList::value_type);
   const std::string bytes = packet.text();
-  if (bytes.size() % each != 0) throw Error("what another process has sent are no triangles");
+  if (bytes.size() % each != 0) throw Error("another process has sent bytes that are not triangles");
   TriangleList triangles(bytes.size() / each);
   if (!triangles.empty()) std::memcpy(triangles.data(), bytes.data(), bytes.size());
   return triangles;

@@ -32,7 +32,7 @@ class Assembler {
   }
 
  private:
-  // For the vertices within faces: arrays that grow by doubling would be the largest of the whole run.
+  // Reserves room for the vertices within faces: arrays that grow by doubling would be the largest of the whole run.
   void reserve(const std::vector<std::optional<PatchMesh>>& patches) {
     std::size_t n = mesh_.vertices.size();
     for (std::size_t f = 0; f < patches.size(); ++f)
@@ -56,7 +56,7 @@ class Assembler {
     return vertex;
   }
 
-  // Corners come first, in the order of the model; only what a meshed face or a wire holds becomes a vertex.
+  // Corners come first, in the order of the model. A point becomes a vertex only if a meshed face or a wire holds it.
   void add_curves() {
     const auto is_of_wire = [&](const CurveUse& use) {
       return model_.faces[use.face].is_wire() && model_.faces[use.face].left_out.empty();

@@ -11,9 +11,9 @@
 
 namespace carreau {
 
-/// Joins patches along their curves: a vertex of a curve or a corner is one vertex of the mesh, whatever the number of
-/// faces and of places in (u, v) that it has. Triangles that a degenerate side flattens are left out. patches[f] is
-/// empty for a face that failed or that another process keeps, and is emptied here. has_patch[f] is 0 for the former only.
+/// Joins patches along their curves. A vertex of a curve or a corner becomes one vertex of the mesh, however many faces and places in (u,
+/// v) it has. Triangles that a degenerate side flattens are left out. patches[f] is empty for a face that failed or that another process
+/// keeps, and is emptied here. has_patch[f] is 0 for the former only.
 void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
               const std::vector<DiscreteCurve>& curves, const std::vector<char>& has_patch,
               std::vector<std::optional<PatchMesh>>& patches, CompositeResult& result);

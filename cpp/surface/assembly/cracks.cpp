@@ -15,7 +15,7 @@ namespace {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-/// A corner of a triangle: where a vertex of its face may have to be another one.
+/// A corner of a triangle. A vertex of its face may be replaced there.
 struct Corner {
   std::size_t face = 0, triangle = 0;
   int rank = 0;
@@ -45,7 +45,7 @@ class CrackOpener {
   }
 
  private:
-  // Corners at the ends of cracks, and triangles along their edges and along those of other curves that end there.
+  // Collects the corners at the ends of cracks, and the triangles along all edges that end there.
   void collect() {
     std::set<std::int32_t> wanted;
     for (const Edge& e : crack_) wanted.insert({e.first, e.second});
@@ -65,7 +65,7 @@ class CrackOpener {
     return face.vertex[face.triangles[c.triangle][(c.rank + turn) % 3]];
   }
 
-  // Corners of one part are linked over edges that are no cracks.
+  // Corners of one part are linked over edges that are not cracks.
   void part(std::int32_t vertex, const std::vector<Corner>& corners) {
     UnionFind parts(corners.size());
     std::map<std::int32_t, std::size_t> first;  // by the other end of an edge
@@ -107,7 +107,7 @@ class CrackOpener {
     }
   }
 
-  // A curve that ends where a crack does, on one side of it.
+  // Follows a curve that ends at the end of a crack, on one side of the crack.
   void follow(CurveMesh& curve) {
     std::vector<std::int32_t>& chain = curve.vertices;
     if (chain.size() < 2) return;
@@ -122,7 +122,7 @@ class CrackOpener {
     }
   }
 
-  // Both sides of a curve: left of it, its first use says where that is, and right.
+  // Divides a curve into its left side and its right side. The first use of the curve defines its left.
   void divide(std::size_t c) {
     const CurveMesh old = mesh_.curves[c];
     for (const bool forward : {true, false}) {
@@ -144,7 +144,7 @@ class CrackOpener {
     }
   }
 
-  // The first one in the place of the curve.
+  // Puts the first part in the place of the curve.
   void give(std::size_t c, std::vector<std::int32_t> vertices, CurveMesh side, const std::vector<std::size_t>& ranks) {
     side.vertices = std::move(vertices);
     const auto pick = [&ranks](const std::vector<double>& all) {
@@ -163,7 +163,7 @@ class CrackOpener {
     if (result_.curve_parameters.size() <= place) result_.curve_parameters.resize(place + 1);
     result_.curve_parameters[place] = {at.face, at.ic, pick(at.t)};
   }
-  // Of the curve before it was divided.
+  // Sizes of the curve before its division.
   const std::vector<double>& whole_size(std::size_t c) { return sizes_.try_emplace(c, result_.curve_size[c]).first->second; }
   const CurveParameters& whole_parameters(std::size_t c) {
     return parameters_.try_emplace(c, result_.curve_parameters[c]).first->second;
@@ -186,7 +186,7 @@ class CrackOpener {
   std::vector<std::size_t> cracks_;  // curves
   std::set<Edge> crack_;
   std::map<std::int32_t, std::vector<Corner>> around_;
-  std::map<Edge, Corner> left_;  // by the vertices of before: the triangle that runs along the edge
+  std::map<Edge, Corner> left_;  // by the original vertices: the triangle that runs along the edge
   std::vector<std::pair<Corner, std::int32_t>> moved_;
   std::set<std::size_t> given_;
   std::map<std::size_t, std::vector<double>> sizes_;

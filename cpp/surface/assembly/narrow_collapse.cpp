@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int32_t unknown = -1;
 
-/// What changes when faces vanish.
+/// The parts of the result that change when faces vanish.
 struct Outcome {
   SurfaceMesh mesh;
   std::vector<double> vertex_size;
@@ -53,7 +53,7 @@ class Collapser {
             const std::vector<std::vector<double>>& curve_size)
       : old_(mesh), old_size_(vertex_size), old_curve_size_(curve_size), sets_(mesh.vertices.size()) {}
 
-  /// Empty when a triangle would be turned over or lose its area.
+  /// Returns nothing if a triangle would be turned over or lose its area.
   std::optional<Outcome> run(std::span<const FaceCollapse* const> faces) {
     vanishing_.assign(old_.faces.size(), 0);
     for (const FaceCollapse* face : faces) {
@@ -75,7 +75,8 @@ class Collapser {
  private:
   std::int32_t merged(std::int32_t v) { return static_cast<std::int32_t>(sets_.find(v)); }
 
-  // Triangles of a face whose vertices have moved; those with two vertices that are one are flattened.
+  // Renumbers the triangles of a face whose vertices have moved. Triangles with two vertices that become one are
+  // flattened.
   bool shrink(std::size_t f) {
     FaceMesh& face = new_.mesh.faces[f];
     if (vanishing_[f] != 0) {
@@ -174,7 +175,7 @@ class Collapser {
     return uses;
   }
 
-  // Vertices that nothing holds any more are gone.
+  // Removes vertices without a face or a curve.
   void renumber() {
     std::vector<std::int32_t> number(old_.vertices.size(), unknown);
     const auto use = [&](std::int32_t v) { number[v] = 0; };
@@ -220,7 +221,7 @@ std::size_t count_defects(const SurfaceMesh& mesh) {
   return find_defects(mesh, {.closed = false, .limit = std::numeric_limits<std::size_t>::max()}).size();
 }
 
-/// Whether an edge away from curves has triangles of several faces: two patches that touch by it.
+/// Returns whether an edge away from curves has triangles of several faces, so that two patches touch by it.
 bool has_shared_chords(const SurfaceMesh& mesh) {
   std::set<Edge> on_curves;
   for (const CurveMesh& curve : mesh.curves)
@@ -253,7 +254,7 @@ void tell(std::span<const FaceCollapse> faces, CompositeResult& result) {
     FaceMesh& mesh = result.mesh.faces[face.face];
     const std::string what = sentence_of(face, mesh.ref);
     if (mesh.status == FaceStatus::collapsed) {
-      mesh.why = what + " and has vanished: what was on its two sides has become one";
+      mesh.why = what + " and has vanished: its two sides have become one";
     } else if (mesh.status == FaceStatus::meshed || mesh.status == FaceStatus::mended) {
       mesh.status = FaceStatus::mended;
       mesh.why = what + " but stays: without it the mesh would not be sound";

@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// A face that is to vanish: what becomes one vertex each.
+/// A face that is to vanish, with the sets of vertices that are merged.
 struct FaceCollapse {
   int face = 0;                                ///< index in SurfaceMesh::faces
   double width = 0;                            ///< model length
@@ -20,16 +20,16 @@ struct FaceCollapse {
   std::vector<int> curves;                     ///< indices of curves all of whose vertices become one
 };
 
-/// Lets faces vanish from a mesh. A set of vertices becomes its first one, so that corners stay where they are; curves
-/// that coincide become one, of the reference of the first, with the uses of all. Statuses and sentences of faces are
+/// Lets faces vanish from a mesh. A set of vertices becomes its first one, so that corners stay in place. Curves that
+/// coincide become one curve, with the reference of the first and the uses of all. Statuses and sentences of faces are
 /// set.
 
-/// All faces, where neighbours were meshed without their end caps. False, and nothing done, when the mesh would have a
-/// defect, or a triangle would be turned over.
+/// Collapses all faces whose neighbours were meshed without their end caps. Returns false and does nothing if the mesh
+/// would have a defect, or a triangle would be turned over.
 bool collapse_together(std::span<const FaceCollapse> faces, CompositeResult& result);
 
-/// Each face, the narrowest first, whose collapse leaves the mesh as sound as it was, of the same Euler characteristic,
-/// and no triangle of other faces turned over. The others keep their triangles.
+/// Collapses the faces, the narrowest first, if the mesh stays as sound as it was. It must keep its Euler
+/// characteristic, and no triangle of other faces may be turned over. The others keep their triangles.
 void collapse_one_by_one(std::span<const FaceCollapse> faces, CompositeResult& result, Monitor& monitor);
 
 }  // namespace carreau

@@ -15,15 +15,15 @@ namespace carreau {
 
 namespace {
 
-// Halvings of the interval that holds the middle of a chord in space: a 64th of it. [tests/cpp/surface:
+// Halvings of the interval that holds the middle of a chord in space: down to a 64th. [tests/cpp/surface:
 // Coarse.TwoSheetsOverOneSquareEncloseAVolume, as below]
 constexpr int middle_steps = 6;
-// Passes, each of which divides the chords that are left; a division may make another one.
+// Passes. Each one divides the remaining chords, and a division may create a new chord.
 constexpr int chord_passes = 10;
 
 using Key = std::array<std::int64_t, 2>;
 
-// Of vertices of space: those inside faces begin here.
+// Keys of vertices of space: vertices inside faces begin here.
 constexpr std::int64_t first_inside = std::int64_t{1} << 62;
 
 using Local = std::array<std::int32_t, 2>;  // vertices of a patch, ascending
@@ -66,7 +66,8 @@ void get(PacketReader& packet, Corners& corners) {
   corners.triangle = static_cast<std::size_t>(packet.integer());
 }
 
-/// Those of other processes behind one's own. `shown`: what others may have, too.
+/// Appends the items of other processes to the local items. `shown` selects the items that other processes may have,
+/// too.
 template <typename Item, typename Shown>
 void add_of_others(Team& team, std::string_view step, const Shown& shown, std::vector<Item>& items) {
   PacketWriter packet;
@@ -113,7 +114,7 @@ class Separator {
         if (pass == 0 || changed_[f]) of_face[f] = chords_of(f);
       });
       for (const std::vector<Chord>& some : of_face) chords_.insert(chords_.end(), some.begin(), some.end());
-      // One with an end inside a face has no other face.
+      // A chord with an end inside a face has no other face.
       const auto on_curves = [this](const Chord& chord) { return chord.local[1] < on_curves_[chord.face]; };
       if (team_ != nullptr) add_of_others(*team_, "chords", on_curves, chords_);
       std::sort(chords_.begin(), chords_.end());
@@ -170,14 +171,14 @@ class Separator {
     run_each(patches_.size(), false, threads_, look, monitor_);
   }
 
-  // Those inside faces have numbers beyond all others.
+  // Vertices inside faces have numbers beyond all others.
   [[nodiscard]] std::int64_t identity(int f, std::int32_t v) const {
     constexpr int face_bit = 31;
     if (v < on_curves_[f]) return identity_[f][v];
     return first_inside + (static_cast<std::int64_t>(f) << face_bit) + v;
   }
 
-  // Vertices of space, before they have numbers in the mesh: corners, then those of curves.
+  // Collects vertices of space before the mesh numbers them: corners first, then vertices of curves.
   void number_vertices() {
     identity_.resize(patches_.size());
     several_.resize(patches_.size());
@@ -224,8 +225,8 @@ class Separator {
     std::sort(curve_edges_.begin(), curve_edges_.end());
   }
 
-  // Edges that are no chords: imposed ones, and the two long sides of a triangle on a degenerate edge, which fall on
-  // each other when that triangle is flattened.
+  // Edges that are not chords: imposed edges, and the two long sides of a triangle on a degenerate edge. These two
+  // sides coincide when that triangle is flattened.
   [[nodiscard]] std::vector<Local> edges_to_keep(int f) const {
     std::vector<Local> imposed, flat;
     for (const PlaneEdge& edge : domains_.domain[f]->plane.edges) {
@@ -310,7 +311,7 @@ class Separator {
       const auto& triangles = patches_[f]->plane.triangles;
       for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto [a, b, c] = triangles[t];
-        // Two vertices on curves may be a seam's, the third is then alone.
+        // Two vertices on curves may belong to a seam; the third is then alone.
         if ((a >= count) + (b >= count) + (c >= count) > 1) continue;
         std::array<std::int64_t, 3> key{identity(f, a), identity(f, b), identity(f, c)};
         std::sort(key.begin(), key.end());

@@ -14,7 +14,7 @@ void moved(std::vector<std::int32_t>& vertices, std::int32_t by) {
   for (std::int32_t& v : vertices) v += by;
 }
 
-/// What says of a mesh that its borders mean nothing, where they do.
+/// Gives a mesh of patches the arrays of a cross-patch mesh, whose borders have no meaning.
 void keep_charts(SurfaceMesh& mesh) {
   if (mesh.independent) return;
   mesh.independent = true;

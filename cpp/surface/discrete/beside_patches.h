@@ -12,10 +12,10 @@
 
 namespace carreau {
 
-/// Of the progress of a run over patches and triangles.
+/// Share of the progress of a run over patches and triangles.
 inline constexpr double share_of_patches = 0.5;
 
-/// Of a mesh of patches and of triangles: what each part of it is by itself. Both have all faces, of which those of the other kind have no triangles.
+/// The two parts of a mesh of patches and triangles, each by itself. Both have all faces; faces of the other kind have no triangles.
 struct PartResults {
   CompositeResult patches, triangles;
   CompositeOptions triangle_options;
@@ -25,20 +25,19 @@ struct PartResults {
   [[nodiscard]] const CompositeResult& of(std::size_t face) const { return is_of_triangles(face) ? triangles : patches; }
 };
 
-/// Faces that are given by triangles are left out: patches are meshed first.
+/// Leaves out faces that are given by triangles: patches are meshed first.
 void leave_out_triangles(Model& model);
 
 /// Diagonal of the box of both.
 double diagonal_with(const ModelSupports& supports, const discrete::DiscreteCad& triangles);
 
-/// The faces of the model that are given by triangles are meshed: see mesh_discrete().
+/// Meshes the faces of the model that are given by triangles: see mesh_discrete().
 std::shared_ptr<const PartResults> mesh_beside(CompositeResult patches, const Model& model,
                                                const discrete::DiscreteCad& triangles, Cad& cad,
                                                CompositeOptions options, Monitor& monitor);
 
-/// One mesh of two that share nothing: that of `patches`, behind it that of `triangles`, whose curves and corners are
-/// numbered behind the references `largest`. Faces are in the order of `patches`. What only the parts have stays there:
-/// atlas, spaces, graded field.
+/// Joins two meshes that share nothing: first `patches`, then `triangles`, whose curves and corners are numbered behind
+/// the references `largest`. Faces are in the order of `patches`. Atlas, spaces and graded field stay in the parts.
 CompositeResult beside_each_other(const CompositeResult& patches, const CompositeResult& triangles,
                                   const LargestReferences& largest);
 

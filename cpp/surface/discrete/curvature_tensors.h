@@ -10,17 +10,18 @@
 
 namespace carreau {
 
-/// In an orthonormal basis of a tangent plane: signed, one sign on the side of the normal. Values are 1 / model length.
+/// Curvature tensor in an orthonormal basis of a tangent plane: signed, one sign on the side of the normal. Values are
+/// 1 / model length.
 using PlaneCurvature = Metric2;
 
-/// The derivative of the normals of regions: in each triangle the tensor that fits the normals at its corners best, at a corner the mean of
-/// those of its region, by angles (S. Rusinkiewicz, Estimating curvatures and their derivatives on triangle meshes, 3DPVT 2004, sec. 3).
-/// No tensor is larger than the normals turn along an edge of its triangle.
+/// The derivative of the normals of regions. A triangle has the tensor that fits the normals at its corners best. A corner has the mean of
+/// the tensors of its region, weighted by angles (S. Rusinkiewicz, Estimating curvatures and their derivatives on triangle meshes, 3DPVT
+/// 2004, sec. 3). No tensor is larger than the normals turn along an edge of its triangle.
 class CurvatureTensors {
  public:
   explicit CurvatureTensors(const discrete::DiscreteSurface& surface);
 
-  /// On the patch of a triangle at (u, v), in the plane of the orthonormal vectors p and q.
+  /// The tensor on the patch of a triangle at (u, v), in the plane of the orthonormal vectors p and q.
   [[nodiscard]] PlaneCurvature at(std::int32_t triangle, const Vec2& uv, const Vec3& p, const Vec3& q) const;
 
  private:

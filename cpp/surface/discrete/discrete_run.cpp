@@ -14,7 +14,7 @@ namespace carreau {
 
 namespace {
 
-// The mesh that the triangles were cut into, of straight triangles.
+// Turns the cut triangles into a mesh of straight triangles.
 void keep_as_it_is(const std::shared_ptr<Charts>& atlas, CompositeResult& result) {
   result.atlas = atlas;
   result.feet.resize(result.mesh.faces.size());
@@ -35,15 +35,16 @@ void keep_as_it_is(const std::shared_ptr<Charts>& atlas, CompositeResult& result
   }
 }
 
-/// Edges of the atlas of a mesh that is made in planes, in sizes: its triangles tell where the surface bends.
+/// Longest edges, in sizes, of the atlas for parametric remeshing: its triangles show where the surface bends.
 constexpr double longest_in_planes = 4;
-/// Sizes that differ by so much, relatively, are one.
+/// Relative difference below which sizes are equal.
 constexpr double same_size = 1e-6;
 
-/// Q2. Triangles that are worse in the mean are as large as what they show: edits, which price collapses, serve better.
+/// Q2. Below this mean quality the input's triangles are as large as its details: local remeshing, with a penalty on
+/// collapses, gives better meshes.
 constexpr double least_mean_shape = 0.93;
 
-/// A run on its way: the triangles, cut by the sizes.
+/// The state of a run: the triangles, cut by the sizes.
 struct Start {
   discrete::RefinedMesh refined;
   MeshSizes wanted;
@@ -63,12 +64,12 @@ void begin(const Model& model, const discrete::DiscreteCad& surface, const Discr
   monitor.progress(Phase::patches, 0, 0.2);
 }
 
-/// Straight triangles of sizes without direction, without a geometric rule.
+/// Returns whether elements are straight triangles with sizes without direction and without a geometric rule.
 bool may_be_made_in_planes(const CompositeOptions& options, const MeshSizes& wanted) {
   return options.element == Element::p1 && !wanted.by_direction() && !geometric_limits(options.size).any();
 }
 
-/// Where all sizes are one the atlas need not be fine.
+/// If all sizes are equal the atlas need not be fine.
 double longest_of_atlas(const MeshSizes& wanted) {
   const auto [least, most] = std::ranges::minmax_element(wanted.h);
   return *most <= (1 + same_size) * *least ? longest_in_planes : std::numbers::sqrt2;
@@ -82,11 +83,11 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
   const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
-  if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);
+  if (!why.empty()) monitor.message(Level::detail, "local instead of parametric remeshing: " + why);
   return why.empty();
 }
 
-// Of what is left of the run: edges are collapsed, split and swapped until the mesh is as wanted.
+// Runs the rest by local remeshing: collapses, splits and swaps edges until the mesh meets the sizes.
 void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor,
                    Start& start) {
   CompositeResult& result = start.result;
@@ -98,7 +99,7 @@ void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions&
     };
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
   if (why.empty()) return;
-  monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
+  monitor.message(Level::warning, "no remeshing, the triangles are only divided by the sizes: " + why);
   if (frame.elements)
     make_elements_of_frame(frame, cad, options, result, monitor);
   else

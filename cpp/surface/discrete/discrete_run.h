@@ -8,9 +8,9 @@
 
 namespace carreau {
 
-/// The triangles are cut by the wanted sizes, then remeshed with the surface as the truth (surface/independent). Faces
-/// are those of the model, curves the sharp lines, with the ranks of lines as references; corners have theirs.
-/// `cad` asks the surface. Throws Cancelled, LimitError, and what sources of sizes throw.
+/// Refines the triangles to the prescribed sizes, then remeshes them on the exact surface (surface/independent). Faces
+/// are the faces of the model. Curves are the sharp lines, with the ranks of lines as references; corners have theirs.
+/// `cad` evaluates the surface. Throws Cancelled, LimitError, and the exceptions of sources of sizes.
 CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& surface, Cad& cad,
                               const CompositeOptions& options, Monitor& monitor);
 

@@ -163,8 +163,8 @@ double DiscreteSizes::isotropic_at(std::int32_t triangle, const Vec2& uv) const 
   return clamped_geometric(geometric_size(rule_, curvature > 0 ? 1 / curvature : infinity));
 }
 
-// The larger curvature is the largest along edges, as for sizes without directions. The rest of it, beyond the tensor,
-// may have any direction.
+// The larger curvature is the largest along edges, as for sizes without directions. The rest of the curvature, beyond
+// the tensor, may have any direction.
 std::optional<TangentMetric> DiscreteSizes::geometric_at(std::int32_t triangle, const Vec2& uv, const Vec3& p,
                                                          const Vec3& q) const {
   if (options_.size.geometric == GeometricSizes::ignored) return {};
@@ -205,7 +205,7 @@ TangentMetric DiscreteSizes::wanted_at(const SizeRules& rules, int face, std::in
   Vec3 p, q;
   if (const auto frame = TangentFrame::of(jet.su, jet.sv)) {
     p = frame->e1, q = frame->e2;
-  } else {  // the patch has a fold there: its triangle knows better than nothing
+  } else {  // the patch has a fold there: the triangle's value is better than none
     const auto& mesh = surface_.discrete().mesh();
     jet.su = mesh.at(mesh.corner(triangle, 1)) - mesh.at(mesh.corner(triangle, 0));
     jet.sv = mesh.at(mesh.corner(triangle, 2)) - mesh.at(mesh.corner(triangle, 0));
@@ -228,7 +228,7 @@ TangentMetric DiscreteSizes::wanted_at(const SizeRules& rules, int face, std::in
   return sizes;
 }
 
-// Fast path: sizes at vertices, without asking the surface.
+// Fast path: sizes at vertices, without evaluating the surface.
 std::vector<double> DiscreteSizes::isotropic(const RefinedMesh& mesh, double prescribed) const {
   std::vector<double> h(mesh.vertices.size(), prescribed);
   if (options_.size.geometric == GeometricSizes::ignored) return h;

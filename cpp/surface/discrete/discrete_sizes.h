@@ -21,7 +21,7 @@ struct MeshSizes {
   std::vector<PlaneMetric> corner;  ///< by triangle and corner, 3 t + k; empty: of no direction
 
   [[nodiscard]] bool by_direction() const noexcept { return !metric.empty(); }
-  /// Of the straight edge between two vertices.
+  /// Length of the straight edge between two vertices.
   [[nodiscard]] double length(const discrete::RefinedMesh& mesh, std::int32_t v, std::int32_t w) const;
   /// sqrt(h1 h2) over a triangle, in the mean.
   [[nodiscard]] double over(const discrete::RefinedMesh& mesh, std::size_t triangle) const;
@@ -30,10 +30,10 @@ struct MeshSizes {
 /// Computes sizes at the vertices of a mesh of the surface from size rules and curvature.
 class DiscreteSizes {
  public:
-  /// Keeps references. `cad`: the surface itself, or a wrapper of it.
+  /// Keeps references. `cad`: the surface itself, or its wrapper.
   DiscreteSizes(const Model& model, Cad& cad, const discrete::DiscreteCad& surface, const CompositeOptions& options);
 
-  /// With the gradation of the options over the mesh.
+  /// Sizes at the vertices, with the gradation of the options over the mesh.
   [[nodiscard]] MeshSizes at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const;
 
  private:

@@ -11,13 +11,13 @@ namespace {
 
 using discrete::RefinedMesh;
 
-/// Of the angle of the geometric rule: A1 of an equilateral triangle whose edges have that angle with the surface, on a
-/// cylinder, is up to 2 / sqrt(3) of it, and lengths vary.
+/// Factor for the angle of the geometric rule. On a cylinder A1 of an equilateral triangle whose edges have that angle
+/// with the surface is up to 2 / sqrt(3) times the angle, and lengths vary.
 constexpr double angle_slack = 1.6;
 
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-/// Equilateral triangles of the wanted sizes that have the area of the given ones.
+/// Number of equilateral triangles with the prescribed sizes that cover the area of the input.
 double expected_triangles(const RefinedMesh& mesh, const MeshSizes& sizes) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -55,7 +55,7 @@ std::vector<CurveMeshUse> uses_of(std::vector<std::int32_t> faces) {
   return uses;
 }
 
-/// By face and local vertex of the mesh, whose faces have the triangles of `refined` in their order.
+/// Metrics by face and local vertex of the mesh. Its faces have the triangles of `refined` in their order.
 PlaneMetrics metrics_of(const discrete::DiscreteCad& surface, const RefinedMesh& refined, const SurfaceMesh& mesh,
                         const MeshSizes& sizes) {
   if (!sizes.by_direction()) return {};
@@ -168,7 +168,7 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
     made.status = face.discrete ? FaceStatus::meshed : FaceStatus::not_meshed;
   }
   const std::vector<std::int32_t> refs = discrete::face_refs(surface.discrete());
-  // Of a vertex: the patch that met it last, and its local number there.
+  // Index: vertex; the patch that met it last, and its local number there.
   std::vector<std::pair<std::int32_t, std::int32_t>> known(mesh.vertices.size(), {-1, -1});
   for (std::size_t t = 0; t < refined.triangles.size(); ++t) {
     const std::int32_t parent = refined.parent[t];

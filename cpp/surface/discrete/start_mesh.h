@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of a discrete surface as a mesh of the engine, fine enough for the sizes that are wanted.
+// Triangles of a discrete surface as a mesh of the engine, fine enough for the prescribed sizes.
 #pragma once
 
 #include <numbers>
@@ -10,9 +10,8 @@
 
 namespace carreau {
 
-/// Cuts triangles until edges are no longer than their sizes want: those of sharp lines 1, others sqrt(2) sizes. Throws
-/// LimitError when there would be too many.
-/// `longest`: that of others instead.
+/// Cuts triangles until edges are short enough for their sizes: edges of sharp lines at most 1 size, others at most
+/// sqrt(2) sizes. Throws LimitError when there would be too many. `longest` replaces the limit of the other edges.
 discrete::RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
                                       const CompositeOptions& options, Monitor& monitor, double longest = std::numbers::sqrt2);
 
@@ -22,7 +21,7 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
 /// RemeshingFrame::angle_slack.
 double angle_slack_of(const CompositeOptions& options);
 
-/// Keeps references to `mesh` and `cad` until the frame is done with. `refined`: what the mesh was made of; `sizes`: on it.
+/// Keeps references to `mesh` and `cad` until the frame is done with. `refined`: the triangles that `mesh` was made of; `sizes`: on it.
 RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const discrete::RefinedMesh& refined,
                            const SurfaceMesh& mesh, const MeshSizes& sizes, const CompositeOptions& options, Cad& cad,
                            Monitor& monitor);

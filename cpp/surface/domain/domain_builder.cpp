@@ -86,7 +86,8 @@ class Builder {
 
   [[nodiscard]] const std::vector<Vec2>& uv_of(int c) const { return curves_[curve_of_[c]].uv_of_use[use_of(c)]; }
 
-  // An angle beside a length in millionths of a model's unit: both count by what the whole domain has of them.
+  // Scales of u and v: both are measured relative to the domain. An angle may stand beside a length in millionths of a
+  // model's unit.
   void measure_box() {
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
@@ -107,7 +108,7 @@ class Builder {
     return length;
   }
 
-  // All parts of the curve that gives the orientation tell the same; a tiny one may have to go.
+  // All parts of the curve that gives the orientation agree; a tiny part may have to go.
   void choose_longest_part() {
     const int whole = host_rank(face_, seed_curve_ - 1);
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
@@ -137,8 +138,8 @@ class Builder {
     }
   }
 
-  // Ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first: both ends of a
-  // side of 1e-5 are near each other for the long curves beside it.
+  // Two ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first. For the
+  // long curves beside a side of 1e-5 both of its ends are near each other.
   void collect_sides() {
     side_at_.clear();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
@@ -151,7 +152,7 @@ class Builder {
     }
   }
 
-  // How far ends at a corner may be apart in (u, v) to be one vertex.
+  // Largest distance in (u, v) of ends at a corner that are one vertex.
   [[nodiscard]] double joining_distance(int corner, double reach) const {
     const auto side = side_at_.find(corner);
     if (side != side_at_.end()) reach = std::min(reach, side->second);
@@ -188,8 +189,8 @@ class Builder {
     close_loops();
   }
 
-  // A short side that is one point in space and that closes no loop: an edge below the tolerance of its host, which the
-  // ends of its neighbours do not heed. Whether there was one.
+  // Leaves out short sides that are one point in space and close no loop. The host's tolerance is larger than such an
+  // edge, so the ends of its neighbours ignore it. Returns whether there was one.
   bool leave_out_spikes() {
     const std::vector<char> before = is_point_;
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
@@ -202,7 +203,7 @@ class Builder {
     return is_point_ != before;
   }
 
-  // Length of the shortest other curve that ends at the corner of a side; 0 when there is none.
+  // Length of the shortest other curve that ends at the corner of a side; 0 if no other curve does.
   [[nodiscard]] double shortest_beside(int side) const {
     const auto corner_of = [this](int c) { return stand_in(topology_.curves[curve_of_[c]].end1); };
     double shortest = infinity;
@@ -237,7 +238,7 @@ class Builder {
     }
   }
 
-  // The curve that gives the orientation is gone: another one tells, as it is turned in the whole domain.
+  // Replaces the curve that gave the orientation and is gone. The new curve takes its direction from the whole domain.
   void choose_another_seed() {
     const VanishingCurves none;
     const PlaneDomain whole = Builder(model_, topology_, curves_, index_, none).run(true).plane;
@@ -262,8 +263,8 @@ class Builder {
     return vanishing_.corner.empty() ? corner : vanishing_.corner[corner];
   }
 
-  // A point that faces surround needs three triangles (HDR sec. 4.5.4): one of each face that has a mere corner there,
-  // the others shared out among those that have a side there. At a border they are wanted where there is room.
+  // A point that faces surround needs three triangles (HDR sec. 4.5.4). Each face with a mere corner there has one
+  // triangle; the faces with a side there share the rest. At a border there are three triangles if there is room.
   struct Fan {
     int least = 1, wide = 1;
   };

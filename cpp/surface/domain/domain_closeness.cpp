@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges that are long beside what is close to them (HDR sec. 3.3.2).
+// Edges that are long compared with the distance to other edges (HDR sec. 3.3.2).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,9 +27,9 @@ class Sides {
   [[nodiscard]] double length_of(int edge) const { return length_[edge]; }
   [[nodiscard]] bool same_point(int v, int w) const { return point_[v] == point_[w]; }
 
-  /// Is there an edge between the vertices?
+  /// Returns whether an edge joins the vertices.
   [[nodiscard]] bool joined(int v, int w) const;
-  /// Half-width of the band of `edge` as far as `vertex`, at distance d, is concerned.
+  /// Half-width of the band of `edge` for `vertex`, at distance d.
   [[nodiscard]] double band(int edge, int vertex, double d, double coef) const;
 
  private:
@@ -133,7 +133,7 @@ void Sides::add_side(const Chain& chain) {
 double Sides::sine_between(const End& p, const End& q) const {
   const double pl = length_[p.edge], ql = length_[q.edge];
   if (p.vertex != q.vertex) {
-    // At a pole angles mean nothing in (u, v): the angle that the far ends are seen under.
+    // At a pole angles in (u, v) have no meaning: it takes the angle between the directions to the far ends.
     const Vec2 a = domain_.vertices[p.vertex] + away_from(p.vertex, p.edge);
     const Vec2 b = domain_.vertices[q.vertex] + away_from(q.vertex, q.edge);
     return std::min(1.0, length(metric_.at(lerp(a, b, 0.5)), b - a) / std::max(pl, ql));
@@ -219,17 +219,17 @@ class ClosenessCheck {
   EdgeGrid grid_;
 };
 
-/// Does the domain lie between the vertex and the point of the edge that is nearest to it (w: 0 the end a, 1 the end
-/// b)? What is close behind the boundary is not meshed.
+/// Returns whether the domain lies between the vertex and the nearest point of the edge (w: 0 the end a, 1 the end b).
+/// Parts that are close behind the boundary are not meshed.
 bool ClosenessCheck::sees(const PlaneEdge& e, int vertex, double w) const {
   const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
   if (w > 0 && w < 1) return !bounds(e) || orientation(a, b, p) > 0;
   const int end = w > 0 ? e.b : e.a;
-  // On a straight side the next vertex is neither on the left nor on the right, or either by rounding.
+  // On a straight side the next vertex is exactly on the side; rounding may put it on the left or on the right.
   return sides_.joined(end, vertex) || inside_.inside_along(domain_.vertices[end], p);
 }
 
-/// Is the vertex in the Hausdorff band {p: d(p, A) <= delta} of edge A (HDR eq. 2.23)?
+/// Returns whether the vertex is in the Hausdorff band {p: d(p, A) <= delta} of edge A (HDR eq. 2.23).
 bool ClosenessCheck::is_near(int edge, int vertex, Metric2 m) const {
   const PlaneEdge& e = domain_.edges[edge];
   if (sides_.same_point(vertex, e.a) || sides_.same_point(vertex, e.b)) return false;

@@ -17,13 +17,13 @@ namespace {
 
 bool comes_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
-/// Is p, which is on the line through a and b, between them or at one of them?
+/// Returns whether p, which is on the line through a and b, lies in the closed segment.
 bool within_span(const Vec2& a, const Vec2& b, const Vec2& p) noexcept {
   return std::min(a.x(), b.x()) <= p.x() && p.x() <= std::max(a.x(), b.x()) && std::min(a.y(), b.y()) <= p.y() &&
          p.y() <= std::max(a.y(), b.y());
 }
 
-/// Where a - b and c - d cross properly, to rounding and without overflow.
+/// The point where a - b and c - d cross properly, to rounding and without overflow.
 Vec2 crossing_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const double scale = std::max({std::abs(a.x()), std::abs(a.y()), std::abs(b.x()), std::abs(b.y()), std::abs(c.x()),
                                  std::abs(c.y()), std::abs(d.x()), std::abs(d.y())});
@@ -34,7 +34,7 @@ Vec2 crossing_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
   return lerp(a, b, w);
 }
 
-/// A common point of the closed segments, if there is one.
+/// A common point of the closed segments, if any.
 std::optional<Vec2> common_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
   if (of_c == 0 && within_span(a, b, c)) return c;
@@ -86,9 +86,9 @@ void keep_one_of_each_pair(std::vector<EdgeConflict>& conflicts) {
   conflicts.erase(std::unique(conflicts.begin(), conflicts.end(), same), conflicts.end());
 }
 
-/// Sweep by M. Shamos and D. Hoey, "Geometric intersection problems" (1976): the order of the edges along a line that
-/// moves to the right (slightly inclined: vertices come in the order of x, then y) is right until the first conflict,
-/// and the two edges of that one are neighbours before. Needs no crossing point, so every step is exact.
+/// Sweep by M. Shamos and D. Hoey, "Geometric intersection problems" (1976). A slightly inclined line moves to the
+/// right, so that vertices come in the order of x, then y. The order of the edges along it is right until the first
+/// conflict, whose two edges are neighbours before. Needs no crossing point, so every step is exact.
 class Sweep {
  public:
   explicit Sweep(const PlaneDomain& domain)
@@ -227,7 +227,7 @@ std::vector<EdgeConflict> find_crossings(const PlaneDomain& domain) {
   require_sound(domain);
   const EdgeGrid grid = grid_of(domain);
   const double n = static_cast<double>(domain.edges.size());
-  // Long edges that run close together in a slanting direction crowd the cells: the sweep bears that, but finds one
+  // Long edges that run close together in a slanting direction crowd the cells. The sweep handles them, but finds one
   // pair only.
   const double usual = 200 * n + 1e6, most = 3 * usual;
   std::optional<EdgeConflict> first;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the checks of a domain share: which edges meet at a vertex. Private to domain_*.cpp.
+// Shared by the checks of a domain: the edges that meet at a vertex. Private to domain_*.cpp.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops of a domain: do they close, which way are they turned, what lies outside.
+// Loops of a domain: whether they close, their orientation, and the parts outside.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -63,7 +63,7 @@ bool has_odd_vertex(const PlaneDomain& domain, const Incidence& boundary) {
 }
 
 /// How the inside lies along a chain run from its first edge to its last: > 0 on the left, < 0 on the right. Weighted
-/// by length: the sign is that of every edge unless the boundary crosses itself.
+/// by length: all edges have this sign unless the boundary crosses itself.
 double side_of_inside(const PlaneDomain& domain, const Boundary& boundary, const Chain& chain, double extent) {
   double vote = 0;
   for (std::size_t i = 0; i < chain.edges.size(); ++i) {

@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// The points in the order of a k-d tree: of each range the middle one parts the others, along x, y and z in turn.
+/// The points in the order of a k-d tree: the middle point of each range divides the others, along x, y and z in turn.
 class NearVertices {
  public:
   explicit NearVertices(const std::vector<Vec3>& points)
@@ -22,9 +22,9 @@ class NearVertices {
     part(0, std::ssize(points), 0);
   }
 
-  /// Vertices within `reach` of the segment (a, b) that are at neither end of it, until `visit` says false. A boundary
-  /// that has hundreds of vertices beside each of its edges, as that of .2 sin(1 / x) has, cannot be helped by looking
-  /// at all of them: from some number of vertices on, counted over all calls, there are none.
+  /// Visits vertices within `reach` of the segment (a, b), except at its ends, until `visit` returns false. If a
+  /// boundary has hundreds of vertices beside each edge, for example .2 sin(1 / x), looking at all of them does not
+  /// help. All calls together therefore visit a limited number of vertices.
   template <typename Visit>
   void each_beside(const Vec3& a, const Vec3& b, double reach, Visit&& visit) {
     const Vec3 margin{reach, reach, reach}, low = a.cwiseMin(b) - margin, high = a.cwiseMax(b) + margin;

@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-// Curves that vanished faces have left (assembly/narrow_collapse) are none of the model's.
+// Returns false for curves that vanished faces have left (assembly/narrow_collapse), which do not belong to the model.
 bool is_known(const ElementWork& work, std::size_t curve) {
   if (curve >= work.curves.size()) return false;
   const DiscreteCurve& d = work.curves[curve];
@@ -46,7 +46,7 @@ std::vector<Segment> segments_of(const ElementWork& work, std::size_t face) {
   return all;
 }
 
-// By local vertex: whether it is one of them.
+// Marks, for each local vertex, whether a segment ends there.
 std::vector<char> on_segments(const std::vector<Segment>& segments, const std::vector<std::int32_t>& vertices) {
   std::vector<std::int32_t> ends;
   for (const Segment& s : segments) ends.insert(ends.end(), s.key.begin(), s.key.end());
@@ -59,8 +59,8 @@ std::vector<char> on_segments(const std::vector<Segment>& segments, const std::v
   return found;
 }
 
-// The use of a curve in the face whose image of the segment is the side from p to q of (u, v), p over the segment's
-// first vertex.
+// The use of a curve in the face whose image of the segment is the side from p to q of (u, v). The point p lies over
+// the segment's first vertex.
 std::int32_t nearest_use(const ElementWork& work, std::size_t face, const Segment& s, const Vec2& p, const Vec2& q) {
   if (static_cast<std::size_t>(s.curve) >= work.model.topology.curves.size()) return -1;
   const std::vector<CurveUse>& uses = work.model.topology.curves[s.curve].uses;
@@ -83,7 +83,7 @@ std::int32_t nearest_use(const ElementWork& work, std::size_t face, const Segmen
 
 }  // namespace
 
-// Half the integral of the line f + g s over [-1, 1] is reached where k s^2 + s = k, k = g / (2 f).
+// The integral of the line f + g s over [-1, 1] reaches its half where k s^2 + s = k, k = g / (2 f).
 double metric_middle(double left, double middle, double right) noexcept {
   const double f = (left + 4 * middle + right) / 6, g = (right - left) / 2;
   if (!(f > 0) || !std::isfinite(f)) return 0.5;
@@ -137,7 +137,7 @@ std::optional<CurveMiddle> EdgeMiddles::image(std::size_t curve, std::size_t k, 
 std::optional<CurveMiddle> EdgeMiddles::at_share(std::size_t curve, std::size_t k, double share) {
   const DiscreteCurve& d = work_.curves[curve];
   piece_.curve = d.curve;
-  piece_.owner = d.owner;  // a node between vertices that are prescribed is none of them
+  piece_.owner = d.owner;  // a node between prescribed vertices is not prescribed itself
   piece_.refined = d.refined;
   piece_.r.assign({d.r[k], d.r[k + 1]});
   piece_.xyz.assign({d.xyz[k], d.xyz[k + 1]});

@@ -15,22 +15,22 @@ struct CurveMiddle {
   std::vector<Vec2> uv_of_use;  ///< by use of the topology's curve: exact values of curv0
 };
 
-/// Where half of a segment's metric length lies, as a share of the segment: `left`, `middle`, `right` are densities of
-/// length (1 / size, say) at its ends and its middle, of which a line is made. Exactly 0.5 for equal ones, and between
-/// 0.29 and 0.71: a node there keeps the segment's own Jacobian positive.
+/// The middle of a segment by metric length, as a share of the segment: `left`, `middle` and `right` are densities of
+/// length (for example 1 / size) at its ends and its middle. The density between them is linear. Exactly 0.5 for equal
+/// ones, and between 0.29 and 0.71: a node there keeps the segment's own Jacobian positive.
 double metric_middle(double left, double middle, double right) noexcept;
 
 /// Share of the length of segment k at which half of its metric length lies, by the sizes along the curve.
 double middle_share(const DiscreteCurve& curve, std::size_t k);
 
-/// Points between the vertices of curves; one object makes many, and takes memory once.
+/// Computes points between the vertices of curves, with one allocation of memory.
 class EdgeMiddles {
  public:
   explicit EdgeMiddles(const ElementWork& work) : work_(work) { piece_.sizes = {{0, 1}, {1, 1}, {1, 1}}; }
 
   /// The point at half the metric length of edge k of result.mesh.curves[curve], `shift` of the edge further, in every
-  /// use; on periodic curves the image of this point of the first curve of the class. Empty when the curve is one point of space, or its vertices are no longer those of work.curves[curve] (a
-  /// narrow face has vanished there).
+  /// use; on periodic curves the image of this point of the first curve of the class. Empty if the curve is one point of
+  /// space, or if its vertices differ from work.curves[curve] (a narrow face has vanished there).
   [[nodiscard]] std::optional<CurveMiddle> at(std::size_t curve, std::size_t k, double shift = 0);
 
  private:
@@ -49,7 +49,7 @@ struct CurveSide {
   friend auto operator<=>(const CurveSide&, const CurveSide&) = default;
 };
 
-/// All of a face, ascending, each once. The two sides of a seam are told apart by their (u, v).
+/// All of a face, ascending, each once. (u, v) distinguishes the two sides of a seam.
 std::vector<CurveSide> curve_sides(const ElementWork& work, std::size_t face);
 
 }  // namespace carreau

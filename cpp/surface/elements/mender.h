@@ -24,19 +24,18 @@ inline std::size_t coefficient_at(CellKind kind, int corner) {
   return kind == CellKind::quad8 ? of_quad8[static_cast<std::size_t>(corner)] : static_cast<std::size_t>(corner);
 }
 
-/// A pattern search over the nodes of elements below thresholds::elements::good_jacobian: nodes of edges first, then
-/// corners, with half their way for the nodes beside. Elements that are invalid at a corner whatever free nodes do are left as
-/// they are, and nothing moves for them. The search ends when it has tried as many places as thresholds::elements allow.
-/// Nodes are those of `cells`, corners before the nodes of edges. What a place is, and
-/// where nodes may go, Derived says:
+/// Improves elements below thresholds::elements::good_jacobian by a pattern search over their nodes: nodes of edges first, then corners.
+/// Nodes beside a corner move by half its way. Elements that are invalid at a corner wherever free nodes are stay as they are, and nodes
+/// do not move for them. The search ends after the number of places that thresholds::elements allow. Nodes have the numbers of `cells`,
+/// corners before the nodes of edges. Derived defines the places, and the ways of nodes:
 ///   Way, Trial (with a member `node`);
 ///   double score(const Cell&)                          least Jacobian over its mean
-///   double score_at(const Cell&, int corner)           the same at a corner
+///   double score_at(const Cell&, int corner)           its value at a corner
 ///   std::array<double, 2> orientations(const Cell&)    of its straight triangles; their signs are kept
 ///   std::array<Way, 8> ways(std::int32_t node, double step)      around it, `step` its longest edge long
-///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; none: they cannot
+///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; empty: they cannot
 ///   Trial trial_of(std::int32_t node), void put(const Trial&)
-/// It may say what score() is not below, where that is cheaper: double bound(const Cell&).
+/// Derived may define a lower bound of score() that is cheaper: double bound(const Cell&).
 template <typename Derived, typename Way>
 class Mender {
  public:
@@ -50,7 +49,7 @@ class Mender {
 
   [[nodiscard]] double bound(const Cell&) const noexcept { return -infinity; }
 
-  /// Lists elements below `least`. How many are not valid.
+  /// Lists elements below `least`, and returns the number of invalid ones.
   std::size_t find_below(double least) {
     std::size_t invalid = 0;
     bad_.clear();
@@ -64,7 +63,7 @@ class Mender {
     return invalid;
   }
 
-  /// What find_below(good_jacobian) has listed.
+  /// Improves the elements that find_below(good_jacobian) has listed.
   void mend() {
     using namespace thresholds::elements;
     if (bad_.empty()) return;
@@ -140,7 +139,7 @@ class Mender {
   }
 
   [[nodiscard]] double worst(std::int32_t node) {
-    double least = thresholds::elements::good_jacobian;  // more is not wanted
+    double least = thresholds::elements::good_jacobian;  // the aim of the search
     for (const std::int32_t c : around(node))
       if (hopeless_[c] == 0) least = std::min(least, self().score(cells_[c]));
     return least;
@@ -165,7 +164,7 @@ class Mender {
     for (int i = 0; i < corners && is_bad(); ++i) search(cell.nodes[i]);
   }
 
-  /// The node, and, of a corner, the nodes on its sides, by half its way.
+  /// Moves the node, and beside a corner the nodes on its sides by half its way.
   [[nodiscard]] Trials moves_with(std::int32_t node, const Way& by) const {
     Trials moves{{node, by}};
     if (node < corners_)
@@ -176,7 +175,7 @@ class Mender {
     return moves;
   }
 
-  // The straight triangles stay as they are turned.
+  // Returns whether the straight triangles keep their orientation.
   [[nodiscard]] bool keeps_triangles(std::int32_t node, const std::vector<double>& before) {
     std::size_t i = 0;
     for (const std::int32_t c : around(node))
@@ -226,7 +225,7 @@ class Mender {
     }
   }
 
-  // A good element may be bad now, as long as an element beside was worse. Nodes beside are worth a search again.
+  // A good element may now be bad, if an element beside was worse. The search therefore repeats nodes beside.
   void note_move(std::int32_t node) {
     for (const std::int32_t c : around(node)) {
       for (const std::int32_t beside : cells_[c].nodes)

@@ -21,7 +21,7 @@ namespace {
 
 using namespace thresholds::elements;
 
-/// A node with a place that is tried.
+/// A node with a place to test.
 struct Trial {
   std::int32_t node;
   Vec2 uv;
@@ -52,7 +52,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     tell(report);
   }
 
-  // Of a mesh that is turned over in (u, v) (FaceMesh::triangles) space alone decides.
+  // If a mesh is turned over in (u, v) (FaceMesh::triangles) space alone decides.
   [[nodiscard]] double score(const Cell& cell) const {
     const auto [plane, space] = jacobians(cell);
     if (is_turned(cell)) return space.least();
@@ -151,7 +151,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     return orientation(uv(cell.nodes[0]), uv(cell.nodes[1]), uv(cell.nodes[2])) <= 0;
   }
 
-  // Hosts are asked inside the domain only: in the straight triangles around.
+  // Hosts are evaluated inside the domain only: in the straight triangles around.
   [[nodiscard]] bool is_inside(const Trial& trial) const {
     const auto beside = around(trial.node);
     return std::any_of(beside.begin(), beside.end(), [&](std::int32_t c) {
@@ -194,11 +194,11 @@ class FaceMender : public Mender<FaceMender, Vec2> {
       const double size = work_.result.vertex_size[face_.vertex[cell.nodes[i]]];
       if (size > 0) least = std::min(least, size);
     }
-    // Sizes are asked of the mesh that is cut, if one is.
+    // If the mesh of triangles is cut into quadrilaterals, sizes apply to the triangles.
     const double wanted = std::min(longest, least) * (has_quads_only(work_.options.element) ? 1 : 0.5);
     for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), wanted});
   }
-  // Of which the nodes of two edges of curves alone decide.
+  // Adds cusps of elements whose validity depends on the nodes of two edges of curves alone.
   void add_cusps(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CuspEnd>& cusps) const {
     const int n = corner_count(cell.kind);
     const auto side_at = [&](int i) -> const CurveSide* {

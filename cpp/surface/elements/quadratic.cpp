@@ -26,8 +26,8 @@ struct Side {
   friend auto operator<=>(const Side&, const Side&) = default;
 };
 
-/// The sides of a face's triangles by their lesser local vertices, those of each by the greater ones; without the diagonals of
-/// quadrilaterals: side 2 of the first half, side 0 of the second.
+/// The sides of a face's triangles by their lesser local vertices, and the sides of each vertex by the greater ones. Diagonals of
+/// quadrilaterals are left out: side 2 of the first half, side 0 of the second.
 class SideLists {
  public:
   explicit SideLists(const FaceMesh& face) : first_(face.uv.size() + 1, 0) {
@@ -80,7 +80,7 @@ class CurveNodes {
     }
   }
 
-  /// -1: the first face that holds the edge will tell.
+  /// -1: the first face that holds the edge computes the node.
   std::int32_t& node_of(const Key& key) { return nodes_.try_emplace(key, -1).first->second; }
   [[nodiscard]] std::optional<Vec2> uv(const CurveSide& side) const {
     const std::optional<CurveMiddle>& middle = middles_[side.curve][side.segment];
@@ -124,9 +124,9 @@ class FaceNodes {
     join_at_poles();
     place_inside();
   }
-  /// By index in mid_uv.
+  /// Returns whether a node is fixed; index as in mid_uv.
   [[nodiscard]] std::vector<char> fixed_mids() const { return fixed_; }
-  /// `uses`: of each vertex in space, how often faces have it.
+  /// `uses`: the number of faces of each vertex in space.
   [[nodiscard]] std::vector<char> fixed_vertices(const std::vector<std::int32_t>& uses) const {
     std::vector<char> fixed(face_.uv.size(), 0);
     for (const CurveSide& side : sides_) fixed[side.a] = fixed[side.b] = 1;
@@ -138,7 +138,7 @@ class FaceNodes {
   }
 
  private:
-  static constexpr char follows = 2;  // in fixed_: the node is that of another edge
+  static constexpr char follows = 2;  // in fixed_: the node follows the node of a second edge
 
   void number_sides() {
     const SideLists lists(face_);
@@ -176,8 +176,8 @@ class FaceNodes {
       }
   }
 
-  // Where the way from `other` arrives at the vertex: along a line of one parameter at a pole whose side is one of the
-  // other, as the shortest way in space does.
+  // The place in (u, v) where the way from `other` reaches the vertex. At a pole whose side is a line of one parameter,
+  // the way keeps the other parameter, as the shortest way in space does.
   [[nodiscard]] Vec2 arrival(std::int32_t v, std::int32_t other) const {
     Vec2 p = face_.uv[v];
     const auto pole = poles_.find(face_.vertex[v]);
@@ -263,7 +263,7 @@ class FaceNodes {
   };
   std::map<std::int32_t, Box> poles_;  // by vertex in space
   std::vector<Key> edges_;             // by index in mid_uv
-  std::vector<Metric2> metrics_;       // by local vertex; empty: there is no control space
+  std::vector<Metric2> metrics_;       // by local vertex; empty: without a control space
   std::vector<char> fixed_;
   std::vector<CurveSide> sides_;
   std::vector<std::pair<std::size_t, std::size_t>> joined_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the steps work on that make elements out of the triangles of a whole mesh.
+// Data of the steps that make elements out of the triangles of a whole mesh.
 #pragma once
 
 #include <vector>
@@ -15,13 +15,13 @@
 
 namespace carreau {
 
-/// References only. `result` holds the whole mesh of straight triangles, its faces with (u, v), its curves, the size
-/// prescribed at each vertex, and by face the metric of (u, v) (CompositeResult::spaces; empty where a face has failed,
-/// and for some extreme parametrisations). Steps change result.mesh and result.vertex_size, and, where they divide edges
-/// of curves, result.curve_size and `curves` too.
+/// References only. `result` holds the whole mesh of straight triangles, its faces with (u, v), its curves, and the
+/// size prescribed at each vertex. It also holds the metric of (u, v) by face (CompositeResult::spaces; empty if a face
+/// has failed, and for some extreme parametrisations). Steps change result.mesh and result.vertex_size. Steps that
+/// divide edges of curves change result.curve_size and `curves` too.
 struct ElementWork {
   const CurveModel& model;  ///< model, topology, supports and evaluators of curves and faces
-  /// By curve of the topology: vertex k is result.mesh.curves[c].vertices[k], unless a narrow face has vanished there.
+  /// Vertex k of a curve of the topology is result.mesh.curves[c].vertices[k], unless a narrow face has vanished there.
   std::vector<DiscreteCurve>& curves;
   const SizeRules& rules;
   const CompositeOptions& options;
@@ -30,7 +30,7 @@ struct ElementWork {
   const PeriodicModel* periodic = nullptr;  ///< null: no face is periodic
 
   [[nodiscard]] bool isotropic() const noexcept { return !rules.uses_metrics(); }
-  /// The evaluator; faces are asked by FaceMesh::ref.
+  /// The evaluator; FaceMesh::ref names its faces.
   [[nodiscard]] Cad& cad() const noexcept { return model.cad; }
 };
 

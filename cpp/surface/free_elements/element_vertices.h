@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// The surface under a free mesh. Sizes are so many times those that the mesh was made with. Keeps references.
+/// The surface under a free mesh. A factor scales the sizes that the mesh was made with. Keeps references.
 class FreeSurface final : public SurfaceAround {
  public:
   FreeSurface(const Charts& charts, Cad& cad) : charts_(charts), cad_(cad) {}
@@ -22,11 +22,11 @@ class FreeSurface final : public SurfaceAround {
     return charts_.towards(cad_, from, target, false, thresholds::free_elements::near_foot);
   }
   [[nodiscard]] WantedSize wanted(const SurfacePlace& place) const override { return wanted_at({&place, 1}); }
-  /// At a vertex with several places.
+  /// The size at a vertex with several places.
   [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const;
   [[nodiscard]] bool by_direction() const noexcept override { return charts_.by_direction(); }
 
-  /// The same as towards(), and on a barrier that is in the way beside the target.
+  /// Returns the result of towards(), or the place beside the target on a barrier that is in the way.
   [[nodiscard]] std::optional<SurfacePlace> beside(const SurfacePlace& from, const Vec3& target) const {
     return from.regular ? charts_.towards(cad_, from, target, true, thresholds::free_elements::near_foot) : std::nullopt;
   }
@@ -40,7 +40,7 @@ class FreeSurface final : public SurfaceAround {
   double factor_ = 1;
 };
 
-/// Those of a free mesh, under the same numbers; new ones follow.
+/// The vertices of a free mesh, under the same numbers; new ones follow.
 class ElementVertices final : public PlacedVertices {
  public:
   explicit ElementVertices(const FreeMesh& mesh);
@@ -53,12 +53,12 @@ class ElementVertices final : public PlacedVertices {
   [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
   [[nodiscard]] bool by_direction() const noexcept override { return by_direction_; }
   [[nodiscard]] const WantedSize& wanted(std::int32_t v) const { return wanted_[v]; }
-  /// That on the side of a normal.
+  /// The place of a vertex on the side of a normal.
   [[nodiscard]] const SurfacePlace& place_towards(std::int32_t v, const Vec3& normal) const;
 
   std::int32_t add(const SurfacePlace& place, const WantedSize& wanted);
   std::int32_t add_kept(KeptPlaces places, const WantedSize& wanted);
-  /// Of a free vertex.
+  /// Sets the place of a free vertex.
   void put(std::int32_t v, const SurfacePlace& place, const WantedSize& wanted) { place_[v] = place, wanted_[v] = wanted; }
   void scale_sizes(double factor);
 

@@ -99,7 +99,7 @@ class CellMaker {
     }
   }
 
-  // Where a line passes a side: its two edges there go on into each other.
+  // Finds corners where a line passes a side: its two edges there go on into each other.
   void find_flat_corners() {
     std::map<std::int32_t, std::vector<std::int32_t>> ends;  // of imposed edges, by local vertex
     for (const MixedCell& cell : made_.quads.cells())
@@ -153,7 +153,8 @@ std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQu
   for (const std::int32_t v : starts)
     if (const SurfacePlace& from = quads.place(v); from.regular)
       if (const auto found = surface.towards(from, target)) return found;
-  // The place of a start on a line may be that of its other side: the line itself is all that can be reached from there.
+  // The place of a start on a line may belong to the other side of the line. Only the line itself can be reached from
+  // there.
   std::optional<SurfacePlace> best;
   for (const std::int32_t v : starts) {
     const SurfacePlace& from = quads.place(v);

@@ -14,27 +14,27 @@
 
 namespace carreau {
 
-/// The cells on their way to elements. Vertices of `quads` are local: of a kept vertex of space there is one for each set of
-/// cells around it that hang together over edges which are not imposed.
+/// The cells on their way to elements. Vertices of `quads` are local. A kept vertex of space has one local vertex for each set of cells
+/// around it that are connected over edges which are not imposed.
 struct FreeCells {
   SpaceQuads quads;
   std::vector<std::int32_t> vertex;  ///< local -> ElementVertices; -1: new, and free
 };
 
-/// `triangles`: by vertices of space, as the atlas is turned. Edges of lines are imposed, and so are those without exactly
-/// two triangles that run along them in opposite ways.
+/// `triangles`: by vertices of space, as the atlas is turned. Imposed edges are edges of lines, and edges without exactly two triangles
+/// that run along them in opposite ways.
 FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
                      const std::vector<FreeCell>& triangles, Monitor& monitor);
 
 /// An edge that is imposed, between local vertices.
 [[nodiscard]] bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b);
 
-/// The surface between local vertices, near a place of space; where barriers are in the way of all of them, on the
-/// nearest one.
+/// The surface between local vertices, near a place of space. If barriers are in the way of all vertices, the result
+/// lies on the nearest barrier.
 std::optional<SurfacePlace> place_from(const FreeSurface& surface, const SpaceQuads& quads,
                                        std::span<const std::int32_t> starts, const Vec3& target);
 
-/// Cuts edges in two, quadrilaterals in four, triangles in three, lines too; sizes are half of what they were.
+/// Cuts edges in two, quadrilaterals in four, triangles in three, lines too, and halves the sizes.
 void halve(FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor);
 
 /// Free vertices go where the cells have them, and new ones are added.

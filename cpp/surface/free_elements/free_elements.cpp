@@ -28,10 +28,10 @@ namespace {
 
 using namespace thresholds::free_elements;
 
-/// Vertices no farther from a place stay while quadrilaterals are made better.
+/// Vertices within a distance from a place stay while quadrilaterals are improved.
 using HeldPlaces = std::vector<CrossingPlace>;
 
-/// Triangles that stay triangles: with an edge between vertices no farther from a place, or all.
+/// Triangles that stay triangles: all, or triangles with an edge between vertices near a place.
 struct KeptTriangles {
   HeldPlaces near = {};
   bool all = false;
@@ -53,7 +53,7 @@ class FreeElements {
     mark(kept);
   }
 
-  /// Straight ones. `gently`: triangles are joined, and nothing else is changed.
+  /// Makes straight elements. `gently`: joins triangles without other changes.
   void make_straight(const HeldPlaces& held, bool gently) {
     held_ = held, gently_ = gently;
     turn_ears(cells_.quads, [&](std::int32_t a, std::int32_t b) { return stays(a, b); });
@@ -96,7 +96,7 @@ class FreeElements {
       of_triangles_.push_back(static_cast<char>(kept.all || std::ranges::any_of(kept.near, is_near)));
     }
   }
-  /// No edit removes the edge.
+  /// The edge stays in all edits.
   [[nodiscard]] bool stays(std::int32_t a, std::int32_t b) const {
     const auto is_of_triangles = [&](std::int32_t v) {
       return static_cast<std::size_t>(v) < of_triangles_.size() && of_triangles_[v] != 0;
@@ -217,7 +217,7 @@ class FreeElements {
   FreeCells cells_;
   HeldPlaces held_;
   std::vector<std::size_t> stay_;   // of them
-  std::vector<char> of_triangles_;  // by local vertex that triangles had; empty: none of those that stay
+  std::vector<char> of_triangles_;  // by local vertex of the triangles; empty: no such vertex stays
   bool gently_ = false;
 };
 

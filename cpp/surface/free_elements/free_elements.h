@@ -15,9 +15,10 @@ struct ElementCrossings {
   std::vector<CrossingPlace> all, fresh;  ///< where they do, and where triangles did not
 };
 
-/// For RemeshingFrame::elements: makes the elements that options.element wants of a mesh of straight triangles in space, on the surface under it, and a mesh of
-/// faces of them. With has_quads_only() the sizes that the mesh was made with were twice those asked for; those of `made` are the latter. What stays invalid is told, and its face `mended`.
-/// Where straight halves of elements cross, of p2 nobody looks. Throws what the host throws, and Cancelled.
+/// For RemeshingFrame::elements: makes the elements of type options.element out of a mesh of straight triangles in space. Makes also a mesh
+/// of faces of these elements, on the surface under the triangles. With has_quads_only() the mesh was made with twice the prescribed sizes;
+/// `made` has the prescribed sizes. Reports elements that stay invalid, and marks their faces as `mended`. Returns the places where
+/// straight halves of elements cross; elements p2 are not checked. Throws the exceptions of the host, and Cancelled.
 ElementCrossings make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
                                     Cad& cad, FreedMesh& made, Monitor& monitor);
 

@@ -80,13 +80,13 @@ class NodeMaker {
   std::map<MeshEdge, std::int32_t> of_edge_;
 };
 
-/// A node of an element with a place that is tried.
+/// A node of an element with a place to test.
 struct Trial {
   std::int32_t node;
   SurfacePlace place;
 };
 
-/// Nodes are local vertices, then those of edges.
+/// Nodes are local vertices, then the nodes of edges.
 class SpaceMender : public Mender<SpaceMender, Vec3> {
  public:
   SpaceMender(const FreeSurface& surface, FreeCells& cells, NodeMaker& made, Monitor& monitor)
@@ -101,7 +101,7 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
     const Vec3 normal = normal_of(cell);
     return dot(normal, normal) > 0 && !(dot(found.mean(), normal) > 0) ? -1 : found.least();
   }
-  // By the mean: on the wrong side of the surface nothing is hopeless yet.
+  // Divides by the mean: an element on the wrong side of the surface may still be repaired.
   [[nodiscard]] double score_at(const Cell& cell, int corner) const {
     const Jacobian found = jacobian_of(cell);
     const Vec3 mean = found.mean();
@@ -189,7 +189,7 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
   [[nodiscard]] const SurfacePlace& place(std::int32_t node) const {
     return node < corners() ? cells_.quads.place(node) : nodes_[node - corners()].place;
   }
-  // Of a straight triangle, by the normals of its corners.
+  // Orientation of a straight triangle, by the normals of its corners.
   [[nodiscard]] double orientation(std::int32_t a, std::int32_t b, std::int32_t c) const {
     const SurfacePlace &p = place(a), &q = place(b), &r = place(c);
     return dot(cross(q.xyz - p.xyz, r.xyz - p.xyz), p.normal + q.normal + r.normal);

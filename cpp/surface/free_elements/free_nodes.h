@@ -9,20 +9,20 @@
 
 namespace carreau {
 
-/// By cell of FreeCells::quads.
+/// Nodes by cell of FreeCells::quads.
 struct FreeNodes {
   std::vector<FreeCell> of_cell;  ///< nodes of its sides, from corner k to the next one: vertices of space
-  std::size_t moved = 0;          ///< nodes and vertices that mending has moved
+  std::size_t moved = 0;          ///< nodes and vertices that repairs have moved
   std::vector<std::int32_t> invalid;  ///< cells whose Jacobian is not positive everywhere, ascending
 };
 
-/// Gives each edge a node: on a line its middle, else the surface over the metric middle of its chord, once for both cells. Then mends elements whose
-/// Jacobian (Bernstein coefficients along the mean normal of the element, which is on the side of the surface) is not positive: nodes move along the
-/// surface, then vertices. Adds nodes to `vertices`.
+/// Gives each edge a node: on a line its middle, else the surface over the metric middle of its chord, once for both cells. Then repairs
+/// elements whose Jacobian is not positive: nodes move along the surface, then vertices. The Jacobian has Bernstein coefficients along the
+/// mean normal of the element, which is on the side of the surface. Adds nodes to `vertices`.
 FreeNodes make_nodes(const FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
                      Monitor& monitor);
 
-/// Straight elements whose Jacobian is not good are mended alike: vertices move.
+/// Improves straight elements with a bad Jacobian in the same way: vertices move.
 void mend_straight(const FreeSurface& surface, const ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
                    Monitor& monitor);
 

@@ -50,7 +50,7 @@ class Finder {
   }
 
  private:
-  // Sizes are asked of the mesh that is cut, if one is.
+  // If the mesh of triangles is cut into quadrilaterals, sizes apply to the triangles.
   void add(const FaceMesh& face, const Cell& cell) {
     ++found_.count;
     const int n = corner_count(cell.kind);
@@ -194,7 +194,7 @@ bool joins_wrongly_at_curves(const SurfaceMesh& mesh) {
   return w < wanted.size();
 }
 
-/// Numbers of what is kept, in its order; -1: dropped.
+/// Numbers of the kept items, in their order; -1: dropped.
 std::vector<std::int32_t> numbers_of(const std::vector<char>& kept) {
   std::vector<std::int32_t> number(kept.size(), -1);
   std::int32_t next = 0;

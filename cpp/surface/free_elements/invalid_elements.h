@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stays invalid in a mesh that is free of patches, and what is to be finer for it.
+// Elements that stay invalid in a mesh that is free of patches, and refinements that may repair them.
 #pragma once
 
 #include <compare>
@@ -22,23 +22,23 @@ struct CoarseEdge {
 struct InvalidInSpace {
   std::size_t count = 0;
   std::vector<CoarseEdge> coarse;  ///< sides of such elements on curves
-  /// By face: their sides, with half of the longest one, or of what was wanted there, as the size (the whole of it where all elements
-  /// are cut).
+  /// The sides of these elements, by face, with a size for each. The size is half of the longest side or of the prescribed size, whichever
+  /// is smaller (without halving if all elements are cut).
   std::vector<std::vector<EdgeSizes::Source>> finer;
 };
 
 /// Elements whose Jacobian is not positive everywhere.
 [[nodiscard]] InvalidInSpace find_invalid(const SizedMesh& made, Element element);
 
-/// Says so in their faces, which are `mended`.
+/// Reports invalid elements in their faces, which become `mended`.
 void tell_invalid(SurfaceMesh& mesh);
 
 /// Faces with an edge between wrong joints (find_wrong_joints) become `failed`, with a place of such a joint, and lose their elements.
 void fail_wrong_joints(SizedMesh& made);
 
-/// The same where an edge or a triangle at a vertex of a curve is joined wrongly, and faces without a triangle; other edges
-/// are not looked at. Faces whose curves meet in more vertices than they should are joined so. Vertices that are lost with
-/// faces are dropped. False: nothing has failed.
+/// Fails faces without a triangle, and faces with an edge or a triangle that is joined wrongly at a vertex of a curve. Other edges are not
+/// looked at. Faces whose curves meet in more vertices than they should are joined so. Vertices that are lost with faces are dropped.
+/// False: nothing has failed.
 bool fail_unsound_faces(SizedMesh& made);
 
 }  // namespace carreau

@@ -51,7 +51,7 @@ KeptPlaces LineMiddles::places_at(const Edge& edge) {
   return places_beside(v, w);
 }
 
-// On each side from the vertices, towards the middle of the chord.
+// Finds the place on each side, from the vertices towards the middle of the chord.
 KeptPlaces LineMiddles::places_beside(std::int32_t v, std::int32_t w) const {
   const Vec3 middle = lerp(vertices_.position(v), vertices_.position(w), share(v, w));
   KeptPlaces places;

@@ -12,25 +12,25 @@
 
 namespace carreau {
 
-/// What is left of the sharp lines of a free mesh. Keeps references.
+/// The remaining edges of the sharp lines of a free mesh. Keeps references.
 class LineMiddles {
  public:
-  /// `worked`: by line; where their vertices are.
+  /// `worked`: by line, with the places of its vertices.
   LineMiddles(const FreeSurface& surface, ElementVertices& vertices, std::vector<SharpLine> left,
               std::span<WorkedLine> worked, Monitor& monitor);
 
   [[nodiscard]] const std::vector<SharpLine>& lines() const noexcept { return lines_; }
-  /// Whether it is one of a line.
+  /// Returns whether the edge belongs to a line.
   [[nodiscard]] bool is_edge(const MeshEdge& edge) const { return middle_.contains(edge); }
-  /// A vertex at half the metric length of the edge on the curves of the line; made when it is asked for first.
+  /// A vertex at half the metric length of the edge on the curves of the line; the first call makes it.
   [[nodiscard]] std::int32_t middle_of(const MeshEdge& edge);
-  /// Edges whose middle is on no curve that is known: on the first surface beside.
+  /// If no known curve has the middle of an edge, it lies on the first surface beside.
   [[nodiscard]] std::size_t unknown() const noexcept { return unknown_; }
-  /// Makes two edges of each.
+  /// Halves each edge.
   void halve();
 
  private:
-  /// Where an edge is: of line `line`, from its vertex `rank`.
+  /// The place of an edge: in line `line`, from its vertex `rank`.
   struct Edge {
     std::size_t line = 0, rank = 0;
     std::int32_t middle = -1;

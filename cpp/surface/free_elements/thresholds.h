@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 namespace carreau::thresholds::free_elements {
 
-/// Share of the way that nodes and vertices may be left beside their foot along the surface. A node aside makes its element uneven: this is
-/// below the third power of common elements' sizes over radii. [FreeElements.AreaConvergesAsThePolynomialsPromise]
+/// Share of the way. Nodes and vertices may end so near their closest points along the surface. A node aside makes its element uneven: this
+/// is below the third power of common elements' sizes over radii. [FreeElements.AreaConvergesAsThePolynomialsPromise]
 inline constexpr double near_foot = 1e-2;
 
-/// Where halves of quadrilaterals cross that did not, vertices so many sizes around stay when all is made again, twice as many the next time.
+/// Sizes. If halves of quadrilaterals cross that did not cross before, vertices up to this distance stay when all is made again. The next
+/// time the distance doubles.
 inline constexpr double held_sizes = 2;
-/// Times that it is, before triangles are joined and nothing else is done.
+/// Times that all is made again, before the last round that only joins triangles.
 inline constexpr int most_holds = 3;
-/// Where elements join in a way that their triangles do not, triangles so many sizes around stay when all is made again, twice as many
-/// the next time. An element reaches over two sizes. [geometry_fuzz triangles 139, 1000019]
+/// Sizes. If elements join in a way that their triangles do not, triangles up to this distance stay when all is made again. The next time
+/// the distance doubles. An element reaches over two sizes. [geometry_fuzz triangles 139, 1000019]
 inline constexpr double kept_sizes = 1;
-/// Times that they are kept around; the last time all triangles stay.
+/// Times that triangles around stay; the last time all triangles stay.
 inline constexpr int most_keeps = 3;
-/// Times as many elements as of isotropic triangles. Where patches force more their sizes are not those that were asked for, however
-/// well the elements are shaped.
+/// Largest ratio of the number of elements to the number from isotropic triangles. If patches force more elements, their sizes differ from
+/// the prescribed sizes, however well the elements are shaped.
 inline constexpr double most_of_patches = 1.25;
-/// Times that they are made finer where elements are invalid.
+/// Times that these meshes are refined at invalid elements.
 inline constexpr int most_rounds_of_patches = 3;
 
 }  // namespace carreau::thresholds::free_elements

@@ -63,7 +63,7 @@ class DirectionalSizes final : public GraphSizes {
   void orient(std::size_t place) override {
     TangentMetric& m = metric_[place];
     const Vec3 n = work_.graph.places[place].normal;
-    if (!std::isfinite(m.h1)) {  // a pole has no directions of its own
+    if (!std::isfinite(m.h1)) {  // a pole does not define directions
       m.d1 = unit(cross(n, std::abs(n.x()) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
       return;
     }
@@ -144,7 +144,7 @@ class DirectionalSizes final : public GraphSizes {
     }
   }
 
-  // A point that is smaller than its curves has a size of its own.
+  // If a point has a smaller size than its curves, it bounds the sizes there.
   void bound_by_points(const std::vector<SizeSamples>& raw) {
     const Topology& topology = work_.model.topology;
     std::vector<double> of_curves(topology.points.size(), infinity);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One graph of the gradation of a model: a mesh of its own whose vertices know what is prescribed. Private to this
-// room.
+// One graph of the gradation of a model: a separate mesh with prescribed sizes at its vertices. Private to this room.
 #pragma once
 
 #include <array>
@@ -52,7 +51,7 @@ struct GradingWork {
   std::vector<DiscreteCurve> curves;
   RefinedDomains domains;
   GradationGraph graph;
-  std::vector<std::uint8_t> sides;        // of the graph's triangles: those on curves
+  std::vector<std::uint8_t> sides;        // sides on curves of the graph's triangles
   std::vector<std::vector<int>> node_of;  // [curve][node]: vertex of the graph
   std::vector<GradedFace> faces;
   std::vector<std::size_t> place_of;  // first place of a face
@@ -65,30 +64,31 @@ struct GradingWork {
 struct FaceInGraph {
   PlaneMesh mesh;  ///< empty where it cannot be made
   std::vector<GradingWork::Sample> samples;
-  std::vector<Vec2> missed;  ///< as GradingWork, with those of before
-  // By vertex of `mesh`: positions and normals of the surface, and prescribed sizes, by direction or not (0: unknown).
+  std::vector<Vec2> missed;  ///< as GradingWork, with the places missed before
+  // Positions and normals of the surface, and prescribed sizes, by direction or not (0: unknown). Index: vertex of
+  // `mesh`.
   std::vector<Vec3> xyz, normal;
   std::vector<double> h;
   std::vector<TangentMetric> metric;
 
-  /// As bytes for another process, and back.
+  /// Converts to bytes for another process, and back.
   void put(PacketWriter& packet) const;
   static FaceInGraph from(PacketReader& packet);
 };
 
-/// `raw`: prescribed sizes of the curves; `before`: what the graph is made with.
+/// `raw`: prescribed sizes of the curves; `before`: the graded model that the graph uses.
 void make_graph(GradingWork& work, const std::vector<SizeSamples>& raw, const GradedModel& before);
-/// The plane mesh of a face in the graph's own control space, and what the host says meanwhile and at its vertices.
-/// Several threads may make faces at a time.
+/// Makes the plane mesh of a face in the graph's control space, and keeps the samples of the host in between and at its
+/// vertices. Several threads may make faces at a time.
 FaceInGraph face_in_graph(const GradingWork& work, const PatchInput& input, Monitor& monitor);
 
-/// So many layers as options.proximity between two boundaries of a face, and between faces that face each other.
+/// Bounds sizes to options.proximity layers between two boundaries of a face, and between faces that face each other.
 void bound_narrow_zones(GradingWork& work);
 void bound_facing_faces(GradingWork& work);
 
-/// Of a place of the graph.
+/// Returns the face of a place of the graph.
 int face_of(const GradingWork& work, int place);
-/// What is rough is so beside too: samples are few.
+/// Marks the neighbours of rough places as rough too, since samples are few.
 void widen_rough(GradedFace& face);
 
 }  // namespace carreau::detail

@@ -36,7 +36,7 @@ SizeSamples coarsened(const GradingWork& work, SizeSamples samples) {
   return samples;
 }
 
-// Sizes known between the vertices of a curve bound those at its vertices.
+// Lowers the sizes at the vertices of a curve by the known sizes between them.
 void lower_by_samples(GradingWork& work, std::size_t c, const SizeSamples& raw, const std::vector<int>& nodes) {
   const DiscreteCurve& d = work.curves[c];
   const double length = work.model.length(static_cast<int>(c)), slope = slope_of_gradation(work.options.gradation);
@@ -92,8 +92,8 @@ void join_vertices(GradingWork& work) {
   }
 }
 
-// Positions, normals and prescribed sizes; on curves those of the face count beside those of the curve, so that
-// nothing jumps at its border.
+// Copies positions, normals and prescribed sizes. On curves the sizes of the face count beside the size of the curve,
+// so that sizes do not jump at its border.
 void take_over(GradingWork& work, const FaceDomain& domain, FaceInGraph& made, GradedFace& face, std::size_t first) {
   for (std::size_t v = 0; v < face.uv.size(); ++v) {
     const int vertex = work.graph.places[first + v].vertex;
@@ -104,7 +104,7 @@ void take_over(GradingWork& work, const FaceDomain& domain, FaceInGraph& made, G
   work.sizes->add_face(made, first);
 }
 
-// Where the parametrisation is degenerate, the mean of the triangles around.
+// Replaces normals where the parametrisation is degenerate by the mean of the triangles around.
 void mend_normals(GradedFace& face) {
   std::vector<Vec3> sum(face.uv.size());
   for (const auto& t : face.triangles) {
@@ -203,7 +203,7 @@ void add_face(GradingWork& work, std::size_t f, FaceInGraph& made) {
   locate_samples(work, f);
 }
 
-/// Of the faces whose domains could be made, by the threads and processes of the run.
+/// Makes the faces whose domains are valid, by the threads and processes of the run.
 std::vector<FaceInGraph> make_faces(const GradingWork& work, const std::vector<std::size_t>& which, const SizeLimits& limits) {
   const auto make = [&](std::size_t i, Monitor& monitor) {
     monitor.checkpoint();

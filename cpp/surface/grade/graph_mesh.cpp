@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh of a face in the graph, and what the host says of it.
+// The mesh of a face in the graph, and the samples of the host on it.
 #include "support/error.h"
 #include "support/ranks/triangle_packet.h"
 #include "plane/plane_mesher.h"
@@ -14,7 +14,7 @@ namespace carreau::detail {
 
 namespace {
 
-// The graph's own control space; what the host says meanwhile is kept.
+// Builds the graph's control space, and keeps the samples of the host.
 ControlSpace sample(const GradingWork& work, const PatchInput& input, std::span<const Vec2> probe_points,
                     std::vector<GradingWork::Sample>& samples, Monitor& monitor) {
   samples.clear();
@@ -36,8 +36,8 @@ ControlSpace sample(const GradingWork& work, const PatchInput& input, std::span<
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor);
 }
 
-// Where fields are known to be steep they are looked at, as in the mesh to come: sizes would grow from there within the
-// face only.
+// Samples the places where fields are known to be steep, as in the final mesh. Otherwise sizes would grow from there
+// within the face only.
 PlaneMesh mesh_in_graph(const GradingWork& work, const PatchInput& input, FaceInGraph& face, Monitor& monitor) {
   const PlaneMesherOptions how{.frontal = work.options.frontal, .max_triangles = work.options.max_triangles};
   const PlaneDomain& domain = input.domain->plane;
@@ -91,7 +91,7 @@ FaceInGraph face_in_graph(const GradingWork& work, const PatchInput& input, Moni
     face.mesh = mesh_in_graph(work, input, face, monitor);
     evaluate(work, input, face, monitor);
     return face;
-  } catch (const DomainError&) {  // it will fail again, and then say so
+  } catch (const DomainError&) {  // it fails again later, and is reported then
   } catch (const UnevenSpeed&) {  // sizes grow inside it by its own control space alone
   }
   FaceInGraph none;

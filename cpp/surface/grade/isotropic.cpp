@@ -13,8 +13,8 @@ namespace {
 
 using namespace thresholds::grade;
 
-/// Marks the triangles of a face with a size that comes from another vertex, or with a sample that differs from the
-/// interpolation between the corners: the prescribed sizes do not obey the gradation.
+/// Marks the triangles of a face whose prescribed sizes violate the gradation. Such a triangle has a size that comes
+/// from another vertex, or a sample that differs from the interpolation between the corners.
 void find_rough(const GradingWork& work, const std::vector<double>& prescribed_h, std::size_t f, GradedFace& face) {
   const auto prescribed = [&](std::int32_t v) {
     return prescribed_h[work.graph.places[work.place_of[f] + v].vertex];
@@ -76,7 +76,7 @@ class IsotropicSizes final : public GraphSizes {
   [[nodiscard]] double largest_at(int place) const override { return work_.h[work_.graph.places[place].vertex]; }
   void bound_facing(const FacingPlace& facing, double h) override {
     bound(facing.place, h);
-    // The other face may have no vertex near the foot.
+    // The other face may have no vertex near the closest point.
     for (const int p : work_.graph.triangles[facing.triangle]) {
       const Vec3 way =
           step_on_surface(work_.graph.places[p].normal, facing.foot - work_.graph.xyz[work_.graph.places[p].vertex]);

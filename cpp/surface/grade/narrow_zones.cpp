@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds by how far boundaries and faces are from each other.
+// Bounds by the distance of boundaries and faces from each other.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,12 +13,12 @@ namespace carreau::detail {
 
 using thresholds::grade::graph_share;
 
-// So many layers n between two boundaries, where sizes differ by direction across the gap only. Edges of a unit mesh
-// are up to sqrt(2) sizes long: a way of n - 1 of them does not cross the gap if (n - 1) sqrt(2) h is less than it. Up
-// to three layers a size of gap / n is enough.
+// Makes n = options.proximity layers between two boundaries; if sizes differ by direction, across the gap only. Edges
+// of a unit mesh are up to sqrt(2) sizes long. A way of n - 1 edges does not cross the gap if (n - 1) sqrt(2) h is less
+// than the gap. Up to three layers a size of gap / n is enough.
 void bound_narrow_zones(GradingWork& work) {
   const double layers = work.options.proximity, share = 1 / std::max(layers, (layers - 1) * std::numbers::sqrt2);
-  std::vector<double> wanted = work.h;  // diag where nothing is known
+  std::vector<double> wanted = work.h;  // diag if no size is known
   for (double& h : wanted) h = std::min(h, work.largest / graph_share);
   for (const NarrowPlace& n : find_narrow_places(work.graph, work.sides, wanted, work.monitor))
     work.sizes->bound_across(n.vertex, n.across, n.gap * share);
@@ -34,7 +34,8 @@ double smallest_size(const GradingWork& work) {
 
 }  // namespace
 
-// As many layers between two faces that face each other: a size of the gap over their number in all directions of both.
+// Bounds sizes between two faces that face each other by the gap over the number of layers, in all directions of both
+// faces.
 void bound_facing_faces(GradingWork& work) {
   std::vector<std::vector<int>> points(work.model.model.faces.size());
   for (const Curve& c : work.model.topology.curves)
@@ -47,7 +48,7 @@ void bound_facing_faces(GradingWork& work) {
   };
   const double layers = work.options.proximity;
   const auto reach = [&](int p) {
-    return layers * std::min(work.sizes->largest_at(p), work.largest / graph_share);  // diag where nothing is known
+    return layers * std::min(work.sizes->largest_at(p), work.largest / graph_share);  // diag if no size is known
   };
   for (const FacingPlace& f : find_facing_places(work.graph, reach, apart, work.monitor))
     // A gap that no allowed size resolves is contact.

@@ -45,7 +45,7 @@ std::size_t count_long_edges(const GradationGraph& graph, const GraphSizes& size
   return count;
 }
 
-// Where the sizes of a curve are sampled inside an edge of the graph: at equal distances and where they are known.
+// Places where the sizes of a curve are sampled inside an edge of the graph: at equal distances and at known places.
 std::vector<double> between(double from, double to, const std::vector<double>& known) {
   std::vector<double> at;
   for (int i = 1; i < samples_per_edge; ++i)
@@ -127,7 +127,7 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
     graded = std::move(now);
     graded.rounds = number;
     if (long_edges == 0) break;
-    // Those of a pole stay, and a few others change nothing.
+    // Long edges of a pole stay, and a few others change nothing.
     const double change = static_cast<double>(graded.triangles) / std::max(triangles_before, 1.) - 1;
     const bool few = static_cast<double>(long_edges) < few_edges * static_cast<double>(graded.triangles);
     if ((number > 1 && few) || (std::abs(change) < same_graph && 2 * long_edges > long_before)) break;

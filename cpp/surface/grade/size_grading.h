@@ -18,15 +18,15 @@ struct GradedModel {
   std::vector<SizeSamples> curves;           ///< by curve (index in Topology::curves): bounded already
   int rounds = 0;                            ///< graphs that were made
   std::size_t triangles = 0;                 ///< of the last graph
-  /// By face: steep places of fields in space that the samples of a graph have missed.
+  /// Steep places of fields in space that the samples of a graph have missed, by face.
   std::vector<std::vector<Vec2>> missed = {};
 };
 
-/// Grades the sizes of a model with the ratio options.gradation > 1. The graph is a mesh of its own, of twice the
-/// prescribed sizes: its vertices know the prescribed sizes, its edges the distances. Where the graded sizes are much
-/// smaller than its edges it is made again with them. Faces whose domains cannot be made are left out. Asks the host
-/// about as often as a mesh of a quarter of the vertices would, about curves once. Sizes grow across periodic curves. Throws what the host throws,
-/// LimitError, Cancelled.
+/// Grades the sizes of a model with the ratio options.gradation > 1. The graph is a separate mesh of twice the
+/// prescribed sizes, with prescribed sizes at its vertices and distances along its edges. If the graded sizes are much
+/// smaller than its edges, the graph is made again with them. Faces whose domains cannot be made are left out.
+/// Evaluates the host about as often as a mesh of a quarter of the vertices would, curves once. Sizes grow across periodic
+/// curves. Throws the exceptions of the host, LimitError, Cancelled.
 GradedModel grade_model(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, double diag,
                         Monitor& monitor, const PeriodicModel& periodic = {});
 

@@ -6,32 +6,33 @@
 
 namespace carreau::thresholds::grade {
 
-// In brackets: how many of 15 meshes (STEP files, teapot, formulas, size maps; graded, by direction, with proximity) change
-// if the value is doubled and halved. tests/cpp/surface/grade/gradation_test rests on all of them.
+// Brackets give the number of 15 meshes that change if the value is doubled and halved. The meshes are STEP files, the teapot, formulas and
+// size maps; graded, by direction, with proximity. tests/cpp/surface/grade/gradation_test rests on all of them.
 
 // The graph
-/// Prescribed sizes. Sizes of the graph: distances on it are exact on coarse triangles, and a mesh of so many vertices
-/// costs a quarter of the evaluations. [10, 10]
+/// Prescribed sizes. Sizes of the graph: distances on it are exact on coarse triangles, and its mesh costs a quarter of
+/// the evaluations. [10, 10]
 inline constexpr double graph_factor = 2;
 /// Of diag. Longest edges of the graph. [11, 11]
 inline constexpr double graph_share = 1. / 20;
-/// Of a length. Tolerance of its control spaces: sizes and positions are evaluated at its vertices again. [9, 9]
+/// Share of a length. Tolerance of its control spaces: sizes and positions are evaluated at its vertices again. [9, 9]
 inline constexpr double graph_tolerance = 0.1;
 /// Cosine of normals that differ by rounding. [4, 2]
 inline constexpr double parallel = 1 - 1e-9;
 
 // Sizes that obey
-/// Of a size. Largest difference between smooth prescribed sizes and linear interpolation in the graph. [1, 1]
+/// Share of a size. Largest difference between smooth prescribed sizes and linear interpolation in the graph. [1, 1]
 inline constexpr double roughness = 0.01;
-/// Of a size by direction. The same for samples, which lie below the means of three metrics where directions turn. [0, 1]
+/// Share of a size by direction. Largest difference for samples, which lie below the means of three metrics where
+/// directions turn. [0, 1]
 inline constexpr double rough_metric = 0.1;
-/// Of a size along a curve. Error of the interpolation between its samples. [2, 0]
+/// Share of a size along a curve. Error of the interpolation between its samples. [2, 0]
 inline constexpr double interpolation_error = 0.02;
 
 // Curves
 /// Samples of a curve's sizes on each of its edges in the graph. [11, 11]
 inline constexpr int samples_per_edge = 4;
-/// Of an edge. Nearer samples are one. [rounding: without it a mesh changes by 1e-14]
+/// Share of an edge. Nearer samples are one. [rounding: without it a mesh changes by 1e-14]
 inline constexpr double one_sample = 1e-6;
 
 // Rounds
@@ -41,8 +42,8 @@ inline constexpr double too_long = 3.2;
 inline constexpr int most_rounds = 5;
 /// Edges a triangle that may be too long after the first round. [0, 2]
 inline constexpr double few_edges = 0.01;
-/// Of the triangles. A graph that changes less is the same, and its long edges stay. [0, 0; without it bottle.brep by
-/// direction takes another round]
+/// Share of the triangles. A graph that changes less is the same, and its long edges stay. [0, 0; without it
+/// bottle.brep by direction takes another round]
 inline constexpr double same_graph = 0.1;
 
 }  // namespace carreau::thresholds::grade

@@ -11,8 +11,8 @@ namespace carreau {
 namespace {
 
 Budget budget_of(const SurfaceMesh& mesh) {
-  // Points of surfaces, whatever the mesh, and for each vertex of larger meshes. A model whose curves contradict its sizes leaves
-  // something to mend everywhere.
+  // Points of surfaces, whatever the mesh, and for each vertex of larger meshes. If the curves of a model contradict its sizes, edges need
+  // improvement everywhere.
   constexpr double least_budget = 5'000, budget_a_vertex = 0.25;
   return Budget(
       static_cast<std::int64_t>(std::max(least_budget, budget_a_vertex * static_cast<double>(mesh.vertices.size()))));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What searches for better edges on an assembled mesh share, whatever is better: budget, places tried, sizes
-// afterwards.
+// Shared by all searches for better edges on an assembled mesh, for any criterion: budget, tested places, later sizes.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,7 @@
 
 namespace carreau {
 
-/// Edits around some vertices of an assembled mesh. Keeps references to all that it is given.
+/// Edits around some vertices of an assembled mesh. Keeps references to its arguments.
 class AssembledSearch {
  public:
   using Vertex = EditableMesh::Vertex;
@@ -24,18 +23,18 @@ class AssembledSearch {
 
   [[nodiscard]] EditableMesh& mesh() noexcept { return mesh_; }
   [[nodiscard]] const EditableMesh& mesh() const noexcept { return mesh_; }
-  /// Points of surfaces that may still be asked.
+  /// The number of points of surfaces that may still be evaluated.
   [[nodiscard]] const Budget& budget() const noexcept { return budget_; }
-  /// Whether the face has a control space. Those between sides that were matched have none, and stay.
+  /// Returns whether the face has a control space. Faces between matched sides have none, and stay.
   [[nodiscard]] bool is_sampled(std::int32_t face) const { return result_.spaces[face].has_value(); }
-  /// Of the control space of the face.
+  /// The metric of the face's control space.
   [[nodiscard]] Metric2 metric(std::int32_t face, const Vec2& uv) const { return result_.spaces[face]->at(uv); }
-  /// Position and derivatives; one of the budget.
+  /// Evaluates position and derivatives, as one evaluation of the budget.
   SurfaceJet ask(std::int32_t face, const Vec2& uv);
-  /// None of the triangles is turned much from `mean`, the mean normal of those that they replace.
+  /// Returns whether no triangle is turned much from `mean`, the mean normal of the replaced triangles.
   [[nodiscard]] bool agree(std::span<const Place> places, const Vec3& mean) const;
 
-  /// The vertex and its neighbours, where something may be left to do after a change; without those beyond the edits.
+  /// Returns the vertex and its neighbours, where work may be left after a change, without vertices beyond the edits.
   [[nodiscard]] std::vector<std::int32_t> left_around(std::int32_t v) const;
   /// Swaps the diagonal of a quadrilateral if the swap improves on `before` and turns no triangle much; else nothing
   /// changes. `after`: the judgement by judge() of the swapped quadrilateral.
@@ -51,12 +50,12 @@ class AssembledSearch {
     return false;
   }
 
-  /// The size of such a vertex is to be asked for.
+  /// Notes a vertex whose size must be evaluated again.
   void note_changed(Vertex v) { changed_.push_back(v); }
-  /// Asks for them: by `size_of` a metric at a point.
+  /// Evaluates the sizes of the noted vertices: by `size_of` a metric at a point.
   void update_sizes(double (*size_of)(const SurfaceJet&, Metric2), Monitor& monitor);
 
-  /// Where a vertex may go, and what the criterion knows of it there.
+  /// A possible place of a vertex, and the criterion's data there.
   template <typename Known>
   struct Found {
     Vec2 uv;

@@ -14,7 +14,7 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& t, const std::vecto
   return l > 0 ? (1 / l) * n : Vec3{0, 0, 0};
 }
 
-// Without roots for those that are good, which nearly all are.
+// Computes no roots for good triangles, which are nearly all.
 bool is_below(double bound, const std::array<std::int32_t, 3>& t, const std::vector<Vec3>& xyz) {
   const Vec3 ab = xyz[t[1]] - xyz[t[0]], ac = xyz[t[2]] - xyz[t[0]], bc = ac - ab, n = cross(ab, ac);
   const double squares = dot(ab, ab) + dot(bc, bc) + dot(ac, ac), good = 1.001 * bound;

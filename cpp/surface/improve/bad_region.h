@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the shapes of triangles in space are to be improved, after the lift.
+// Places where the shapes of triangles in space need improvement, after the lift.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace carreau {
 
-/// Q2 in space; 1 for triangles with two corners at one place: an apex of space is a side of the parameter plane, and
-/// what it makes flat will be removed.
+/// Q2 in space; 1 for triangles with two corners at one place. An apex of space is a side of the parameter plane, and
+/// the flat triangles there will be removed.
 inline double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept {
   const Vec3 &a = xyz[triangle[0]], &b = xyz[triangle[1]], &c = xyz[triangle[2]];
   const double quality = quality_q2(a, b, c);
@@ -22,28 +22,28 @@ inline double quality_in_space(const std::array<std::int32_t, 3>& triangle, cons
   return a == b || b == c || c == a ? 1 : quality;
 }
 
-/// Of unit length; zero for triangles without area.
+/// The normal of unit length; zero for triangles without area.
 Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
 
-/// Whether its shape in space is below the bound.
+/// Returns whether the triangle's shape in space is below the bound.
 bool is_below(double bound, const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz);
-/// Those of a patch, increasing.
+/// Returns the triangles of a patch below the bound, increasing.
 std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
                                           const Crew& crew, Monitor& monitor);
 
-/// The triangles of a patch near those that are bad. Only these may be changed by what improves shapes.
+/// The triangles of a patch near its bad triangles. Only these triangles may change when shapes improve.
 class BadRegion {
  public:
-  /// Two rings of triangles around those that are `bad`. Keeps references to the mesh and its positions, whose numbers
-  /// of vertices and triangles stay.
+  /// Selects two rings of triangles around the `bad` triangles. Keeps references to the mesh and its positions, whose
+  /// numbers of vertices and triangles stay.
   BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz,
             std::vector<std::int32_t> bad, int threads, Monitor& monitor);
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }
-  /// Those below `bound` now, increasing.
+  /// Returns the triangles below `bound` now, increasing.
   [[nodiscard]] std::vector<std::int32_t> below(double bound) const;
-  /// Not imposed, and all triangles around are in the region.
+  /// Returns whether the vertex is not imposed and all triangles around are in the region.
   [[nodiscard]] bool may_move(std::int32_t vertex) const { return movable_[vertex] != 0; }
 
  private:

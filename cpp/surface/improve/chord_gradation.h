@@ -25,7 +25,7 @@ struct ChordCorner {
   Metric2 metric;  ///< of the control space
   bool sound;      ///< not at a pole
 
-  /// Of unit length; zero at a pole.
+  /// The normal of unit length; zero at a pole.
   [[nodiscard]] Vec3 normal() const {
     const Vec3 n = cross(su, sv);
     return sound ? (1 / norm(n)) * n : Vec3{0, 0, 0};
@@ -134,13 +134,13 @@ class ChordGradation {
     }
   }
 
-  /// By how much the sizes at the ends of an edge differ beyond the limit; 0 at poles.
+  /// The amount by which the sizes at the ends of an edge differ beyond the limit; 0 at poles.
   [[nodiscard]] double excess(std::int32_t face, std::int32_t a, std::int32_t b) const {
     if (!corners_[face][a].sound || !corners_[face][b].sound) return 0;
     const Vec3 chord = position(face, b) - position(face, a);
     const double p = corners_[face][a].size_along(chord), q = corners_[face][b].size_along(chord);
     const double change = std::abs(std::log(p / q));
-    // Lengths are seldom needed: nearly all edges have far less than this.
+    // Factor that avoids lengths: nearly all edges are far below.
     const double roughly = norm(chord) / std::max(p, q);
     if (!std::isfinite(change) || change <= 0.5 * log_limit_ * roughly) return 0;
     const double l = field_length([&](const Vec2& at) { return metric(face, at); }, uv(face, a), uv(face, b),

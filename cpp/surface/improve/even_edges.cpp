@@ -65,7 +65,7 @@ class Evening {
     criterion_.set_known(mesh_, v, to.known);
   }
 
-  // Of v and the vertices that the criterion adds, moves the vertex that gains most.
+  // Moves v or a vertex that the criterion adds, the vertex with the largest gain.
   bool move_one(std::int32_t v) {
     double most = 0;
     Vertex which{};

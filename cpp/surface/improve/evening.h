@@ -18,7 +18,7 @@ struct LengthRange {
 
 /// A judgement of some edges and triangles.
 struct EveningJudgement {
-  double excess = 0;   ///< sum over the limit, as a share of it
+  double excess = 0;   ///< sum over the limit, as a share of the limit
   int out = 0;         ///< edges that are too long or too short
   double quality = 1;  ///< of the worst triangle
   double beyond = 0;   ///< largest angle or offset of a triangle, as a share of the bound

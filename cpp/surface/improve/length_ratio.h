@@ -95,7 +95,7 @@ class LengthRatio {
     }
     return std::max(0., high / (limit_ * low) - 1);
   }
-  // By the sizes at its ends, between which they are linear (RR-2818 sec. 5.2).
+  // Length by the sizes at the ends of the edge, between which sizes are linear (RR-2818 sec. 5.2).
   [[nodiscard]] double metric_length(std::int32_t a, std::int32_t b) const {
     const double p = size_[a], q = size_[b], d = norm(all_.vertices[b] - all_.vertices[a]);
     return std::abs(q - p) > 1e-6 * p ? d * std::log(q / p) / (q - p) : d / p;

@@ -37,7 +37,7 @@ class Refinement {
     if (wrong.empty()) return {};
     const std::size_t vertices = mesh_.xyz.size();
     depth_.assign(mesh_.plane.triangles.size(), 0);
-    // A bend needs two or three halvings. More divisions are a host whose surface is rough at every scale.
+    // A bend needs two or three halvings. More divisions show a surface that is rough at every scale.
     constexpr std::size_t most_divisions = 32;
     left_ = Budget(static_cast<std::int64_t>(most_divisions * wrong.size()));
     std::vector<int> still = improve_ring_by_ring(
@@ -80,7 +80,7 @@ class Refinement {
     return is_flat(position(t[0]), position(t[1]), position(t[2]));
   }
 
-  // Those that look wrong from what is known at their corners, or against the mean of the triangles around.
+  // Finds triangles that look wrong from the data at their corners, or against the mean of the triangles around.
   std::vector<int> find_wrong() {
     const std::vector<Triangle>& triangles = mesh_.plane.triangles;
     with_normals_ = mesh_.normal.size() == mesh_.xyz.size();
@@ -157,7 +157,7 @@ class Refinement {
     return deviation(t, jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]])).s) <= kept_.deviation;
   }
 
-  // The largest of an edge's angle and deviation, in shares of what is allowed.
+  // The larger of an edge's angle and deviation, as shares of their limits.
   [[nodiscard]] double excess(int t, std::int32_t a, std::int32_t b) {
     const Vec3 e = position(b) - position(a);
     double share = 0;
@@ -171,7 +171,8 @@ class Refinement {
     return share;
   }
 
-  // From a triangle or those around it: the image of a triangle of (u, v) may reach beyond it.
+  // Measures the distance from the triangle and its neighbours, since the image of a triangle of (u, v) may reach
+  // beyond it.
   [[nodiscard]] double deviation(int t, const Vec3& s) {
     const auto from = [&](int k) {
       const Triangle& c = triangle(k);
@@ -183,7 +184,8 @@ class Refinement {
     return d;
   }
 
-  // The least cosine of the normals of a triangle and of the surface; without those at the corners in its centre alone.
+  // The least cosine of the normals of a triangle and of the surface; if normals at the corners are unknown, at its
+  // centre alone.
   [[nodiscard]] double agreement(const Triangle& c) {
     const Vec3 n = normal_of(c);
     const double size = norm(n);
@@ -201,7 +203,7 @@ class Refinement {
   }
   [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? least_agreement : 0); }
 
-  // A division, or a swap, after which nothing else is to be looked at.
+  // A division, or a swap, that completes the work on the triangle.
   bool mend(int t) {
     if (swap_one(t) || depth_[t] >= deepest || !divide(t)) return false;
     left_.spend();
@@ -225,7 +227,7 @@ class Refinement {
   }
 
   [[nodiscard]] double length(const Quad& q) const { return norm(position(q.b) - position(q.a)); }
-  // None: it is imposed. Other sides of such a triangle are of no use: it would become narrower beside the bend.
+  // None: it is imposed. Dividing other sides would make the triangle narrower beside the bend.
   [[nodiscard]] std::optional<Quad> longest_side(int t) const {
     const Triangle& c = mesh_.plane.triangles[t];
     std::array<double, 3> lengths{};
@@ -233,8 +235,8 @@ class Refinement {
     return quad(t, static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin()));
   }
 
-  // Across a longest side there may be a longer one, and so on; the last one is divided, so that no thinner triangles
-  // come out than went in (Rivara's path of longest edges).
+  // Across a longest side there may be a longer one, and so on. The last one is divided, so that the new triangles are
+  // not thinner than the old ones (Rivara's path of longest edges).
   bool divide(int t) {
     // Medians of triangles that are narrow already may be much shorter than halves. Share of the shortest edge that is divided.
     constexpr double shortest_median = 0.3;
@@ -242,7 +244,7 @@ class Refinement {
     std::optional<Quad> side = longest_side(t);
     while (side) {
       const auto next = longest_side(side->u);
-      // Of equal lengths the first met counts, or there would be no end.
+      // If lengths are equal the first one counts; otherwise the path would not end.
       if (!next || next->u == side->t || !(length(*next) > length(*side))) break;
       side = next;
     }
@@ -284,7 +286,7 @@ class Refinement {
   GeometricLimits kept_;
   KeptAgreement agreement_;
   bool with_normals_ = false;  // the mesh has them at all vertices
-  bool known_ = false;         // they are compared with those of triangles
+  bool known_ = false;         // they are compared with the normals of triangles
   std::optional<EditableMesh> editable_;
   std::vector<std::uint8_t> depth_;  // by triangle
   Budget left_;                      // divisions

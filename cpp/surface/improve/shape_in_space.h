@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After the lift: shapes of triangles in space, by swaps and moves in turn.
-// `team`: processes that make the patch together, and look for such triangles in shares; null: this one alone.
+// After the lift: shapes of triangles in space, by swaps and moves in turn. `team`: communicator of the processes that
+// make the patch and share the search for such triangles; null: only this process.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace carreau {
 
-/// Where sizes are isotropic: edges of the worst triangles (thresholds::shape::poor) are swapped. Asks no host.
-/// What is bad (BadRegion) where no triangle was among the worst: the mesh is as it was.
+/// Swaps edges of the worst triangles (thresholds::shape::poor), if sizes are isotropic. Does not evaluate the host.
+/// Returns the bad triangles (BadRegion) if no triangle was among the worst, so that the mesh did not change.
 std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor,
                                                         Team* team = nullptr);
 
-/// Where sizes are isotropic: vertices and edges of bad triangles (BadRegion) are moved and swapped for their shapes in
-/// space. Of a lifted mesh whose sizes are known; keeps them up to date. Asks nothing where no triangle is bad.
-/// `bad`: where that is known.
+/// Moves vertices and swaps edges of bad triangles (BadRegion) for their shapes in space, if sizes are isotropic.
+/// Requires a lifted mesh whose sizes are known; keeps them up to date. Does not evaluate the host if no triangle is
+/// bad. `bad`: the bad triangles, if known.
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
                     std::optional<std::vector<std::int32_t>> bad, Monitor& monitor, Team* team = nullptr);
 

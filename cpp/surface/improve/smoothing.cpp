@@ -20,7 +20,7 @@ using namespace thresholds::smoothing;
 using thresholds::shape::good;
 using thresholds::shape::poor;
 
-// Shares of a step that are tried on the surface itself: it bends away from the tangent plane.
+// Shares of a step that are tested on the surface itself: it bends away from the tangent plane.
 constexpr std::array<double, 3> shares{1, 0.5, 0.25};
 
 class Smoothing {
@@ -51,13 +51,13 @@ class Smoothing {
   using Place = EditableMesh::Place;
   struct Known {
     bool tried = false;               // in vain, and nothing around has moved since
-    std::optional<Vec3> normal = {};  // of unit length, or zero where the surface has none; once it was asked
+    std::optional<Vec3> normal = {};  // unit length, or zero where the surface has none; empty before its evaluation
   };
 
   /// The triangles around a vertex that may move.
   [[nodiscard]] const std::vector<Place>& star(std::int32_t v) const { return editable_.fan(v); }
 
-  // Those that may move, of the worst triangles first.
+  // Returns the vertices that may move, of the worst triangles first.
   [[nodiscard]] std::vector<std::int32_t> corners_of_bad() {
     std::vector<std::pair<double, std::int32_t>> bad;
     for (const std::int32_t t : region_.below(good)) bad.emplace_back(quality_of(t), t);
@@ -77,7 +77,8 @@ class Smoothing {
     for (const Place p : star(v)) worst = std::min(worst, quality_of(p.triangle));
     return worst;
   }
-  // The same of the triangles of order_: the one that told last is asked first. Below `least`, it need not be known.
+  // The worst quality of the triangles of order_. The triangle that decided last comes first. Below `least` the exact
+  // value does not matter.
   [[nodiscard]] double worst_in_order(double least) {
     double worst = 1;
     for (Place& p : order_) {
@@ -122,7 +123,8 @@ class Smoothing {
   }
   [[nodiscard]] static Vec3 normal_of(const SurfaceJet& jet) { return unit_normal(jet).value_or(Vec3{0, 0, 0}); }
 
-  // The least cosine of a triangle's normal and those at its corners; that of a corner without a normal is zero.
+  // The least cosine between a triangle's normal and the normals at its corners; a corner without a normal counts as
+  // zero.
   [[nodiscard]] double agreement(Place p) {
     const Vec3 n = editable_.normal(p);
     const double size = norm(n);

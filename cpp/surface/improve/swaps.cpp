@@ -50,7 +50,7 @@ class Swapper {
            std::max({length(q.a, q.b), length(q.b, q.c), length(q.c, q.a), length(q.a, q.d), length(q.d, q.b)});
   }
 
-  // What the worse of the two shapes gains; none where the other diagonal must not be.
+  // The gain of the worse of the two shapes; 0 if the other diagonal is not allowed.
   [[nodiscard]] double gain(const Quad& q) const {
     if (xyz_[q.c] == xyz_[q.d] || !mesh_.can_swap(q) || is_longest(q)) return 0;
     const auto [first, second] = EditableMesh::swapped(q);
@@ -59,7 +59,7 @@ class Swapper {
     return std::min(quality(first), quality(second)) - std::min(quality(mesh_.at(t)), quality(mesh_.at(u)));
   }
 
-  // By the best of its three edges. What a pass has changed is looked at again in the next one only.
+  // Swaps the best of the triangle's three edges. The next pass looks again at triangles that a pass has changed.
   bool improve(std::int32_t t) {
     if (touched_[t] != 0) return false;
     double best = least_gain;

@@ -7,8 +7,8 @@
 
 namespace carreau {
 
-/// Swaps edges of the region that are not imposed while that raises the worse shape quality of the two triangles, where
-/// one of them is poor. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Whether an
+/// Swaps edges of the region that are not imposed, if one of the two triangles is poor and the swap raises the worse
+/// shape quality. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Returns whether an
 /// edge was swapped.
 bool swap_in_space(const BadRegion& region, const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
                    Monitor& monitor);

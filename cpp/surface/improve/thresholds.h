@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace carreau::thresholds {
 namespace shape {
 /// Shape. Better triangles are left as the metric made them.
 inline constexpr double good = 0.8;
-/// Shape. Below, the worst one counts whatever it costs the others.
+/// Shape. Below, only the worst triangle counts.
 inline constexpr double poor = 0.6;
 }  // namespace shape
 
@@ -22,8 +22,8 @@ inline constexpr double poor = 0.6;
 namespace swaps {
 /// Shape. A swap must gain this much, so that no pair of swaps undoes each other for ever.
 inline constexpr double least_gain = 1e-6;
-/// Cosine to the nearer of the two old triangles, of a new one: across a tube or around an apex of three edges the best
-/// shape is the cross-section.
+/// Cosine of the angle between a new triangle and the nearer of the two old ones. Across a tube or around an apex of
+/// three edges the best shape is the cross-section.
 inline constexpr double least_agreement = 0.7;
 }  // namespace swaps
 
@@ -33,8 +33,8 @@ namespace smoothing {
 inline constexpr double least_gain = 1e-3;
 /// Mean lengths of the edges around: steps of the search, from the first, halved down to the last.
 inline constexpr double first_step = 0.4, last_step = 0.01;
-/// Cosine of a triangle's normal and the surface's at its corners, unless it was less before: around the apex of a
-/// narrow cone, and across a bend, the best shapes are those of the cross-section.
+/// Cosine of a triangle's normal and the surface's at its corners, unless it was less before. Around the apex of a
+/// narrow cone, and across a bend, the best shapes lie in the cross-section.
 inline constexpr double least_agreement = 0.5;
 }  // namespace smoothing
 
@@ -42,20 +42,20 @@ inline constexpr double least_agreement = 0.5;
 namespace refinement {
 /// Cosine of a triangle's normal and the surface's: 85 degrees.
 inline constexpr double least_agreement = 0.08;
-/// Cosine, below which triangles are looked at more closely: at a corner the surface may be turned by 60 degrees on the
-/// way to the middle of a coarse one.
+/// Cosine, below which triangles are examined more closely. At a corner the surface may be turned by 60 degrees on the
+/// way to the middle of a coarse triangle.
 inline constexpr double doubtful = 0.5;
-/// Times that a triangle was divided to make another: beside a chord so coarse that each triangle on it is turned over
-/// divisions would go on until vertices coincide.
+/// Largest number of divisions that lead to a triangle. If all triangles beside a coarse chord are turned over,
+/// divisions would continue until vertices coincide.
 inline constexpr std::uint8_t deepest = 12;
 }  // namespace refinement
 
 /// Searches over the assembled mesh, of either kind (improve/even_edges_test, grade/gradation_test,
 /// guarantees_test).
 namespace assembled {
-/// Cosine of the angle between a new triangle and the mean of those that it replaces.
+/// Cosine of the angle between a new triangle and the mean of the replaced triangles.
 inline constexpr double least_agreement = 0.7;
-/// A change beside a vertex is judged by what is around its neighbours' neighbours; one beside these may follow.
+/// The surroundings of its neighbours' neighbours judge a change beside a vertex; a change beside these may follow.
 inline constexpr int rings = 3;
 /// Length in the metric of a unit mesh.
 inline constexpr double shortest = std::numbers::sqrt2 / 2, longest = std::numbers::sqrt2;
@@ -73,7 +73,7 @@ inline constexpr double least_gain = 1e-4;
 namespace length_ratio {
 /// Shape. Such triangles are good whatever they were before.
 inline constexpr double good = 0.7;
-/// Length in the metric. A vertex put where nothing else helps, between imposed ones, may make edges as short as this.
+/// Length in the metric. A vertex put between imposed ones, as the last resort, may make edges as short as this.
 inline constexpr double shortest_divided = 0.5;
 /// Times that a new vertex is moved.
 inline constexpr int placements = 4;
@@ -81,11 +81,11 @@ inline constexpr int placements = 4;
 
 /// Gradation along chords (grade/gradation_test, guarantees_test).
 namespace chord_gradation {
-/// Share of the limit's logarithm up to which edges are mended: to be measured again, with other rounding.
+/// Share of the limit's logarithm that edges are improved to: they are measured again, with other rounding.
 inline constexpr double aim = 0.999;
 /// Shape in the metric. Such triangles are good whatever they were before.
 inline constexpr double good = 0.5;
-/// Lengths in the metric of single edges where nothing else helps.
+/// Lengths in the metric of single edges, as the last resort.
 inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
 /// Rings of changes that follow each other.
 inline constexpr int most_rings = 10;

@@ -27,7 +27,7 @@ namespace {
 
 using namespace thresholds::independent;
 
-// What the patches were meshed with, at their vertices; none where it is of no direction.
+// The metrics that patches were meshed with, at their vertices; none if they have no direction.
 PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
   PlaneMetrics metrics(result.mesh.faces.size());
   double most = 1;
@@ -73,7 +73,7 @@ void give_makers(const CurveModel& model, std::span<const DiscreteCurve> curves,
   };
 }
 
-// The mesh that was made elsewhere: its seams are mended, and what is bad.
+// Repairs a mesh from parametric remeshing: its seams, and its bad triangles.
 std::optional<StartedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, double least_mean,
                                   const CompositeResult& result, RemeshingFrame& frame, Monitor& monitor) {
   std::vector<WorkedLine> worked;
@@ -170,7 +170,7 @@ void take(FreedMesh&& made, RemeshingFrame& frame, CompositeResult& result, Moni
 
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack) {
   const GeometricLimits limits = geometric_limits(options.size);
-  // What is folded by less than the sharp angle may be flattened.
+  // Folds of less than the sharp angle may be flattened.
   const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
   SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg * angle_slack;
@@ -193,7 +193,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
   const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
   frame.workers = {options, cad};
   std::optional<StartedMesh> placed = mended(cad, tolerances, least_mean, result, frame, monitor);
-  if (!placed) return "it is not made in planes";
+  if (!placed) return "parametric remeshing is not possible";
   std::optional<std::int64_t> crossings_before;
   std::int64_t first = 0, last = 0;
   bool keeps = false;
@@ -217,7 +217,7 @@ std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, co
       keeps = true, last = first;
       keep_around(found, made, result.mesh, frame);
       placed = mended(cad, tolerances, least_mean, result, frame, monitor);
-      if (!placed) return "it is not made in planes";
+      if (!placed) return "parametric remeshing is not possible";
       continue;
     }
     std::string why = why_worse(made.mesh, result.mesh, options.threads, monitor);
@@ -237,7 +237,7 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
     result.report.crossings = outcome.crossings.count, result.crossings = std::move(outcome.crossings.pairs);
   if (frame.elements) {
     frame.elements(result.mesh, outcome.made);
-    result.report.crossings = -1;  // those of straight triangles say nothing of these
+    result.report.crossings = -1;  // crossings of straight triangles do not apply to curved elements
     result.crossings.clear();
   }
   take(std::move(outcome.made), frame, result, monitor);
@@ -249,7 +249,7 @@ bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
   RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
   give_makers(model, curves, elements, result, frame);
   const std::string why = remesh_in_frame(frame, model.cad, options, result, monitor);
-  if (!why.empty()) monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
+  if (!why.empty()) monitor.message(Level::warning, "no cross-patch remeshing: " + why);
   return why.empty();
 }
 

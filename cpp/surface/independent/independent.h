@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes whose sizes are what was asked for, whatever the patches (HDR sec. 4.5.5).
+// Meshes with the prescribed sizes, independent of the patches (HDR sec. 4.5.5).
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ struct FreedMesh;
 struct PlacedMesh;
 struct WorkedLine;
 
-/// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
+/// The input of remeshing in space: the atlas, the remaining lines, and other possible places of their vertices.
 struct RemeshingFrame {
   VertexJets jets;
   std::vector<MeshEdge> sharp;  ///< ascending
@@ -34,42 +34,45 @@ struct RemeshingFrame {
   std::vector<SharpLine> lines;
   std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
   bool everywhere = false;  ///< see remesh()
-  /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
+  /// Makes other elements of the triangles that replace the mesh `before`; empty: the triangles stay.
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
-  /// Makes the mesh at once, for mend_in_frame(); none: it does not.
+  /// Makes the whole mesh, for mend_in_frame(); returns nothing if it cannot.
   std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
   RemeshingWorkers workers = {};
 };
 
-/// How far triangles of meshes that are made so may leave the surface: by the geometric rule, else by the size. `by_direction`: sizes differ by
+/// Tolerances on the distance of triangles from the surface: by the geometric rule, otherwise by the size. `by_direction`: sizes differ by
 /// direction; `angle_slack`: see RemeshingFrame.
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack);
 
-/// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns why it
-/// stays as it is, which has then been done several times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.
+/// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns
+/// the reason if the mesh stays as it is after several rounds: the outcome would have a defect, or new triangles that cross. Empty: the
+/// mesh is made.
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 
-/// The same of a mesh that frame.made makes: around its seams only. `least_mean`: of shapes. Returns why nothing has come of it and nothing is changed.
+/// Repairs a mesh from frame.made, around its seams only. `least_mean`: least mean shape. Returns the reason if the mesh is not made, with
+/// nothing changed.
 std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
                           CompositeResult& result, Monitor& monitor);
 
-/// As it is: only frame.elements makes something of its triangles.
+/// Keeps the triangles: only frame.elements makes other elements of them.
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 
 /// RemeshingFrame::elements.
 using ElementMaker = std::function<void(const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made)>;
 
-/// `curves`: what it was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes, references, curves and (u, v) of its
-/// corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have them. `elements` may be empty. It stays as it is where the outcome would have a defect or triangles that cross and did not: false. Sentences
-/// about faces that have vanished go to `monitor`. Throws what the host throws, and Cancelled: then nothing is changed.
+/// `curves`: the curves that the mesh was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes,
+/// references, curves and (u, v) of its corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have
+/// them. `elements` may be empty. Returns false, with an unchanged mesh, if the outcome would have a defect or new triangles that cross.
+/// Sentences about faces that have vanished go to `monitor`. Throws the exceptions of the host, and Cancelled, with nothing changed.
 bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                        bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 
-/// The same of the triangles as they are: only `elements`, which is not empty, frees them.
+/// Keeps the triangles: only `elements`, which is not empty, makes a mesh that is free of patches.
 void free_elements_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                                 bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 

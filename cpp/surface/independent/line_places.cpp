@@ -75,7 +75,8 @@ Vec3 LinePlaces::near(double arc) const {
   return model_.support(model_.curve(part.curve).uses.front()).point_at_arc(curve_arc(part, arc));
 }
 
-// Of the triangles on the edge of the line there, that of the face, on the side of a seam that has the place.
+// Returns the triangle of the face on the line's edge there. At a seam it is the triangle on the side that has the
+// place.
 std::int32_t LinePlaces::triangle_beside(double arc, std::int32_t face, const Vec2& uv) const {
   const auto next = std::ranges::upper_bound(arc_, arc);
   const std::size_t edge = std::min<std::size_t>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of sharp lines: where they are on the curves of the host, and where else they may be.
+// Vertices of sharp lines: their places on the curves of the host, and other possible places.
 #pragma once
 
 #include <cstdint>
@@ -24,40 +24,40 @@ struct OnCurve {
   double t = 0;
 };
 
-/// One line by its length in space.
+/// A line, parametrised by its length in space.
 class LineGeometry {
  public:
   virtual ~LineGeometry() = default;
-  /// The places of its vertices are known.
+  /// A line with known places of its vertices.
   [[nodiscard]] virtual bool is_known() const noexcept = 0;
-  /// Of the vertices of the line, from 0, ascending.
+  /// Arc lengths of the vertices of the line, from 0, ascending.
   [[nodiscard]] virtual const std::vector<double>& arcs() const noexcept = 0;
-  /// The line there, or no farther from it than what it is known by.
+  /// A point of the line there, or no farther from it than the accuracy of the line's data.
   [[nodiscard]] virtual Vec3 near(double arc) const = 0;
-  /// On the surfaces beside.
+  /// Places on the surfaces beside.
   [[nodiscard]] virtual KeptPlaces at(double arc) = 0;
-  /// On curves of the host: two where one ends and the next one begins; none where the line is of no curves.
+  /// Places on curves of the host: two places where one curve ends and the next begins; empty without curves.
   [[nodiscard]] virtual std::vector<OnCurve> on_curves(double /*arc*/) const { return {}; }
 };
 
-/// A line of curves by its length in space, as the supports of its curves measure it. Keeps references to all that it is given.
+/// A line of curves by its length in space, as the supports of its curves measure it. Keeps references to its arguments.
 class LinePlaces final : public LineGeometry {
  public:
   /// `known`: the discrete curves by index in SurfaceMesh::curves.
   LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
              std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad);
 
-  /// The line has curves whose vertices are where the discrete ones have them.
+  /// Returns whether the vertices of the line's curves have the places of the discrete curves.
   [[nodiscard]] bool is_known() const noexcept override { return arc_.size() == line_.vertices.size(); }
   [[nodiscard]] const std::vector<double>& arcs() const noexcept override { return arc_; }
   [[nodiscard]] std::vector<OnCurve> on_curves(double arc) const override;
-  /// Off the curve by no more than its support; no evaluation.
+  /// A point as near to the curve as its support; no evaluation.
   [[nodiscard]] Vec3 near(double arc) const override;
-  /// On the curves, evaluated: about four times a use.
+  /// Places on the curves: about four evaluations for each use.
   [[nodiscard]] KeptPlaces at(double arc) override;
 
  private:
-  /// A part of the line: a whole curve, or some edges of it.
+  /// A part of the line: a whole curve, or some edges.
   struct Part {
     std::int32_t curve = 0;
     double from = 0, to = 0;            ///< of the line

@@ -59,7 +59,7 @@ class LineRemesher {
       if (!any) break;
     }
   }
-  // What has failed is tried again only where something around has changed, or there is more to spend.
+  // Allows failed moves again around a vertex that has moved. They are also repeated if the budget has grown.
   void has_moved(std::int32_t v) {
     for (const FreeMesh::Place p : mesh_.mesh().fan(v))
       for (const std::int32_t w : mesh_.mesh().at(p))
@@ -73,7 +73,7 @@ class LineRemesher {
     return sum;
   }
 
-  // The edge of a line leaves its curve no farther than is tolerated, or than one of those before.
+  // The edge of a line leaves its curve no farther than the tolerance, or than one of the old edges.
   [[nodiscard]] double distance(const Node& p, const Node& q) const {
     double most = 0;
     for (const double s : {0.25, 0.5, 0.75})
@@ -118,7 +118,7 @@ class LineRemesher {
     return false;
   }
 
-  // None where it may not be. Shapes refuse most, so agreement is judged last.
+  // Returns nothing if the collapse is not allowed. Shapes reject most collapses, so agreement is judged last.
   [[nodiscard]] std::optional<double> cost_of(std::int32_t gone, std::int32_t kept) const {
     TriangleShapes before, after;
     judge_collapse(gone, kept, &FreeMesh::judge_shape, before, after);
@@ -143,10 +143,10 @@ class LineRemesher {
     return std::min(before.worst, std::max(least_line_shape, mesh_.budget.floor));
   }
 
-  // Where shapes of before are kept.
+  // Returns whether the previous shapes are kept.
   [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }
 
-  // To where both edges have one length in the metric.
+  // Moves the vertex to the place where both edges have one length in the metric.
   bool move(std::size_t k) {
     const Node &previous = left_[k - 1], &next = left_[k + 1];
     Node& here = left_[k];
@@ -179,7 +179,7 @@ class LineRemesher {
     return false;
   }
 
-  // What shapes lose by it for so many edges that come into range.
+  // Compares the loss of shapes with the number of edges that come into range.
   [[nodiscard]] bool is_worth(double cost, int gain) const {
     return !weighs_moves() || (cost <= mesh_.budget.price * gain && mesh_.budget.affords(cost));
   }
@@ -191,7 +191,7 @@ class LineRemesher {
   const LineTolerance& tolerance_;
   Monitor& monitor_;
   std::vector<std::int32_t> changed_;
-  std::vector<std::optional<double>> failed_;               // by rank in left_: what was left to spend when a move failed
+  std::vector<std::optional<double>> failed_;               // by rank in left_: the budget when a move failed
   std::vector<std::pair<std::int32_t, std::size_t>> rank_;  // of vertices in left_, ascending
 };
 

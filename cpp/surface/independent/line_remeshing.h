@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sharp lines are cut anew, whatever curves they are of.
+// Remeshing of sharp lines, across the ends of their curves.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace carreau {
 
-/// How far edges may be from the line that they stand for.
+/// Largest distance of edges from their line.
 struct LineTolerance {
   double deviation = 0;      ///< model length; 0: `share_of_size` counts
   double share_of_size = 0;  ///< of the size
 };
 
-/// A vertex that is left of a line, and where it is on it.
+/// A remaining vertex of a line, with its place on the line.
 struct LineNode {
   std::int32_t vertex;
   double arc;
 };
 
-/// A line that is worked at.
+/// A line during remeshing.
 struct WorkedLine {
   std::unique_ptr<LineGeometry> places;
   std::vector<LineNode> left;
@@ -34,9 +34,9 @@ struct WorkedLine {
   WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geometry);
 };
 
-/// Collapses edges of lines until there are as many as their length in the prescribed metric wants (RR-2818 sec. 4.5),
-/// and moves their vertices until edges are of equal length in it, where triangles beside agree with the surface.
-/// Vertices changed. Throws what the host throws, and Cancelled.
+/// Collapses edges of lines until their number fits the length of the line in the prescribed metric (RR-2818 sec. 4.5).
+/// Moves their vertices until edges are of equal length in it, if triangles beside agree with the surface. Returns the
+/// vertices changed. Throws the exceptions of the host, and Cancelled.
 std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,
                                        Monitor& monitor);
 

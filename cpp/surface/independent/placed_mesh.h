@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh over an atlas that was made elsewhere.
+// A mesh over an atlas, from parametric remeshing.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,14 @@
 
 namespace carreau {
 
-/// Vertices of lines have the numbers of vertices of those lines in the mesh of before, as many as are needed; others
-/// follow.
+/// Vertices of lines reuse as many numbers of these lines' vertices in the previous mesh as necessary; others follow.
 struct PlacedMesh {
   std::vector<SurfacePlace> added;                ///< the vertices that follow
   std::vector<EditableMesh::Triangle> triangles;  ///< as the atlas is turned
   std::vector<std::vector<LineNode>> lines;       ///< by line
   std::vector<std::vector<KeptPlaces>> on_line;   ///< by line and node; none where a vertex stays where it was
   std::vector<std::int32_t> seams;                ///< vertices that nothing but the making has put in line
-  std::vector<std::int32_t> kept;                 ///< corners of triangles that are those of the mesh of before
+  std::vector<std::int32_t> kept;                 ///< corners of triangles that were in the previous mesh
 };
 
 }  // namespace carreau

@@ -16,10 +16,10 @@ namespace carreau {
 
 namespace {
 
-/// Cells that one thread places, and such parts between two times that cells are dealt out to faces [time and memory only].
+/// Cells that one thread places, and parts of cells between two distributions of cells to faces [time and memory only].
 constexpr std::size_t cells_of_part = 4096, parts_placed_at_once = 64;
 
-/// Deals cells out to faces, and edges of lines to curves.
+/// Distributes cells to faces, and edges of lines to curves.
 class Reassembler {
  public:
   Reassembler(const SurfaceMesh& before, const CellsInSpace& cells, const RemeshingWorkers& workers, Monitor& monitor)
@@ -193,7 +193,7 @@ class Reassembler {
     }
   }
 
-  /// Edges of a line that are left, with their curve and the faces beside.
+  /// Remaining edges of a line, with their curve and the faces beside.
   struct Run {
     std::int32_t curve = -1;
     std::vector<std::int32_t> faces;
@@ -227,7 +227,7 @@ class Reassembler {
     for (const CurveMesh& curve : mesh.curves) result_.curve_size.push_back(sizes_along(curve.vertices));
   }
 
-  // Where sizes differ by direction those of the edges before and behind, in the mean.
+  // If sizes differ by direction: the mean of the sizes along the edges before and behind.
   [[nodiscard]] std::vector<double> sizes_along(const std::vector<std::int32_t>& chain) const {
     std::vector<double> sizes;
     for (std::size_t k = 0; k < chain.size(); ++k) {
@@ -247,7 +247,7 @@ class Reassembler {
 
   // A vertex where a closed curve begins is at both of its ends.
   void place_on_curves(std::span<const WorkedLine> worked) {
-    std::multimap<std::pair<std::int32_t, std::int32_t>, OnCurve> known;  // by curve of before and vertex
+    std::multimap<std::pair<std::int32_t, std::int32_t>, OnCurve> known;  // by curve of the previous mesh and vertex
     for (const WorkedLine& line : worked)
       for (const LineNode& node : line.left)
         for (const OnCurve& place : line.places->on_curves(node.arc))
@@ -284,7 +284,7 @@ class Reassembler {
     }
   }
 
-  // A curve inside one face is so still.
+  // A curve inside one face stays inside.
   [[nodiscard]] std::vector<CurveMeshUse> uses_of(const Run& run) const {
     const auto& old = before_.curves[run.curve].uses;
     const bool internal = std::ranges::any_of(old, [](const CurveMeshUse& u) { return u.internal; });
@@ -294,7 +294,7 @@ class Reassembler {
     return uses;
   }
 
-  /// Of an edge between kept vertices: faces of the cells on it, and its node.
+  /// For an edge between kept vertices: faces of the cells on it, and its node.
   struct Beside {
     std::vector<std::int32_t> faces;
     std::int32_t node = -1;
@@ -307,12 +307,12 @@ class Reassembler {
   Monitor& monitor_;
   SizedMesh result_;
   std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
-  std::vector<std::int32_t> node_number_;          // of those that are nodes on edges
+  std::vector<std::int32_t> node_number_;          // for vertices that are nodes on edges
   std::vector<std::vector<PlacedCell>> of_face_;
   std::vector<std::vector<PlacedCorner>> locals_;  // by face, ascending
   std::map<MeshEdge, Beside> beside_;
   std::vector<CurveMesh> more_;
-  std::vector<std::int32_t> old_curve_;  // by curve: that of before
+  std::vector<std::int32_t> old_curve_;  // by curve: the curve of the previous mesh
 };
 
 }  // namespace

@@ -16,14 +16,14 @@
 
 namespace carreau {
 
-/// What changes when a mesh has been made free of its patches.
+/// The changed data of a mesh that was made free of its patches.
 struct FreedMesh : SizedMesh {
-  // What it was made of, for those who make other elements of it.
+  // The sources of the mesh, for steps that make other elements.
   std::unique_ptr<FreeMesh> free = {};
   std::vector<WorkedLine> worked = {};  ///< by line
 };
 
-/// The line with its vertices that are there; each edge has the curve of the middle one of those that it stands for.
+/// The line with its remaining vertices; each edge has the curve of the middle one of the edges that it stands for.
 SharpLine what_is_left(const SharpLine& line, const std::function<bool(std::int32_t)>& is_there);
 
 /// Cells over a surface. Keeps references.
@@ -32,14 +32,14 @@ struct CellsInSpace {
   const Charts& charts;
   Cad& cad;
   std::vector<FreeCell> cells;  ///< as the atlas is turned
-  /// Of elements of second order, else empty: by cell the vertices that are the nodes of its sides, from corner k to the next one.
+  /// For elements of second order, else empty: by cell the vertices that are the nodes of its sides, from corner k to the next one.
   std::vector<FreeCell> nodes = {};
 };
 
-/// A cell belongs to the face of the foot of its centroid. Faces without a cell are collapsed; edges of lines
-/// have the curve of the middle one of the edges that they stand for, and curves without an edge have no vertices. Curves that
-/// no face has stay as they are, without nodes on their edges.
-/// `worked`: by line, where the vertices are that are left of it; `workers`: the mesh does not depend on their threads.
+/// A cell belongs to the face of the closest point of its centroid. Faces without a cell are collapsed. Edges of lines have the curve of
+/// the middle one of the edges that they stand for, and curves without an edge have no vertices. Curves that no face has stay as they are,
+/// without nodes on their edges. `worked`: by line, the places of its remaining vertices; `workers`: the mesh does not depend on their
+/// threads.
 SizedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
                      std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, const RemeshingWorkers& workers,
                      Monitor& monitor);

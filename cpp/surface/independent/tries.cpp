@@ -53,8 +53,8 @@ std::int64_t euler(const SurfaceMesh& mesh) {
          static_cast<std::int64_t>(mesh.triangle_count());
 }
 
-// Of few triangles, with sizes that grow from the lines, which are then halved: vertices that halve an edge have six neighbours,
-// and irregular ones are as few as there are of the coarse mesh.
+// Makes a mesh of few triangles, with sizes that grow from the lines, and then halves it. Vertices that halve an edge have six neighbours,
+// so that only the coarse mesh has irregular vertices.
 RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, RemeshingFrame& frame, Monitor& monitor) {
   RemeshingReport report;
   for (int level = halvings; level > 0; --level) {
@@ -76,7 +76,7 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
 
 bool falls(double to, double from) { return to < from - rounding_of_mean; }
 
-// Where the mean has fallen by little more work at shapes makes up for it.
+// If the mean quality dropped slightly, smoothing recovers it.
 ShapeSummary regained(FreeMesh& mesh, double mean, int threads, Monitor& monitor) {
   ShapeSummary now = summarise_shapes(mesh, threads, monitor);
   for (const double below : regained_below) {
@@ -173,7 +173,8 @@ std::int64_t Tries::crossings_before() {
   return crossings_before_;
 }
 
-// From a round on. False: it has ended after the first one, since the mean has fallen below `least`.
+// Remeshes lines and the mesh between them, from round `first` on. False: it ended after the first round, since the
+// mean fell below `least`.
 bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least) {
   FreeMesh& free = *start.free;
   const LineTolerance of_lines{tolerances_.deviation, tolerances_.share_of_size};
@@ -183,7 +184,7 @@ bool Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, b
     const std::vector<std::int32_t> changed = remesh_lines(free, start.worked, of_lines, monitor_);
     if (round > 0 && changed.empty() && weighing.kept != keep_all) break;
     if (round == 0 && coarsely && frame_.everywhere) report += remesh_coarsely(free, before_.mesh, frame_, monitor_);
-    // Elsewhere nothing is left to do after the first round.
+    // Elsewhere the work is done after the first round.
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
     report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, frame_.everywhere && coarsely, around);
     if (weighing.kept == keep_all) free.budget.price *= price_growth;
@@ -204,7 +205,7 @@ Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
   if (weighing.weighs_moves) free.budget.floor = std::min(before.worst, least_line_shape);
   if (weighing.kept != keep_none) free.budget.floor = before.worst;
   if (weighing.kept == keep_all) free.budget.left = 0;
-  // By more than that the mean is not raised again.
+  // A larger drop of the mean is not recovered.
   const bool may_end = !frame_.everywhere && !frame_.elements && weighing.price < infinity && weighing.kept != keep_all;
   if (!remesh_between_lines(start, weighing, coarsely, 0, may_end ? before.mean - most_lost_at_first : 0)) {
     const double in_range = share_in_range(free);
@@ -212,14 +213,14 @@ Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
   }
   raise_worst(free, before.worst + above_worst, monitor_);
   const ShapeSummary after = regained(free, may_end ? before.mean : 0, options_.threads, monitor_);
-  // The worst triangle of no mesher says nothing, nor that which other elements are made of.
+  // Ignores the worst quality of input that no mesher made, and of triangles that other elements are made of.
   const bool worst_falls = !frame_.everywhere && !frame_.elements && falls(after.worst, before.worst);
   const KeptShapes worse_in = falls(after.mean, before.mean) ? keep_all : worst_falls ? keep_worst : keep_none;
   const double in_range = share_in_range(free);
   return {std::move(start), worse_in, in_range};
 }
 
-// With why it is not to replace the mesh of before.
+// Reassembles the mesh, with the reason if it must not replace the previous mesh.
 Tries::Outcome Tries::put_together(StartedMesh& mesh) {
   Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
   outcome.crossings = find_crossings(outcome.made.mesh, before_, options_, monitor_);
@@ -228,7 +229,8 @@ Tries::Outcome Tries::put_together(StartedMesh& mesh) {
   return outcome;
 }
 
-// All or nothing; where triangles would cross for it nothing is edited around. What it has edited is put together first: mostly that is what counts.
+// Keeps all edits of the certification or none. If they would make triangles cross, their surroundings are not edited. The edited mesh is
+// reassembled first, since it is mostly the result.
 Tries::Outcome Tries::certified(StartedMesh& mesh) {
   if (frame_.everywhere || frame_.elements || options_.certified == Certified::none) return put_together(mesh);
   Certifier certifier(*mesh.free, options_.certified == Certified::all, frame_.workers, monitor_);
@@ -253,10 +255,10 @@ Tries::Outcome Tries::certified(StartedMesh& mesh) {
 }
 
 Tries::Outcome Tries::run() {
-  // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
+  // Coarse triangles cannot keep a geometric rule; after crossings the strategy starts without them.
   bool coarsely = !geometric_limits(options_.size).any();
-  KeptShapes least = keep_none;   // what has to be kept
-  std::optional<Try> spare;  // the first one whose shapes are worse than those of before
+  KeptShapes least = keep_none;   // the shapes that must be kept
+  std::optional<Try> spare;  // the first mesh whose shapes are worse than the previous shapes
   Outcome outcome;
   for (const Weighing& weighing : weighings(frame_.everywhere || frame_.elements, options_.sharp_angle)) {
     if (weighing.kept < least) continue;
@@ -268,7 +270,7 @@ Tries::Outcome Tries::run() {
       if (!spare) spare = std::move(tried);
       continue;
     }
-    // Good shapes of a size that nobody wants are of no use.
+    // Sizes take precedence over shapes.
     if (spare && tried.in_range < spare->in_range - most_range_for_shapes) {
       std::swap(tried, *spare);
       if (tried.ended != nullptr) remesh_between_lines(tried.mesh, *tried.ended, false, 1, 0);

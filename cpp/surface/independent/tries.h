@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh is made in a frame more than once where triangles cross or shapes suffer, and the best one counts.
+// Strategies of remeshing in a frame: if triangles cross or shapes become worse, the mesh is made again, and the best
+// one counts.
 #pragma once
 
 #include <cstdint>
@@ -20,47 +21,49 @@
 
 namespace carreau {
 
-/// What shapes are not to fall below: that of before.
+/// The shapes of the previous mesh that must not become worse.
 enum class KeptShapes : char {
   none,
   worst,           ///< no triangle becomes worse than the worst one was
-  worst_and_mean,  ///< and what shapes lose by any edit has been gained before
+  worst_and_mean,  ///< and gains of earlier edits pay each loss of shapes
 };
 
-/// How lengths are weighed against shapes where they are at odds (ShapeBudget).
+/// Weights of lengths and shapes if they conflict (ShapeBudget).
 struct Weighing {
   double price;       ///< of an edge that comes into range where triangles span lines; it grows while shapes are kept
-  bool weighs_moves;  ///< vertices are moved along lines by the price, too; else wherever lengths become even
-  KeptShapes kept;    ///< where the mean is, collapses inside have the price, too
+  bool weighs_moves;  ///< moves along lines carry the penalty, too; otherwise vertices move wherever lengths become even
+  KeptShapes kept;    ///< if the mean is kept, collapses inside carry the penalty, too
 };
 
-/// In the order in which they are tried. `triangles_pass`: shapes of before say little, of triangles that are no mesher's or that other elements are made of.
+/// The strategies in their order. `triangles_pass`: ignores the previous shapes of triangles that no mesher made or that other elements are
+/// made of.
 std::span<const Weighing> weighings(bool triangles_pass, double sharp_angle) noexcept;
 
-/// All triangles of `mesh` as a free one, and the lines of the frame.
+/// A free mesh of all triangles, and the lines of the frame.
 struct StartedMesh {
   std::unique_ptr<FreeMesh> free;
   std::vector<WorkedLine> worked;
 };
 StartedMesh start_free_mesh(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame);
 
-/// Of the triangles that are left.
+/// Reassembles the remaining triangles.
 FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const RemeshingFrame& frame, Monitor& monitor);
 
-/// Triangles of a mesh that cross.
+/// Finds triangles of a mesh that cross.
 Intersections find_crossings(const SurfaceMesh& mesh, const CompositeOptions& options, Monitor& monitor);
 
-/// The same of one that is made of `before`, whose crossings may be known: those of triangles that stay are not sought again.
+/// Finds triangles that cross in a mesh made of `before`, whose crossings may be known: unchanged triangles are not tested again.
 Intersections find_crossings(const SurfaceMesh& mesh, const CompositeResult& before, const CompositeOptions& options,
                              Monitor& monitor);
 
 /// Guards the places of the atlas around triangles that cross.
 void guard_around(const Intersections& found, const FreedMesh& made, Charts& charts);
 
-/// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
+/// Returns the reason why a mesh is worse than the mesh that it replaces; empty: it is not. Distinguishes triangles
+/// that cross from others.
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor);
 
-/// Keeps references to all that it is given.
+/// Keeps references to its arguments.
 class Tries {
  public:
   Tries(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, const CompositeResult& result, Monitor& monitor);
@@ -68,7 +71,7 @@ class Tries {
   struct Outcome {
     FreedMesh made;
     Intersections crossings;
-    std::string why;       ///< it does not replace the mesh of before; empty: it does
+    std::string why;       ///< reason not to replace the previous mesh; empty: it is replaced
     bool crosses = false;  ///< because more triangles would cross
   };
   Outcome run();
@@ -81,7 +84,7 @@ class Tries {
     const Weighing* ended = nullptr;            ///< after the first round, since shapes had become worse; null: it is done
   };
   Try make(const Weighing& weighing, bool coarsely);
-  Outcome put_together(StartedMesh& mesh);  // it stays where no elements are made of it
+  Outcome put_together(StartedMesh& mesh);  // the mesh stays unless it becomes other elements
   Outcome certified(StartedMesh& mesh);
   bool remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely, int first, double least);
   [[nodiscard]] std::int64_t crossings_before();

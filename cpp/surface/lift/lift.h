@@ -7,8 +7,8 @@
 
 namespace carreau {
 
-/// Position of every vertex in space: surf0 once for each that lies on no curve. `team`: whose processes share the
-/// questions; null: this one alone asks its host.
+/// Position of every vertex in space: surf0 once for each that lies on no curve. `team`: processes that share the
+/// evaluations; null: this process alone calls its host.
 void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
 
 }  // namespace carreau

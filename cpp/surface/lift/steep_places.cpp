@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::lift;
 
-/// A place on its way to the surface.
+/// A place during its search on the surface.
 struct Foot {
   Vec3 at;
   double reach;
@@ -24,7 +24,7 @@ struct Foot {
   bool moving = true;
 };
 
-/// Gauss and Newton's step towards the nearest point of the tangent plane; none where that is degenerate.
+/// Gauss-Newton step towards the nearest point of the tangent plane; empty if the plane is degenerate.
 Vec2 step_towards(const SurfaceJet& jet, const Vec3& at) noexcept {
   const Vec3 away = at - jet.s;
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
@@ -38,7 +38,7 @@ class SteepPlaces {
   SteepPlaces(const PatchInput& input, Cad& cad, const PatchMesh& mesh, Monitor& monitor)
       : input_(input), cad_(cad), mesh_(mesh), monitor_(monitor) {}
 
-  // Places whose nearest point of the mesh may be that of the surface.
+  // Finds places whose nearest point of the mesh may be the nearest point of the surface.
   std::vector<Foot> begin(const std::vector<SteepPlace>& places) {
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     double longest = 0;

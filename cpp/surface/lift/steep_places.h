@@ -10,10 +10,11 @@
 
 namespace carreau {
 
-/// The points in (u, v) of a face nearest to the steep places that sources know in space, where the prescribed metric
-/// is not that of the control space: the sampling has missed it. Begun at the nearest points of the lifted mesh;
-/// those farther away than a place reaches, and those outside of the domain, are of other faces. At most 500. Costs two
-/// to nine evaluations a place that is near, nothing where sources know none.
+/// Returns the points in (u, v) of a face nearest to the steep places of sources in space, if the sampling has missed
+/// them. There the prescribed metric differs from the metric of the control space. The search starts at the nearest
+/// points of the lifted mesh. Points farther away than a place reaches, and points outside of the domain, belong to
+/// other faces. At most 500. Costs two to nine evaluations a place that is near, and no evaluation if sources have no
+/// such place.
 std::vector<Vec2> missed_steep_places(const PatchInput& input, const ControlSpace& space, Cad& cad,
                                       const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor);
 

@@ -66,7 +66,7 @@ double excess_by_corners(const PatchMesh& mesh) noexcept {
     const auto& [a, b, c] = mesh.plane.triangles[t];
     const Vec3 n = normal_of(mesh, t), m = mesh.normal[a] + mesh.normal[b] + mesh.normal[c];
     const double whole = norm(m);
-    if (!(whole > 0)) continue;  // at a pole nothing is known
+    if (!(whole > 0)) continue;  // at a pole the normal is unknown
     area += norm(n);
     below += dot(n, m) / whole;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After the lift: how far triangles lean against the surface.
+// After the lift: angles between triangles and the surface.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,25 @@
 
 namespace carreau {
 
-/// What is wrong with a lifted patch.
+/// Faults of a lifted patch.
 struct SurfaceAgreement {
   /// Triangles that turn their backs on the surface they stand for, or stand upright on it.
   std::int64_t turned = 0;
-  /// Area of the mesh over that of the surface, less 1. Chords make a mesh smaller, not larger: it is larger where long
-  /// edges leave the surface by as much as their neighbours are away, and triangles stand on it like scales (Schwarz's
-  /// lantern). 0 where it is small, or normals are not known.
+  /// Area of the mesh over the area of the surface, less 1. Chords make a mesh smaller. It is larger where long edges
+  /// leave the surface by as much as their neighbours are away. Triangles then stand on it like scales (Schwarz's
+  /// lantern). 0 if it is small, or normals are not known.
   double excess = 0;
 
   [[nodiscard]] bool leans() const noexcept;
   [[nodiscard]] bool wrong() const noexcept { return turned > 0 || leans(); }
   [[nodiscard]] bool better_than(const SurfaceAgreement& other) const noexcept;
-  /// For a person, after the face; empty where nothing is wrong.
+  /// A text for a person, after the face; empty if all is well.
   [[nodiscard]] std::string text() const;
 };
 
-/// `doubtful`: triangles that may be turned (refine_in_space). Where normals are known (mesh.normal) areas are compared
-/// with those of projections along them first. Sixteen evaluations for each doubtful triangle, and for each triangle
-/// where areas differ.
+/// `doubtful`: triangles that may be turned (refine_in_space). If normals are known (mesh.normal) areas are compared
+/// first with the areas of projections along them. Sixteen evaluations for each doubtful triangle, and for each
+/// triangle where areas differ.
 SurfaceAgreement measure_agreement(const PatchInput& input, Cad& cad, const std::vector<int>& doubtful,
                                    const PatchMesh& mesh, Monitor& monitor);
 

@@ -35,7 +35,7 @@ class LiftCheck {
     if (!input_.isotropic) {
       compare_lengths();
       compare_metrics();
-      find_places(false);  // a mean size says nothing of an edge that is short by its direction
+      find_places(false);  // a mean size does not measure an edge that is short by its direction
       thin_out();
       return std::move(places_);
     }
@@ -82,7 +82,7 @@ class LiftCheck {
       keep(imposed + k, {{c[0], c[1], c[2]}, c[3], c[4] != 0});
     }
   }
-  /// What the metric at a vertex tells.
+  /// Results of the metric at a vertex.
   struct Compared {
     Vec3 normal;
     double size = 0;
@@ -113,7 +113,7 @@ class LiftCheck {
       for (int i = 0; i < 3; ++i)
         if (const std::int32_t a = triangles[k][i], b = triangles[k][i == 2 ? 0 : i + 1]; a < b) use(a, b);
   }
-  /// What work(part) gives for all parts, by the threads and processes that make the patch.
+  /// Returns the results of work(part) for all parts, by the threads and processes that make the patch.
   template <typename Result, typename Work, typename Put, typename Get>
   std::vector<Result> of_parts(std::string_view step, const Work& work, const Put& put, const Get& get) {
     const Crew crew{parts() >= least_shared_parts ? team_ : nullptr, input_.threads};
@@ -156,12 +156,12 @@ class LiftCheck {
     }
   }
 
-  // What is prescribed on a curve, and may be more than its edges say.
+  // The prescribed size on a curve, which may be larger than its edges show.
   [[nodiscard]] double at_edges(std::size_t v, double h) const {
     return input_.limits.edges != nullptr ? input_.limits.edges->at(mesh_.xyz[v], h) : h;
   }
 
-  // Where sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
+  // If sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
   void ask_host() {
     if (rules_.uses_curvature()) return;
     const std::size_t imposed = input_.domain->size.size();
@@ -195,12 +195,12 @@ class LiftCheck {
     return answered ? h : no_size;
   }
 
-  // All is compared by squares: an edge has three square roots else.
+  // Squares are compared, which saves three square roots an edge.
   void find_places(bool report) {
     constexpr double too_long2 = too_long * too_long, too_short2 = too_short * too_short, excess2 = excess * excess;
     mesh_.excesses.clear();
     const PlaneDomain& domain = input_.domain->plane;
-    std::vector<char> at_apex;  // by imposed vertex; empty: there is no apex
+    std::vector<char> at_apex;  // by imposed vertex; empty: without an apex
     for (const PlaneEdge& e : domain.edges) {
       if (e.kind != PlaneEdgeKind::degenerate) continue;
       at_apex.resize(domain.vertices.size(), 0);
@@ -285,7 +285,7 @@ UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpac
 
 std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh, int threads, Monitor& monitor) {
   const auto imposed = static_cast<std::int32_t>(domain.origin.size());
-  // The first side of a triangle that is a point of space, although it has an end inside; 3: there is none.
+  // The first side of a triangle that is a point of space, although it has an end inside; 3: no such side.
   const auto point_side = [&](const std::array<std::int32_t, 3>& t) -> std::size_t {
     std::array<double, 3> in_space, in_domain;  // squared
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After the lift: do lengths in space agree with those that the control space promised?
+// Compares, after the lift, lengths in space with the lengths that the control space promised.
 #pragma once
 
 #include <string>
@@ -12,36 +12,36 @@
 
 namespace carreau {
 
-/// Whether what is prescribed is what the control space says, `ratios` being lengths of the former over those of the
-/// latter. Where the space is graded further it may ask for more.
+/// Returns whether prescribed lengths agree with the control space. `ratios`: prescribed lengths over lengths of the
+/// control space. If the space is graded further it may require more.
 bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept;
 
-/// Fills mesh.size and mesh.excesses and returns places in (u, v) where an edge's length in space over the prescribed
-/// size disagrees with its length in the control space: the sampling has missed something there. The prescribed size is
-/// the one size of the model, or what the host answers at the ends (asked once a vertex) within the graded field, or,
-/// where sizes come from curvature or from interpolation, what the control space says around. Chords shorter than their
-/// arcs are no disagreement. Empty on surfaces that the control space knows. At most 500 places. Where metrics govern,
-/// the prescribed metric is evaluated at each vertex inside and compared with the control space's; mesh.size is then
-/// the size in the mean, sqrt(h1 h2), and mesh.normal is filled. `team`: whose processes share all that; null: this one alone.
+/// Fills mesh.size and mesh.excesses. Returns places in (u, v) that the sampling has missed. There an edge's length in space over the
+/// prescribed size disagrees with its length in the control space. The prescribed size is the single size of the model, or the host's
+/// answer at the ends (one call a vertex) within the graded field. If sizes come from curvature or from interpolation, the control space
+/// around prescribes it. Chords shorter than their arcs do not count as disagreement. Empty on surfaces that the control space represents.
+/// At most 500 places. If metrics govern, the prescribed metric is evaluated at each vertex inside and compared with the control space's.
+/// Then mesh.size is the size in the mean, sqrt(h1 h2), and mesh.normal is filled. `team`: processes that share all that; null: only this
+/// process.
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
                               PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
 
-/// Whether two control spaces differ at one of these places by more than their tolerance explains.
+/// Returns whether two control spaces differ at one of these places by more than their tolerance explains.
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
 
-/// What a mesh has missed (ControlSpace::undersampled_regions()).
+/// Regions that a mesh has missed (ControlSpace::undersampled_regions()).
 struct UndersampledRegions {
-  /// Those where the control space is right: to be handed to the plane mesher.
+  /// Regions where the control space is right: the plane mesher gets them.
   std::vector<std::vector<Vec2>> confirmed;
-  /// The places of others, where it is not: to be sampled again.
+  /// Places of the other regions, where it is wrong: the sampling repeats them.
   std::vector<Vec2> mistaken;
 };
-/// Asks the prescribed metric at one place of each region; at most 500.
+/// Evaluates the prescribed metric at one place of each region; at most 500.
 UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpace& space, Cad& cad,
                                       const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor);
 
-/// Sides of a domain may shrink to a point, places inside may not: where vertices inside coincide in space, triangles
-/// have no area. The sentence that says where; empty when there is no such place.
+/// Sides of a domain may shrink to a point, but vertices inside must not coincide in space: their triangles have no
+/// area. Returns a sentence with the place; empty if vertices do not coincide.
 std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh, int threads, Monitor& monitor);
 
 }  // namespace carreau

@@ -65,7 +65,7 @@ class Ladder {
     return chain;
   }
 
-  // Where the vertices of both sides are along side[1]. A ring starts at the first vertex of side[0] and at its nearest
+  // Places the vertices of both sides along side[1]. A ring starts at the first vertex of side[0] and at its nearest
   // neighbour, and ends there.
   void place_vertices_on(const SideRuler& ruler) {
     const double length = ruler.length();

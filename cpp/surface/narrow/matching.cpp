@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of both sides of a narrow face at the same places.
+// Matches the vertices of both sides of a narrow face.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -93,7 +93,7 @@ class SideMatcher {
     return all;
   }
 
-  // Where `from` has vertices and `to` has not.
+  // Places of the vertices of `from` where `to` has no vertex.
   static Fractions missing(const NarrowFace& narrow, const std::vector<Vertex>& from, const SideRuler& to,
                            const std::vector<Vertex>& there) {
     Fractions fractions;
@@ -176,7 +176,7 @@ class SideMatcher {
     place(curve, std::move(inside));
   }
 
-  // A vertex has one place at most on each curve: a curve with more vertices than all sides together takes images of
+  // A vertex has one place at most on each curve. A curve with more vertices than all sides together copies images of
   // images, whose number may double in each round.
   [[nodiscard]] bool has_too_many(const SideRuler& side) const {
     for (std::size_t p = 0; p < side.parts(); ++p)
@@ -200,9 +200,9 @@ class SideMatcher {
     return curves;
   }
 
-  // The face whose places disagree, if one has such. Vertices that one face inserts in a curve another face that has the
-  // curve must follow: there are no more rounds than faces in a row, and a face that inserts still then has no end.
-  // Faces whose curves have not changed are passed over.
+  // Returns the face whose places disagree, if any. If one face inserts vertices in a curve, other faces with that
+  // curve must follow. A face that still inserts after as many rounds as there are faces in a row never ends. Faces
+  // whose curves have not changed are passed over.
   std::optional<std::size_t> match_all(bool from_the_start) {
     std::vector<std::vector<int>> curves(faces_.size());
     std::set<int> all;

@@ -97,8 +97,9 @@ class Finder {
     return smallest;
   }
 
-  // A face that is larger than its boundary shows, a sphere around a small hole, is not near its boundary. Surfaces are
-  // not asked here: what the derivatives would say of a small loop is left to the check of areas when it collapses.
+  // A face that is larger than its boundary shows, for example a sphere around a small hole, is not near its boundary.
+  // Surfaces are not evaluated here: the check of areas at the collapse handles small loops whose derivatives show a
+  // large face.
   bool is_near_a_point(NarrowFace& narrow) const {
     const Vec3 start = model_.supports[face_].front().xyz.front();
     for (const CurveSupport& s : model_.supports[face_])
@@ -106,7 +107,7 @@ class Finder {
     return narrow.width <= reach_;
   }
 
-  // Whether the middle of the longest curve is near another one; cheap, and enough to pass over most faces.
+  // Returns whether the middle of the longest curve is near a second curve; cheap, and enough to pass over most faces.
   [[nodiscard]] bool may_be_narrow() const {
     const auto& supports = model_.supports[face_];
     std::size_t longest = 0;
@@ -147,7 +148,7 @@ class Finder {
         narrow.side = {one, other};
         narrow.end_cap = {reversed(part_of(loop, p.from, p.count)), part_of(loop, q.from, q.count)};
       }
-    // Sides that are one curve already (a seam) have nothing between them that could be matched.
+    // Sides that are one curve already (a seam) need no matching.
     return best <= reach_ && !share_a_curve(narrow);
   }
 
@@ -204,7 +205,7 @@ std::vector<int> vanishing_of(const CurveModel& model, const NarrowFace& narrow)
   return curves;
 }
 
-/// A loop of a face that stays, all of whose curves would vanish; empty when there is none.
+/// Returns a loop of a face that stays, all of whose curves would vanish; empty if no such loop exists.
 std::vector<int> vanishing_loop(const CurveModel& model, const std::vector<char>& gone, const NarrowModel& narrow) {
   std::vector<char> collapses(model.model.faces.size(), 0);
   for (const auto* list : {&narrow.strips, &narrow.points})
@@ -222,7 +223,7 @@ std::vector<int> vanishing_loop(const CurveModel& model, const std::vector<char>
   return {};
 }
 
-/// Whether the face has nothing between the two uses that it makes of one curve.
+/// Returns whether the face has no width between its two uses of one curve.
 bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int face, std::array<CurveUse, 2> uses) {
   const int ref = model.model.faces[face].ref;
   const double near = std::max(folded_gap * curve.gap, folded_share * model.length(curve.curve));
@@ -241,8 +242,8 @@ bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int fa
   return true;
 }
 
-/// Whether the face is one point of space: each side is, and its middle is no farther from them than they extend. A
-/// closed surface whose whole border is one point is none.
+/// Returns whether the face is one point of space: each side is, and its middle is at most as far from them as they
+/// extend. A closed surface whose whole border is one point does not count.
 bool is_point_of_space(const CurveModel& model, int face) {
   Vec2 middle{0, 0};
   std::vector<Vec3> border;

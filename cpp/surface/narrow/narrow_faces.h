@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces that are narrower than the triangles that are wanted: matched sides, one layer of triangles, or none.
+// Faces that are narrower than the triangles of the prescribed sizes: matched sides, one layer of triangles, or no
+// triangles.
 #pragma once
 
 #include <array>
@@ -26,56 +27,57 @@ struct NarrowFace {
   double width = 0;               ///< two-sided Hausdorff distance of the sides (HDR sec. 4.5.1), model length
   double size = 0;                ///< smallest size prescribed on its curves
   bool ring = false;              ///< both sides are closed
-  bool point = false;             ///< no longer than wide: all of it is near a point; it has no sides
+  bool point = false;             ///< no longer than wide: the whole face is near a point; it has no sides
   std::array<Side, 2> side = {};  ///< both run the same way
-  /// What joins their starts and their ends, from side[0] to side[1]; empty where they meet.
+  /// The curves that join the starts and the ends of the sides, from side[0] to side[1]; empty where the sides meet.
   std::array<Side, 2> end_cap = {};
 };
 
-/// Faces narrower than `ratio` times the smallest size on their curves: one loop that two of its corners or short
-/// curves cut into two near sides, two near loops, or a loop that is all near a point. Faces with internal curves or
-/// imposed points, and those whose sides are one curve, are not taken for narrow. In the order of the model.
+/// Faces narrower than `ratio` times the smallest size on their curves. Such a face has one loop that two of its
+/// corners or short curves cut into two near sides, or two near loops. Its loop may also be all near a point. Faces
+/// with internal curves or imposed points, and faces whose sides are one curve, do not count as narrow. In the order of
+/// the model.
 std::vector<NarrowFace> find_narrow_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
                                           double ratio);
 
-/// What is known of the narrow faces of a model in one run.
+/// The narrow faces of a model in one run.
 struct NarrowModel {
   std::vector<NarrowFace> strips;  ///< with two sides
   std::vector<NarrowFace> points;  ///< near a point
   /// The end caps of strips and all curves of points, when their faces are to collapse.
   VanishingCurves vanishing;
-  std::vector<int> folded;  ///< faces without width (find_folded_faces()): nothing is meshed there, whatever is asked
+  std::vector<int> folded;  ///< faces without width (find_folded_faces()), which are never meshed
 
   [[nodiscard]] bool empty() const noexcept { return strips.empty() && points.empty(); }
 };
 
-/// Faces whose whole boundary is there and back along the same curves, with no more between them than the gap of those:
-/// slivers below the tolerance of their file. A closed surface along its seam is none. Faces all of whose sides are
-/// degenerate, and that lie where their sides do, are among them. Indices in Model::faces, ascending.
+/// Slivers below the tolerance of their file. Their whole boundary runs there and back along the same curves, and their
+/// width is within the gap of these curves. A closed surface along its seam does not count. Faces all of whose sides
+/// are degenerate, and that lie where their sides do, are included. Indices in Model::faces, ascending.
 std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
 
-/// Fills `vanishing`. A face whose curves are a whole loop of another one, a small hole, is left out of the lists: the
-/// hole would vanish with it.
+/// Fills `vanishing`. A face whose curves are a whole loop of a second face, a small hole, is left out of the lists.
+/// The hole would vanish with it.
 void let_end_caps_vanish(const CurveModel& model, NarrowModel& narrow);
 
 /// How the sides of narrow faces were matched.
 struct SidesMatched {
   std::vector<int> changed;  ///< curves that have other vertices than before, ascending
   /// Faces whose sides exchange vertices without end, since places along them disagree: indices in Model::faces,
-  /// ascending. The curves are as without these faces, which are meshed as other faces are.
+  /// ascending. The curves ignore these faces, which are meshed like other faces.
   std::vector<int> unmatched;
 };
 
-/// Gives the two sides of each face vertices at the same places: those of one side are carried to the other one, ends
+/// Gives the two sides of each face vertices at equal places. Vertices of each side are copied to the other side, ends
 /// of curves to both.
 SidesMatched match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves);
 
-/// Completes that after segments were split: what one side has and the other has not is inserted. Spends a callback only
-/// where something is missing.
+/// Completes the match after splits of segments: inserts the vertices that only one side has. Calls the host only if
+/// vertices are missing.
 SidesMatched complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
                             std::vector<DiscreteCurve>& curves);
 
-/// Takes faces (indices in Model::faces, ascending) from the list of strips: they are meshed as other faces are.
+/// Removes faces (indices in Model::faces, ascending) from the list of strips: they are meshed like other faces.
 void leave_to_mesher(std::span<const int> faces, std::vector<NarrowFace>& strips);
 
 /// A narrow face meshed between its sides.

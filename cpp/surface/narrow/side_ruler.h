@@ -9,8 +9,9 @@
 
 namespace carreau {
 
-/// The curves of a side end to end, by the supports of the face itself; s is the length of the curves from its start,
-/// which the fractions DiscreteCurve::r measure too. The chords of the supports are up to 5e-5 shorter, unevenly.
+/// The curves of a side end to end, by the supports of the face itself. The coordinate s is the length of the curves
+/// from its start, which the fractions DiscreteCurve::r measure too. The chords of the supports are up to 5e-5 shorter,
+/// unevenly.
 class SideRuler {
  public:
   struct Place {
@@ -28,7 +29,7 @@ class SideRuler {
   [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
   /// The side runs against the direction of the curve's first use.
   [[nodiscard]] bool against(std::size_t part) const { return parts_[part].against; }
-  /// Where a part begins; start(parts()) is the length.
+  /// The start of a part; start(parts()) is the length.
   [[nodiscard]] double start(std::size_t part) const { return start_[part]; }
   [[nodiscard]] double s_of(std::size_t part, double r) const {
     const double along = parts_[part].against ? 1 - r : r;

@@ -8,9 +8,10 @@
 
 namespace carreau {
 
-/// Leaves out of the lists what would take a body with it: strips whose two neighbours lie back to back, as beside the
-/// rim of a plate, along a wire or on the floor of a groove, and faces near a point that have such neighbours only.
-/// Fillets, chamfers and steps remain: the surface goes on from one neighbour to the other. Costs some normals a strip.
+/// Leaves faces out of the lists if their collapse would remove a body. These are strips whose two neighbours lie back
+/// to back: beside the rim of a plate, along a wire or on the floor of a groove. Faces near a point that have such
+/// neighbours only are left out too. Fillets, chamfers and steps remain: the surface goes on from one neighbour to the
+/// other. Costs some normals a strip.
 void keep_thin_bodies(const CurveModel& model, const std::vector<DiscreteCurve>& curves, NarrowModel& narrow);
 
 }  // namespace carreau

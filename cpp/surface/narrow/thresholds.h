@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@ namespace carreau::thresholds::narrow {
 /// Widths. A round or bent end of a strip is longer than the strip is wide: half a circle has 1.57 times its diameter.
 /// [Narrow.WedgeCollapses]
 inline constexpr double longest_end_cap = 2;
-/// Curves. Sides are found by trying all pairs of ends: a face with more is not tried. [time only]
+/// Curves. The search for sides tests all pairs of ends: a face with more curves is skipped. [time only]
 inline constexpr std::size_t most_curves = 60;
-/// Share of a width. Choices whose widths differ by less are equally near: the one with more curves in its end caps is
-/// taken. [Narrow.ChamferOfABoxCollapses]
+/// Share of a width. Choices whose widths differ by less are equally near: the choice with more curves in its end caps
+/// is taken. [Narrow.ChamferOfABoxCollapses]
 inline constexpr double same_width = 1e-3;
-/// Places on a loop that tell in which sense the other one runs. [Narrow.RingBetweenCylindersCollapses]
+/// Places on a loop that decide the sense in which the other loop runs. [Narrow.RingBetweenCylindersCollapses]
 inline constexpr int probes = 12;
-/// Gaps. A face is without width where its surface, halfway between two uses of a curve, is no farther from them,
-/// [Folded.FaceWithoutWidthIsNoFailure]
+/// Gaps. A face is without width if its surface, halfway between two uses of a curve, is within this distance from
+/// them, [Folded.FaceWithoutWidthIsNoFailure]
 inline constexpr double folded_gap = 4;
 /// Share of their length. or than this. Beside a point of space: share of its coordinates, for rounding.
 /// [Folded.SeamsAreNot]
 inline constexpr double folded_share = 1e-9;
-/// Widths. Vertices on two sides stand for one place when they are as near along the sides: farther apart, triangles
-/// between them would be the worse for it, and a collapse would move them more than it must.
+/// Widths. Vertices on two sides stand for one place if their distance along the sides is less. If they are farther
+/// apart, triangles between them would become worse, and a collapse would move them more than it must.
 /// [Narrow.ChainOfSliversHasOneLayerEach]
 inline constexpr double same_place = 3;
-/// Share of the sides. Vertices as near as this are at one place too, whatever the width: lengths of supports are
+/// Share of the sides. Vertices as near as this are at one place too, whatever the width. Lengths of supports are
 /// accurate to 1e-6, and each round of matching would take smaller differences for new places.
 /// [Narrow.RingNarrowerThanItsSupportsAreAccurateHasTheEdgesOfOneCircle]
 inline constexpr double place_accuracy = 1e-5;

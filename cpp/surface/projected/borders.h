@@ -14,7 +14,7 @@
 
 namespace carreau {
 
-/// Edges of the mesh to come, in a row, with the chart on each side; -1: none.
+/// Edges of the new mesh, in a row, with the chart on each side; -1: no chart.
 struct BorderChain {
   std::vector<std::int32_t> vertices;
   std::int32_t left = -1, right = -1;
@@ -22,10 +22,10 @@ struct BorderChain {
 
 struct Borders {
   std::vector<BorderChain> chains;
-  std::vector<std::vector<LineNode>> lines;      ///< by line: vertices of the mesh of before
+  std::vector<std::vector<LineNode>> lines;      ///< by line: vertices of the previous mesh
   std::vector<std::vector<KeptPlaces>> on_line;  ///< by line and node; none where a corner stays as it is
-  std::vector<SurfacePlace> added;               ///< vertices of cuts; they follow those of the mesh of before
-  std::vector<std::int32_t> number;  ///< by vertex of the mesh of before: at its place on a border; -1: none
+  std::vector<SurfacePlace> added;               ///< vertices of cuts; they follow the vertices of the previous mesh
+  std::vector<std::int32_t> number;  ///< by vertex of the previous mesh: its number at a place on a border; -1: no such place
 };
 
 struct BorderInput {
@@ -33,18 +33,18 @@ struct BorderInput {
   const ProjectedCharts& charts;
   std::span<const SharpLine> lines;
   std::span<const WorkedLine> worked;  ///< by line
-  std::span<const double> size;        ///< by vertex of the mesh of before
+  std::span<const double> size;        ///< by vertex of the previous mesh
   std::span<const char> exact;         ///< by chart: see ProjectedCharts
-  std::span<const char> kept;          ///< by vertex of the mesh of before: of a chart that stays as it is
+  std::span<const char> kept;          ///< by vertex of the previous mesh: of a chart that stays as it is
   LineTolerance tolerance;
   Cad& cad;
 };
 
-/// None where edges have more than two triangles, or lines too few vertices for what is wanted.
+/// Returns nothing if edges have more than two triangles, or lines too few vertices for the sizes.
 std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor);
 
-// The two steps of it.
-/// One sharp line: edges of equal length in sizes, none farther from it than is tolerated. `at_least`: edges.
+// The two steps of cut_borders().
+/// One sharp line: edges of equal length in sizes, all within tolerance of the line. `at_least`: edges.
 struct DividedLine {
   std::vector<LineNode> nodes;
   std::vector<KeptPlaces> places;
@@ -56,7 +56,7 @@ std::optional<DividedLine> divide_line(const BorderInput& input, std::size_t lin
 class LinePoints;
 void trace_cuts(const BorderInput& input, const LinePoints& points, Borders& borders, Monitor& monitor);
 
-/// Where the vertices of the atlas on sharp lines are in the mesh to come.
+/// Places in the new mesh of the atlas's vertices on sharp lines.
 class LinePoints {
  public:
   LinePoints(const BorderInput& input, const Borders& borders);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of one chart, made in its plane.
+// Parametric remeshing of one chart in its plane.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace carreau {
 
 struct ChartMesh {
   std::vector<std::int32_t> border;                    ///< vertices of the mesh to come, which come first
-  std::vector<Vec2> inner;                             ///< those that follow
+  std::vector<Vec2> inner;                             ///< the vertices that follow
   std::vector<Foot> feet;                              ///< of these
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< of the chart's own numbers
 };
@@ -34,7 +34,7 @@ struct ChartInput {
 /// Throws DomainError where the borders cross in the plane.
 void check_borders(const ChartInput& input, Monitor& monitor);
 
-/// Throws what the plane mesher does. None where the projection is folded.
+/// Throws the exceptions of the plane mesher. Returns nothing if the projection is folded.
 std::optional<ChartMesh> mesh_chart(const ChartInput& input, Monitor& monitor);
 
 }  // namespace carreau

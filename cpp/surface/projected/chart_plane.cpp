@@ -71,7 +71,7 @@ void ChartPlane::enclose(std::span<const std::int32_t> triangles) {
   raster_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
 }
 
-// Cells whose centre it holds, and that of its own centre.
+// Enters the triangle in the cells whose centre it contains, and in the cell of the triangle's centre.
 void ChartPlane::fill(std::int32_t t) {
   const std::array<Vec2, 3> c = corners(t);
   if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) return;
@@ -94,7 +94,7 @@ void ChartPlane::fill(std::int32_t t) {
     }
 }
 
-// Cells without a triangle get that of a neighbour, over and over.
+// Gives cells without a triangle the triangle of a neighbour, over and over.
 void ChartPlane::spread() {
   std::vector<std::array<int, 2>> queue;
   for (int j = 0; j < rows_; ++j)
@@ -152,7 +152,7 @@ std::optional<Foot> ChartPlane::foot_in(std::int32_t t, std::array<double, 3> w)
   return Foot{t, (w[0] / sum) * charts.uv(t, 0) + (w[1] / sum) * charts.uv(t, 1) + (w[2] / sum) * charts.uv(t, 2)};
 }
 
-// How far a place is outside of a triangle, at least.
+// Lower bound of the distance of a place outside of a triangle.
 double ChartPlane::outside(std::int32_t t, const Vec2& p) const {
   const std::array<Vec2, 3> c = corners(t);
   const std::array<double, 3> w = weights_in(c, p);
@@ -184,7 +184,8 @@ std::int32_t ChartPlane::straight_to(const Vec2& p, std::int32_t first) const {
   return t;
 }
 
-// The triangle that holds a place, or the nearest one, behind all barriers: needles that lean away part what they cross.
+// The triangle that contains a place, or the nearest one, behind all barriers: needles that lean away divide the
+// regions that they cross.
 ChartPlane::Found ChartPlane::find_anywhere(const Vec2& p, Found best) const {
   for (const std::int32_t t : shown_) {
     if (!is_shown(t)) continue;
@@ -194,7 +195,7 @@ ChartPlane::Found ChartPlane::find_anywhere(const Vec2& p, Found best) const {
   return best;
 }
 
-// Where no straight way leads there: from triangle to triangle, the nearest one first.
+// Searches from triangle to triangle, the nearest first, if no straight way leads to the place.
 ChartPlane::Found ChartPlane::find_around(std::int32_t first, const Vec2& p) const {
   std::vector<Found> around{{first, outside(first, p)}};
   std::vector<char> done{0};
@@ -211,7 +212,7 @@ ChartPlane::Found ChartPlane::find_around(std::int32_t first, const Vec2& p) con
   return *std::ranges::min_element(around, {}, &Found::outside);
 }
 
-// z(x, y) over the plane: 1 + the squares of its slopes, which the normal tells.
+// The metric of z(x, y) over the plane: 1 + the squares of its slopes, which follow from the normal.
 Metric2 ChartPlane::metric(const Foot& at) const {
   const std::array<double, 3> w = atlas_.charts.weights(at.triangle, at.uv);
   const auto& n = atlas_.corner[at.triangle];

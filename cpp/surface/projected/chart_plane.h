@@ -21,10 +21,10 @@ class ChartPlane {
              bool slits);
 
   [[nodiscard]] Vec2 project(const Vec3& p) const { return {dot(p - origin_, first_), dot(p - origin_, second_)}; }
-  /// Of triangles that are looked for near the place; on the border of the region where it is beyond it. None where the
-  /// projection is folded. `roughly`: where a barrier is in the way the place is on it.
+  /// Returns the place on the triangles near p; on the border of the region if p is beyond it. Returns nothing if the
+  /// projection is folded. `roughly`: if a barrier is in the way the result lies on it.
   [[nodiscard]] std::optional<Foot> find(const Vec2& p, bool roughly = false) const;
-  /// Of unit lengths in space, by the normals of the surface.
+  /// The metric of unit lengths in space, by the normals of the surface.
   [[nodiscard]] Metric2 metric(const Foot& at) const;
   /// The least cosine between the axis and normals at corners of the triangles of the chart.
   [[nodiscard]] double least_cosine() const noexcept { return least_; }

@@ -24,7 +24,7 @@ struct CutPoint {
   Vec3 xyz;
 };
 
-/// Where cuts end: on a sharp line, whose vertex is known, or amid a region.
+/// The end of cuts: on a sharp line, whose vertex is known, or amid a region.
 struct CutNode {
   std::int32_t vertex = -1;  ///< of the mesh to come; -1: not on a line
   CutPoint at;
@@ -88,7 +88,7 @@ class CutTracer {
       if (back.to == e.from) used_[static_cast<std::size_t>(&back - edges_.data())] = 1;
   }
 
-  // From node to node; then what is left, all around.
+  // Traces cuts from node to node, then the closed cuts that are left.
   void trace() {
     for (const bool around : {false, true})
       for (std::size_t k = 0; k < edges_.size(); ++k)
@@ -132,7 +132,7 @@ class CutTracer {
     return atlas_.charts.uv(triangle, static_cast<int>(std::ranges::find(corners, v) - corners.begin()));
   }
 
-  // Edges of the atlas may be longer than sizes want: they are divided, but for those whose parts would cross others.
+  // Divides edges of the atlas that are longer than the sizes, except edges whose parts would cross others.
   void keep_path(Cut& cut) const {
     cut.inner.clear();
     for (std::size_t k = 0; k + 1 < cut.path.size(); ++k) {
@@ -206,7 +206,7 @@ class CutTracer {
     return start ? cut.inner.front().xyz : cut.inner.back().xyz;
   }
 
-  // As many edges as the straightened cut wants, of one length.
+  // Divides the straightened cut by the sizes, into edges of equal metric length.
   bool divide(Cut& cut) {
     std::vector<const CutPoint*> points{&nodes_[cut.start].at};
     for (const CutPoint& p : cut.inner) points.push_back(&p);

@@ -113,7 +113,7 @@ class ChartFinder {
     for (int again = 0; again < regrowths; ++again) regrow(region, first);
   }
 
-  // Seeds where all that there is is farthest, until nothing is left.
+  // Places seeds in the middles of the remaining pieces, until no triangle remains.
   void fill(const Triangles& region, std::int32_t first) {
     for (;;) {
       const std::vector<Triangles> pieces = pieces_left(region);
@@ -156,7 +156,7 @@ class ChartFinder {
     return grow(around, loose_cosine) > 0;
   }
 
-  // Farthest from what is no part of it, over triangles; of a whole region the first one.
+  // The triangle farthest from the charts around the piece, counted in triangles; the first triangle of a whole region.
   [[nodiscard]] std::int32_t middle_of(const Triangles& piece) {
     Triangles queue;
     ++stamp_;
@@ -177,7 +177,7 @@ class ChartFinder {
     return mean_normal(around);
   }
 
-  // From their middles, by the normals that they have; then what is left.
+  // Grows the charts again from their middles, along their mean normals, and then fills the rest of the region.
   void regrow(const Triangles& region, std::int32_t first) {
     const auto charts = found_.axis.size() - static_cast<std::size_t>(first);
     std::vector<Triangles> members(charts);

@@ -13,8 +13,8 @@ namespace carreau {
 struct ProjectedCharts {
   std::vector<std::int32_t> chart;  ///< by triangle of the atlas
   std::vector<Vec3> axis;           ///< by chart: of its projection, unit
-  std::vector<char> exact;  ///< by triangle: borders of its chart are edges of the atlas, not those that sizes want,
-                            ///< which would cross: 1: cut by the sizes, where they are long; 2: as they are
+  std::vector<char> exact;  ///< by triangle: borders of its chart are edges of the atlas, since cuts by the sizes would cross. 1: long
+                            ///< edges are cut by the sizes; 2: edges stay as they are
   std::vector<char> kept;   ///< by triangle: its chart is not meshed, its triangles stay as they are
 };
 
@@ -22,14 +22,14 @@ struct ProjectedCharts {
 /// lean more are kept.
 ProjectedCharts find_charts(const FlatAtlas& atlas, Monitor& monitor);
 
-/// Makes kept charts of the triangles that `which` marks, one each. Whether any was not kept before.
+/// Makes kept charts of the triangles that `which` marks, one each. Returns whether a triangle was not kept before.
 bool keep_triangles(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts);
 
-/// Cuts those in two between their ends, where they have two triangles. Whether any was.
+/// Cuts charts in two between their ends, if they have two triangles. Returns whether a chart was cut.
 bool split_charts(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts, Monitor& monitor);
 
-/// Joins charts that one axis shows, the smallest first: no normal leans more than `cosine` tells. `which`: those that
-/// are to join another one, by chart; empty: all.
+/// Joins charts that one axis shows, the smallest first: the cosine of normals and axis is at least `cosine`. `which`:
+/// the charts to join to a neighbour, by chart; empty: all.
 void merge_charts(const FlatAtlas& atlas, double cosine, std::vector<char> which, ProjectedCharts& charts,
                   Monitor& monitor);
 

@@ -24,7 +24,7 @@ struct FlatAtlas {
   [[nodiscard]] std::int32_t triangles() const noexcept { return static_cast<std::int32_t>(normal.size()); }
   [[nodiscard]] const Charts::Triangle& at(std::int32_t t) const { return charts.triangles()[t]; }
   [[nodiscard]] const Vec3& xyz(std::int32_t v) const { return mesh.vertices[v]; }
-  /// The place in space of a foot on its flat triangle.
+  /// The place in space of a point `f` on its flat triangle.
   [[nodiscard]] Vec3 flat(const Foot& f) const;
 };
 

@@ -54,7 +54,8 @@ class ChartMerger {
     area_[chart] += atlas_.area[t];
   }
 
-  // That with the longest border of those that it can be shown with; -1: none.
+  // Returns the neighbour with the longest common border that one axis can show together with the chart; -1: no such
+  // neighbour.
   [[nodiscard]] std::int32_t best_neighbour(std::int32_t chart) const {
     std::map<std::int32_t, double> border;
     for (const std::int32_t t : members_[chart])

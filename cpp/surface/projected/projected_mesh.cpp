@@ -25,21 +25,21 @@ namespace {
 
 using namespace thresholds::projected;
 
-/// What is known of one chart.
+/// The data of one chart.
 struct ChartWork {
   std::vector<std::int32_t> triangles;  // of the atlas
   std::vector<const BorderChain*> chains;
   std::unique_ptr<ChartPlane> plane;
-  std::string why;     // its borders are none
+  std::string why;     // reason why its borders are invalid
   bool leans = false;  // it would be seen better in two
   bool kept = false;   // its triangles stay as they are
 };
 
-/// What comes of a chart.
+/// The result for a chart.
 struct MadeChart {
-  std::string why;                   // there is no mesh
+  std::string why;                   // reason why the mesh is missing
   std::vector<std::int32_t> border;  // vertices of the mesh to come
-  std::vector<SurfacePlace> inner;   // of those that follow
+  std::vector<SurfacePlace> inner;   // places of the vertices that follow
   TriangleList triangles;            // of the chart's own numbers
 };
 
@@ -72,7 +72,7 @@ std::vector<ChartWork> charts_of(const ProjectedCharts& found, const Borders& bo
   return charts;
 }
 
-// Of the vertices on borders; others stay where they were.
+// Places of the vertices on borders; others stay in place.
 std::vector<Vec3> places_of(const SurfaceMesh& before, const Borders& borders) {
   std::vector<Vec3> xyz = before.vertices;
   for (std::size_t line = 0; line < borders.lines.size(); ++line)
@@ -100,7 +100,7 @@ struct BorderSource {
   Cad& cad;
 };
 
-/// Charts with their borders in their planes; those whose borders are no borders are wrong.
+/// Charts with their borders in their planes; charts with invalid borders are wrong.
 struct Plan {
   Borders borders;
   std::vector<Vec3> xyz;
@@ -136,7 +136,7 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
       check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size,
                      static_cast<std::int32_t>(c), plan.xyz},
                     own);
-      // What was cut in two may have come to lie along its axis.
+      // A chart that was cut in two may now lie along its axis.
       if (exact[c] != 0 && chart.triangles.size() > 1 && chart.plane->least_cosine() < least_cosine) chart.leans = true;
     } catch (const DomainError& error) {
       chart.why = error.what();
@@ -155,9 +155,8 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   return plan;
 }
 
-// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still, and
-// keeps the triangles of small ones.
-// False where nothing is left to do.
+// Joins wrong charts to others. Charts that cannot be joined get exact borders. Charts that stay wrong are cut in two,
+// and the triangles of small ones are kept. Returns false if no change is left.
 bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
   std::vector<char> is_wrong(found.axis.size(), 0);
   for (const std::int32_t c : wrong) is_wrong[c] = 1;
@@ -270,8 +269,8 @@ void require_same_surface(Team& team, const SurfaceMesh& mesh, std::span<const d
   sum.add(mesh.vertices);
   for (const double h : size) sum.add(std::bit_cast<std::uint64_t>(h));
   team.require_same<InvalidModel>("surface of charts", sum.text(), [](int rank) {
-    return "the surface, or its sizes, are others on rank " + std::to_string(rank) +
-           " than on rank 0: its callbacks or parameters differ";
+    return "the surface, or its sizes, differ on rank " + std::to_string(rank) +
+           " from rank 0: its callbacks or parameters differ";
   });
 }
 
@@ -282,7 +281,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
                                               const SurfaceTolerances& tolerances, const ProjectedOptions& options,
                                               Cad& cad, Monitor& monitor) {
   const auto refuse = [&](const std::string& why) -> std::optional<PlacedMesh> {
-    monitor.message(Level::detail, "the mesh is not made in planes: " + why);
+    monitor.message(Level::detail, "no parametric remeshing: " + why);
     return {};
   };
   if (options.crew.team != nullptr) require_same_surface(*options.crew.team, before, size);
@@ -300,7 +299,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
     if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles())
-      return refuse("no plane shows the charts");
+      return refuse("charts do not project to planes");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
     if (!worse.empty() && round++ < most_mendings && mend(flat, worse, found, monitor)) continue;
@@ -330,7 +329,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     if (plan->charts[c].kept) placed.kept.insert(placed.kept.end(), charts[c].border.begin(), charts[c].border.end());
   }
   placed.lines = std::move(plan->borders.lines), placed.on_line = std::move(plan->borders.on_line);
-  monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " +
+  monitor.message(Level::detail, "parametric remeshing: " + std::to_string(plan->charts.size()) + " charts, " +
                                      std::to_string(placed.kept.size() / 3) + " triangles kept, " +
                                      std::to_string(placed.seams.size()) + " vertices of cuts, " +
                                      std::to_string(placed.triangles.size()) + " triangles");

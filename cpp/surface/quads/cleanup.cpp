@@ -25,7 +25,7 @@ constexpr MixedCell none{-1, -1, -1, -1};
 template <typename Quads>
 class Pass {
  public:
-  /// `active`: by vertex: only cells with such a one are looked at; empty: all.
+  /// `active`: by vertex: only cells with an active vertex are considered; empty: all.
   Pass(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
        const std::vector<std::int8_t>& ideal, const std::vector<char>& active, Monitor& monitor)
       : quads_(quads),
@@ -41,7 +41,7 @@ class Pass {
       for (int k = 0; k < corners_of(cell); ++k) ++degree_[cell[k]];
   }
 
-  /// How many changes were made.
+  /// Returns the number of changes.
   int run() {
     int changes = 0;
     for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {
@@ -52,7 +52,7 @@ class Pass {
     return changes;
   }
 
-  /// By vertex: those of cells that were changed.
+  /// Marks the vertices of changed cells.
   [[nodiscard]] std::vector<char> take_touched() { return std::move(touched_); }
 
  private:
@@ -69,7 +69,7 @@ class Pass {
     return cells;
   }
   [[nodiscard]] int degree(std::int32_t v) const { return degree_[v]; }
-  // All changes mend vertices of cells that have some to mend.
+  // Each change improves irregular vertices of its cells.
   [[nodiscard]] bool is_irregular(std::int32_t c) const {
     const MixedCell& cell = cells_[c];
     if (cell == none) return false;
@@ -80,7 +80,7 @@ class Pass {
     }
     return irregular && active;
   }
-  /// What is wrong with so many cells more or less at a vertex.
+  /// The penalty on a difference between a vertex's number of cells and its ideal.
   [[nodiscard]] int excess(std::int32_t v, int more = 0) const {
     const int d = degree(v) + more - ideal_[v];
     return d * d;
@@ -244,7 +244,7 @@ class Pass {
   std::vector<char> touched_;
 };
 
-// Cells wanted around a vertex: of the angle that cells there have together, in the metric.
+// Ideal number of cells around a vertex, by the total angle of its cells in the metric.
 template <typename Quads>
 std::vector<std::int8_t> ideal_degrees(const Quads& quads) {
   std::vector<double> angle(quads.vertices(), 0);
@@ -282,8 +282,8 @@ template <typename Quads, typename Smooth>
 void clean(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor,
            const Smooth& smooth) {
   const std::vector<std::int8_t> ideal = ideal_degrees(quads);
-  // What a pass makes of a cell depends on the cells at its corners: where nothing there has changed or moved since the
-  // pass before, it would be tried in vain again.
+  // The result of a pass for a cell depends on the cells at its corners. If nothing there has changed or moved since
+  // the previous pass, the pass skips the cell.
   std::vector<char> active;
   constexpr int most_rounds = 6;
   for (int round = 0; round < most_rounds; ++round) {

@@ -32,7 +32,7 @@ struct Spoke {
   friend auto operator<=>(const Spoke&, const Spoke&) = default;
 };
 
-// The way that the curve takes from v: that of the parabola through its next two vertices.
+// The tangent of the curve at v, by the parabola through v and its next two vertices.
 Vec3 tangent_at(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s) {
   const std::vector<std::int32_t>& on_curve = mesh.curves[s.curve].vertices;
   const Vec3 p = quads.xyz[s.v], q = quads.xyz[s.a];
@@ -47,7 +47,7 @@ Vec3 tangent_at(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s)
   return first - l / (l + m) * (second - first);
 }
 
-// Inside a curve any turn is that of its chords, unless it is that of a kink.
+// Inside a curve any turn results from its chords, unless it is a kink.
 bool go_on_smoothly(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s, const Spoke& t) {
   const bool inside = s.curve == t.curve && std::abs(s.segment - t.segment) == 1;  // not where a closed curve begins
   const Vec3 d = inside ? Vec3(quads.xyz[s.a] - quads.xyz[s.v]) : tangent_at(mesh, quads, s),
@@ -136,7 +136,7 @@ std::size_t split_poor(FaceQuads& quads, double least) {
 
 namespace {
 
-/// Drops local vertices that nothing needs; marks theirs of the mesh.
+/// Drops unused local vertices, and marks their vertices of the mesh.
 void compact(FaceQuads& quads, std::vector<char>& gone) {
   const std::size_t n = quads.patch.uv.size();
   std::vector<std::int32_t> now(n, -1);
@@ -181,7 +181,7 @@ std::vector<std::int32_t> drop(const std::vector<char>& gone, CompositeResult& r
   return now;
 }
 
-// Where no metric is known: as long as the edges there.
+// Fills sizes where no metric is known, with the lengths of the edges there.
 void find_missing_sizes(FaceQuads& quads) {
   if (std::find(quads.size.begin(), quads.size.end(), 0.) == quads.size.end()) return;
   std::vector<double> sum(quads.size.size(), 0), count(quads.size.size(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A face on its way to quadrilaterals.
+// The state of a face that becomes quadrilaterals.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace carreau {
 
-/// The cells of one face, and what they come from.
+/// The cells of one face, and their origin.
 struct FaceQuads {
   std::size_t face = 0;
   QuadPatch patch;
   std::vector<std::int32_t> vertex;  ///< local -> index in SurfaceMesh::vertices; -1: new, and of this face only
-  std::vector<Vec3> xyz;             ///< positions; those of new vertices are missing until lift()
+  std::vector<Vec3> xyz;             ///< positions; lift() computes the positions of new vertices
   std::vector<Vec2> lifted;          ///< (u, v) that xyz belongs to
   std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: not known; below: as it was
   std::vector<CurveSide> sides;      ///< on curves, ascending; of cells before they are cut
@@ -29,15 +29,16 @@ struct FaceQuads {
 /// Vertices on curves, imposed points and corners of flattened triangles are fixed.
 FaceQuads face_quads(const ElementWork& work, std::size_t face);
 
-/// Asks the surface for positions of vertices that are new or were moved, and for sizes there: those of `metric`, none
-/// where it is null. One evaluation a vertex.
+/// Evaluates the surface for positions of vertices that are new or were moved, and `metric` for sizes there (no sizes
+/// if it is null). One evaluation a vertex.
 void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor);
 
-/// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each. How many.
+/// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each, and returns their
+/// number.
 std::size_t split_poor(FaceQuads& quads, double least);
 
-/// Puts the cells of faces into the mesh, all at once: vertices that no cell has any more are removed, new ones are
-/// appended face by face. Order stays.
+/// Puts the cells of faces into the mesh, all at once. Vertices without a cell are removed, new vertices are appended
+/// face by face. Order stays.
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);
 
 /// A periodic face whose cells are images of the cells of another face, on its way beside it.

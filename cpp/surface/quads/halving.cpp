@@ -15,7 +15,7 @@ namespace {
 
 using Middles = std::vector<std::vector<std::int32_t>>;
 
-/// The curve with twice as many edges; false, and as it was, where one cannot be cut.
+/// Doubles the number of edges of a curve; returns false, with an unchanged curve, if an edge cannot be cut.
 bool halve(const ElementWork& work, std::size_t c) {
   if (c >= work.curves.size()) return false;
   DiscreteCurve curve = work.curves[c];
@@ -131,7 +131,7 @@ class Halving {
     }
   }
 
-  // Rows of edges by their lower ends, each with those of its edges once.
+  // Makes rows of edges by their lower ends; each row has each of its edges once.
   void number_edges() {
     first_.assign(quads_.patch.uv.size() + 1, 0);
     const auto for_sides = [&](const auto& use) {

@@ -42,7 +42,7 @@ class Matching {
   }
 
  private:
-  /// What a pair is to one of its triangles: none where `pair` is -1. Those of a triangle come first.
+  /// A pair as seen from one of its triangles; `pair` is -1 without a pair. The pairs of a triangle come first.
   struct Link {
     std::int32_t pair = -1, other = -1;
     double weight = 0;
@@ -60,13 +60,13 @@ class Matching {
     return both[0] == t ? both[1] : both[0];
   }
 
-  // Nearly all that a pair can weigh: what gains starts elsewhere.
+  // Returns whether the pair has nearly the largest weight: paths that gain start elsewhere.
   [[nodiscard]] bool is_content(std::int32_t t) const {
     constexpr double content = 0.92;
     return chosen_[t] >= 0 && pairs_[chosen_[t]].weight > content * heaviest_;
   }
 
-  // By classes of weights that are all but equal; in a class, as they come.
+  // Sorts by classes of nearly equal weights; a class keeps the given order.
   [[nodiscard]] std::vector<std::int32_t> heaviest_first() const {
     static constexpr std::size_t weight_classes = 4096;
     const auto class_of = [&](const WeightedPair& pair) {
@@ -91,7 +91,7 @@ class Matching {
     }
   }
 
-  // The triangles of those that changed, and their neighbours.
+  // Returns the triangles of changed pairs, and their neighbours.
   std::vector<std::int32_t> improve(const std::vector<std::int32_t>& todo) {
     std::vector<std::int32_t> changed;
     int n = 0;
@@ -179,7 +179,7 @@ class Matching {
     best_path_ = path_;
     best_is_circle_ = circle;
   }
-  // A path from a triangle that keeps its own pair is none, unless it closes.
+  // Returns whether the path leaves its first triangle by a new pair: such a path is valid only if it closes.
   [[nodiscard]] bool starts_with_new_pair() const {
     const std::int32_t first = path_.triangle[0];
     return path_.size > 1 && other(chosen_[first], first) != path_.triangle[1];

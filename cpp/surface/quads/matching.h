@@ -16,9 +16,9 @@ struct WeightedPair {
   double weight = 0;  ///< > 0
 };
 
-/// A set of pairs, no two with a triangle in common, whose weights have a large sum: greedy by weight, then alternating
-/// paths and circles that gain, of bounded length, until none does. `count`: of triangles, each in three pairs at most.
-/// The result, ascending indices of `pairs`, depends on the arguments alone. Throws Cancelled.
+/// A set of pairs, no two with a triangle in common, whose weights have a large sum. A greedy choice by weight comes
+/// first. Alternating paths and circles of bounded length then improve it until none gains. `count`: of triangles, each
+/// in three pairs at most. The result, ascending indices of `pairs`, depends on the arguments alone. Throws Cancelled.
 std::vector<std::int32_t> match(std::size_t count, const std::vector<WeightedPair>& pairs, Monitor& monitor);
 
 }  // namespace carreau

@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::quads;
 
-/// Quality: of a quadrilateral, 0 where it may not be.
+/// Quality of a quadrilateral; 0 if it is not allowed.
 template <typename Quality>
 class Pairing {
  public:
@@ -58,7 +58,7 @@ class Pairing {
     }
   }
 
-  // Whether u lies beyond side k of t.
+  // Adds the pair if it is good enough. Returns whether u lies beyond side k of t.
   bool add_if_good(std::int32_t t, int k, std::int32_t u) {
     const MixedCell &T = cells_[t], &U = cells_[u];
     const std::int32_t a = T[k], b = T[(k + 1) % 3], c = T[(k + 2) % 3];
@@ -80,7 +80,7 @@ class Pairing {
     quads_.push_back(quad);
   }
 
-  // By the angle between the normals of the triangles on both sides of the diagonal from p[0] to p[2].
+  // Measures the angle between the normals of the triangles on both sides of the diagonal from p[0] to p[2].
   [[nodiscard]] bool turns_too_much(const std::array<Vec3, 4>& p) const {
     const Vec3 diagonal = p[2] - p[0];
     const Vec3 right = cross(p[1] - p[0], diagonal), left = cross(diagonal, p[3] - p[0]);
@@ -101,7 +101,7 @@ class Pairing {
 // The corner whose sides go on smoothly into each other; -1: none.
 template <typename Quads>
 int flat_corner(const Quads& quads, const MixedCell& t) {
-  if (!quads.is_fixed(t[0]) || !quads.is_fixed(t[1]) || !quads.is_fixed(t[2])) return -1;  // those on curves are
+  if (!quads.is_fixed(t[0]) || !quads.is_fixed(t[1]) || !quads.is_fixed(t[2])) return -1;  // corners on curves are
   for (int k = 0; k < 3; ++k)
     if (std::ranges::binary_search(quads.flat(), std::array{t[k], t[(k + 1) % 3], t[(k + 2) % 3]})) return k;
   return -1;
@@ -138,7 +138,7 @@ std::size_t turn_all_ears(Quads& quads, const ImposedEdges& is_imposed) {
   return count;
 }
 
-/// Cells, as far as ears need them: no metric.
+/// Cells with the data for ears, without a metric.
 class FlatCells {
  public:
   explicit FlatCells(QuadPatch& patch) : patch_(patch) {}

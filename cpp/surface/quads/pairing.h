@@ -12,26 +12,27 @@ namespace carreau {
 
 class SpaceQuads;
 
-/// Of an edge between two vertices: it is one of a curve.
+/// Returns whether an edge between two vertices is an edge of a curve.
 using ImposedEdges = std::function<bool(std::int32_t, std::int32_t)>;
 
-/// What pairs of triangles must be, beside strictly convex in (u, v).
+/// The conditions on pairs of triangles, beside strict convexity in (u, v).
 struct PairRules {
   ImposedEdges is_imposed;
-  /// Of the corners of a triangle, in space.
+  /// The place in space of a corner of a triangle.
   std::function<Vec3(std::int32_t)> position;
   double most_turn = 0.3;  ///< radians: largest angle between the normals of the two, in space
-  double least_jacobian = 0;  ///< of the quadrilateral in space: only what exceeds it comes into question
+  double least_jacobian = 0;  ///< of the quadrilateral in space: a candidate must exceed it
 };
 
-/// Joins triangles of the patch, which has no other cells, by a matching of large weight. Quality is that in the metric
-/// of `charts`; without charts, that in space.
+/// Joins triangles of the patch, which has no other cells, by a matching of large weight. Quality is measured in the
+/// metric of `charts`; without charts, in space.
 void pair_triangles(QuadPatch& patch, const FaceCharts* charts, const PairRules& rules, Monitor& monitor);
 void pair_triangles(SpaceQuads& quads, const PairRules& rules, Monitor& monitor);
 
-/// Turns the third side of each triangle that has a flat corner (QuadPatch::flat), where the cells are still triangles
-/// and both that come of it are turned the right way: from that corner to the vertex beyond. No element of second order
-/// can be valid with such a corner, and a quadrilateral that takes the triangle in keeps it. How many.
+/// Turns the third side of each triangle that has a flat corner (QuadPatch::flat): the new side joins that corner with
+/// the vertex beyond. The cells there must still be triangles, and both new triangles must have the right orientation.
+/// No element of second order can be valid with such a corner, and a quadrilateral that takes the triangle in keeps it.
+/// Returns the number of turned sides.
 std::size_t turn_ears(QuadPatch& patch, const ImposedEdges& is_imposed);
 std::size_t turn_ears(SpaceQuads& quads, const ImposedEdges& is_imposed);
 

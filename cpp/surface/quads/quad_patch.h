@@ -16,13 +16,13 @@ namespace carreau {
 using MixedCell = std::array<std::int32_t, 4>;
 constexpr int corners_of(const MixedCell& cell) noexcept { return cell[3] < 0 ? 3 : 4; }
 
-/// What the passes of this room work on. Indices are those of the face's local vertices.
+/// The data of the passes of this room. Indices are local vertices of the face.
 struct QuadPatch {
   std::vector<Vec2> uv;
-  std::vector<char> fixed;  ///< by vertex: it neither moves nor goes
+  std::vector<char> fixed;  ///< by vertex: it stays, and stays in place
   std::vector<MixedCell> cells;
   /// Vertices v, a, b where edges v - a and v - b of curves go on smoothly into each other, both ways, ascending. A cell
-  /// with that corner has an angle of 180 degrees there, whatever that of its chords.
+  /// with that corner has an angle of 180 degrees there, whatever the angle of its chords.
   std::vector<std::array<std::int32_t, 3>> flat = {};
 };
 
@@ -31,14 +31,14 @@ class FaceCharts {
  public:
   /// Keeps a reference to the space.
   explicit FaceCharts(const ControlSpace& space);
-  /// Else charts are tensors.
+  /// Returns whether charts bend; otherwise they are tensors.
   [[nodiscard]] bool bends() const noexcept { return bends_; }
   [[nodiscard]] Chart about(const Vec2& uv) const noexcept {
     if (bends_) return {uv, space_->slopes_at(uv)};
     constexpr Metric2 none{0, 0, 0};
     return {uv, {space_->at(uv), none, none}};
   }
-  /// About the mean of the corners of a cell.
+  /// The chart about the mean of the corners of a cell.
   [[nodiscard]] Chart about(const QuadPatch& patch, const MixedCell& cell) const noexcept;
 
  private:

@@ -9,7 +9,7 @@ namespace carreau {
 
 namespace {
 
-constexpr double least_turned = 1e-9;                 // below 0, whatever charts say
+constexpr double least_turned = 1e-9;                 // below 0, even if charts disagree
 constexpr double square = 2 + 2 * std::numbers::sqrt2;  // its sigma
 
 /// Edge lengths and diagonals of a quadrilateral, and twice the signed areas at its corners.

@@ -10,15 +10,15 @@
 
 namespace carreau {
 
-/// (2 + 2 sqrt 2) / sigma, sigma = h / rho (HDR sec. 1.1.1): h is the diameter, rho the least inradius of the four
-/// triangles of two edges that meet. 1 for a square; 0 unless it is strictly convex and counterclockwise.
+/// (2 + 2 sqrt 2) / sigma, sigma = h / rho (HDR sec. 1.1.1). Here h is the diameter, and rho the least inradius of the
+/// four triangles of two edges that meet. 1 for a square; 0 unless it is strictly convex and counterclockwise.
 double quad_quality(const std::array<Vec2, 4>& p) noexcept;
-/// The same in space, for what is counterclockwise about the normal of the quadrilateral's diagonals.
+/// The quality in space, if the quadrilateral is counterclockwise about the normal of its diagonals.
 double quad_quality(const std::array<Vec3, 4>& p) noexcept;
-/// Least sine of the angles at the corners; below 0 where one is turned over.
+/// Least sine of the angles at the corners; below 0 if a corner is turned over.
 double scaled_jacobian(const std::array<Vec2, 4>& p) noexcept;
 double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept;
-/// Whether that is not above 0.
+/// Returns whether the scaled Jacobian is not above 0.
 bool is_turned_over(const std::array<Vec3, 4>& p) noexcept;
 /// The less of scaled Jacobian and quality, in space.
 double least_shape(const std::array<Vec3, 4>& p) noexcept;
@@ -28,8 +28,8 @@ inline bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
   const Vec2 &a = patch.uv[cell[0]], &b = patch.uv[cell[1]], &c = patch.uv[cell[2]];
   return corners_of(cell) == 3 ? orientation(a, b, c) > 0 : is_convex_quad(a, b, c, patch.uv[cell[3]]);
 }
-/// Whether two sides of it, between fixed vertices, are edges of curves that go on smoothly into each other: `flat` as in
-/// QuadPatch.
+/// Returns whether two sides of the cell, between fixed vertices, are edges of curves that go on smoothly into each
+/// other: `flat` as in QuadPatch.
 bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,
                      const MixedCell& cell) noexcept;
 inline bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexcept {
@@ -37,17 +37,18 @@ inline bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexc
 }
 /// Quality in the metric: of a triangle Q2 (HDR eq. 1.6).
 double cell_quality(const QuadPatch& patch, const FaceCharts& charts, const MixedCell& cell) noexcept;
-/// The same in a given chart.
+/// Quality in a given chart.
 double cell_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
 
-/// The same, and below 0 the scaled Jacobian, for cells that are turned over somewhere: what a search can follow.
+/// The quality, or the scaled Jacobian below 0 for cells that are turned over somewhere, so that a search can follow
+/// it.
 double untangling_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
 
-/// Of a quadrilateral, in a frame.
+/// The diagonals of a quadrilateral, in a frame.
 template <typename Way>
 struct Diagonals {
   Vec2 first, second;  ///< corner 0 less 2, 1 less 3
-  Way between;         ///< half the way from the middle of the second one to that of the first
+  Way between;         ///< half the way from the middle of the second diagonal to the middle of the first
 };
 
 /// The cells of one face as the passes of this room see them, whose other surface is SpaceQuads. Keeps references.
@@ -84,7 +85,7 @@ class PlaneQuads {
   static Way no_way() noexcept { return {0, 0}; }
   static Way way(const Frame& frame, const Vec2& y) noexcept { return frame.offset(y); }
 
-  /// Frames of some cells that stay while vertices move. Those of a metric that does not bend are linear.
+  /// Frames of some cells that stay while vertices move. Frames of a metric that does not bend are linear.
   class KeptFrames {
    public:
     explicit KeptFrames(const PlaneQuads& quads) : quads_(quads) {}
@@ -97,7 +98,7 @@ class PlaneQuads {
       linear_.emplace_back(chart);
       if (quads_.charts_.bends()) charts_.push_back(chart);
     }
-    /// Corner k of cell number c of those added.
+    /// Corner k of added cell number c.
     [[nodiscard]] Vec2 at(std::size_t c, const MixedCell& cell, int k) const noexcept {
       const std::vector<Vec2>& uv = quads_.patch_.uv;
       return charts_.empty() ? linear_[c].at(uv[cell[k]] - uv[cell[0]]) : charts_[c].at(uv[cell[k]]);
@@ -113,7 +114,7 @@ class PlaneQuads {
     }
 
    private:
-    /// What a chart does near its origin, and back.
+    /// The linear part of a chart near its origin, and its inverse.
     struct Linear {
       double p, q, r, ip, iq, ir;
 
@@ -135,12 +136,12 @@ class PlaneQuads {
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return patch_.uv; }
   [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return patch_.uv[v] == place; }
   void put(std::size_t v, const Place& place) noexcept { patch_.uv[v] = place; }
-  /// Beside a place, for a trial.
+  /// Puts the vertex beside a place, for a trial.
   void try_at(std::size_t v, const Place& from, const Way& way) noexcept { patch_.uv[v] = from + way; }
-  /// Where a trial has put it; false: it cannot be.
+  /// Keeps the place of a trial; false: the place is not possible.
   static bool settle(std::size_t /*v*/, const Place& /*from*/) noexcept { return true; }
   void move(std::size_t v, const Way& way) noexcept { patch_.uv[v] += way; }
-  /// Halfway to another vertex.
+  /// Moves halfway to another vertex.
   void approach(std::size_t v, std::size_t other) noexcept { patch_.uv[v] = 0.5 * (patch_.uv[v] + patch_.uv[other]); }
 
  private:

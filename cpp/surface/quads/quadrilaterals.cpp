@@ -155,7 +155,7 @@ class Quadrilaterals {
     return !is_convex(quads.patch, c) || is_turned_over({at(0), at(1), at(2), at(3)});
   }
 
-  // Half of the edges that were cut is what they are now.
+  // Requests the present lengths, which are half of the lengths before the cut.
   static void report_turned(const FaceQuads& quads, QuadraticReport& report) {
     InvalidElements invalid{quads.face, 0, {}};
     for (const MixedCell& c : quads.patch.cells) {

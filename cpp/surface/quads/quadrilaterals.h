@@ -7,20 +7,20 @@
 
 namespace carreau {
 
-/// Joins triangles of each face two by two, mends what has few or many cells around, and smooths. With
-/// has_quads_only(work.options.element) the mesh, which was made with sizes twice those asked for, is then cut: each
-/// quadrilateral into four, each triangle into three, each edge of curves (work.curves too) in two at half its metric
-/// length, once for all faces; sizes and spaces of the result are those of the cut mesh afterwards. Vertices lie on the
-/// surface. Keeps vertex_size and curve_size up to date. The same for any number of threads. Throws what the host
-/// throws, and Cancelled. The result: what is turned over somewhere even so, in (u, v) or in space, the edges of curves
-/// (those of the result) and the lengths there that are too coarse for it. Without has_quads_only() there is none.
+/// Joins triangles of each face two by two, improves vertices with few or many cells around, and smooths. With
+/// has_quads_only(work.options.element) the mesh was made with twice the prescribed sizes. It is then cut: each
+/// quadrilateral into four, each triangle into three. Edges of curves (work.curves too) are cut in two at half their
+/// metric length, once for all faces. Sizes and spaces of the result belong to the cut mesh. Vertices lie on the
+/// surface. Keeps vertex_size and curve_size up to date. The same for any number of threads. Throws the exceptions of
+/// the host, and Cancelled. Returns the elements that are still turned over, in (u, v) or in space. Adds the edges of
+/// curves in the result and the lengths there that are too coarse. Without has_quads_only() the report is empty.
 QuadraticReport make_quadrilaterals(const ElementWork& work);
 
-/// What was made with sizes twice those asked for is made with the latter: sizes of faces, of their insides and of curves. Those of vertices
-/// and of curve_size stay.
+/// Halves the sizes of faces, of their insides and of curves, for a mesh that was made with twice the prescribed sizes. Sizes of vertices
+/// and curve_size stay.
 void halve_sizes(CompositeResult& result, std::vector<DiscreteCurve>& curves);
 
-/// How many times as large as asked for sizes must be in the mesh that make_quadrilaterals() gets.
+/// The factor between the sizes of the mesh that make_quadrilaterals() gets and the prescribed sizes.
 constexpr double enlargement_for(Element element) noexcept { return has_quads_only(element) ? 2 : 1; }
 
 }  // namespace carreau

@@ -18,8 +18,8 @@ namespace {
 
 using namespace thresholds::quads;
 
-// What is to be added to the corners of a cell, so that they are those of the square that fits them best, mean + z i^k: the
-// four points are mean + z i^k + w (-1)^k + c (-i)^k. `diagonals`: corner 0 less 2 and 1 less 3, where z and c are wanted.
+// Offsets that turn the corners of a cell into the square that fits them best, mean + z i^k. The four points are mean + z i^k + w (-1)^k +
+// c (-i)^k. `diagonals`: corner 0 less 2 and 1 less 3, which give z and c.
 struct ToSquare {
   Vec2 even, odd;  // without w: to corner 0 (and, the other way, to 2), to corner 1 (to 3)
 
@@ -119,8 +119,9 @@ class Smoothing {
     for (int k = 0; k < 3; ++k) sum_[cell[k]] += triangle_weight * frames_.way(c, wanted[k] - y[k]);
   }
 
-  // Vertices of cells that have turned over go back, and then those of others that have because of that: only cells whose
-  // vertices went back in the round before or in this one need a look. They have no momentum then.
+  // Takes back the vertices of cells that have turned over, and then the vertices of cells that have turned over
+  // because of that. Only cells whose vertices went back in the previous round or in this one need a look. These
+  // vertices then have no momentum.
   void take_back() {
     went_back_.assign(quads_.vertices(), 0);
     int round = 1;
@@ -194,7 +195,7 @@ class Worst {
     return corners;
   }
 
-  // Below `enough` it need not be known; beyond what is good all are alike.
+  // Below `enough` the exact value does not matter; all values beyond good_ count as equal.
   double worst_around(double enough) const {
     double worst = good_;
     for (const auto& [c, frame] : star_) {

@@ -15,17 +15,16 @@ struct QuadSmoothing {
   int passes = 17;
   double share = 1.4;     ///< of the way to the mean of the places that cells propose
   double momentum = 0.7;  ///< share of its last step that a vertex goes on; not in the last passes (plain_passes)
-  double pull = 0.1;  ///< 0: cells keep their size; 1: they propose that of unit edges
-  /// Length of edges wanted, in the metric.
+  double pull = 0.1;  ///< 0: cells keep their size; 1: they propose the size of unit edges
+  /// Length of unit edges, in the metric.
   double unit = 1;
-  /// By vertex: which may move; empty: all that are not fixed.
+  /// Marks the vertices that may move; empty: all that are not fixed.
   std::span<const char> moving = {};
 };
 
-/// Each cell proposes to its corners those of the square (a triangle: of the equilateral triangle) that fits it best in
-/// the metric, and each vertex that is not fixed goes towards the mean of proposals, with momentum (Polyak 1964), which
-/// carries strain far in few passes. No cell that is convex turns over
-/// or gets flat.
+/// Each cell proposes to its corners the corners of the square or equilateral triangle that fits it best in the metric.
+/// Each vertex that is not fixed goes towards the mean of proposals, with momentum (Polyak 1964), which carries strain
+/// far in few passes. No cell that is convex turns over or gets flat.
 void smooth_quads(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor);
 void smooth_quads(SpaceQuads& quads, const QuadSmoothing& how, Monitor& monitor);
 

@@ -11,7 +11,7 @@ namespace carreau {
 
 namespace {
 
-constexpr double least_turned = 1e-9;  // below 0, whatever planes say
+constexpr double least_turned = 1e-9;  // below 0, even if planes disagree
 
 // Any unit vector at right angles.
 Vec3 across(const Vec3& normal) noexcept {

@@ -14,8 +14,8 @@
 namespace carreau {
 
 /// Cells whose vertices lie on a surface, whatever its faces; the other surface of the passes of this room is PlaneQuads.
-/// A vertex on a border or a sharp line is there once for each smooth side, so that each has one normal. Shapes are those of
-/// the cell in its tangent plane, in the metric wanted at its corners. Keeps a reference to the surface.
+/// A vertex on a border or a sharp line is there once for each smooth side, so that each has one normal. Shapes are measured in the tangent
+/// plane of the cell, in the prescribed metric at its corners. Keeps a reference to the surface.
 class SpaceQuads {
  public:
   using Place = SurfacePlace;
@@ -30,12 +30,12 @@ class SpaceQuads {
 
   explicit SpaceQuads(const SurfaceAround& surface) : surface_(surface) {}
 
-  /// Its number. A vertex that is fixed neither moves nor goes.
+  /// Returns its number. A fixed vertex stays, and stays in place.
   std::int32_t add_vertex(const SurfacePlace& place, const WantedSize& wanted, bool fixed);
   std::int32_t add_vertex(const SurfacePlace& place, bool fixed) { return add_vertex(place, surface_.wanted(place), fixed); }
   void fix(std::size_t v, bool fixed) { fixed_[v] = static_cast<char>(fixed); }
   void set_flat(std::vector<std::array<std::int32_t, 3>> flat) { flat_ = std::move(flat); }
-  /// All sizes become so many times as large.
+  /// Multiplies all sizes by a factor.
   void scale_sizes(double factor);
   [[nodiscard]] const WantedSize& wanted(std::int32_t v) const { return wanted_[v]; }
   [[nodiscard]] const SurfaceAround& surface() const noexcept { return surface_; }
@@ -44,16 +44,16 @@ class SpaceQuads {
   [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return cells_; }
   [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return cells_; }
   [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return fixed_[v] != 0; }
-  /// As in QuadPatch.
+  /// Flat corners as in QuadPatch.
   [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return flat_; }
 
-  /// About its own normal, which is on the side of those of the surface.
+  /// Convexity about the cell's own normal, which is on the side of the surface's normals.
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
   [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
   [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
-  /// The same, and below 0 the least sine of an angle, for cells that are turned over somewhere.
+  /// The quality, or the least sine of an angle below 0 for cells that are turned over somewhere.
   [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept;
-  /// In the metric wanted at its ends.
+  /// Length in the prescribed metric at the ends of the edge.
   [[nodiscard]] double length(std::int32_t a, std::int32_t b) const noexcept;
 
   [[nodiscard]] Frame about(const MixedCell& cell) const noexcept;
@@ -67,7 +67,7 @@ class SpaceQuads {
     return offset.x() * frame.e1 + offset.y() * frame.e2;
   }
 
-  /// As in PlaneQuads.
+  /// Frames as in PlaneQuads.
   class KeptFrames {
    public:
     explicit KeptFrames(const SpaceQuads& quads) : quads_(quads) {}
@@ -91,11 +91,11 @@ class SpaceQuads {
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return place_; }
   [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return place_[v].xyz == place.xyz; }
   void put(std::size_t v, const Place& place);
-  /// Beside the surface, for a trial: no evaluation.
+  /// Puts the vertex beside the surface, for a trial: no evaluation.
   void try_at(std::size_t v, const Place& from, const Way& way) noexcept { place_[v].xyz = from.xyz + way; }
-  /// On the surface, from where it was before the trial; false: there is no way.
+  /// Puts the vertex on the surface, from its place before the trial; false: no way leads there.
   bool settle(std::size_t v, const Place& from);
-  /// It stays where there is no way.
+  /// The vertex stays if no way leads there.
   void move(std::size_t v, const Way& way);
   void approach(std::size_t v, std::size_t other) { move(v, 0.5 * (place_[other].xyz - place_[v].xyz)); }
 

@@ -43,8 +43,8 @@ class SpaceSearch {
     return cells;
   }
 
-  // The scaled Jacobian, that of a triangle of its parallelograms; quality if it is less: good angles must not be
-  // bought by long rectangles beside them, unless sizes ask for these.
+  // The scaled Jacobian (for a triangle, of its parallelograms), or the quality if it is less. Long rectangles must not
+  // appear beside cells with good angles, unless the sizes require them.
   [[nodiscard]] double shape(const MixedCell& c) const {
     const auto at = [&](int k) -> const Vec3& { return quads_.xyz[c[k]]; };
     if (corners_of(c) == 4) {

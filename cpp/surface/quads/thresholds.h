@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of the room: what they are, in which unit, why, and what supports them.
+// Thresholds of the room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace carreau::thresholds::quads {
 inline constexpr double least_bend = 0.05;
 
 // Pairs (pairing)
-/// Quality. Worse quadrilaterals are no candidates.
+/// Quality. Worse quadrilaterals are rejected.
 inline constexpr double least_pair = 0.08;
 /// Edges of sizes by angle_mesh turn by twice that angle from end to end, and so may two triangles.
 inline constexpr double turns_per_edge = 2;
 
 // Flat corners (face_quads)
-/// Degrees between chords of a curve, and between tangents of two, that go on smoothly into each other where they meet:
-/// an edge of a sixth of a circle turns by 60. Sharper corners are kinks, or those of polygons.
+/// Degrees between chords of a curve, and between tangents of two curves, that go on smoothly into each other where
+/// they meet. An edge of a sixth of a circle turns by 60 degrees. Sharper corners are kinks, or corners of polygons.
 /// [CurvedElements.NoQuadrilateralHasTwoSidesOnOneCircle]
 inline constexpr double least_angle_in_curve = 110, least_angle_of_curves = 150;
 
@@ -31,13 +31,13 @@ inline constexpr std::size_t longest_path = 10;
 inline constexpr int steps_between_checks = 4096;
 
 // Smoothing
-/// Of what a triangle proposes beside a quadrilateral.
+/// Weight of a triangle's proposals beside a quadrilateral's.
 inline constexpr double triangle_weight = 0.5;
-/// Passes without momentum in the end: they take back what it has squeezed.
+/// Passes without momentum at the end: they undo the squeezing by momentum.
 inline constexpr int plain_passes = 2;
 /// Quality. Vertices of worse cells are moved one by one.
 inline constexpr double poor = 0.6;
-/// Units. Of the search for a better place: its first steps, and those at which it ends.
+/// Units. First steps and last steps of the search for a better place.
 inline constexpr double first_step = 0.2, last_step = 0.02;
 /// Passes over the worst cells.
 inline constexpr int worst_passes = 5;
@@ -47,19 +47,19 @@ inline constexpr int worst_passes = 5;
 /// Scaled Jacobian, the sine of the worst angle, and quality. Worse quadrilaterals are moved in space: angles of 37 and 143
 /// degrees.
 inline constexpr double poor_in_space = 0.6;
-/// The same where sizes differ by direction, and right angles of the metric need not be right in space.
+/// Scaled Jacobian, if sizes differ by direction: right angles of the metric need not be right in space.
 inline constexpr double poor_jacobian_in_metric = 0.01;
-/// The same below which two triangles are better: angles of 12 and 168 degrees.
+/// Scaled Jacobian below which two triangles are better: angles of 12 and 168 degrees.
 inline constexpr double least_jacobian = 0.2;
 
 // Walks of triangles
-/// Quality of the cells that it leaves behind, for smoothing to mend.
+/// Quality of the cells that a walk leaves behind; smoothing improves them.
 inline constexpr double least_on_walk = 0.15;
 
 // Clean-up
-/// Of smoothing around changes, before the next pass.
+/// Passes of smoothing around changes, before the next pass.
 inline constexpr int passes_after_changes = 3;
-/// Quality. Changes of the topology may leave so poor cells for smoothing to mend.
+/// Quality. Changes of the topology may leave so poor cells, which smoothing improves.
 inline constexpr double least_after_change = 0.15;
 /// Metric length of edges that a change makes.
 inline constexpr double shortest_edge = 0.5, longest_edge = 1.6;

@@ -31,7 +31,7 @@ class Walks {
         from_(quads.cells().size(), -1),
         touched_(quads.cells().size(), 0) {}
 
-  /// How many pairs have met.
+  /// Returns the number of pairs that have met.
   int run() {
     int pairs = 0;
     for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {
@@ -88,7 +88,7 @@ class Walks {
       if (cell[k] == side.first && cell[(k + 1) % n] == side.second) return k;
     return -1;
   }
-  // The side of `cell` whose other side is one of `other`; -1: they have none in common.
+  // The side of `cell` that is also a side of `other`; -1: no common side.
   static int common_side(const MixedCell& cell, const MixedCell& other) {
     for (int k = 0, n = corners_of(cell); k < n; ++k)
       if (side_of(other, {cell[(k + 1) % n], cell[k]}) >= 0) return k;
@@ -119,7 +119,8 @@ class Walks {
     return true;
   }
 
-  // The triangle passes through `quad` to the side that this has in common with `next`. What stays behind.
+  // The triangle passes through `quad` to the side that this has in common with `next`. Returns the quadrilateral that
+  // stays behind.
   [[nodiscard]] std::optional<MixedCell> pass(const MixedCell& quad, const MixedCell& next, MixedCell& triangle) const {
     const int in = common_side(quad, triangle), apex = common_side(triangle, quad);
     if (in < 0) return {};

@@ -111,7 +111,7 @@ class Refiner {
   }
 
  private:
-  /// What a check says of one face.
+  /// The result of a check for one face.
   struct Found {
     std::vector<int> edges = {};  // to be split
     std::vector<Strip> strips = {};
@@ -128,7 +128,7 @@ class Refiner {
       result_.domain[f].reset();
       stale.push_back(f);
     }
-    std::vector<char> turned(stale.size(), 0);  // mended by refine(), or reported at the end
+    std::vector<char> turned(stale.size(), 0);  // repaired by refine(), or reported at the end
     std::vector<std::string> failure(stale.size());
     const auto build = [&](std::size_t i, Monitor&) {
       try {
@@ -153,7 +153,7 @@ class Refiner {
     }
   }
 
-  // Rounds of one check, until nothing more is split; only faces that have changed are looked at again.
+  // Rounds of one check, until no segment is split; later rounds check changed faces only.
   template <typename Find, typename Ask>
   void repeat(int rounds, Find&& find, Ask&& ask) {
     const bool alone = !asks_from_threads(options_, curve_model_.cad);
@@ -163,8 +163,9 @@ class Refiner {
       if (!refine(std::exchange(changed_, std::vector<char>(changed_.size(), 0)), find, ask, alone)) return;
   }
 
-  // One round: splits what the faces in `look` want split, in every face that holds the curve. `find` asks no host and
-  // is called from several threads; so is `ask`, which may change what it has found, unless it is to be `alone`.
+  // One round: splits the segments that the faces in `look` request, in every face that holds the curve. `find` does
+  // not evaluate the host and runs on several threads. The function `ask` also runs on several threads, and may change
+  // the result of `find`, unless it is to be `alone`.
   template <typename Find, typename Ask>
   bool refine(const std::vector<char>& look, Find&& find, Ask&& ask, bool alone) {
     rebuild_stale();
@@ -210,8 +211,8 @@ class Refiner {
     std::sort(result_.unmatched.begin(), result_.unmatched.end());
   }
 
-  // A boundary whose polygon is inside out follows its curves too loosely: there the edges that leave them most are
-  // split.
+  // If the polygon of a boundary is inside out it approximates its curves too loosely: the edges with the largest
+  // distance are split.
   void add_loose_edges(Splits& splits) {
     for (const int face : turned_) {
       if (given_up_.contains(face) || turned_rounds_[face]++ >= most_turned_rounds) continue;
@@ -250,8 +251,8 @@ class Refiner {
     return largest;
   }
 
-  // Last, since halves of what was moved by half an edge would face each other again. Sides that were matched stay so,
-  // and metrics by direction know no width in space.
+  // Comes last, since halves of edges that were moved by half an edge would face each other again. Sides that were
+  // matched stay so, and metrics by direction have no width in space.
   void stagger_strips() {
     if (!options_.stagger_strips || !narrow_.empty() || !isotropic_) return;
     rebuild_stale();
@@ -273,7 +274,7 @@ class Refiner {
     for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
   }
 
-  // What was found free of crossings stays so until it changes.
+  // A face found free of crossings stays so until it changes.
   void uncross() {
     for (int i = 0; i < most_halvings; ++i)
       if (!refine(
@@ -302,8 +303,8 @@ class Refiner {
             .ask_metric = true};
   }
 
-  // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
-  // Costs no callback. Where metrics have directions, distances in space say nothing.
+  // Returns whether closeness needs a look: in space, a vertex is nearer to another edge than the check allows. Costs
+  // no callback. If metrics have directions, distances in space do not measure closeness.
   [[nodiscard]] bool may_be_narrow(int f) const {
     if (!isotropic_) return true;
     const FaceDomain& domain = *result_.domain[f];
@@ -318,8 +319,9 @@ class Refiner {
     return false;
   }
 
-  // Whether edges at a vertex differ so much that the balance needs a look. With one size everywhere lengths on curves
-  // say so, without a callback; with a gradation they do with the most that sizes change to the middles of edges.
+  // Returns whether edges at a vertex differ so much that the balance needs a look. With a uniform size lengths on
+  // curves decide, without a callback. With a gradation they decide together with the largest change of sizes up to the
+  // middles of edges.
   [[nodiscard]] bool may_be_unbalanced(int f) const {
     if (!rules_.constant() && (limits_.field == nullptr || !isotropic_)) return true;
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
@@ -364,7 +366,7 @@ class Refiner {
     for (const auto& [f, why] : unbuilt_) result_.failure[f] = why;
   }
 
-  // Why a domain cannot be meshed; empty when it can.
+  // Returns the reason why a domain cannot be meshed; empty if it can.
   [[nodiscard]] std::string why_not(int f) const {
     const PlaneDomain& plane = result_.domain[f]->plane;
     if (const std::optional<EdgeConflict> conflict = find_a_crossing(plane))
@@ -392,14 +394,14 @@ class Refiner {
   std::vector<char> left_out_;  // by face
   std::vector<DiscreteCurve>& curves_;
   const PeriodicModel* periodic_;  // null: none
-  std::set<int>& given_up_;  // faces for which nothing is cut any more
+  std::set<int>& given_up_;  // faces whose edges are no longer cut
   Monitor& monitor_;
   RefinedDomains result_;
   std::vector<char> stale_;
   std::vector<char> changed_;    // since the last round of a check
   std::vector<char> crossable_;  // since no crossing was found
   std::map<int, std::string> unbuilt_;
-  std::set<int> turned_;  // of those
+  std::set<int> turned_;  // among these faces
   std::map<int, int> turned_rounds_;
   struct Crossing {
     double length = infinity;  // of the edges that cross others, in (u, v)

@@ -15,7 +15,8 @@
 
 namespace carreau {
 
-/// The domains of all faces after refinement. A face that cannot be mended keeps no domain and says why.
+/// The domains of all faces after refinement. A face that cannot be repaired keeps no domain; `failure` gives the
+/// reason.
 struct RefinedDomains {
   std::vector<std::optional<FaceDomain>> domain;  ///< by face index
   std::vector<std::string> failure;               ///< by face index; empty when there is a domain
@@ -25,17 +26,17 @@ struct RefinedDomains {
   std::vector<int> unmatched;
 };
 
-/// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
-/// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
-/// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in. Strips in `narrow`, and
-/// points whose curves vanish, are not looked at and get no domain; the two sides of strips keep vertices at the same
-/// places. Periodic curves keep corresponding vertices.
+/// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself. Then
+/// splits them where boundaries come close or lengths of neighbours differ (CheckCloseEdges, CheckAdjacentEdges,
+/// CheckWellDefined). The options prescribe the number of rounds. `limits`: limits of the sizes in which lengths are
+/// compared. Strips in `narrow`, and points whose curves vanish, are passed over and get no domain. The two sides of
+/// strips keep vertices at the same places. Periodic curves keep corresponding vertices.
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
                               Monitor& monitor, const PeriodicModel* periodic = nullptr);
 
-/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel where
-/// more than one of them is prescribed to have one edge.
+/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel if two
+/// such curves are prescribed to have one edge.
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);
 
 }  // namespace carreau

@@ -32,8 +32,8 @@ double relative_perimeter(const CurveModel& model, const std::vector<DiscreteCur
   return around;
 }
 
-/// Area over half the perimeter, by the area in (u, v) and what the surface stretches it at places of the boundary.
-/// Right for strips, where these are all near.
+/// Area over half the perimeter, by the area in (u, v) and the stretch of the surface at places of the boundary. Right
+/// for strips, where these are all near.
 double mean_width(const CurveModel& model, int face, const PlaneDomain& plane) {
   const int ref = model.model.faces[face].ref;
   double area = 0, perimeter = 0, stretch = 0;

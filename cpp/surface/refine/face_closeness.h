@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How wide narrow zones of each face must be beside their edges. Private to surface/.
+// Least width of narrow zones of each face, relative to their edges. Private to surface/.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace carreau {
 
-/// CoefRectangle of each face. When narrow faces are to collapse, a strip none of whose curves belongs to another face
-/// cannot: nothing would be left of it. Its edges are cut until its triangles have a good shape, since short edges
-/// spoil no face beside it. Segments shorter than a size divided by the length of the strip in sizes stay, so that a
-/// needle gets no more than twice the triangles of a square of its length, and may be cut up to its tips.
+/// CoefRectangle of each face. When narrow faces are to collapse, a strip whose curves all belong to it alone cannot,
+/// since the face would disappear. Its edges are cut until its triangles have a good shape, since short edges spoil no
+/// face beside it. Segments shorter than a size divided by the length of the strip in sizes stay. A needle thus gets at
+/// most twice the triangles of a square of its length, and may be cut up to its tips.
 class FaceCloseness {
  public:
-  /// Asks the host for derivatives at some places of faces without neighbours. `domains`: of faces that may be looked
-  /// at, empty ones not.
+  /// Evaluates derivatives at some places of faces without neighbours. `domains`: the faces to consider; empty domains
+  /// are passed over.
   FaceCloseness(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
                 std::span<const std::optional<FaceDomain>> domains, const CompositeOptions& options);
 
   [[nodiscard]] double coefficient(int face) const { return faces_[face].coefficient; }
-  /// Whether segments that are short enough stay.
+  /// Returns whether segments that are short enough stay.
   [[nodiscard]] bool is_bounded(int face) const { return faces_[face].finest > 0; }
-  /// Whether a segment is so short that it is not halved.
+  /// Returns whether a segment is so short that it is not halved.
   [[nodiscard]] bool is_fine(int face, const DiscreteCurve& curve, int segment) const;
 
  private:

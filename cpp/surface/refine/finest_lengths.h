@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How short the edges at each vertex of the curves were. Private to surface/.
+// Original lengths of the shortest edges at the vertices of curves. Private to surface/.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,10 @@
 
 namespace carreau {
 
-/// Lengths in space of the shortest edge at each vertex of discretised curves, as they were when it was made; at a
-/// corner, of all curves that end there. Where metrics have directions, three faces at a corner can each find its
-/// second edge too long beside its first, for ever: an edge as short as these is no longer cut.
+/// Lengths in space of the shortest edge at each vertex of discretised curves, at the time of construction. A corner
+/// has the shortest edge of all curves that end there. If metrics have directions, three faces at a corner can each
+/// find its second edge too long beside its first, for ever. An edge as short as these lengths is therefore no longer
+/// cut.
 class FinestLengths {
  public:
   FinestLengths(const Topology& topology, const std::vector<DiscreteCurve>& curves) : at_(curves.size()) {
@@ -34,8 +35,8 @@ class FinestLengths {
     }
   }
 
-  /// Whether a segment of a curve, which may have been cut since, is as short as the shortest edge at one of its ends
-  /// was.
+  /// Returns whether a segment of a curve is now as short as the shortest edge at one of its ends was. The curve may
+  /// have been cut since.
   [[nodiscard]] bool reached_by(const DiscreteCurve& curve, int segment) const {
     double finest = infinity;
     for (const int node : {segment, segment + 1})

@@ -17,7 +17,7 @@ namespace {
 
 using namespace thresholds::refine;
 
-// The first two uses of a curve in a face; -1, -1 when it is no seam.
+// The first two uses of a curve in a face; -1, -1 if the curve is not a seam.
 std::pair<int, int> sides_of(const Curve& shape, int face) {
   int first = -1;
   for (int u = 0; u < static_cast<int>(shape.uses.size()); ++u) {
@@ -52,7 +52,7 @@ std::vector<Place> places_on(const CurveModel& model, const DiscreteCurve& seam,
   return places;
 }
 
-/// Thickness in proportion to the distance from a pole is no waist.
+/// Thickness in proportion to the distance from a pole does not make a waist.
 template <typename Iterator>
 void leave_to_pole(Iterator pole, Iterator end) {
   if (pole->looked_at) return;

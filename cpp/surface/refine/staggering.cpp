@@ -50,7 +50,7 @@ class FacingCurves {
   }
 
  private:
-  // Whether the domain lies between an edge and a vertex.
+  // Returns whether the domain lies between an edge and a vertex.
   [[nodiscard]] bool sees(const PlaneEdge& e, int v) {
     if (!inside_) inside_.emplace(domain_.plane.vertices, bounding_edges(domain_.plane));
     const double s = fraction_on_segment(xyz_[v], xyz_[e.a], xyz_[e.b]);
@@ -63,7 +63,8 @@ class FacingCurves {
   std::optional<PolygonLocator> inside_;
 };
 
-/// What Delaunay's triangles over the edges of a polyline lack of Q2 = 1, summed up over those that face `near`.
+/// The defect 1 - Q2 of Delaunay's triangles over the edges of a polyline, summed up over the triangles that face
+/// `near`.
 struct Lack {
   double sum = 0, worst = 1;
   int edges = 0;
@@ -91,13 +92,13 @@ Lack lack_between(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
   return lack;
 }
 
-// On the curve: on a chord, arcs would seem farther from what they bulge towards than they are.
+// Vertices on the curve: on a chord, an arc would seem farther from the side towards which it bulges.
 std::vector<Vec3> staggered(DiscreteCurve curve, const CurveModel& model) {
   stagger(curve, model);
   return curve.xyz;
 }
 
-/// Curves that may be moved: those that end at a sharp corner of a face may not.
+/// Curves that may be moved: no curve that ends at a sharp corner of a face.
 std::vector<char> movable_curves(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
                                  std::span<const std::optional<FaceDomain>> domains) {
   std::vector<char> may;

@@ -12,13 +12,13 @@
 
 namespace carreau {
 
-/// Curves whose vertices are better put in the middles of their edges: between two sides that are nearer to each other
-/// than their edges are long, and whose vertices face each other, there is only place for triangles with a right angle
-/// (Q2 0.87 at best, HDR eq. 1.6: sqrt(3) a / (1 + a^2) where edges are a times the width); moved by half an edge on
-/// one side they are isosceles (2 sqrt(3) a / (1.5 a^2 + 2)). Judged in space, by the best triangle over each edge; a
-/// curve has several faces, and which of them are moved is decided together. Increasing indices in Topology::curves.
-/// Asks the host where curves would be cut then, one that is re-entrant from `threads` threads. `domains`: of faces
-/// that may be looked at, empty ones not.
+/// Curves whose vertices should move to the middles of their edges. Suppose that two sides are nearer to each other
+/// than their edges are long, and their vertices face each other. Then there is only place for triangles with a right
+/// angle. Their Q2 is 0.87 at best (HDR eq. 1.6: sqrt(3) a / (1 + a^2) where edges are a times the width). Moved by
+/// half an edge on one side they are isosceles (2 sqrt(3) a / (1.5 a^2 + 2)). Judged in space, by the best triangle
+/// over each edge. A curve has several faces, and one decision covers all curves together. Increasing indices in
+/// Topology::curves. Evaluates the host where curves would be cut then; a re-entrant host from `threads` threads.
+/// `domains`: the faces to consider; empty domains are passed over.
 std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
                                    std::span<const std::optional<FaceDomain>> domains, int threads, Monitor& monitor);
 

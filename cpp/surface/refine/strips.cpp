@@ -52,9 +52,9 @@ class StripsInSpace {
   }
 
  private:
-  // Whether the curve of an edge passes by a vertex, and its chord does not: at distance d, fraction s of the chord. At
-  // the tip of two curves that touch each other any two edges are like that, however short. A curve between its chord
-  // and the vertex is nearer, but the triangle between these is the wider.
+  // Returns whether the curve of an edge passes by a vertex, and its chord does not: at distance d, fraction s of the
+  // chord. At the tip of two curves that touch each other any two edges are like that, however short. A curve between
+  // its chord and the vertex is nearer, but the triangle between these is the wider.
   [[nodiscard]] bool bulges_past(const PlaneEdge& edge, int v, double s, double d) const {
     const Vec3 a = xyz_[edge.a], b = xyz_[edge.b];
     const double bulge = bulge_of(model_, curves_, edge, norm(b - a));
@@ -73,7 +73,7 @@ class StripsInSpace {
     return support.point_at_arc((r[edge.segment] + r[edge.segment + 1]) / 2 * support.length());
   }
 
-  // Whether a vertex lies on a curve of the face that has an end in common with another one, or on that one.
+  // Returns whether a vertex lies on the given curve, or on a curve of the face that shares an end with it.
   [[nodiscard]] bool meet(int curve, const DomainVertexOrigin& origin) const {
     const Curve& one = topology_.curves[curve];
     const auto meets = [&](int c) {

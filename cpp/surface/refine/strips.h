@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strips of a face that are narrow in space beside their edges, however far their sides are on the surface.
+// Strips of a face that are narrow in space compared with their edges, whatever the distance of their sides on the
+// surface.
 #pragma once
 
 #include <vector>
@@ -15,15 +16,16 @@ struct Strip {
   Vec2 middle;
 };
 
-/// Where vertices are nearer to an edge than `coef`, as coefficient_of_width() has it, times its length. On a strip
-/// that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side. What is near
-/// a corner where curves meet is left to the check in the metric, which knows angles; away from it, bulges are as
+/// Vertices that are nearer to an edge than its length times `coef`, by coefficient_of_width(). If a strip is narrower
+/// than its long edges bulge, the chord of an edge passes by vertices of the other side. Vertices near a corner where
+/// curves meet are left to the check in the metric, which includes angles. Away from the corner, bulges are as
 /// elsewhere. Costs no callback.
 std::vector<Strip> find_strips(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
                                const FaceDomain& domain, double coef);
 
-/// Whether a strip is one of the face. The two borders of a slit, or of a seam that is two curves, are close in space
-/// with the outside or the whole surface between them: no number of cuts would part them. Four points of the surface.
+/// Returns whether a strip belongs to the face. The borders of a slit, or of a seam that is two curves, are close in
+/// space. The outside or the whole surface lies between them. No number of cuts would part them. Evaluates four points
+/// of the surface.
 bool lies_between(const CurveModel& model, int face, const FaceDomain& domain, const Strip& strip);
 
 }  // namespace carreau

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
 
 namespace carreau::thresholds::refine {
 
-// In brackets: the tests that rest on it, of tests/cpp/surface/refine where nothing else is said.
+// Brackets name the tests that rest on a threshold, by default tests of tests/cpp/surface/refine.
 
 // Crossings and balance (boundary_refinement)
 /// Rounds. Each halves the edges that cross: 2^-16 of an edge is below the accuracy of any support. [domain: Crossings.
-/// AreMendedByRefinement]
+/// AreRemovedByRefinement]
 inline constexpr int most_halvings = 16;
-/// Rounds. Around a true crossing the edges that cross get shorter with every halving, and where curves only come near
-/// each other they stop crossing: after so many halvings that changed nothing the curves lie on each other, and would
+/// Rounds. Around a true crossing the edges that cross become shorter with every halving, and curves that only come
+/// near each other stop crossing. If this number of halvings changes nothing, the curves lie on each other, and would
 /// be cut for ever. [Refinement.CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour]
 inline constexpr int most_fruitless_halvings = 6;
-/// Share of the length that crossed before. What changes nothing leaves more. [as above]
+/// Share of the length that crossed before. A halving without effect leaves more. [as above]
 inline constexpr double fruitless_share = 0.75;
 /// Rounds. Halvings of a boundary that is inside out: a model that is wrong stays so. [domain:
-/// OrientLoops.RefusesWhatIsNoDomain]
+/// OrientLoops.RejectsInvalidDomains]
 inline constexpr int most_turned_rounds = 6;
-/// Ratio. Straight distances in space are taken so much shorter than lengths in the metric of a curved surface.
+/// Ratio. Assumed ratio of lengths in the metric of a curved surface to straight distances in space.
 /// [Refinement.BordersWithTheOutsideBetweenThemAreNoNarrowZone]
 inline constexpr double straight_reserve = 2;
-/// Ratio of lengths. From here on the balance of edges is looked at in the metric, whose chords are not the curves'
+/// Ratio of lengths. From here on the balance of edges is checked in the metric, whose chords differ from the curves'
 /// lengths; there it may be 2. [Refinement.BalanceOfEdgesAtACornerEndsWhereverMetricsTurn]
 inline constexpr double balance_to_look_at = 1.6;
 
@@ -33,14 +33,14 @@ inline constexpr double balance_to_look_at = 1.6;
 /// width, in sizes: wider faces are narrow in places alone, where short edges leave bad triangles beside them.
 /// [Refinement.StripsWithoutNeighboursAreCutToTheirWidth]
 inline constexpr double coefficient_alone = 0.35;
-/// Places of the boundary where the stretch of the surface is looked at. [time only]
+/// Places of the boundary where the stretch of the surface is sampled. [time only]
 inline constexpr std::size_t stretch_samples = 16;
 
 // Tips and seams (strips, seam_loops)
 /// Slope. Curves that leave a corner at less are its tip. [Tongues.AreNotCutToTheirTips]
 inline constexpr double bluntest_corner = 0.1;
-/// Share. A pole explains thickness that falls no faster towards it than to this share of what it is elsewhere on the
-/// way. [surface: Waists, Poles]
+/// Share. A pole explains thickness that falls towards it, on the way, to no less than this share of the thickness
+/// elsewhere. [surface: Waists, Poles]
 inline constexpr double pole_reserve = 0.25;
 
 // Staggering
@@ -48,18 +48,18 @@ inline constexpr double pole_reserve = 0.25;
 inline constexpr double widest = 1.2;
 /// Segments. Halves at both ends of shorter curves would be most of them. [Staggering.RingsToo]
 inline constexpr int fewest_segments = 3;
-/// Sum of qualities. What a curve must gain: the half edges at its ends cost as much in the faces beside it.
+/// Sum of qualities. Least gain of a curve: the half edges at its ends cost as much in the faces beside it.
 /// [Staggering.StripsAreOfIsoscelesTriangles]
 inline constexpr double least_curve_gain = 1;
-/// Share of the worst quality, below which it must not fall, whatever is gained elsewhere: where vertices come to lie
-/// on the chords of arcs that bulge across the strip, triangles become flat. [Staggering.RingsToo]
+/// Share of the worst quality, below which it must not fall, whatever the gain elsewhere. If vertices come to lie on
+/// the chords of arcs that bulge across the strip, triangles become flat. [Staggering.RingsToo]
 inline constexpr double largest_fall = 0.5;
-/// Gain of what makes the worst triangle fall farther: no sum outweighs it. [arithmetic]
+/// Gain of a change that makes the worst triangle fall farther: no sum outweighs it. [arithmetic]
 inline constexpr double ruin = -1e9;
-/// Passes over all strips, each of which may change what the next ones gain. [Staggering.StripsAre...]
+/// Passes over all strips; each pass may change the gains of the next. [Staggering.StripsAre...]
 inline constexpr int staggering_passes = 8;
-/// Cosine of the angle from which on a half edge at a corner, beside a whole one, leaves a triangle worse than 0.75
-/// (Q2; 0.95 between two whole ones). [Staggering.WideFacesAndSharpCornersStayAsTheyAre]
+/// Cosine of an angle. At a sharper corner a half edge beside a whole edge leaves a triangle worse than 0.75 (Q2; 0.95
+/// between two whole edges). [Staggering.WideFacesAndSharpCornersStayAsTheyAre]
 inline constexpr double sharp_cosine = 0.6;
 
 }  // namespace carreau::thresholds::refine

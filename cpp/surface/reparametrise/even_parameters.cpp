@@ -55,7 +55,7 @@ class Evener {
     return {{{0, length > 0 ? length : 1}, {low(axis), high(axis)}}, false};
   }
 
-  // At equal distances, by the map where there is one, and at boundary vertices, which stand where curves are long.
+  // Places at equal distances, by the map if given, and at boundary vertices, which mark long curves.
   [[nodiscard]] std::vector<double> places(int axis, const MonotoneMap* map) const {
     const std::vector<double>& sorted = boundary_[axis];
     std::vector<double> p = {low(axis), high(axis), of(at_, axis)};
@@ -70,7 +70,7 @@ class Evener {
     return p;
   }
 
-  /// Where the lines are at one place along them; NaN outside of the domain.
+  /// The points of all lines at one place along them; NaN outside of the domain.
   struct Row {
     double at = 0;
     std::vector<Vec3> xyz;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +17,16 @@ inline constexpr std::size_t first_places = 16;
 inline constexpr double finest = 1.0 / 128;
 /// Share of the domain. unless it is as narrow as this; a chord of the share above is a jump then. [rounding]
 inline constexpr double narrowest = 1e-13;
-/// Places. On a parameter, at most. [time only]
+/// Largest number of places on a parameter. [time only]
 inline constexpr std::size_t most_places = 3000;
-/// Ratio. Where all lines of a family together are so many times as long as the longest one, what is fast in one is not
-/// in the others. [UnevenParameters.FastAlongASlantedLine]
+/// Ratio. If all lines of a family together are longer than this factor times the longest one, fast places differ from
+/// line to line. [UnevenParameters.FastAlongASlantedLine]
 inline constexpr double most_detours = 8;
 
 // New parameters
 /// Ratio of speeds. A parameter along which they differ by less is left as it is. [UnevenParameters.ExtremeWeights]
 inline constexpr double even = 30;
-/// Share of the mean speed. Where lines stand still they are taken to be as fast. [UnevenParameters.FastAtABorder]
+/// Share of the mean speed. Lines that stand still count as so fast. [UnevenParameters.FastAtABorder]
 inline constexpr double least_speed = 0.02;
 /// Share of the whole. Shorter pieces are joined to the next ones. [UnevenParameters.FastWithinAMillionthInside]
 inline constexpr double shortest = 1e-7;
@@ -36,7 +36,7 @@ inline constexpr double shortest = 1e-7;
 inline constexpr double least_kept = 0.5;
 /// Passes of swaps over triangles that are turned over. [as above]
 inline constexpr int turned_passes = 20;
-/// Samples. Of the control space that is carried back. [time only]
+/// Samples. Largest number in the control space that is carried back. [time only]
 inline constexpr std::size_t most_samples = 20'000;
 
 }  // namespace carreau::thresholds::reparametrise

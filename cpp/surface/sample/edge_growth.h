@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growth from short edges of a boundary, as far as a control space can follow it.
+// Limits growth from short edges of a boundary to the resolution of a control space.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,13 @@
 
 namespace carreau {
 
-/// `space` is that of `input`, whose sizes grow from input.limits.edges. A parametrisation may leave a tiny edge so
-/// little room in (u, v), beside the pole of a cone say, that samples miss most of the growth: the space then promises
-/// a hundred times as many triangles as growth ever makes. Such sizes are raised, by eight as often as necessary,
-/// until the space promises no more than twice what the sizes without growth and the growth in a plane ask for.
-/// Returns what bounds sizes now and replaces `space`, which obeys them; empty: nothing had to be done. Evaluates the
-/// face again only where the space promises many triangles. Throws what the host throws, and Cancelled.
+/// `space` belongs to `input`, whose sizes grow from input.limits.edges. A parametrisation may leave a tiny edge very
+/// little room in (u, v), for example beside the pole of a cone. Samples then miss most of the growth. The space
+/// promises a hundred times as many triangles as growth ever makes. Such sizes are raised, by eight as often as
+/// necessary, until the number of triangles is acceptable. The limit is twice the number for the sizes without growth
+/// and for growth in a plane. Returns the new bounds of sizes and replaces `space`, which obeys them; empty if all was
+/// well. Evaluates the face again only if the space promises many triangles. Throws the exceptions of the host, and
+/// Cancelled.
 std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const SizeRules& rules,
                                       std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space,
                                       Team* team = nullptr);

@@ -16,8 +16,8 @@ namespace {
 
 using namespace thresholds::sample;
 
-/// Along the meridian of a degenerate point: the parameter along which the surface does not stand still, if it does
-/// along the other; else towards the middle.
+/// The direction of the meridian of a degenerate point. It follows the parameter along which the surface does not stand
+/// still, if it stands still along the other; otherwise it leads towards the middle.
 Vec2 along_meridian(const SurfaceJet& jet, const Vec2& to_middle, const Vec2& half) noexcept {
   const double u = norm(jet.su), v = norm(jet.sv);
   if (u <= still * v) return {0, std::copysign(half.y(), to_middle.y())};

@@ -35,14 +35,14 @@ class FaceMetric {
            (std::isfinite(limits_.lean) ? want_second : 0U);
   }
 
-  /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks
-  /// the host. Where the parametrisation is degenerate metrics that depend on the geometry are limits of those inside
-  /// the domain: around a pole they differ from one meridian to the next. What a point gets does not depend on the
-  /// others.
+  /// Computes J^T J / h^2 (RR-2928 eq. 27) at each point, or the metrics that prescribed metrics induce (HDR eq. 4.64,
+  /// 4.66), within the limits. Evaluates the host. If the parametrisation is degenerate, metrics that depend on the
+  /// geometry are limits from inside the domain. Around a pole they differ from one meridian to the next. The metric of
+  /// a point does not depend on the other points.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
 
-  /// The same at points of the face of reference `ref`, whose jets hold `want` besides: use(rank, jet, metric) for
-  /// each, in order, evaluated a batch at a time.
+  /// Samples the metric at points of the face of reference `ref`. The jets hold the derivatives `want`, too. Calls
+  /// use(rank, jet, metric) for each point, in order, and evaluates a batch at a time.
   template <typename Use>
   void sample(Cad& cad, int ref, unsigned want, std::span<const Vec2> uv, const Use& use) {
     std::vector<Metric2> metric(std::min(points_at_once, uv.size()));
@@ -53,8 +53,8 @@ class FaceMetric {
     for_batches(cad, ref, want | wants(), uv, monitor_, prescribe);
   }
 
-  /// The limit at a point where the parametrisation is degenerate. Empty where it is also degenerate beside, or no
-  /// place beside is inside the domain.
+  /// The limit at a point where the parametrisation is degenerate. Empty if it is also degenerate beside, or no place
+  /// beside is inside the domain.
   [[nodiscard]] std::optional<TangentMetric> limit(Vec2 uv, const SurfaceJet& jet);
 
  private:
@@ -75,7 +75,7 @@ class FaceMetric {
   std::optional<Inside> inside_;  // built only where the parametrisation is degenerate
 };
 
-/// What is prescribed inside a patch that is being meshed, within input.limits, or without any.
+/// The prescription inside a patch that is being meshed, within input.limits or without limits.
 inline FaceMetric prescription_of(const PatchInput& input, const SizeRules& rules, Monitor& monitor) {
   return {input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits};
 }

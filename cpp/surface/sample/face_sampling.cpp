@@ -15,7 +15,7 @@ namespace {
 
 using namespace thresholds::sample;
 
-// Whether the metric is that of a size which is the same in all directions.
+// Returns whether the metric belongs to a size which is equal in all directions.
 bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
   const double h = isotropic_size(jet, m), k = 1 / (h * h);
   if (!(h > 0)) return true;
@@ -24,20 +24,21 @@ bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
          std::abs(m.b - f) <= same_size * std::sqrt(e * g);
 }
 
-// The median; where most do not move nothing is usual.
+// The median; infinity if most derivatives vanish.
 double usual_square(std::vector<double>& squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   return *middle > 0 ? *middle : infinity;
 }
 
-/// What the samples of a batch tell: of jets the first derivatives.
+/// The samples of a batch: metrics, and the first derivatives in jets.
 struct Samples {
   std::span<SurfaceJet> jets;
   std::span<Metric2> metric;
 };
 
-// By all processes that make the patch. From the calling thread: what is prescribed is found by one.
+// Shares the samples among all processes that make the patch. Each process samples from the calling thread, since one
+// thread uses `prescribed`.
 void share_samples(Team& team, int ref, Cad& cad, FaceMetric& prescribed, std::span<const Vec2> uv, const Samples& out,
                    Monitor& monitor) {
   constexpr std::size_t width = 9;

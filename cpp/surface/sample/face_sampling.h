@@ -12,12 +12,12 @@
 
 namespace carreau {
 
-/// What samples of a face tell beside its metric.
+/// Properties of a face that samples show beside its metric.
 struct SampledFacts {
-  SampledNormals* normals = nullptr;  ///< gets those at the samples, where given
+  SampledNormals* normals = nullptr;  ///< gets the normals at the samples, if given
   bool isotropic = true;              ///< sizes do not differ by direction at any of them
-  /// Stops with UnevenSpeed where a derivative is so many times as long as it is usual: as `usual_speed`; 0: as it is
-  /// along that parameter at the first samples.
+  /// Stops with UnevenSpeed if a derivative is `most_uneven` times as long as usual. `usual_speed`: the usual length;
+  /// 0: the length along that parameter at the first samples.
   double usual_speed = 0;
   double most_uneven = infinity;
 };
@@ -28,10 +28,10 @@ struct UnevenSpeed {
   double times;  ///< as fast
 };
 
-/// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
+/// Compares lengths of derivatives at the first samples, all over the domain, with lengths at later samples.
 class SpeedWatch {
  public:
-  /// As SampledFacts::most_uneven and usual_speed.
+  /// Takes SampledFacts::most_uneven and usual_speed.
   SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
   /// Throws UnevenSpeed.
   void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets);
@@ -43,7 +43,7 @@ class SpeedWatch {
 };
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `probe_points`: see
-/// ControlSpaceOptions. `team`: whose processes share the questions to their hosts; null: this one alone asks.
+/// ControlSpaceOptions. `team`: processes that share the evaluations by their hosts; null: only this process evaluates.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
                          Monitor& monitor, SampledFacts* facts = nullptr, Team* team = nullptr);
 

@@ -82,7 +82,7 @@ InterfaceSizes::InterfaceSizes(const PlaneDomain& domain, const std::vector<doub
     }
   if (law_ == SizeLaw::geometric)
     for (double& h : value_) h = std::log(h);
-  // Units of u and of v may have nothing in common.
+  // The units of u and v may differ.
   Vec2 high = low_ = mesh_.vertices.front();
   for (const Vec2& p : mesh_.vertices) {
     low_ = low_.cwiseMin(p);
@@ -102,8 +102,8 @@ std::array<double, 3> InterfaceSizes::weights(int triangle, const Vec2& uv) cons
 
 int InterfaceSizes::triangle_at(const Vec2& p) const {
   int t = last_;
-  // A walk in a constrained triangulation may meet the border first, or turn in circles: then every triangle is looked
-  // at.
+  // A walk in a constrained triangulation may meet the border first, or turn in circles: then all triangles are
+  // searched.
   for (std::size_t step = 0; step < 64 + 2 * mesh_.triangles.size(); ++step) {
     const auto w = weights(t, p);
     const int worst = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
@@ -126,7 +126,7 @@ double InterfaceSizes::operator()(const Vec2& uv) const {
   const Triangle& home = mesh_.triangles[last_];
   const auto size_of = [&](double mean) { return law_ == SizeLaw::geometric ? std::exp(mean) : mean; };
   const auto at = weights(last_, from);
-  // At a vertex there are no directions to its edges.
+  // A vertex has no directions to its edges.
   for (int i = 0; i < 3; ++i)
     if (at[i] >= 1 - 1e-12) return size_of(value_[home[i]]);
   Sums sums;
@@ -170,13 +170,13 @@ void InterfaceSizes::look_through(const View& view, const Vec2& from) const {
   if (left_in_view) views_.push_back({t, left_side, right_in_view ? far : view.right, view.left});
 }
 
-/// Mean value weights tan(alpha / 2) / r of both ends of what is seen of an edge (Floater's formula for a polygon with
-/// these corners).
+/// Mean value weights tan(alpha / 2) / r of both ends of the visible part of an edge. Source: Floater's formula for a
+/// polygon with these corners.
 void InterfaceSizes::add(const View& view, Vec2 from, Sums& sums) const {
   const Triangle& c = mesh_.triangles[view.triangle];
   const int a = c[(view.side + 1) % 3], b = c[(view.side + 2) % 3];
   const Vec2 p = mesh_.vertices[a] - from, d = mesh_.vertices[b] - mesh_.vertices[a];
-  // Where a direction meets the edge: cross(direction, p + s d) = 0.
+  // The place on the edge in a given direction: cross(direction, p + s d) = 0.
   const auto place = [&](Vec2 direction, double otherwise) {
     const double across = cross(direction, d);
     return across > 0 ? std::clamp(-cross(direction, p) / across, 0.0, 1.0) : otherwise;

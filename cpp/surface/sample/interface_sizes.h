@@ -13,18 +13,18 @@
 namespace carreau {
 
 /// Mean value interpolation from the edges in view: h(x) = M^-1( integral of M(h(y)) / |y - x| over all directions,
-/// over integral of 1 / |y - x| ), y being the first interface met in that direction, boundary or internal curve; M is
-/// the logarithm for the geometric law and the identity for the others. Along an interface the vertices' sizes follow
-/// the law. Reproduces them on the interfaces, stays between their extremes, and reproduces fields whose M is linear on
-/// convex domains; smooth, unlike the interpolation in a triangulation of the boundary. Keeps its own copy of
-/// everything.
+/// over integral of 1 / |y - x| ). Here y is the first interface met in that direction, boundary or internal curve; M
+/// is the logarithm for the geometric law and the identity for the others. Along an interface the vertices' sizes
+/// follow the law. Reproduces them on the interfaces, stays between their extremes, and reproduces fields whose M is
+/// linear on convex domains. The result is smooth, unlike the interpolation in a triangulation of the boundary. Keeps
+/// its own copy of everything.
 class InterfaceSizes {
  public:
   /// sizes: one a vertex of the domain; vertices whose size is not positive (imposed points) are left out.
   InterfaceSizes(const PlaneDomain& domain, const std::vector<double>& sizes, SizeLaw law, Monitor& monitor);
 
-  /// Size at a point of the domain; a point outside is taken to be in the nearest triangle met. Remembers where it was
-  /// last and keeps its memory: not for several threads at once.
+  /// Size at a point of the domain; a point outside is taken to be in the nearest triangle met. Remembers its last
+  /// triangle and keeps its memory: not for several threads at once.
   double operator()(const Vec2& uv) const;
 
  private:
@@ -46,7 +46,7 @@ class InterfaceSizes {
 
   PlaneMesh mesh_;                   // (u, v) in units of the domain's box
   std::vector<Triangle> neighbour_;  // across the edge opposite to each corner; -1: none
-  std::vector<Triangle> across_;     // same, and -1 where the edge is imposed: what a view goes through
+  std::vector<Triangle> across_;     // same, and -1 if the edge is imposed: the neighbours that a view passes to
   std::vector<double> value_;        // M(h) at the vertices
   Vec2 low_, scale_;
   SizeLaw law_;

@@ -16,7 +16,7 @@ namespace {
 
 using namespace thresholds::sample;
 
-/// What the host of this process says at some places, or its error.
+/// The answers of this process's host at some places, or its error.
 struct OwnAnswers {
   LongChecksum sum;
   SharedError error;
@@ -56,8 +56,8 @@ void require_same_answers(Team& team, int ref, const HostQuestion& question, std
 }  // namespace
 
 void refuse_other_face(int ref, std::size_t rank) {
-  throw InvalidModel("face " + std::to_string(ref) + " is another one on rank " + std::to_string(rank) +
-                     " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
+  throw InvalidModel("face " + std::to_string(ref) + " differs on rank " + std::to_string(rank) +
+                     " from rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
 }
 
 bool is_shared(const Team* team, std::size_t n) noexcept { return team != nullptr && n >= least_shared; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
 #include <cstddef>
@@ -8,40 +8,39 @@ namespace carreau::thresholds::sample {
 
 // In brackets: the tests that rest on it, of tests/cpp/surface.
 
-/// Shares of the domain's box. How far from a degenerate point limits are taken; the second where the first is outside.
-/// [FaceMetric.OfAPoleIsTheLimitAlongItsMeridian]
+/// Shares of the domain's box. Distances from a degenerate point at which limits are taken; the second if the first is
+/// outside. [FaceMetric.AtAPoleIsTheLimitAlongItsMeridian]
 inline constexpr double ways_inside[] = {1e-4, 1e-6};
 /// Share of that way. The part aside, towards the middle of the box: meridians may run along sides of the domain, which
 /// are straight but for rounding. [as above]
 inline constexpr double aside = 1e-6;
 /// Ratio of derivatives. The surface stands still along the shorter one. [as above]
 inline constexpr double still = 1e-12;
-/// Relative difference of a metric from that of one size, which rounding leaves.
+/// Relative difference between a metric and the metric of one size that rounding leaves.
 /// [VertexSizes.AreThePrescribedOneWhenItIsConstant]
 inline constexpr double same_size = 1e-6;
-/// Ratio of speeds. How many times faster than usual a parametrisation may be somewhere: else other parameters are
-/// looked for; [UnevenParameters]
+/// Ratio of speeds. Largest speed of a parametrisation over its usual speed; above it other parameters are searched;
+/// [UnevenParameters]
 inline constexpr double uneven_speed = 1000;
-/// Ratio of speeds. and where there are none. [UnevenParameters.ExtremeWeights]
+/// Ratio of speeds. Limit if no other parameters exist. [UnevenParameters.ExtremeWeights]
 inline constexpr double hopeless_speed = 30'000;
 
 // Growth from the edges of a boundary (edge_growth)
-/// Triangles. Smaller meshes are made as they are: whether they are right is not worth sampling again. [limits_test]
+/// Triangles. Smaller meshes are not checked, since sampling again would cost more. [limits_test]
 inline constexpr double few_triangles = 10'000;
-/// Times the triangles that sizes and growth ask for. Straight distances and rounding of a sound control space
-/// leave 1.3 at most. [limits_test]
+/// Times the number of triangles by sizes and growth. Straight distances and rounding of a sound control space leave
+/// 1.3 at most. [limits_test]
 inline constexpr double most_growth_excess = 2;
-/// Times. Of the least size of edges, from one try to the next. [limits_test]
+/// Times. Factor on the least size of edges, from one round to the next. [limits_test]
 inline constexpr double growth_raise = 8;
 
 // Questions that processes share (shared_answers) [time only]
-/// Places. Below, a question is asked by each process: to wait for the others twice takes longer than a thousand answers that
-/// take half a microsecond each.
+/// Places. Below, each process evaluates all places: to wait for the others twice takes longer than a thousand answers that take half a
+/// microsecond each.
 inline constexpr std::size_t least_shared = 1024;
-/// Pieces of a question, and places of a piece: so many that a process that is late takes fewer, and so large that hosts get
-/// batches.
+/// Pieces of a question, and places of a piece. Many pieces let a late process take fewer of them, and large pieces give hosts batches.
 inline constexpr std::size_t pieces_of_a_question = 32, least_at_once = 128, most_at_once = 8192;
-/// Places of which one is asked of each process, so that hosts that differ are found: 1.6 % more calls.
+/// Places of which every process evaluates one, so that different hosts are found: 1.6 % more calls.
 inline constexpr std::size_t places_of_one_compared = 64;
 
 }  // namespace carreau::thresholds::sample

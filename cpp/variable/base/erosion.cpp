@@ -43,7 +43,7 @@ std::int64_t undo_multiple_vertices(const Piece& piece, const Adjacency& adjacen
   }
 }
 
-/// Triangles with two open sides, one of them bared: those that there are now, not what their removal leaves.
+/// Removes triangles with two open sides, one of them bared: the current ones, not triangles that their removal bares.
 std::int64_t remove_dangling(const Adjacency& adjacency, Flags& kept) {
   std::vector<std::size_t> found;
   for (std::size_t t = 0; t < adjacency.size(); ++t) {

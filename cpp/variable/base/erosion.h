@@ -11,7 +11,7 @@
 
 namespace carreau::variable {
 
-/// What is left of a piece.
+/// The remaining piece.
 struct Eroded {
   Piece piece;                            ///< vertices that no triangle has are gone
   std::vector<std::int32_t> vertex_of;    ///< of each vertex: its index before
@@ -26,10 +26,10 @@ struct Eroded {
   std::int32_t parts_found = 0, parts_kept = 0;
 };
 
-/// Removes the triangles whose damage reaches `limit` (none where `damage` is empty); then, while boundary vertices are
-/// multiple, the triangles at them; those that the removal has left at one side only (ours: as spikes they would get
-/// thinner and thinner); then all parts but the one of the largest area, unless `keep_all_parts`. Throws
-/// InvalidArgument when nothing is left, and what adjacency_of throws.
+/// Removes the triangles whose damage reaches `limit` (none if `damage` is empty). Then, while boundary vertices are
+/// multiple, removes the triangles at them. Then removes triangles left with one neighbour only (ours: as spikes they
+/// would get thinner and thinner), and all parts but the largest, unless `keep_all_parts`. Throws InvalidArgument if
+/// the piece becomes empty, and the exceptions of adjacency_of.
 Eroded erode(const Piece& piece, std::span<const double> damage, double limit, bool keep_all_parts);
 
 }  // namespace carreau::variable

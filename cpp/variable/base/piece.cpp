@@ -62,7 +62,7 @@ Adjacency adjacency_of(const Piece& piece) {
                             std::to_string(sides[i + 1].triangle) + " of the piece " + what + " the edge of vertices " +
                             std::to_string(sides[i].low) + " and " + std::to_string(sides[i].high));
     };
-    if (end - i > 2) complain("and another one share");
+    if (end - i > 2) complain("and another side share");
     if (end - i == 2) {
       const Side &p = sides[i], &q = sides[i + 1];
       if (p.ascending == q.ascending) complain("run the same way along");

@@ -11,7 +11,7 @@
 
 namespace carreau::variable {
 
-/// What a vertex or an edge of the boundary is (HDR sec. 3.4.1). Values of bound ones tell the tool: bound + its index.
+/// Kinds of vertices and boundary edges (HDR sec. 3.4.1). Values of bound ones name the tool: bound + its index.
 enum Kind : std::int32_t {
   inside = 0,
   free_boundary = 1,  ///< deformed by stresses
@@ -32,12 +32,12 @@ struct Piece {
   [[nodiscard]] double area() const noexcept;
 };
 
-/// Vertices in the plane z = 0, as other rooms want them.
+/// Vertices in the plane z = 0, for other rooms.
 std::vector<Vec3> in_space(const std::vector<Vec2>& vertices);
 
 /// For each side (t[k], t[k + 1]) of each triangle the triangle on its other side, or -1.
 using Adjacency = std::vector<std::array<std::int32_t, 3>>;
-/// Throws InvalidArgument where more than two triangles share an edge, or two run the same way along it.
+/// Throws InvalidArgument if more than two triangles share an edge, or two have equal directions along it.
 Adjacency adjacency_of(const Piece& piece);
 
 /// Parts joined by edges: the part of each triangle, numbered in the order of their first triangles, and their number.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The size wanted at each place of the piece: H of HDR sec. 3.4.1, the least of all maps, graded.
+// The prescribed size at each place of the piece: H of HDR sec. 3.4.1, the least of all maps, graded.
 #pragma once
 
 #include <span>
@@ -15,10 +15,10 @@ namespace carreau::variable {
 /// triangle of each.
 std::vector<double> damage_sizes(const Piece& piece, std::span<const double> damage, double h_min, double h_max);
 
-/// Lowers the sizes of vertices until none is larger than that of a neighbour plus slope times the distance.
+/// Lowers the sizes of vertices until each is at most the size of each neighbour plus slope times the distance.
 void grade_sizes(const Piece& piece, double slope, std::vector<double>& sizes);
 
-/// Linear between the vertices of the piece, and no larger than what grows from edges of space. Refers to its
+/// Linear between the vertices of the piece, and bounded by the sizes that grow from edges of space. Refers to its
 /// arguments.
 class SizeMap {
  public:

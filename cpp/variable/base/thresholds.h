@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thresholds of this room: what they are, in which unit, why, and what supports them.
+// Thresholds of this folder: their meaning, unit, reason and evidence.
 #pragma once
 
 namespace carreau::thresholds::variable {
@@ -10,21 +10,21 @@ namespace carreau::thresholds::variable {
 /// Degrees. Arcs of tools have a node at least so often: a piece may touch them between its own nodes.
 /// [Contact.ToolNodesBetweenNodesOfThePieceAreInserted]
 inline constexpr double arc_node_angle = 15;
-/// Share of a side. Arcs at both ends of a side may take all of it, but for rounding. [Tools.RefusesRadiiThatDoNotFit]
+/// Share of a side. Arcs at both ends of a side may take all of it, up to rounding. [Tools.RejectsRadiiThatDoNotFit]
 inline constexpr double side_rounding = 1e-12;
 
 // Contact
-/// Ratio of the tool's path between two bound nodes to their distance, beyond which the edge does not follow the tool:
-/// it bridges a notch, or its ends are on two sides of a thin tool. [Contact.EdgesFollowTheTool]
+/// Ratio of the tool's path between two bound nodes to their distance, beyond which the edge does not follow the tool.
+/// It bridges a notch, or its ends are on two sides of a thin tool. [Contact.EdgesFollowTheTool]
 inline constexpr double longest_path = 3;
 /// Share of h_min. Bound nodes as near as this become one: they fell together on a corner.
 /// [Contact.EdgesFollowTheTool]
 inline constexpr double crowded = 0.05;
-/// Share of h_min. A tool's node that is as near to a node of the piece takes it along; one that is farther becomes a
-/// node of its own. [Contact.ToolNodesBetweenNodesOfThePieceAreInserted]
+/// Share of h_min. A tool's node that is as near to a node of the piece moves it; one that is farther becomes a
+/// separate node. [Contact.ToolNodesBetweenNodesOfThePieceAreInserted]
 inline constexpr double takes_along = 0.3;
-/// The same ratio up to which an edge follows the tool although it does not cut into it, as in a hollow: 1.1 is an arc
-/// of 85 degrees. [Contact.EdgesFollowTheTool]
+/// The ratio up to which an edge follows the tool although it does not cut into it, for example in a hollow: 1.1 is an
+/// arc of 85 degrees. [Contact.EdgesFollowTheTool]
 inline constexpr double straight_path = 1.1;
 
 // Boundary
@@ -40,14 +40,14 @@ inline constexpr double largest_bulge = 0.15;
 
 /// Times that elements are removed because their boundary edges cross others. [SelfOverlap.ElementsThatHaveMetGo]
 inline constexpr int most_overlap_rounds = 10;
-/// Times that runs where new edges have crossed each other get their old nodes back, before all do.
+/// Times that crossing runs of new edges get their old nodes back, before all runs do.
 /// [Remesh.RunsThatCrossKeepTheirNodes]
 inline constexpr std::size_t most_rough_places = 12;
 
 // Sizes
-/// Share of the wanted size. Steps in which the size along the boundary is looked at. [BoundaryCut.HasUnitEdges]
+/// Share of the prescribed size. Steps in which the size along the boundary is sampled. [BoundaryCut.HasUnitEdges]
 inline constexpr double size_step = 0.5;
-/// Share of the wanted size. Boundary edges that are shorter ask for smaller triangles beside them.
+/// Share of the prescribed size. Shorter boundary edges prescribe smaller triangles beside them.
 /// [Remesh.ShortEdgesAreGradedInwards]
 inline constexpr double short_edge = 0.8;
 

@@ -11,7 +11,7 @@ namespace carreau::variable {
 
 namespace {
 
-/// Places along a run, with the sizes wanted there.
+/// Places along a run, with the sizes prescribed there.
 struct Samples {
   std::vector<double> s, h;   // length from the start, size
   std::vector<double> place;  // edge + fraction

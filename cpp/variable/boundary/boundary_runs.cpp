@@ -34,7 +34,7 @@ double length_of(const BoundaryLoop& loop, const BoundaryRun& run) {
   return sum;
 }
 
-/// Removes what lies inside the run and that end which matters less.
+/// Removes the nodes inside the run and its less important end.
 void close(BoundaryLoop& loop, const BoundaryRun& run) {
   const std::size_t end = (run.first + run.count) % loop.size();
   const auto matters = [&](std::size_t i) { return (loop.nodes[i].is_bound() ? 10 : 0) + turn_at(loop, i); };

@@ -17,16 +17,16 @@ struct BoundaryRun {
   bool closed = false;    ///< a whole loop without a corner
 };
 
-/// Ends of runs: nodes where the kind of edges changes, bound nodes that a free edge leaves, and corners, where the
-/// boundary turns by more than `corner_angle` (degrees) and does not follow a tool.
+/// Ends of runs: nodes where the kind of edges changes, bound nodes that a free edge leaves, and corners. At a corner
+/// the boundary turns by more than `corner_angle` (degrees) and does not follow a tool.
 std::vector<BoundaryRun> runs_of(const BoundaryLoop& loop, double corner_angle);
 
 /// Ends of runs that are nearer to each other along the boundary than a share of h_min become one: bound nodes and
 /// sharper corners stay.
 void join_close_ends(BoundaryLoop& loop, const Tools& tools, double corner_angle, double h_min);
 
-/// Removes nodes where the boundary turns back and leaves an angle of the piece below 15 degrees: no triangle there has
-/// a shape.
+/// Removes nodes at which the boundary turns back and leaves an angle of the piece below 15 degrees: no triangle there
+/// has a shape.
 void cut_tips(BoundaryLoop& loop, const Tools& tools, double h_min);
 
 /// Nodes that the removal of elements has laid bare go `rounds` times halfway to the middle of their neighbours, by at

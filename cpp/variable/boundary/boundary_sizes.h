@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes that the geometry of the boundary asks for: H_g of HDR sec. 3.4.1.
+// Sizes prescribed by the geometry of the boundary: H_g of HDR sec. 3.4.1.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ struct BoundaryShape {
 };
 
 struct BoundarySizes {
-  /// Of the piece's vertices, +infinity where nothing is asked: free nodes 2 sin(angle) times the radius of curvature
-  /// of the new boundary; imposed ones the mean length of the adjacent edges.
+  /// Sizes of the piece's vertices, +infinity if nothing is prescribed: free nodes 2 sin(angle) times the radius of
+  /// curvature of the new boundary; imposed ones the mean length of the adjacent edges.
   std::vector<double> at_vertices;
   /// Along bound edges: 2 sin(angle) times the radius of the tool's arcs there.
   std::vector<EdgeSizes::Source> along_tools;

@@ -26,7 +26,7 @@ std::int32_t BoundaryLoop::kind_of_node(std::size_t i) const noexcept {
 }
 
 void BoundaryLoop::remove(std::size_t i) {
-  // The longer of the two edges says what the one that replaces them is.
+  // The longer of the two edges defines the edge that replaces them.
   const std::size_t previous = before(i);
   if (length(i) > length(previous)) edges[previous].imposed = edges[i].imposed;
   edges[previous].follows_tool = false;
@@ -174,7 +174,7 @@ std::vector<Insertion> nodes_to_insert(const std::vector<BoundaryLoop>& loops, c
   return insertions;
 }
 
-/// A free node of the piece that is near goes to the tool's node; otherwise that is a node of its own.
+/// A free node of the piece that is near moves to the tool's node; otherwise the tool's node becomes a separate node.
 void insert_nodes(BoundaryLoop& loop, std::size_t edge, std::span<const Insertion> insertions, double h_min) {
   BoundaryNode &a = loop.nodes[edge], &b = loop.nodes[loop.after(edge)];
   const std::array<std::int32_t, 2> on{a.on[0], b.on[1]};
@@ -197,7 +197,7 @@ void insert_nodes(BoundaryLoop& loop, std::size_t edge, std::span<const Insertio
 }
 
 void insert_all(std::vector<BoundaryLoop>& loops, const std::vector<Insertion>& insertions, double h_min) {
-  // From the last edge of a loop to its first, so that ranks stay what they are.
+  // From the last edge of a loop to its first, so that ranks stay.
   for (std::size_t end = insertions.size(); end > 0;) {
     std::size_t first = end - 1;
     while (first > 0 && insertions[first - 1].loop == insertions[end - 1].loop &&

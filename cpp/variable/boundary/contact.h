@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of a piece, and where it touches tools: bound deformation (HDR sec. 3.4.2).
+// The contact of the boundary of a piece with tools: bound deformation (HDR sec. 3.4.2).
 #pragma once
 
 #include <cstdint>
@@ -37,24 +37,24 @@ struct BoundaryLoop {
   [[nodiscard]] std::int32_t kind_of_edge(std::size_t i) const noexcept;
   /// A node between edges of two kinds is bound rather than imposed, and imposed rather than free.
   [[nodiscard]] std::int32_t kind_of_node(std::size_t i) const noexcept;
-  /// Removes a node; the edge to the next one goes with it, and the one before takes its place.
+  /// Removes a node; the edge to the next node goes with it, and the previous edge takes its place.
   void remove(std::size_t i);
 };
 
 /// Each loop from its lowest vertex, in the order of these. The piece has no multiple vertices.
 std::vector<BoundaryLoop> boundary_of(const Eroded& eroded);
 
-/// How near a tool is too near.
+/// Distances for contact.
 struct ContactDistances {
   double step = 0;   ///< delta of HDR eq. 3.1: how deep a node may lie in a tool, or a tool's node in the piece
-  double reach = 0;  ///< how far outside a node is still bound, at most the step. HDR has the step; a surface that
+  double reach = 0;  ///< distance outside up to which a node is bound, at most the step. HDR has the step; a surface that
                      ///< leaves a tool more slowly would then never come off
 };
 
 /// Binds nodes in regions of radius `step` about the tools' edges (HDR eq. 3.1): they move to the nearest place of the
-/// tool. Nodes of tools in regions of the piece's edges become bound nodes of the boundary, where no edge follows the
-/// tool there. Edges between bound nodes of one tool follow it, unless they bridge a notch. n log n in nodes and edges.
-/// Throws InvalidArgument where a vertex lies deeper than `step` in a tool, or a tool's node deeper than that in the
+/// tool. Nodes of tools in regions of the piece's edges become bound nodes of the boundary, if no edge follows the tool
+/// there. Edges between bound nodes of one tool follow it, unless they bridge a notch. n log n in nodes and edges.
+/// Throws InvalidArgument if a vertex lies deeper than `step` in a tool, or a tool's node deeper than that in the
 /// piece.
 void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances, double h_min);
 

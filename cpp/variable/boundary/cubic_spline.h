@@ -27,7 +27,7 @@ class CubicSpline {
   [[nodiscard]] Vec2 at(std::size_t piece, double t) const noexcept;
   [[nodiscard]] Vec2 derivative(std::size_t piece, double t) const noexcept;
   [[nodiscard]] Vec2 second_derivative(std::size_t piece, double t) const noexcept;
-  /// Not negative; 0 where the curve stands still.
+  /// Not negative; 0 if the curve stands still.
   [[nodiscard]] double curvature(std::size_t piece, double t) const noexcept;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace carreau::variable {
 
-/// How free runs are joined.
+/// The kinds of joints of free runs.
 enum class Smoothness {
   natural,  ///< C2 splines without curvature at ends of runs
   tangent,  ///< C2 splines with tangents by four nodes

@@ -34,7 +34,7 @@ BoxTree::Box box_of(const ToolPart& part) {
   const auto add = [&](const Vec2& p) { box.add(Vec3{p.x(), p.y(), 0}); };
   add(part.a), add(part.b);
   if (part.radius == 0) return box;
-  for (int quarter = 0; quarter < 4; ++quarter) {  // where the tangent is parallel to an axis
+  for (int quarter = 0; quarter < 4; ++quarter) {  // places at which the tangent is parallel to an axis
     const Vec2 direction{quarter == 0 ? 1. : quarter == 2 ? -1. : 0., quarter == 1 ? 1. : quarter == 3 ? -1. : 0.};
     const Vec2 extreme = part.centre + part.radius * direction;
     add(part.point(nearest_along(part, extreme)));
@@ -67,7 +67,7 @@ void check(const Tool& tool, std::int32_t index) {
     throw InvalidArgument(name_of(index) + " is closed and runs clockwise: its solid must lie on its left");
 }
 
-/// How far the arc at point k begins before it; 0: a sharp corner.
+/// Distance from point k to the beginning of its arc; 0: a sharp corner.
 double setback(const Tool& tool, std::size_t k) {
   const std::size_t n = tool.points.size();
   if (tool.radii.empty() || tool.radii[k] == 0 || (!tool.closed && (k == 0 || k + 1 == n))) return 0;

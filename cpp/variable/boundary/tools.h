@@ -40,20 +40,21 @@ struct ToolPlace {
   double s = 0;  ///< abscissa on the tool
   Vec2 point;
   double distance = infinity;  ///< not negative
-  bool in_solid = false;       ///< the point asked about is; not where an open end is nearest
+  bool in_solid = false;       ///< for the given point; not set if an open end is nearest
 };
 
-/// Some tools. Copies what it needs.
+/// Some tools. Copies its arguments.
 class Tools {
  public:
   Tools() = default;
-  /// Throws InvalidArgument: too few points, repeated ones, coordinates or radii that are not finite, a radius that is
-  /// negative or does not fit between the neighbours of its corner, a closed polyline that runs clockwise.
+  /// Throws InvalidArgument for too few points, repeated points, coordinates or radii that are not finite, a negative
+  /// radius, a closed polyline that runs clockwise. Also for a radius that does not fit between the neighbours of its
+  /// corner.
   explicit Tools(std::span<const Tool> tools);
 
   [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
   [[nodiscard]] std::size_t count() const noexcept { return tool_.size(); }
-  /// Logarithmic in the number of parts. Of places equally near that of the lowest part.
+  /// Logarithmic in the number of parts. If places are equally near, returns the place of the lowest part.
   [[nodiscard]] ToolPlace nearest(const Vec2& p) const noexcept;
   [[nodiscard]] const ToolPart& part(std::int32_t index) const { return parts_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] std::span<const ToolPart> parts() const noexcept { return parts_; }
@@ -61,7 +62,7 @@ class Tools {
   [[nodiscard]] const std::vector<ToolPlace>& nodes() const noexcept { return nodes_; }
 
   /// Distance along the tool from abscissa p back to abscissa q: a boundary that has the tool on its right runs against
-  /// it. Negative where the tool is open and q is ahead.
+  /// it. Negative if the tool is open and q is ahead.
   [[nodiscard]] double way_back(std::int32_t tool, double p, double q) const noexcept;
   [[nodiscard]] ToolPlace at(std::int32_t tool, double s) const noexcept;
   /// Abscissae of sharp corners strictly between p and q, q a way back from p; in the order of that way, as distances.

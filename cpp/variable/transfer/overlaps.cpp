@@ -33,7 +33,7 @@ struct Polygon {
   }
 };
 
-/// What lies on the left of a -> b (Sutherland and Hodgman).
+/// The part of a polygon on the left of a -> b (Sutherland and Hodgman).
 Polygon cut(const Polygon& polygon, const Vec2& a, const Vec2& b) noexcept {
   Polygon left;
   const Vec2 d = b - a;

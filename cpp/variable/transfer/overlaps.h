@@ -10,7 +10,7 @@
 
 namespace carreau::variable {
 
-/// Row i lists what triangle i of the new mesh shares with triangles of the old one, these ascending.
+/// Row i lists the common parts of triangle i of the new mesh and triangles of the old mesh, these ascending.
 struct Overlaps {
   struct Entry {
     std::int32_t old = 0;
@@ -24,7 +24,7 @@ struct Overlaps {
 /// `search` holds the triangles of `old`. Triangles are counterclockwise.
 Overlaps overlaps_of(const Piece& old, const TriangleSearch& search, const Piece& piece);
 
-/// What two counterclockwise triangles have in common: its area, and where its centre is (`old` is 0).
+/// The intersection of two counterclockwise triangles: its area and its centre (`old` is 0).
 Overlaps::Entry common_part(const std::array<Vec2, 3>& p, const std::array<Vec2, 3>& q) noexcept;
 
 }  // namespace carreau::variable

@@ -17,7 +17,7 @@ const std::vector<PieceTransfer::Place>& PieceTransfer::places() {
   for (const Vec2& p : piece_->vertices) {
     const NearestOnMesh found = search_->nearest(in_space(p), guess);
     Place place{guess = found.triangle, found.weight};
-    // Not clamped to the triangle: linear fields stay so where the new boundary lies beside the old one.
+    // Not clamped to the triangle: linear fields stay linear if the new boundary lies beside the old one.
     const auto& v = old_->triangles[static_cast<std::size_t>(guess)];
     const Vec2 a = old_->vertices[static_cast<std::size_t>(v[0])], b = old_->vertices[static_cast<std::size_t>(v[1])],
                c = old_->vertices[static_cast<std::size_t>(v[2])];
@@ -75,7 +75,7 @@ std::vector<double> PieceTransfer::conserved(std::span<const double> values, int
   const auto n = static_cast<std::size_t>(components);
   const Overlaps& shared = overlaps();
   std::vector<double> covered(old_->triangles.size(), 0), result(n * piece_->triangles.size(), 0);
-  std::vector<Vec2> moment(old_->triangles.size());  // of what is covered: slopes are taken about its centre
+  std::vector<Vec2> moment(old_->triangles.size());  // moment of the covered part: slopes are taken about its centre
   for (const Overlaps::Entry& part : shared.entries) {
     const auto old = static_cast<std::size_t>(part.old);
     covered[old] += part.area, moment[old] += part.area * part.centre;

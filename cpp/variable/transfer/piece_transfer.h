@@ -20,11 +20,11 @@ class PieceTransfer {
   /// Linear in the triangle that holds a vertex, or continued from the nearest one: exact for linear fields.
   [[nodiscard]] std::vector<double> nodal(std::span<const double> values, int components);
   /// Values in old triangles become linear functions with limited slopes: a field that is carried from mesh to mesh a
-  /// hundred times spreads by much less than with constants. Mean over what a triangle shares with old ones; value of
-  /// the nearest one where it shares nothing. Between the smallest and the largest value around.
+  /// hundred times spreads much less than with constants. Mean over the intersection of a triangle with old ones; value
+  /// of the nearest old triangle if it meets none. Between the smallest and the largest value around.
   [[nodiscard]] std::vector<double> means(std::span<const double> values, int components);
-  /// The integral over each old triangle goes to the new ones in proportion to what they share with it, or to the
-  /// nearest one: the integral over all stays, but for rounding.
+  /// The integral over each old triangle is distributed to the new ones in proportion to their common area, or to the
+  /// nearest one: the integral over all stays, up to rounding.
   [[nodiscard]] std::vector<double> conserved(std::span<const double> values, int components);
 
  private:

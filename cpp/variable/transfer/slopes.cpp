@@ -25,7 +25,7 @@ struct Fit {
     right += difference * d;
     low = std::min(low, difference), high = std::max(high, difference);
   }
-  /// Zero where the neighbours lie in a line, or nearly so.
+  /// Zero if the neighbours lie in a line, or nearly so.
   [[nodiscard]] Vec2 slope() const noexcept {
     const double det = xx * yy - xy * xy;
     if (!(det > 1e-3 * (xx + yy) * (xx + yy))) return {0, 0};

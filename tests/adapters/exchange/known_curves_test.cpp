@@ -112,7 +112,7 @@ class Breaker {
   }
 
  private:
-  /// The begin and the end of the parameters of a random entity of a type. False: there is none.
+  /// The begin and the end of the parameters of a random entity of a type. False: no such entity.
   bool choose(const std::string& type, std::size_t& first, std::size_t& last) {
     std::vector<std::size_t> places;
     for (std::size_t at = text_.find("= " + type); at != std::string::npos; at = text_.find("= " + type, at + 1))

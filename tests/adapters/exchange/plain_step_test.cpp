@@ -42,7 +42,7 @@ class PlainStep : public testing::Test {
   }
 
   /// The content of a model: entities with their numbers, types and values, as OpenCASCADE writes them, and its complaints.
-  /// It cannot write those that it complained of.
+  /// It cannot write entities that it complained of.
   [[nodiscard]] std::string dump(const Model& model) const {
     std::ostringstream out;
     const Handle(StepData_Protocol) step = Handle(StepData_Protocol)::DownCast(protocol_);
@@ -65,7 +65,7 @@ class PlainStep : public testing::Test {
     return out.str();
   }
 
-  /// Whether a file is plain; if so, it is the same for both readers.
+  /// Returns true if a file is plain; both readers must then agree.
   bool compare(const std::string& text) {
     write(text);
     Model plain, whole;

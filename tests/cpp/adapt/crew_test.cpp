@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates and transfers are the same whoever makes them, and each process asks its own function for its share only.
+// Estimates and transfers do not depend on the process that makes them, and each process calls its own function for its
+// share only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ void expect_same(const VertexPrescriptions& a, const VertexPrescriptions& b) {
       ASSERT_EQ(a.metrics[v].*entry, b.metrics[v].*entry) << v;
 }
 
-/// make(crew) of three processes with two threads each, and of one with three, is that of one thread.
+/// make(crew) of three processes with two threads each, and of one with three, equals the result of one thread.
 template <typename Make, typename Same>
 void expect_same_of_all(const Make& make, const Same& same) {
   const auto one = make(Crew{});
@@ -49,7 +50,7 @@ void expect_same_of_all(const Make& make, const Same& same) {
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
 }
 
-TEST(SharedEstimates, AreThoseOfOneThread) {
+TEST(SharedEstimates, MatchOneThread) {
   const TestMesh mesh = square_mesh(40).with(front);
   for (const EstimatorOptions& options :
        {options_of(ErrorSource::hessian, ErrorShape::isotropic), options_of(ErrorSource::hessian, ErrorShape::anisotropic),
@@ -57,7 +58,7 @@ TEST(SharedEstimates, AreThoseOfOneThread) {
     expect_same_of_all([&](const Crew& crew) { return estimate(mesh.field(), options, crew); }, expect_same);
 }
 
-TEST(SharedEstimates, OfSeveralFieldsAreThoseOfOneThread) {
+TEST(SharedEstimates, SeveralFieldsMatchOneThread) {
   const TestMesh mesh = square_mesh(30);
   std::vector<double> values;
   for (const Vec3& p : mesh.vertices) values.insert(values.end(), {front(p), p.x() * p.x() * p.x()});
@@ -66,7 +67,7 @@ TEST(SharedEstimates, OfSeveralFieldsAreThoseOfOneThread) {
                      expect_same);
 }
 
-TEST(SharedEstimates, OfAFunctionAskEachProcessForItsShare) {
+TEST(SharedEstimates, EachProcessEvaluatesItsShareOfAFunction) {
   const TestMesh mesh = square_mesh(40);
   const EstimatorOptions options = options_of(ErrorSource::hessian, ErrorShape::anisotropic);
   std::atomic<std::int64_t> asked{0};
@@ -98,7 +99,7 @@ TEST(SharedEstimates, NameTheProcessWhoseFunctionDiffers) {
     std::vector<double> values(mesh.vertices.size());
     shared_function(own, {&team, 1}, silent)(mesh.vertices, values);
   });
-  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("the field is another one on rank 2"), std::string::npos) << sentence;
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("the field differs on rank 2"), std::string::npos) << sentence;
 }
 
 TEST(SharedEstimates, TheFailureOfOneFunctionReachesAll) {
@@ -115,7 +116,7 @@ TEST(SharedEstimates, TheFailureOfOneFunctionReachesAll) {
   for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("no value"), std::string::npos) << sentence;
 }
 
-TEST(SharedEstimates, StopWhereOneIsAskedTo) {
+TEST(SharedEstimates, StopWithOneProcess) {
   const TestMesh mesh = square_mesh(40).with(front);
   const auto thrown = in_processes(3, [&](Team& team) {
     Monitor monitor;
@@ -153,7 +154,7 @@ SurfaceMesh columns(const TestMesh& mesh, int n) {
   return result;
 }
 
-TEST(SharedTransfer, IsThatOfOneThread) {
+TEST(SharedTransfer, MatchesOneThread) {
   const SurfaceMesh from = columns(square_mesh(24), 7), to = columns(square_mesh(37), 9);  // two faces of the new mesh are no faces of the old one
   std::vector<double> values;
   for (const Vec3& p : from.vertices) values.insert(values.end(), {front(p), p.x()});

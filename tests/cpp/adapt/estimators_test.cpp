@@ -52,7 +52,7 @@ TEST(HessianEstimator, GivesBothSizesAlongTheAxes) {
   }
 }
 
-TEST(HessianEstimator, OfSeveralFieldsTakesTheIntersection) {
+TEST(HessianEstimator, SeveralFieldsGiveTheIntersection) {
   // Fields that bend along x and along y: by both, the smaller size along each axis (RR-2818 sec. 4.3.4).
   TestMesh mesh = square_mesh(12);
   const EstimatorOptions options{.shape = ErrorShape::anisotropic, .tolerance = 0.01, .hmin = 1e-4, .hmax = 1};
@@ -75,7 +75,7 @@ TEST(HessianEstimator, OfSeveralFieldsTakesTheIntersection) {
   EXPECT_THROW(estimate_all(mesh.vertices, mesh.triangles, {}, 0, options), InvalidArgument);
 }
 
-TEST(HessianEstimator, ByProjectionIsRightInsideAndSmootherThanTheFit) {
+TEST(HessianEstimator, ProjectionIsRightInsideAndSmootherThanTheFit) {
   // On a regular mesh the double projection is exact for quadratics away from the border, whose bias reaches two rings.
   TestMesh mesh = square_mesh(16, 0);
   mesh.with([](Vec3 p) { return 4 * p.x() * p.x() - p.y() * p.y(); });
@@ -202,7 +202,7 @@ TEST(Estimators, TurnWithTheMesh) {
   }
 }
 
-TEST(Estimators, RefuseOptionsThatMeanNothing) {
+TEST(Estimators, RejectOptionsThatMeanNothing) {
   TestMesh mesh = square_mesh(4);
   const EstimatorOptions good{.tolerance = 0.1, .hmin = 0.1, .hmax = 1};
   EXPECT_NO_THROW(estimate(mesh.field(), good));

@@ -129,14 +129,14 @@ TEST(Recovery, FindsTheHessianOfAHeightOnASphere) {
   EXPECT_LT(before, 0.05);
 }
 
-TEST(Recovery, SaysWhereNeighboursAreTooFew) {
+TEST(Recovery, NamesThePlaceOfTooFewNeighbours) {
   const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<std::array<std::int32_t, 3>> triangles{{0, 1, 2}};
   const std::vector<double> values{0, 1, 2};
   for (const auto& d : recover_derivatives({vertices, triangles, values})) EXPECT_FALSE(d.reliable);
 }
 
-TEST(Recovery, RefusesFieldsThatDoNotFit) {
+TEST(Recovery, RejectsFieldsThatDoNotFit) {
   TestMesh mesh = square_mesh(3);
   mesh.values.pop_back();
   EXPECT_THROW(recover_derivatives(mesh.field()), InvalidArgument);

@@ -53,7 +53,7 @@ TEST(TransferField, IsExactForLinearFieldsAndKeepsComponentsTogether) {
   }
 }
 
-TEST(TransferField, TellsSheetsApartByTheirFaces) {
+TEST(TransferField, DistinguishesSheetsByTheirFaces) {
   // Two sheets that coincide in space, with values 1 and 2.
   const TestMesh coarse = square_mesh(3), fine = square_mesh(6);
   const auto two_sheets = [](const TestMesh& mesh) {
@@ -75,8 +75,8 @@ TEST(TransferField, TellsSheetsApartByTheirFaces) {
 }
 
 /// Half of the cap of the unit sphere within `angle` of its pole; u = longitude and v = latitude, so that the side
-/// v = pi / 2 is one vertex in space: n x n cells, of which those of the last row are cut into a triangle and one that
-/// is flat in space.
+/// v = pi / 2 is one vertex in space: n x n cells. The cells of the last row are cut into a triangle and a triangle
+/// that is flat in space.
 SurfaceMesh half_cap(int n, double angle) {
   const double pi = 3.141592653589793;
   SurfaceMesh result;
@@ -120,7 +120,7 @@ TEST(TransferField, IsOfSecondOrderAroundPoles) {
     double largest = 0;
     for (std::size_t v = 0; v < fine.vertices.size(); ++v) {
       const Vec3 p = fine.vertices[v];
-      // Inside of the chords of the rim, and of those of the first meridian.
+      // Inside of the chords of the rim and of the first meridian.
       if (std::hypot(p.x(), p.y()) > 0.8 * angle || p.y() < 0.1 * angle) continue;
       largest = std::max(largest, std::abs(moved.values[v] - linear(p)));
     }
@@ -153,7 +153,7 @@ TEST(TransferField, CountsVerticesOutside) {
     EXPECT_NEAR(moved.values[v], std::clamp(fine.vertices[v].x(), -right, right), 1e-12);
 }
 
-TEST(TransferField, RefusesWhatDoesNotFit) {
+TEST(TransferField, RejectsWrongSizesOfInput) {
   const TestMesh mesh = square_mesh(2);
   const std::vector<double> values(mesh.vertices.size() - 1);
   EXPECT_THROW(transfer_field(surface(mesh, 1), surface(mesh, 1), values, 1), InvalidArgument);
@@ -161,7 +161,7 @@ TEST(TransferField, RefusesWhatDoesNotFit) {
   EXPECT_THROW(transfer_field({}, surface(mesh, 1), {}, 1), InvalidArgument);
 }
 
-TEST(InterpolationError, OfAQuadraticIsThatOfItsEdges) {
+TEST(InterpolationError, AQuadraticHasTheErrorOfItsEdges) {
   // On an edge of length h along x the error is 3 h^2 / 4, h^2 / 4 along y: all middles, exactly.
   TestMesh mesh = square_mesh(8);
   mesh.with([](Vec3 p) { return 3 * p.x() * p.x() + p.y() * p.y(); });

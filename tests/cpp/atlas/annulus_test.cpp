@@ -187,7 +187,7 @@ TEST(Annulus, IsC1AcrossJointsAndVerticesAndAnywhere) {
     }
 }
 
-TEST(Annulus, DerivativesAreThoseOfDifferences) {
+TEST(Annulus, DerivativesMatchDifferences) {
   const Borders b = test::hook();
   const Annulus a(b.inner, b.outer);
   for (int k = 0; k < 50; ++k) {
@@ -207,7 +207,7 @@ TEST(Annulus, DerivativesAreThoseOfDifferences) {
   }
 }
 
-TEST(Annulus, EnclosesWhatIsInsideOfItsSmoothBorder) {
+TEST(Annulus, EnclosesTheInsideOfItsSmoothBorder) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(-1, 7);
   for (const Borders& b : figures()) {
@@ -247,11 +247,11 @@ std::string sentence_of(Make&& make) {
   return "none";
 }
 
-TEST(Annulus, BadBordersAreToldWithTheVertex) {
+TEST(Annulus, BadBordersAreReportedWithTheVertex) {
   const Polygon square = test::two_squares().inner;
   EXPECT_NE(sentence_of([] {
               Loop({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
-            }).find("from vertex 1 meets the one from vertex 3"),
+            }).find("from vertex 1 meets the edge from vertex 3"),
             std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {0, 2}, {2, 2}, {2, 0}}); }).find("clockwise"), std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, 0}}); }).find("2 vertices"), std::string::npos);

@@ -26,7 +26,7 @@ struct SizedCad : FaceCad {
   std::optional<double> curve_radius(int, int, double) override { return value; }
 };
 
-TEST(CheckedCad, NamesTheRoutineThatReturnsWhatIsNotFinite) {
+TEST(CheckedCad, NamesTheRoutineWithNonFiniteValues) {
   FaceCad host;
   CheckedCad cad(host);
   SurfaceJet broken = enneper_jet({1, 2});
@@ -34,7 +34,7 @@ TEST(CheckedCad, NamesTheRoutineThatReturnsWhatIsNotFinite) {
   const auto sentence = [&](unsigned want) { return callback_error([&] { surface_at(cad, 4, want, {0.5, 2}); }); };
   broken.s.y() = nan;
   EXPECT_EQ(sentence(want_position), "face 4, u = 0.5, v = 2: surf0 returned a value that is not finite");
-  EXPECT_EQ(sentence(want_first), "");  // what is not wanted is not looked at
+  EXPECT_EQ(sentence(want_first), "");  // it ignores derivatives that are not requested
   broken = enneper_jet({1, 2});
   broken.sv.x() = infinity;
   EXPECT_EQ(sentence(want_first | want_position), "face 4, u = 0.5, v = 2: surf1 returned a value that is not finite");
@@ -43,7 +43,7 @@ TEST(CheckedCad, NamesTheRoutineThatReturnsWhatIsNotFinite) {
   EXPECT_EQ(sentence(want_second), "face 4, u = 0.5, v = 2: surf2 returned a value that is not finite");
 }
 
-TEST(CheckedCad, NamesTheCurveThatReturnsWhatIsNotFinite) {
+TEST(CheckedCad, NamesTheCurveWithNonFiniteValues) {
   FaceCad host;
   CheckedCad cad(host);
   host.along = [](double) { return CurveJet{{1, nan}, {nan, 0}, {0, infinity}}; };
@@ -55,7 +55,7 @@ TEST(CheckedCad, NamesTheCurveThatReturnsWhatIsNotFinite) {
             "face 2, curve 3, t = 0.25: curv2 returned a value that is not finite");
 }
 
-TEST(CheckedCad, RefusesIntervalsThatAreReversedEmptyOrNotFinite) {
+TEST(CheckedCad, RejectsIntervalsThatAreReversedEmptyOrNotFinite) {
   FaceCad host;
   CheckedCad cad(host);
   host.interval = {1, 0};
@@ -69,7 +69,7 @@ TEST(CheckedCad, RefusesIntervalsThatAreReversedEmptyOrNotFinite) {
   EXPECT_EQ(cad.curve_interval(1, 2).b, 5);
 }
 
-TEST(CheckedCad, RefusesSizesThatAreNotFiniteAndRadiiThatAreNotNumbers) {
+TEST(CheckedCad, RejectsSizesThatAreNotFiniteAndRadiiThatAreNotNumbers) {
   SizedCad host;
   CheckedCad cad(host);
   host.value = infinity;

@@ -66,7 +66,7 @@ TEST(FindWrongDerivatives, DoesNotDependOnScale) {
     }
 }
 
-TEST(FindWrongDerivatives, TellsRoutinePlaceAndBothValues) {
+TEST(FindWrongDerivatives, ReportsRoutinePlaceAndBothValues) {
   FaceCad cad;
   cad.jet = [](Vec2 p) {
     SurfaceJet jet = paraboloid_jet(p);
@@ -164,7 +164,7 @@ TEST(FindWrongDerivatives, TakesNoSingularPointForAnError) {
   EXPECT_TRUE(find_wrong_surface_derivatives(cad, 1, near_equator, {-1, -1}, {1, 1}, false).empty());
 }
 
-TEST(FindWrongDerivatives, TakesNoisyOrFailingHostsForWhatTheyAre) {
+TEST(FindWrongDerivatives, RecognisesNoisyAndFailingHosts) {
   FaceCad cad;
   cad.jet = [](Vec2 p) {  // single precision inside
     SurfaceJet jet = torus_jet(p, 2, 0.7);
@@ -186,7 +186,7 @@ TEST(FindWrongDerivatives, TakesNoisyOrFailingHostsForWhatTheyAre) {
   EXPECT_TRUE(check(cad).empty());
 }
 
-TEST(FindWrongDerivatives, LooksOnlyAtWhatTheHostGives) {
+TEST(FindWrongDerivatives, ChecksOnlyDerivativesOfTheHost) {
   FaceCad cad;
   cad.jet = [](Vec2 p) {
     SurfaceJet jet = torus_jet(p, 2, 0.7);
@@ -198,7 +198,7 @@ TEST(FindWrongDerivatives, LooksOnlyAtWhatTheHostGives) {
   EXPECT_EQ(cad.calls.surf0, 0);
 }
 
-TEST(FindWrongDerivatives, AsksASoundHostFewTimes) {
+TEST(FindWrongDerivatives, CallsASoundHostFewTimes) {
   FaceCad cad;
   find_wrong_surface_derivatives(cad, 1, points, {0, 0}, {1, 1}, false);
   EXPECT_EQ(cad.calls.surf0, 20);

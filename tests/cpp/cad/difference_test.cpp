@@ -134,7 +134,7 @@ TEST(DifferenceCad, StaysInsideTheBox) {
 }
 
 TEST(DifferenceCad, TakesOtherSidesWhereTheHostIsNotDefined) {
-  // A disc that its box does not tell.
+  // A disc, which its box does not reveal.
   for (const unsigned gives : {unsigned{want_position}, want_position | want_first}) {
     Source* source = nullptr;
     DifferenceCad cad = differenced(gives, &source);
@@ -148,7 +148,7 @@ TEST(DifferenceCad, TakesOtherSidesWhereTheHostIsNotDefined) {
   }
 }
 
-TEST(DifferenceCad, TellsWhereNoDifferenceIsFinite) {
+TEST(DifferenceCad, ReportsWhereNoDifferenceIsFinite) {
   Source* source = nullptr;
   DifferenceCad cad = differenced(want_position, &source);
   source->inside = [](Vec2 p) { return p == Vec2{0.5, 0.5}; };
@@ -200,7 +200,7 @@ TEST(DifferenceCad, FindsDerivativesOfCurvesInsideTheirInterval) {
   }
 }
 
-TEST(DifferenceCad, RefusesABoxThatIsNoBox) {
+TEST(DifferenceCad, RejectsInvalidBoxes) {
   DifferenceCad cad = differenced(want_position);
   EXPECT_THROW(cad.set_parameter_box(1, {0, 0}, {0, 1}), InvalidArgument);
   EXPECT_THROW(cad.set_parameter_box(1, {0, nan}, {1, 1}), InvalidArgument);

@@ -14,7 +14,7 @@ using namespace testing;
 
 void expect_near(Vec3 p, Vec3 q, double tolerance) { EXPECT_LE(norm(p - q), tolerance); }
 
-// What every frame must satisfy, whatever the surface (RR-2928 eq. 33-38).
+// The equations that every frame must satisfy, whatever the surface (RR-2928 eq. 33-38).
 void expect_consistent(const SurfaceJet& jet) {
   const auto frame = principal_frame(jet);
   const auto second = second_form(jet);
@@ -54,7 +54,7 @@ TEST(PrincipalFrame, ObeysTheDefinitionsOnEverySurface) {
     }
 }
 
-TEST(PrincipalFrame, OfPlanesIsZeroInAnyParametrisation) {
+TEST(PrincipalFrame, PlanesHaveZeroCurvatureInAnyParametrisation) {
   const SurfaceJet sheared{{}, {1e-3, 0, 0}, {700, 1e3, 0}, {}, {}, {}};
   const auto frame = principal_frame(sheared);
   ASSERT_TRUE(frame);
@@ -64,7 +64,7 @@ TEST(PrincipalFrame, OfPlanesIsZeroInAnyParametrisation) {
   expect_near(frame->w1, {1, 0, 0}, 1e-15);
 }
 
-TEST(PrincipalFrame, OfSpheresIsUmbilicWithoutLossOfDigits) {
+TEST(PrincipalFrame, SpheresAreUmbilicWithoutLossOfDigits) {
   // A cancellation in H^2 - K would leave 1e-8 here.
   for (const double v : {-1.5, -0.3, 0.0, 0.7, 1.57}) {
     const auto frame = principal_frame(sphere_jet({0.4, v}, 2.5));
@@ -74,7 +74,7 @@ TEST(PrincipalFrame, OfSpheresIsUmbilicWithoutLossOfDigits) {
   }
 }
 
-TEST(PrincipalFrame, OfCylindersFollowsAxisAndCircle) {
+TEST(PrincipalFrame, CylindersFollowAxisAndCircle) {
   const auto frame = principal_frame(cylinder_jet({0.9, 0.2}, 4));
   ASSERT_TRUE(frame);
   EXPECT_NEAR(frame->k1, 0, 1e-15);
@@ -83,7 +83,7 @@ TEST(PrincipalFrame, OfCylindersFollowsAxisAndCircle) {
   EXPECT_NEAR(frame->largest(), 0.25, 1e-15);
 }
 
-TEST(PrincipalFrame, OfTorusMatchesTheClosedForm) {
+TEST(PrincipalFrame, TorusMatchesTheClosedForm) {
   const double big = 3, small = 1;
   for (const double v : {0.0, 0.5, 1.6, 3.0, 4.4}) {
     const auto frame = principal_frame(torus_jet({0.3, v}, big, small));
@@ -94,7 +94,7 @@ TEST(PrincipalFrame, OfTorusMatchesTheClosedForm) {
   }
 }
 
-TEST(PrincipalFrame, OfParaboloidMatchesTheClosedForm) {
+TEST(PrincipalFrame, ParaboloidMatchesTheClosedForm) {
   for (const double r : {0.0, 0.1, 1.0, 2.5}) {
     const auto frame = principal_frame(paraboloid_jet({0.6 * r, 0.8 * r}));
     ASSERT_TRUE(frame);
@@ -103,7 +103,7 @@ TEST(PrincipalFrame, OfParaboloidMatchesTheClosedForm) {
   }
 }
 
-TEST(PrincipalFrame, OfEnnepersSurfaceIsMinimal) {
+TEST(PrincipalFrame, EnnepersSurfaceIsMinimal) {
   for (const Vec2& p : {Vec2{0, 0}, Vec2{0.7, -0.2}, Vec2{-2, 1}}) {
     const auto frame = principal_frame(enneper_jet(p));
     ASSERT_TRUE(frame);
@@ -113,7 +113,7 @@ TEST(PrincipalFrame, OfEnnepersSurfaceIsMinimal) {
   }
 }
 
-TEST(PrincipalFrame, OfTheMonkeySaddleIsFlatAtItsCentre) {
+TEST(PrincipalFrame, TheMonkeySaddleIsFlatAtItsCentre) {
   const auto frame = principal_frame(monkey_saddle_jet({0, 0}));
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->largest(), 0);

@@ -54,7 +54,7 @@ CadMTable cad_m() {
   return table;
 }
 
-/// What the callbacks of a C host see of the test.
+/// The data of the test that the callbacks of a C host see.
 struct User {
   std::int32_t status = 0;
   std::int64_t calls = 0, largest_batch = 0;
@@ -130,7 +130,7 @@ TEST(HostCad, HandsAllArgumentsOfACadMModuleOn) {
   EXPECT_FALSE(cad.reentrant());
 }
 
-TEST(HostCad, CallsOnlyTheRoutinesThatAreWanted) {
+TEST(HostCad, CallsOnlyTheRequestedRoutines) {
   HostCad cad(cad_m());
   surface_at(cad, 1, want_first, {0, 0});
   cad.curve(1, 1, want_second, 1.5);
@@ -170,7 +170,7 @@ TEST(HostCad, HearsSizesOfACadMModuleAndItsSilence) {
   EXPECT_EQ(cad.counts().sizes, 10);
 }
 
-TEST(HostCad, FindsWhatACadMModuleLacksByDifferences) {
+TEST(HostCad, ReplacesMissingRoutinesOfACadMModuleByDifferences) {
   CadMTable table = cad_m();
   table.surf1 = nullptr;
   table.surf2 = nullptr;
@@ -198,7 +198,7 @@ TEST(HostCad, CanBeOfACHost) {
   EXPECT_EQ(cad.curve_interval(2, 5).b, 7);
 }
 
-TEST(HostCad, NeverAsksACHostForMoreThanItGives) {
+TEST(HostCad, NeverRequestsHigherOrdersThanACHostGives) {
   User user;
   HostTable table = host(user);
   table.surface_order = 1;
@@ -286,7 +286,7 @@ TEST(HostCad, HearsSizesOfACHostItsSilenceAndItsFailures) {
             "face 1, curve 3, t = 0.5: the callback curve_radius returned the status 5");
 }
 
-TEST(HostCad, TellsOfOrdersThatAHostDoesNotGive) {
+TEST(HostCad, ReportsOrdersThatAHostDoesNotGive) {
   User user;
   HostTable table = host(user);
   table.surface = [](std::int32_t, double u, double v, std::int32_t, double* s, double*, double*, double*, double*,
@@ -322,7 +322,7 @@ TEST(HostCad, TellsOfOrdersThatAHostDoesNotGive) {
             "must be 0");
 }
 
-TEST(HostCad, ShowsWhatAHostForgetsToWrite) {
+TEST(HostCad, ShowsValuesThatAHostForgetsToWrite) {
   User user;
   user.writes = false;
   HostCad host_cad(host(user));
@@ -338,7 +338,7 @@ TEST(HostCad, ShowsWhatAHostForgetsToWrite) {
   EXPECT_NE(callback_error([&] { checked.curve_interval(1, 1); }), "");
 }
 
-TEST(HostCad, RefusesTablesThatLackWhatGeometryNeeds) {
+TEST(HostCad, RejectsTablesWithoutTheRoutinesOfAGeometry) {
   const auto refuses = [](const auto& table) {
     try {
       HostCad cad(table);

@@ -63,7 +63,7 @@ TEST(MonotoneMap, MustIncrease) {
   EXPECT_THROW(MonotoneMap({0, 1}, {0, 1, 2}), InvalidArgument);
 }
 
-// x = a, y = b: what is derived by (x, y) are derivatives by (u, v) of the same surface at other parameters.
+// x = a, y = b: derivatives by (x, y) are derivatives by (u, v) of the same surface at other parameters.
 TEST(Reparametrised, ObeysTheChainRule) {
   AnalyticCad cad;
   cad.faces[1].at = [](Vec2 p) { return torus_jet(p, 2, 0.7); };

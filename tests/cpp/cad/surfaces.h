@@ -45,7 +45,7 @@ inline SurfaceJet monkey_saddle_jet(Vec2 p) {
           {0, 0, -6 * u}};
 }
 
-/// One face of reference 1 with one curve; tests replace what they need.
+/// One face of reference 1 with one curve; tests replace its members.
 struct FaceCad : Cad {
   std::function<SurfaceJet(Vec2)> jet = [](Vec2 p) { return enneper_jet(p); };
   std::function<CurveJet(double)> along = [](double t) {

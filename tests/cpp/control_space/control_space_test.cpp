@@ -85,7 +85,7 @@ struct Errors {
   double mean = 0, percentile99 = 0, worst = 0;
 };
 
-// Of the lengths of edges about as long as those of the mesh, in units of the wanted size.
+// Errors of the lengths of edges about as long as the mesh's edges, in units of the prescribed size.
 Errors errors_of(const ControlSpace& space, const Field& field, int count = 20'000) {
   Points points(field.domain);
   std::vector<double> error;
@@ -162,8 +162,7 @@ TEST(ControlSpace, ErrorsFollowTheTolerance) {
   }
 }
 
-// Where lengths along u and v are biquadratic they are in the space of functions, and cubic prediction is exact on
-// them.
+// If lengths along u and v are biquadratic they are in the space of functions, and cubic prediction is exact on them.
 TEST(ControlSpace, BiquadraticRootsAreExact) {
   const Field field{"biquadratic root", fields::domain_of({fields::rectangle({-1, 2}, {3, 5}, 40)}), [](Vec2 p) {
                       const double u = p.x(), v = p.y();
@@ -177,8 +176,8 @@ TEST(ControlSpace, BiquadraticRootsAreExact) {
   }
 }
 
-// Differences of a field that is as smooth as a leaf are those of at() itself.
-TEST(ControlSpace, SlopesAreThoseOfTheMetric) {
+// Differences of a field that is as smooth as a leaf equal the differences of at() itself.
+TEST(ControlSpace, SlopesMatchTheMetric) {
   for (const Field& field : {fields::paraboloid(0.1), fields::torus(0.05), fields::swirl(4, 0.02)}) {
     const ControlSpace space = build(field);
     Points points(field.domain);

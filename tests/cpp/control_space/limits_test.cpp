@@ -74,7 +74,7 @@ TEST(ControlSpaceLimits, SidesThatWaverByRoundingAreSides) {
       EXPECT_LT(length_error(space.at(p), field.metric(p)), 2e-3) << t;
 }
 
-// Where the sampler is asked, within rounding; every point is inside.
+// The places of the sampler's queries, within rounding; every point is inside.
 std::vector<Vec2> asked_at(const Field& field) {
   std::vector<Vec2> points;
   const MetricSampler inside = sampler_of(field);

@@ -62,7 +62,7 @@ TEST(SampledNormals, DoNotDependOnTheScaleOfParameters) {
 }
 
 TEST(SampledNormals, AreExactAtSamples) {
-  // Along a line nothing is known across it: the mean of what is around.
+  // A sampled line has no data across it: the mean of the values around.
   Monitor monitor;
   const SampledDomain square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
   const MetricSampler ten = [](std::span<const Vec2> uv, std::span<Metric2> m) {
@@ -81,7 +81,7 @@ TEST(SampledNormals, AreExactAtSamples) {
   }
 }
 
-TEST(SampledNormals, ThoseOfAPlaneDoNotDiffer) {
+TEST(SampledNormals, DoNotDifferOnAPlane) {
   SampledNormals plane;
   plane.add({0, 0}, {});  // a pole
   for (int i = 1; i < 100; ++i) plane.add({0.1 * i, 0.2 * i}, {0.3 * i, 0.1 * i, -0.7 * i});

@@ -184,7 +184,7 @@ TEST(SplitSegment, HalvesTheLengthInEveryUse) {
   }
 }
 
-TEST(SplitSegment, EndsByRefusingWhatCannotBeDivided) {
+TEST(SplitSegment, EndsByRejectingIndivisibleSegments) {
   Scene s;
   const int face = s.add_face(1, flat());
   s.add_curve({s.add_use(face, segment({0, 0}, {1, 0}))});
@@ -197,7 +197,7 @@ TEST(SplitSegment, EndsByRefusingWhatCannotBeDivided) {
   for (std::size_t k = 1; k < d.r.size(); ++k) EXPECT_LT(d.t_of_use[0][k - 1], d.t_of_use[0][k]);
 }
 
-TEST(SampleSizes, InterpolationBetweenEndsIsExactWhenNobodyAnswers) {
+TEST(SampleSizes, InterpolationBetweenEndsIsExactWithoutAnswers) {
   for (const int law : {0, 1, 2}) {
     Scene s;
     const int face = s.add_face(1, flat());
@@ -287,7 +287,7 @@ TEST(SampleSizes, EndsTakeTheCurvesOrThePointsSize) {
   EXPECT_EQ(d.size[1], 0.1);
 }
 
-TEST(SampleSizes, CircleAskedByCurvatureHasTheAnglesEdges) {
+TEST(SampleSizes, CircleByCurvatureHasTheAnglesEdges) {
   // h = 2 rho sin(angle_mesh): a chord of a circle that makes 8 degrees with it (HDR eq. 2.33): 360 / 16 = 22.5 edges.
   Scene s;
   const int face = s.add_face(1, flat());
@@ -305,7 +305,7 @@ TEST(SampleSizes, CircleAskedByCurvatureHasTheAnglesEdges) {
   EXPECT_EQ(d.segments(), 23);  // 2 pi / (2 sin 8 deg) = 22.57
 }
 
-TEST(SampleSizes, ACurveWhoseSamplesAreInflectionsIsStillAskedWhereItBends) {
+TEST(SampleSizes, ACurveWhoseSamplesAreInflectionsIsStillSampledWhereItBends) {
   // z = a sin(2 t) over two periods: its ends, middle and quarters are inflections. Edges by h = 2 rho sin(angle_mesh)
   // are the turning of the curve, 8 atan(2 a), over 2 sin(angle_mesh).
   for (const double a : {0.4, 0.2, 0.1}) {

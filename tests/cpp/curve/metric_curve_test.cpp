@@ -82,8 +82,8 @@ TEST(MetricCurve, Figures25To27HaveEqualEdges) {
   }
 }
 
-/// A curve of the plane that turns, closes and is sampled unevenly, like that of figures 28-32 (whose data the report
-/// does not give), with triplets at eight abscissae.
+/// A curve of the plane that turns, closes and is sampled unevenly, with triplets at eight abscissae. It is like the
+/// curve of figures 28-32, whose data the report does not give.
 Measured<PlaneMetricCurve> closed_curve(MetricLaw law) {
   std::vector<Vec2> points;
   const int n = 400;
@@ -183,7 +183,7 @@ TEST(MetricCurve, IsInvariantUnderRotationAndScaling) {
   for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(k * p[i], q[i], 1e-6 * total * k);
 }
 
-TEST(MetricCurve, TheSplitAsksForNothingThatTheLengthHasNotAskedFor) {
+TEST(MetricCurve, TheSplitNeedsNoMoreEvaluationsThanTheLength) {
   int calls = 0;
   const std::vector<double> breaks{0, 1, 2};
   const auto gradation = carreau::measure_curve(
@@ -209,7 +209,7 @@ TEST(MetricCurve, ALinearSpeedIsExact) {
   for (int j = 0; j <= 28; ++j) EXPECT_NEAR(cuts[j], (std::sqrt(1 + 6. * j) - 1) / 3, 1e-12);
 }
 
-TEST(MetricCurve, RefusesWhatMeansNothing) {
+TEST(MetricCurve, RejectsMeaninglessInput) {
   using carreau::InvalidArgument;
   const Metric2 m{};
   const MetricLaw law = MetricLaw::linear;

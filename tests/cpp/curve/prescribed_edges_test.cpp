@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges told in place of sizes: closed forms, exact lengths, one discretisation for all uses (HDR sec. 2.1, 2.3).
+// Edges prescribed in place of sizes: closed forms, exact lengths, one discretisation for all uses (HDR sec. 2.1, 2.3).
 #include "curve/prescribed_edges.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(ProgressionShares, ManyGeometricEdgesDoNotOverflow) {
   EXPECT_NEAR(progression_shares(progression(Progression::geometric, 9, 1e30))[8], 1e-30, 1e-42);
 }
 
-TEST(ProgressionShares, RefuseWhatHasNoEdges) {
+TEST(ProgressionShares, RejectInputWithoutEdges) {
   EXPECT_THROW(progression_shares(progression(Progression::equal, 0)), InvalidArgument);
   EXPECT_THROW(progression_shares(progression(Progression::geometric, 5, 0)), InvalidArgument);
   EXPECT_THROW(progression_shares(progression(Progression::arithmetic, 5, -1)), InvalidArgument);
@@ -93,8 +93,8 @@ TEST(ProgressionShares, RefuseWhatHasNoEdges) {
   EXPECT_THROW(progression_shares(progression(Progression::geometric, 500, 1e-3)), InvalidArgument);  // underflows
 }
 
-// On z = 0: lengths in space are those of the plane. The pace along the line is uneven.
-TEST(PrescribedEdges, OfALineAndACircleHaveTheLengthsOfTheirProgression) {
+// On z = 0: lengths in space are lengths in the plane. The pace along the line is uneven.
+TEST(PrescribedEdges, ALineAndACircleHaveTheLengthsOfTheirProgression) {
   for (const PrescribedEdges& told : progressions()) {
     Scene line;
     const CurveUse on_line = line.add_use(
@@ -126,7 +126,7 @@ TEST(PrescribedEdges, OfALineAndACircleHaveTheLengthsOfTheirProgression) {
 }
 
 // A parabola in space: s(x) = (x sqrt(1 + x^2) + asinh x) / 2.
-TEST(PrescribedEdges, OfACurvedCurveHaveTheLengthsOfItsArcs) {
+TEST(PrescribedEdges, ACurvedCurveHasTheLengthsOfItsArcs) {
   Scene s = interface_between_two_faces(true);
   const PrescribedEdges told = progression(Progression::geometric, 10, 1.4);
   prescribe(s, s.topology.curves[0].uses[0], told);
@@ -157,8 +157,9 @@ TEST(ExactArc, IsTheInverseOfItself) {
   }
 }
 
-// The second use says it, in its own direction, and has its own parameters; the first one holds the same vertices.
-TEST(PrescribedEdges, OfOneUseHoldInAll) {
+// The second use prescribes the edges, in its own direction, and has its own parameters; the first use holds the same
+// vertices.
+TEST(PrescribedEdges, HoldInAllUsesOfACurve) {
   for (const bool same_pace : {true, false}) {
     Scene s = interface_between_two_faces(same_pace);
     PrescribedEdges told = progression(Progression::given, 0);
@@ -205,7 +206,7 @@ std::string refusal(Scene& scene) {
   return {};
 }
 
-TEST(PrescribedEdges, ThatContradictEachOtherAreRefused) {
+TEST(PrescribedEdges, ThatContradictEachOtherAreRejected) {
   Scene s = interface_between_two_faces(true);
   const std::vector<CurveUse>& uses = s.topology.curves[0].uses;
   prescribe(s, uses[0], progression(Progression::geometric, 6, 2));
@@ -217,7 +218,7 @@ TEST(PrescribedEdges, ThatContradictEachOtherAreRefused) {
   EXPECT_NE(refusal(s), "");
 }
 
-TEST(PrescribedEdges, ThatCannotBeAreRefused) {
+TEST(PrescribedEdges, ThatCannotBeAreRejected) {
   Scene outside = interface_between_two_faces(true);
   PrescribedEdges told = progression(Progression::given, 0);
   told.t = {0.5, 1};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves of closed forms with what the curve steps want of a model.
+// Curves of closed forms with the parts of a model that the curve steps need.
 #pragma once
 
 #include <cmath>

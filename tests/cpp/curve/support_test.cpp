@@ -51,7 +51,7 @@ double ellipse_length(double a, double b) {
 
 double parabola_length(double x) { return (x * std::sqrt(1 + x * x) + std::asinh(x)) / 2; }  // from 0, z = x^2 / 2
 
-/// Largest deviation from linear interpolation in t, in space and in the plane (PL), over what is allowed: an arc that
+/// Largest deviation from linear interpolation in t, in space and in the plane (PL), over the tolerance: an arc that
 /// makes `degrees` with its chord at both ends, or the fraction of the whole length at which refinement ends.
 struct Linearity {
   double space = 0, plane = 0;
@@ -175,7 +175,7 @@ TEST(BuildSupport, LengthConvergesAtFourthOrder) {
   }
 }
 
-TEST(BuildSupport, ParameterAtArcLiesWhereTheLengthSays) {
+TEST(BuildSupport, ParameterAtArcMatchesTheLength) {
   // s(t) of the cubic pace is t + t^3 + 2, of the meridian R (v + pi/2).
   AnalyticCad cubic = cad_of(flat(), plane_curve({-1, 1}, [](double t) { return Vec2{t + t * t * t, 0}; }));
   const CurveSupport s = build_support(cubic, 1, 1, {});
@@ -291,7 +291,7 @@ TEST(BuildSupport, DoesNotDependOnUnitsOrOrigin) {
   EXPECT_EQ(build_support(large, 1, 1, {}).t.size(), n);
 }
 
-TEST(BuildSupport, SaysWhatIsWrongWithAnInterval) {
+TEST(BuildSupport, ReportsInvalidIntervals) {
   for (const Interval bad : {Interval{1, 0}, Interval{1, 1}, Interval{0, HUGE_VAL}, Interval{std::nan(""), 1}}) {
     PlaneCurve c = segment({0, 0}, {1, 0});
     c.interval = bad;
@@ -307,7 +307,7 @@ TEST(BuildSupport, SaysWhatIsWrongWithAnInterval) {
   }
 }
 
-TEST(BuildSupport, SaysWhichValueIsNotFinite) {
+TEST(BuildSupport, NamesTheValueThatIsNotFinite) {
   AnalyticCad cad = cad_of(flat(), plane_curve({0, 1}, [](double t) { return Vec2{t, t > 0.5 ? std::nan("") : 0.}; }));
   EXPECT_THROW(build_support(cad, 1, 1, {}), CallbackError);
   AnalyticCad other = cad_of(Surface{[](Vec2 p) {

@@ -175,7 +175,7 @@ TEST(SplitBySizes, HonoursTheLeastCount) {
   EXPECT_EQ(carreau::split_by_sizes(s, h, SizeLaw::linear, 3).size(), 4U);
 }
 
-TEST(SplitBySizes, RefusesSizesThatMeanNothing) {
+TEST(SplitBySizes, RejectsSizesThatMeanNothing) {
   const std::vector<double> s{0, 1};
   for (const double bad : {0., -1., std::nan(""), HUGE_VAL}) {
     EXPECT_THROW(carreau::split_by_sizes(s, std::vector<double>{1, bad}, SizeLaw::linear), carreau::InvalidArgument);
@@ -210,7 +210,7 @@ TEST(SplitByMetric, FindsAFineMiddleBetweenCoarseEnds) {
   EXPECT_NEAR(static_cast<double>(carreau::split_by_metric(speed, 1, 0.1).size()) - 1, total, 1.);
 }
 
-TEST(SplitByMetric, RefusesSpeedsThatMeanNothing) {
+TEST(SplitByMetric, RejectsSpeedsThatMeanNothing) {
   EXPECT_THROW(carreau::split_by_metric([](double) { return std::nan(""); }, 1, 0.5), carreau::InvalidArgument);
   EXPECT_THROW(carreau::split_by_metric([](double) { return -1.; }, 1, 0.5), carreau::InvalidArgument);
   EXPECT_THROW(carreau::split_by_metric([](double) { return 1.; }, 0, 0.5), carreau::InvalidArgument);

@@ -14,7 +14,7 @@
 namespace carreau {
 namespace {
 
-/// A paraboloid that is there in a part of its domain only. Counts the points that it is asked for.
+/// A paraboloid that is there in a part of its domain only. Counts the points that it evaluates.
 class PartlyThere : public testing::AnalyticCad {
  public:
   explicit PartlyThere(std::function<bool(Vec2)> there)
@@ -52,7 +52,7 @@ Sampled sample(PartlyThere& host, int n) {
   return result;
 }
 
-TEST(FieldSampler, AsksAHostThatFailsEverywhereAtFewPlaces) {
+TEST(FieldSampler, CallsAHostThatFailsEverywhereAtFewPlaces) {
   constexpr int n = 256;
   PartlyThere host([](Vec2) { return false; });
   const Sampled found = sample(host, n);
@@ -62,7 +62,7 @@ TEST(FieldSampler, AsksAHostThatFailsEverywhereAtFewPlaces) {
   EXPECT_LT(host.asked, 1.4 * n * n);
 }
 
-TEST(FieldSampler, TellsEveryPlaceWhereAHostFails) {
+TEST(FieldSampler, ReportsEveryPlaceWhereAHostFails) {
   constexpr int n = 128;
   const auto there = [](Vec2 p) { return norm(p - Vec2{0.7, 0.8}) < 0.2; };
   PartlyThere host(there);

@@ -107,9 +107,9 @@ int for_each_inside(const ExrImage& image, const Body& body) {
   return inside;
 }
 
-constexpr double single = 1e-6;  // rounding of 32-bit reals, and of what is computed before
+constexpr double single = 1e-6;  // rounding of 32-bit reals, and of preceding computations
 
-TEST(TangentSizes, AreThoseOfTheMetric) {
+TEST(TangentSizes, MatchTheMetric) {
   std::mt19937 random(11);
   std::uniform_real_distribution any(-1.0, 1.0), direction(1.0, 179.0);
   for (int i = 0; i < 1000; ++i) {
@@ -198,7 +198,7 @@ TEST(Fields, HaveTheChannelsAndAttributesThatAreDocumented) {
   EXPECT_NEAR(image.pair_attribute("uv.high").x, 1, 1e-12);
 }
 
-TEST(Fields, OfASphereAreItsClosedForms) {
+TEST(Fields, MatchTheClosedFormsOfASphere) {
   FieldCase run(testing::hemisphere());
   run.by_angle();
   run.session->make_mesh();
@@ -233,7 +233,7 @@ TEST(Fields, OfASphereAreItsClosedForms) {
   EXPECT_GT(inside, 0.75 * image.width * image.height);
 }
 
-TEST(Fields, OfAParaboloidAreItsClosedForms) {
+TEST(Fields, MatchTheClosedFormsOfAParaboloid) {
   FieldCase run(testing::paraboloid());
   run.by_angle();
   run.session->make_mesh();
@@ -254,7 +254,7 @@ TEST(Fields, OfAParaboloidAreItsClosedForms) {
 }
 
 // Both principal radii of a torus of radii 2 and 0.7, sizes along its parameter lines.
-TEST(Fields, OfAnAnisotropicMeshHaveTwoSizesAndADirection) {
+TEST(Fields, AnAnisotropicMeshHasTwoSizesAndADirection) {
   FieldCase run(testing::torus_patch());
   run.by_angle();
   run.session->parameters().set("geo_metric", 1);
@@ -281,7 +281,7 @@ TEST(Fields, OfAnAnisotropicMeshHaveTwoSizesAndADirection) {
 }
 
 // On a sphere of radius 1 the geometric size is 2 sin(angle) (HDR eq. 4.35); the physical one grows along x.
-TEST(Fields, TellWhichSizeGoverns) {
+TEST(Fields, ShowTheSizeThatGoverns) {
   FieldCase run(testing::hemisphere());
   const auto physical = [](Vec2 p) { return 0.25 + 0.2 * p.x(); };
   run.cad->size_on_surface = [&](int, Vec2 p) { return std::optional<double>(physical(p)); };
@@ -309,8 +309,8 @@ TEST(Fields, TellWhichSizeGoverns) {
   EXPECT_EQ(image.number("governs", 0, 0), no_triangle) << "outside of the disc";
 }
 
-// What bounds a size is its own bound: a geometric one its own, and the smaller size counts.
-TEST(Fields, TellWhatBoundsAndGradationGovern) {
+// Each size has its own bounds, also the geometric size, and the smaller size counts.
+TEST(Fields, ShowWhereBoundsAndGradationGovern) {
   FieldCase run(testing::hemisphere());
   run.by_angle();
   Parameters& parameters = run.session->parameters();
@@ -340,8 +340,8 @@ TEST(Fields, TellWhatBoundsAndGradationGovern) {
   EXPECT_GT(count[0], 700);
 }
 
-// By direction: the least of two sizes counts, and a size that is ignored is not a number.
-TEST(Fields, OfAnAnisotropicMeshTellBothMetrics) {
+// In each direction the smaller of two sizes counts, and a size that is ignored is NaN.
+TEST(Fields, AnAnisotropicMeshHasBothMetrics) {
   FieldCase run(testing::torus_patch());
   run.by_angle();
   run.session->parameters().set("geo_metric", 1);
@@ -529,7 +529,7 @@ class StrictCad : public AnalyticCad {
   std::thread::id caller_ = std::this_thread::get_id();
 };
 
-TEST(Fields, AskTheHostFromTheCallersThreadAndInsideTheDomainOnly) {
+TEST(Fields, CallTheHostFromTheCallersThreadAndInsideTheDomainOnly) {
   const auto cad = std::make_shared<StrictCad>();
   FieldCase run(testing::hemisphere());
   run.session->set_cad(cad);
@@ -546,7 +546,7 @@ TEST(Fields, AskTheHostFromTheCallersThreadAndInsideTheDomainOnly) {
   EXPECT_GT(cad->calls.surface(), before + 10000);
 }
 
-TEST(Fields, AreOneFileAFaceUnlessAskedOtherwise) {
+TEST(Fields, AreOneFileAFaceByDefault) {
   FieldCase run(testing::teapot());
   run.session->parameters().set("hphydef", 0.5);
   run.session->make_mesh();
@@ -579,7 +579,7 @@ TEST(Fields, AreExportedUnderTheNameThatIsGiven) {
   run.session->parameters().set("refs", 5);
   run.session->write(run.file("x.exr"));
   EXPECT_EQ(read_exr(run.file("x.exr")).at(0).integer_attribute("face"), 5);
-  // That of the mesh, whatever happened later.
+  // The image shows the mesh, whatever happened later.
   run.session->parameters().set("hphymin", 2.0);
   run.session->parameters().set("hphymax", 1.0);
   EXPECT_THROW(run.session->make_mesh(), InvalidArgument);
@@ -624,7 +624,7 @@ TEST(Fields, ThatCannotBeWrittenLeaveTheMesh) {
   run.session->write_fields(run.file("x.exr"), {.longest = 10});
 }
 
-TEST(Fields, StopWithoutAFileWhenTheHostAsks) {
+TEST(Fields, StopWithoutAFileOnRequestOfTheHost) {
   FieldCase run(testing::paraboloid());
   run.session->parameters().set("hphydef", 0.5);
   run.session->make_mesh();
@@ -648,7 +648,7 @@ class BrokenCad : public AnalyticCad {
   bool broken = true;
 };
 
-TEST(Fields, OfAHostThatFailsShowWhere) {
+TEST(Fields, ShowWhereAHostFails) {
   const auto cad = std::make_shared<BrokenCad>(testing::paraboloid());
   FieldCase run(testing::paraboloid());
   run.session->set_cad(cad);
@@ -659,7 +659,7 @@ TEST(Fields, OfAHostThatFailsShowWhere) {
   const int inside = for_each_inside(image, [&](int i, int j, Vec2 p) {
     ASSERT_EQ(std::isnan(image.at("position.x", i, j)), norm(p) < 1);
     failing += norm(p) < 1;
-    // What the host does give is there.
+    // The values that the host does give are there.
     ASSERT_NEAR(image.at("induced.f", i, j), p.x() * p.y(), 5 * single);
     ASSERT_TRUE(std::isnan(image.at("target.m11", i, j)));
     ASSERT_EQ(image.integer.at("triangle")[static_cast<std::size_t>(100 * j + i)], no_triangle);
@@ -673,7 +673,7 @@ TEST(Fields, OfAHostThatFailsShowWhere) {
             0U)
       << run.monitor.warnings[0];
 
-  // Mended: the fields are those of the mesh again.
+  // Without the fault the fields belong to the mesh again.
   cad->broken = false;
   run.session->make_mesh();
   EXPECT_EQ(run.image(10, 10).text_attribute("face.status"), "meshed");
@@ -690,7 +690,7 @@ class OpenCad : public BrokenCad {
   }
 };
 
-TEST(Fields, OfADomainThatDoesNotCloseAreThoseOfTheClosedOne) {
+TEST(Fields, ADomainThatDoesNotCloseHasTheFieldsOfTheClosedOne) {
   FieldCase run(testing::paraboloid());
   run.session->set_cad(std::make_shared<OpenCad>());
   EXPECT_THROW(run.session->make_mesh(), CallbackError);
@@ -700,7 +700,7 @@ TEST(Fields, OfADomainThatDoesNotCloseAreThoseOfTheClosedOne) {
   EXPECT_NEAR(image.real_attribute("diag"), 7.73, 0.01);
 }
 
-TEST(Fields, OfOneFaceThatFailedShowItsDomainAndWhy) {
+TEST(Fields, AFailedFaceShowsItsDomainAndTheReason) {
   AnalyticCad cad = testing::paraboloid();
   // A second face, next to it, whose upper side runs through its lower one.
   cad.faces[2] = {[](Vec2 p) { return testing::paraboloid_jet(p); },
@@ -733,7 +733,7 @@ TEST(Fields, NeedNoMesh) {
   run.session->parameters().set("hphydef", 0.25);
   EXPECT_EQ(run.image(20, 20).at("size.h", 10, 10), 0.25F);
   EXPECT_FALSE(run.session->has_mesh());
-  // Of a host that answers in one half only nothing is made up.
+  // For a host that answers in one half only, no values are invented in the other half.
   run.cad->size_on_surface = [](int, Vec2 p) { return p.x() < 0 ? std::optional<double>(0.1) : std::nullopt; };
   run.session->parameters().set("hphy_flag", 2);
   const ExrImage raw = run.image(40, 40);
@@ -750,7 +750,7 @@ TEST(Fields, NeedNoMesh) {
   EXPECT_TRUE(run.monitor.warnings.empty()) << run.monitor.warnings[0];
 }
 
-TEST(Fields, OfContradictingParametersHaveNoSizes) {
+TEST(Fields, ContradictingParametersGiveNoSizes) {
   FieldCase run(testing::hemisphere());
   run.session->parameters().set("hphymin", 1.0);
   run.session->parameters().set("hphymax", 0.5);

@@ -35,7 +35,7 @@ double area_of_mask(const PlaneSegments& loops, const PixelGrid& grid) {
   return std::accumulate(mask.begin(), mask.end(), 0.0) * grid.pixel().x() * grid.pixel().y();
 }
 
-// A ring: the area of an outer polygon without that of a hole; the error of counting pixels falls with their size.
+// A ring: the area of an outer polygon without the area of a hole; the error of counting pixels falls with their size.
 TEST(DomainRaster, MaskHasTheAreaOfTheDomain) {
   const int corners = 400;
   PlaneSegments ring = circle({0.1, 0.2}, 1, corners);

@@ -43,13 +43,13 @@ TEST(EdgeSizes, WithoutEdgesBoundNothing) {
   EXPECT_EQ(EdgeSizes({}, 0.4).at({1, 2, 3}, 7), 7);
 }
 
-TEST(EdgeSizes, OfEqualEdgesAreTheirs) {
+TEST(EdgeSizes, EqualEdgesKeepTheirSize) {
   const EdgeSizes sizes(std::vector<EdgeSizes::Source>(1000, {{0, 0, 0}, {1, 0, 0}, 0.5}), 2);
   EXPECT_EQ(sizes.at({0.5, 0, 0}), 0.5);
   EXPECT_EQ(sizes.at({3, 0, 0}), 4.5);
 }
 
-// Area over that of triangles, ring by ring.
+// Area over the area of triangles, ring by ring.
 TEST(EdgeSizes, TrianglesOfGrowthAreTheIntegral) {
   const double h = 0.01, slope = 0.4, extent = 30, length = 0.02;
   double sum = 0;

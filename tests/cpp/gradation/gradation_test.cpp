@@ -80,7 +80,7 @@ class Builder {
   std::map<std::tuple<long long, long long, long long>, int> vertex_at_;
 };
 
-/// What grade_fronts says at a vertex.
+/// The result of grade_fronts at a vertex.
 struct GradedSize {
   double h;
   Vec3 slope;  // derivative of h in the tangent plane of the vertex's first place
@@ -275,7 +275,7 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
       }
     EXPECT_LE(steepest, 1.01 * slope);
     // Grading again changes nothing but ridges: the field that is linear in triangles is lower between two slopes than
-    // they are, by at most 1 - sqrt(3) / 2 = 0.134 of what it climbs along an equilateral edge.
+    // they are. The difference is at most 1 - sqrt(3) / 2 = 0.134 of its rise along an equilateral edge.
     std::vector<double> once(h.size());
     for (std::size_t v = 0; v < h.size(); ++v) once[v] = graded[v].h;
     const auto twice = grade_sizes(b.graph, once, slope, monitor);
@@ -286,8 +286,9 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
   }
 }
 
-// Sizes along edges, from both ends: what is lowered by next to nothing while it waits goes on to its neighbours too.
-TEST(Gradation, ByDirectionNoEdgeIsSteeper) {
+// Sizes along edges, from both ends: a size that is lowered by next to nothing while it waits also passes to its
+// neighbours.
+TEST(Gradation, NoEdgeIsSteeperByDirection) {
   Builder b;
   b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x(), p.y(), 0.3 * std::sin(4 * p.x()) * p.y()}; });
   std::uint64_t state = 12345;
@@ -319,9 +320,9 @@ TEST(Gradation, ByDirectionNoEdgeIsSteeper) {
   }
 }
 
-// A strip whose lower side has one vertex of a small size: amid the edge above it, whose ends are far, sizes are those
-// that the gradation allows from there.
-TEST(Gradation, ByDirectionItHoldsAcrossAStrip) {
+// A strip whose lower side has one vertex of a small size. Amid the edge above it, whose ends are far, sizes are
+// bounded by the gradation from that vertex.
+TEST(Gradation, HoldsByDirectionAcrossAStrip) {
   constexpr double width = 0.1, slope = 0.25;
   Builder b;
   GradedFace face;
@@ -372,7 +373,7 @@ TEST(Gradation, CurvesWithoutTrianglesCarrySizes) {
   for (int i = 0; i <= 10; ++i) EXPECT_NEAR(graded[i].h, 0.05 + 0.05 * std::abs(i - 3), 1e-12);
 }
 
-TEST(Gradation, RefusesWhatMakesNoSense) {
+TEST(Gradation, RejectsMeaninglessInput) {
   Monitor monitor;
   EXPECT_THROW(slope_of_gradation(1), InvalidArgument);
   EXPECT_THROW(slope_of_gradation(0.9), InvalidArgument);
@@ -432,13 +433,13 @@ TEST(BoundSlopes, NoPairIsSteeperAndNothingIsSmallerThanItMustBe) {
   }
 }
 
-TEST(BoundSlopes, WhatObeysIsLeftAsItIs) {
+TEST(BoundSlopes, GentleSizesStay) {
   SampledField field = sheared_grid([](Vec2 x) { return 0.05 + 0.3 * norm(x); });
   Monitor monitor;
   EXPECT_TRUE(bound_slopes(field, 0.3 + 1e-9, monitor).empty()) << "a cone is convex";
 }
 
-TEST(BoundSlopes, LinksBoundWhatNoTriangleDoes) {
+TEST(BoundSlopes, LinksBoundSizesThatNoTriangleBounds) {
   SampledField field;
   field.samples = {{{0, 0}, {100, 0, 100}, {1, 0, 1}}, {{1, 0}, {1, 0, 1}, {1, 0, 1}}, {{3, 0}, {1, 0, 1}, {1, 0, 1}}};
   field.links = {{0, 1}, {2, 1}};
@@ -485,7 +486,7 @@ TEST(BoundSlopesByDirection, ALayerGrowsInBothDirectionsByItsOwnMetric) {
   }
 }
 
-TEST(BoundSlopesByDirection, WhatObeysIsLeftAsItIs) {
+TEST(BoundSlopesByDirection, GentleSizesStay) {
   const auto growing = [](Vec2 x) -> Vec2 { return (1 + 6 * x.y()) * Vec2{0.2, 0.05}; };
   SampledField field = directed_grid(growing, [](Vec2) { return 0; });
   const SampledField before = field;

@@ -18,7 +18,7 @@ struct Triangles {
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
-/// A ring of n x n squares, each cut in two, whose inner vertices are moved at random; as wide and high as asked.
+/// A ring of n x n squares, each cut in two, whose inner vertices are moved at random; as wide and high as given.
 Triangles ring(int n, Vec2 extent, std::mt19937& random) {
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
   Triangles mesh;
@@ -70,7 +70,7 @@ NearestOnMesh nearest_of_all(const Triangles& mesh, const Scale& scaled, Vec2 p)
 
 class TriangleTreePlaces : public testing::TestWithParam<Vec2> {};
 
-TEST_P(TriangleTreePlaces, AreThoseOfTheNearestTriangle) {
+TEST_P(TriangleTreePlaces, MatchTheNearestTriangle) {
   std::mt19937 random(7);
   const Vec2 extent = GetParam();
   for (const int n : {4, 9, 24}) {

@@ -157,7 +157,7 @@ TEST(ElementFiles, OrdersAreNotMixed) {
             std::string::npos);
 }
 
-TEST(ElementFiles, WhatNoReaderWouldTakeIsRefused) {
+TEST(ElementFiles, FilesThatNoReaderWouldTakeAreRejected) {
   FlatMesh mesh = strip(3, true, 2);
   mesh.cells[0].nodes[5] = 1000;
   EXPECT_NE(sentence_of<InvalidArgument>([&] { mesh_bytes(mesh, MeshFormat::vtu); }).find("element 0"),

@@ -47,7 +47,7 @@ ExrPart part_of(const std::string& name, int width, int height) {
           .attributes = {{"face", 7}, {"diag", 7.5}, {"uv.low", Vec2{-1, 0.1}}, {"rows", std::string("v decreases")}}};
 }
 
-// What write_part wants for part_of().
+// The pixels of part_of(), for write_part.
 ExrPrepare pattern(int width) {
   return [width](int first, int rows) -> ExrFill {
     return [width, first, rows](std::span<ExrPlane> planes) {
@@ -172,7 +172,7 @@ TEST(Exr, PreparesFromTheCallersThreadInOrderOfRows) {
   expect_pattern(read_exr(folder.file("x.exr")).at(0));
 }
 
-// Debian package openexr; the test says so where it is missing.
+// Debian package openexr; the test reports its absence.
 TEST(Exr, ToolsOfOpenExrAcceptFiles) {
   if (std::system("command -v exrinfo exrheader >/dev/null") != 0) GTEST_SKIP() << "exrinfo and exrheader are missing";
   const TemporaryFolder folder;
@@ -182,7 +182,7 @@ TEST(Exr, ToolsOfOpenExrAcceptFiles) {
     for (const std::string tool : {"exrinfo -v", "exrinfo -s", "exrheader"}) {
       SCOPED_TRACE(tool);
       const std::string command = tool + " '" + folder.file("x.exr") + "' >'" + folder.file("out") + "' 2>&1";
-      // exrinfo of OpenEXR 3.1.5 ends with a status that is not the same from run to run; what it says is.
+      // exrinfo of OpenEXR 3.1.5 ends with a status that varies from run to run; its output does not.
       const int status = std::system(command.c_str());
       const std::string out = read_file(folder.file("out"));
       EXPECT_TRUE(status == 0 || tool != "exrheader") << status << out;
@@ -245,7 +245,7 @@ TEST(Exr, AnErrorWhilePixelsAreMadeLeavesNoFile) {
     }
 }
 
-TEST(Exr, PartsThatCannotBeAreRefused) {
+TEST(Exr, PartsThatCannotBeAreRejected) {
   const TemporaryFolder folder;
   const auto sentence = [&](const std::vector<ExrPart>& parts) {
     return sentence_of<InvalidArgument>([&] { ExrWriter(folder.file("x.exr"), parts, {}); });

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(Files, ReadBackWhatWasWritten) {
+TEST(Files, ReadBackWrittenBytes) {
   const TemporaryFolder folder;
   std::string content;
   for (int i = 0; i < 200000; ++i) content += static_cast<char>(i % 251);
@@ -44,7 +44,7 @@ TEST(Files, PositionsGoBeyond32Bits) {
   EXPECT_EQ(end, "far");
 }
 
-TEST(Files, ReadingSaysWhichFileAndWhy) {
+TEST(Files, ReadingErrorsNameTheFileAndTheReason) {
   const TemporaryFolder folder;
   const auto sentence = [](const std::string& path) { return sentence_of<FileError>([&] { read_file(path); }); };
   EXPECT_EQ(sentence(folder.file("none")), "cannot read '" + folder.file("none") + "': No such file or directory");
@@ -63,14 +63,14 @@ TEST(Files, ReadingStopsAtTheLimit) {
             "cannot read '" + folder.file("x") + "': it is larger than 4 bytes");
 }
 
-TEST(Files, WritingIntoAFolderThatDoesNotExistSaysSo) {
+TEST(Files, WritingIntoAMissingFolderIsAnError) {
   const TemporaryFolder folder;
   const std::string path = folder.file("none/x.mesh");
   EXPECT_EQ(sentence_of<FileError>([&] { write_file(path, "a"); }),
             "cannot write '" + path + "': No such file or directory");
 }
 
-TEST(Files, WritingOverAFolderIsRefused) {
+TEST(Files, WritingOverAFolderIsRejected) {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("x.mesh"));
   EXPECT_EQ(sentence_of<FileError>([&] { write_file(folder.file("x.mesh"), "a"); }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of files share.
+// Common helpers of the tests of files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 
 namespace carreau {
 
-/// A folder of its own, removed at the end.
+/// A new folder, removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

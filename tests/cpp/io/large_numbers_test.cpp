@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole numbers beyond 32 bits in text: none is ever read as what is left of it.
+// Whole numbers beyond 32 bits in text: they are never truncated.
 #include <gtest/gtest.h>
 
 #include <algorithm>

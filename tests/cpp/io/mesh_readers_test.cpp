@@ -86,7 +86,8 @@ TEST(MeshReaders, VtuGivesEverythingBack) {
   }
 }
 
-/// Triangles and edges of ascending positive references, and corners of references of their own: what Gmsh holds.
+/// Triangles and edges of ascending positive references, and corners with separate references: the content that Gmsh
+/// holds.
 FlatMesh random_gmsh_mesh(std::mt19937_64& random) {
   FlatMesh mesh = in_space(random_mesh(random));
   const auto ascending = [&](std::vector<std::int32_t>& refs) {
@@ -441,17 +442,17 @@ TEST(MeshReaders, VtuCompressedInBlocks) {
               (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
 }
 
-TEST(MeshReaders, VtuBlocksThatAreNotWhatTheirHeaderSays) {
+TEST(MeshReaders, VtuBlocksThatContradictTheirHeader) {
   const std::string array = "x.vtu, line 16: array 'connectivity'";
   for (const auto& [corners, sentence] :
        {std::pair{"AgAAAAgAAAAEAAAADgAAAAwAAAA=eJxjYGCfYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
                   ": block 1 of its 2 compressed blocks is damaged"},
         {"AgAAAAAoa+4EAAAADgAAAAwAAAA=eJxjYGBgYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
-         ": block 1 of its 2 compressed blocks is said to hold more than can be compressed into it"},
-        {"AAk9AAgAAAAEAAAACgAAAA==", " says that it has 4000000 compressed blocks, more than the file holds"},
+         ": block 1 of its 2 compressed blocks is too large for its compressed bytes"},
+        {"AAk9AAgAAAAEAAAACgAAAA==", " should have 4000000 compressed blocks, more than the file holds"},
         {"AgAAAAgAAAAEAAAAAChr7goAAAA=eJxjYGBgYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
-         " says that it has a block of 4000000000 bytes, more than are left: the file may be truncated"},
-        {"AgAAAAgAAAAEAAAADgAAAAwAAAA=", " says that it has 26 bytes, but 0 are left: the file may be truncated"}})
+         " should have a block of 4000000000 bytes, more than are left: the file may be truncated"},
+        {"AgAAAAgAAAAEAAAADgAAAAwAAAA=", " should have 26 bytes, but 0 are left: the file may be truncated"}})
     EXPECT_EQ(sentence_of<FileError>([text = compressed_vtu(corners)] { read_mesh_vtu(text, "x.vtu"); }),
               array + sentence);
 }

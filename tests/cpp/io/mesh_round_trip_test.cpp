@@ -19,7 +19,7 @@ TEST(MeshFiles, RandomMeshesReadBackExactlyAndFormatsAgree) {
   }
 }
 
-TEST(MeshFiles, AreToldApartByTheirContent) {
+TEST(MeshFiles, AreRecognisedByTheirContent) {
   const TemporaryFolder folder;
   for (const MeshFormat format : {MeshFormat::mesh, MeshFormat::meshb}) {
     const std::string path = folder.file("a mesh.mesh");
@@ -48,11 +48,11 @@ TEST(MeshFiles, TheSuffixGivesTheFormat) {
   for (const std::string path : {"", "x", "mesh", "x.mesh/y", "x.exr", "x.mesh.", "x.meshbb"})
     EXPECT_EQ(sentence_of<InvalidArgument>([&] { mesh_format_of(path); }),
               "'" + path +
-                  "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, "
+                  "' does not have a suffix of mesh files: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, "
                   ".unv, .su2, .off, .obj, .ply, .vtk, .tri");
 }
 
-TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRefusedAndTheOldFileStays) {
+TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRejectedAndTheOldFileStays) {
   const TemporaryFolder folder;
   const std::string path = folder.file("x.mesh");
   write_file(path, "old");

@@ -131,7 +131,7 @@ TEST(Pardom, PartsOfCurvesAreCommentsForOtherPrograms) {
         << wrong;
 }
 
-TEST(Pardom, EveryTruncationIsAnErrorThatNamesWhatWasExpected) {
+TEST(Pardom, EveryTruncationIsAnErrorThatNamesTheExpectedItem) {
   std::string text = manual_paraboloid;
   std::string bare;
   for (std::size_t i = 0; i < text.size(); ++i) {  // without comments, so that every cut removes a number
@@ -146,7 +146,7 @@ TEST(Pardom, EveryTruncationIsAnErrorThatNamesWhatWasExpected) {
   }
 }
 
-TEST(Pardom, SaysWhatWasExpectedAtTheEnd) {
+TEST(Pardom, NamesTheExpectedItemAtTheEnd) {
   const std::string two = "2\n1\n1\n1\n1 0 0 0\n0\n2\n1\n3\n1 0 0 0\n1 0 0 0\n";
   EXPECT_EQ(error_of(""), "x.pardom, line 1: the file ends where ns was expected");
   EXPECT_EQ(error_of("! nothing\n"), "x.pardom, line 1: the file ends where ns was expected");

@@ -172,7 +172,7 @@ TEST(SolidSkin, ASolidOfEachFormatIsItsOuterFaces) {
   }
 }
 
-TEST(SolidSkin, NodesOnEdgesAreThoseOfEachFormat) {
+TEST(SolidSkin, NodesOnEdgesMatchEachFormat) {
   const Edges tet{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
       tet_gmsh{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {2, 3}, {1, 3}},
       pyr{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},

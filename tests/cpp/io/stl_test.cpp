@@ -64,7 +64,7 @@ TEST(Stl, ATriangleWithoutAreaHasAZeroNormal) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(number_at(bytes, 84 + 4 * k), 0);
 }
 
-TEST(Stl, CoordinatesBeyondSinglePrecisionAreRefusedInBinary) {
+TEST(Stl, CoordinatesBeyondSinglePrecisionAreRejectedInBinary) {
   FlatMesh mesh = square();
   mesh.vertices[1].x() = 1e39;
   EXPECT_EQ(sentence_of<InvalidArgument>([&] { mesh_bytes(mesh, MeshFormat::stl); }),

@@ -29,7 +29,7 @@ PrescribedMetric unit_metric() {
           }};
 }
 
-/// Counts places that are asked for.
+/// Counts evaluated places.
 class CountingCad final : public Cad {
  public:
   explicit CountingCad(AnalyticCad cad) : cad_(std::move(cad)) {}
@@ -87,7 +87,7 @@ Measured measure(const AnalyticCad& given, const Grid& grid, EvaluationOptions o
 struct Dense {
   double deviation = 0, angle = 0;
 };
-/// What is over the triangle of (u, v), as far as it is from the whole mesh.
+/// The part of the surface over the triangle of (u, v), and its distance from the whole mesh.
 Dense dense(const SurfaceMesh& mesh, std::size_t t, const std::function<SurfaceJet(Vec2)>& at, const TriangleSearch& search, int n) {
   const FaceMesh& face = mesh.faces[0];
   const auto& c = face.triangles[t];
@@ -170,7 +170,8 @@ TEST(DeviationBounds, PlanesHaveNoneHoweverTheyAreParametrised) {
   for (const double bound : made.delivered[Kind::angle_bound].values) EXPECT_EQ(bound, 0);
 }
 
-// A bump of a sixtieth of a triangle, with its top between all places that are seen: those of A0 see a sixtieth of its height, the bound all of it.
+// A bump of a sixtieth of a triangle, with its top between all sample points. The samples of A0 see a sixtieth of its height, the bound all
+// of it.
 TEST(DeviationBounds, NarrowBumpIsFound) {
   constexpr double high = 0.1, width = 0.05;
   const Vec2 top{1. / 3 + 1. / 24, 1. / 12 * std::sqrt(0.75)};  // in an equilateral triangle
@@ -219,7 +220,7 @@ TEST(DeviationBounds, SharesAreOfTheTolerances) {
   EXPECT_NE(describe(asked.delivered).not_met.back().find("32 of 32 triangles (100 %) have an upper bound"), std::string::npos);
 }
 
-TEST(DeviationBounds, CostNothingWhenTheyAreNotAskedFor) {
+TEST(DeviationBounds, CostNothingByDefault) {
   AnalyticCad cad = one_face(sphere_jet);
   const SurfaceMesh mesh = grid_mesh(cad, std::array{Grid{1, {0, -0.5}, {1, 0.5}, 20, 20}});
   CountingCad counting(cad);

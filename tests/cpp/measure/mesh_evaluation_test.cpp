@@ -85,7 +85,7 @@ SurfaceMesh single(AnalyticCad& cad, std::array<Vec2, 3> uv) {
   return mesh;
 }
 
-TEST(DistanceToTriangle, IsThatOfTheNearestPlace) {
+TEST(DistanceToTriangle, MatchesTheNearestPlace) {
   const Vec3 a{0, 0, 0}, b{2, 0, 0}, c{0, 2, 0};
   EXPECT_DOUBLE_EQ(distance_to_triangle({0.5, 0.5, 3}, a, b, c), 3);  // above it
   EXPECT_DOUBLE_EQ(distance_to_triangle({1, -4, 3}, a, b, c), 5);     // beside a side
@@ -174,7 +174,7 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   bool said = false;
   for (const std::string& sentence : describe(d).not_met)
     said = said || sentence.find(
-                       "20 of 41 edges (48.78 %) have a gradation of sizes of more than the 1.25 asked; the "
+                       "20 of 41 edges (48.78 %) have a gradation of sizes of more than the 1.25 prescribed; the "
                        "worst has 1.297") == 0;
   EXPECT_TRUE(said);
 }
@@ -204,7 +204,7 @@ TEST(DeliveredPlane, GradationsBetweenTwoCurvesAreForced) {
   }));
 }
 
-TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
+TEST(DeliveredPlane, GradationOfTinyEdgesIsOverATenthOfAUnit) {
   // Cells of 0.01 by 1, sizes that differ by a tenth from one column to the next: 1.1^105 over their own lengths.
   Case run{one_face(plane_jet), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {0.03, 1}, 3, 1}});
@@ -220,7 +220,7 @@ TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
   EXPECT_EQ(along, 6);
 }
 
-TEST(DeliveredPlane, AnisotropicMetricIsThatOfTheStretchedTriangle) {
+TEST(DeliveredPlane, AnisotropicMetricBelongsToTheStretchedTriangle) {
   // Sizes 2 along a direction and 0.1 across: the quality is Q2 of the image, and edges compare through it.
   const double angle = 0.4, h1 = 2, h2 = 0.1;
   const Vec2 x{std::cos(angle), std::sin(angle)}, y{-x.y(), x.x()};
@@ -349,8 +349,8 @@ void keep_ends_of_apex(FaceMesh& face, std::int32_t first, std::int32_t columns)
   face.flattened.push_back({first, last, first == 0 ? last + 1 : first - 1});
 }
 
-// The normal is undefined at an apex: those of a triangle's own sector count, whichever end of the degenerate side
-// stands for the apex in (u, v).
+// The normal is undefined at an apex: the normals of a triangle's own sector count, whichever end of the degenerate
+// side stands for the apex in (u, v).
 TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
   const double height = 2;
   Case run{one_face([=](Vec2 p) {
@@ -425,10 +425,10 @@ TEST(DeliveredSphere, TrianglesTurnedAgainstTheSurfaceAreCounted) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     EXPECT_EQ(d[Kind::angle].values[t] > 90, t % 7 == 0 && t < 35) << t;
   EXPECT_EQ(describe(d).not_met.back(),
-            "5 of 128 triangles (3.91 %) have a normal turned by more than 90 degrees against that of the surface");
+            "5 of 128 triangles (3.91 %) have a normal turned by more than 90 degrees against the surface");
 }
 
-TEST(DeliveredCylinder, AnglesAndDeviationsAreThoseOfTheChord) {
+TEST(DeliveredCylinder, AnglesAndDeviationsMatchTheChord) {
   const double r = 2;
   Case run{one_face([=](Vec2 p) { return cylinder_jet(p, r); }), {}, {}};
   const int columns = 18;
@@ -525,7 +525,7 @@ TEST(DeliveredFaces, EdgeBetweenFacesHasTheLargerAngleAndOneLength) {
     }
 }
 
-TEST(DeliveredCalls, AreCountedApartAndAsTold) {
+TEST(DeliveredCalls, AreCountedApartAndAsReported) {
   Case run{one_face([](Vec2 p) { return testing::torus_jet(p, 2, 0.7); }), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {1, 1}, 20, 20}});
   const CallCounts before = run.cad.calls;

@@ -96,8 +96,8 @@ TEST(TriangleBound, PlaneHasNone) {
   EXPECT_EQ(b.angle, 0);
 }
 
-// The plane itself, by parameters that are not even: it reaches beyond sides that the mesh ends at, by what it does; else the triangles
-// around are under it.
+// The plane itself, by parameters that are not even: it reaches beyond sides on the border of the mesh, and the bound counts this
+// excess. Beyond other sides, the triangles around are under it.
 TEST(TriangleBound, UnevenParametersCountWhereTheMeshEnds) {
   BoundedTriangle t({Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   t.deviation_floor = 1e-4;
@@ -182,7 +182,7 @@ TEST(TriangleBound, ConeHasAnAngleAtItsApex) {
   EXPECT_LE(b.deviation, 1.3 * std::hypot(height, 1 - std::cos(a)));
 }
 
-TEST(TriangleBound, WhatIsTurnedOverHasAHalfTurn) {
+TEST(TriangleBound, TrianglesTurnedOverHaveAHalfTurn) {
   const BoundedTriangle t({Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const Bounded b = bound(t, [&](PlaceInTriangle p) { return BoundPlace{flat(t, p), {0, 0, -1}}; });
   EXPECT_EQ(b.angle, std::numbers::pi);

@@ -102,19 +102,19 @@ Vec3 on_sphere(std::mt19937& random) {
   return (1 / norm(p)) * p;
 }
 
-TEST(BoxPairs, AreThoseOfASweep) {
+TEST(BoxPairs, MatchASweep) {
   for (const int n : {0, 1, 2, 15, 16, 17, 33, 1000, 1025, 5000})
     expect_those_of_a_sweep(random_soup(n, n < 100 ? 0.3 : 0.02, in_cube), all_of(random_soup(n, 0.1, in_cube)));
 }
 
 // More than one thread sorts at once.
-TEST(BoxPairs, OfManyTrianglesAreThoseOfASweep) {
+TEST(BoxPairs, MatchASweepForManyTriangles) {
   const Soup soup = random_soup(150'000, 0.003, on_sphere);
   expect_those_of_a_sweep(soup, all_of(soup));
 }
 
 // Half of all triangles lie in a millionth of a millionth of the box, and some are as large as all.
-TEST(BoxPairs, OfSizesFarApartAreThoseOfASweep) {
+TEST(BoxPairs, MatchASweepForSizesFarApart) {
   Soup soup = random_soup(40'000, 0.004, in_cube);
   const Soup small = random_soup(100'000, 0.003, on_sphere);
   for (const Indices& t : small.triangles) {
@@ -126,7 +126,7 @@ TEST(BoxPairs, OfSizesFarApartAreThoseOfASweep) {
   expect_those_of_a_sweep(soup, all_of(soup));
 }
 
-TEST(BoxPairs, OfOnePlaceAreAll) {
+TEST(BoxPairs, OnePlaceGivesAllPairs) {
   constexpr std::size_t n = 700;
   Soup soup;
   for (std::size_t k = 0; k < n; ++k) soup.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -135,13 +135,13 @@ TEST(BoxPairs, OfOnePlaceAreAll) {
 
 // Triangles of which most lie at one place, more than are sorted at once, and of coordinates whose differences
 // overflow.
-TEST(BoxPairs, OfCoordinatesThatNoGridHoldsAreThoseOfASweep) {
+TEST(BoxPairs, MatchASweepForCoordinatesThatNoGridHolds) {
   Soup soup = random_soup(300, 1, [](std::mt19937& random) -> Vec3 { return 1e308 * on_sphere(random); });
   for (int k = 0; k < 300; ++k) soup.add({k * 1e-300, 0, 0}, {k * 1e-300, 1e-300, 0}, {k * 1e-300, 0, 1e-300});
   expect_those_of_a_sweep(soup, all_of(soup));
 }
 
-TEST(BoxPairs, PassOverWhatIsNotAskedFor) {
+TEST(BoxPairs, PassOverOtherTriangles) {
   const Soup soup = random_soup(3000, 0.03, in_cube);
   std::vector<std::int32_t> odd;
   for (std::int32_t t = 1; t < 3000; t += 2) odd.push_back(t);
@@ -162,7 +162,7 @@ TEST(SpatialOrder, IsAPermutationWithNeighboursNearForAnyNumberOfThreads) {
   EXPECT_LT(sum / static_cast<double>(order.size()), 3 * std::cbrt(1.0 / static_cast<double>(order.size())));
 }
 
-TEST(SpatialOrder, StopsWhenAsked) {
+TEST(SpatialOrder, StopsOnRequest) {
   const Soup soup = random_soup(100, 0.1, in_cube);
   Monitor monitor;
   monitor.request_stop();

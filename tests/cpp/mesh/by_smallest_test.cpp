@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of triangles, edge by edge, in few entries at once: what sorting all of them gives.
+// The sides of triangles, edge by edge, in few entries at once: the result equals a sort of all of them.
 #include "mesh/simplices/by_smallest.h"
 
 #include <gtest/gtest.h>

@@ -28,7 +28,7 @@ SurfaceMesh two_squares() {
 
 TEST(FindDefects, IsEmptyForASoundMesh) { EXPECT_EQ(find_defects(two_squares()), std::vector<std::string>{}); }
 
-TEST(FindDefects, TellsOpenEdgesWhenTheMeshShouldBeClosed) {
+TEST(FindDefects, ReportsOpenEdgesWhenTheMeshShouldBeClosed) {
   EXPECT_EQ(find_defects(two_squares(), {.closed = true}).size(), 6U);
 }
 

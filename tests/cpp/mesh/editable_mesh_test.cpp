@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edits keep the topology, the imposed edges and the adjacency, and can be undone bit for bit.
+// Edits keep the topology, the imposed edges and the adjacency, and can be undone exactly.
 #include "mesh/editable_mesh.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using Triangle = EditableMesh::Triangle;
 using Place = EditableMesh::Place;
 using Edge = std::array<std::int32_t, 2>;
 
-/// [0, 2] x [0, 1] as two faces of n x n cells of two triangles each; curves: the border, of two corners, and what is
+/// [0, 2] x [0, 1] as two faces of n x n cells of two triangles each; curves: the border, of two corners, and the side
 /// between the faces.
 SurfaceMesh two_faces(int n) {
   SurfaceMesh mesh;
@@ -64,7 +64,7 @@ std::vector<std::int32_t> all_vertices(const SurfaceMesh& mesh) {
   return all;
 }
 
-/// Vertices - edges + triangles of what collapses have left.
+/// Vertices - edges + triangles after collapses.
 int euler_number(const SurfaceMesh& mesh) {
   std::set<std::int32_t> vertices;
   std::set<Edge> edges;
@@ -94,7 +94,7 @@ bool has_edge(const SurfaceMesh& mesh, std::int32_t v, std::int32_t w) {
   return false;
 }
 
-/// What is known around vertices is what the triangles say.
+/// The adjacency of vertices agrees with the triangles.
 void expect_adjacency(const EditableMesh& editable, const SurfaceMesh& mesh) {
   std::vector<std::vector<std::array<std::int32_t, 2>>> fans(mesh.vertices.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
@@ -184,7 +184,7 @@ void edit_somewhere(SurfaceMesh& mesh, EditableMesh& editable, Dice& dice, Count
   }
 }
 
-TEST(EditableMesh, KnowsWhatIsAroundCentresAndWhatMayMove) {
+TEST(EditableMesh, KnowsStarsOfCentresAndMovableVertices) {
   SurfaceMesh mesh = two_faces(4);
   const std::vector<std::int32_t> centre{20};  // in the middle of the first face, whose vertices are nine a row
   const EditableMesh local(mesh, centre, 1);
@@ -333,7 +333,7 @@ struct Solid {
   EditableMesh editable() { return {{{&uv, &triangles, nullptr, &mixed}}, xyz, {}, {}}; }
 };
 
-TEST(LinkCondition, RefusesEveryEdgeOfATetrahedron) {
+TEST(LinkCondition, RejectsEveryEdgeOfATetrahedron) {
   Solid solid({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
   const EditableMesh editable = solid.editable();
   for (std::int32_t v = 0; v < 4; ++v)
@@ -382,7 +382,7 @@ struct Annulus {
   EditableMesh editable() { return {{{&uv, &triangles}}, xyz, {}, {}}; }
 };
 
-TEST(LinkCondition, RefusesToPinchAnAnnulusOrToShutItsHole) {
+TEST(LinkCondition, RejectsEdgesThatPinchAnAnnulusOrShutItsHole) {
   Annulus one(8, 1);
   const EditableMesh thin = one.editable();
   for (std::int32_t i = 0; i < one.n; ++i)
@@ -421,7 +421,7 @@ struct Joined {
   }
 };
 
-TEST(EditableMesh, WhereAskedEdgesBetweenFacesAreEditedLikeOthers) {
+TEST(EditableMesh, EditsEdgesBetweenFacesOnRequest) {
   const SurfaceMesh mesh = two_faces(4);
   Joined joined(mesh);
   std::vector<Edge> imposed;
@@ -488,7 +488,7 @@ TEST(EditableMesh, APatchInThePlaneKeepsItsDomain) {
   EXPECT_FALSE(part.is_known(3));
 }
 
-TEST(EditableMesh, PartsOfASplitTriangleHaveTheNumbersAskedFor) {
+TEST(EditableMesh, PartsOfASplitTriangleHaveTheGivenNumbers) {
   for (const auto keeps : {EditableMesh::Split::at_a, EditableMesh::Split::at_start}) {
     PlaneDomain domain;
     domain.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

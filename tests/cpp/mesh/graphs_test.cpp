@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets of triangles that cannot cross: what they promise, where they are found, and that crossings are found beside
-// them.
+// Sets of triangles that cannot cross: their guarantee, their detection, and the detection of crossings beside them.
 #include "mesh/crossings/graphs.h"
 
 #include <gtest/gtest.h>
@@ -140,7 +139,7 @@ TEST(Graphs, DoNotHoldAFanThatGoesRoundTwice) {
   expect_all_crossings(fan, true);
 }
 
-TEST(Graphs, OfWrinkledSheetsHideNoCrossing) {
+TEST(Graphs, WrinkledSheetsHideNoCrossing) {
   std::mt19937 random(7);
   for (const double wrinkle : {0.004, 0.02, 0.2}) {
     std::uniform_real_distribution<double> shift(-wrinkle, wrinkle);
@@ -183,7 +182,7 @@ TEST(Outlines, AreDecidedExactly) {
   EXPECT_FALSE(goes_round({{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {{0, 3}}));                 // an eight
 }
 
-TEST(Outlines, TellPinchedVertices) {
+TEST(Outlines, DetectPinchedVertices) {
   const std::vector<Vec2> at{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   std::vector<OutlineEdge> edges{edge(0, 1, at), edge(1, 2, at), edge(2, 0, at),
                                  edge(0, 3, at), edge(3, 4, at), edge(4, 0, at)};

@@ -64,7 +64,7 @@ std::vector<Exact> clipped(const std::vector<Exact>& polygon, const Plane& plane
   std::vector<Exact> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Exact &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    // Values times positive w: signs are those of the places.
+    // Values times positive w: this keeps the signs of the places.
     const Integer at_p = value(plane, p), at_q = value(plane, q);
     if (at_p >= 0) kept.push_back(p);
     if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
@@ -78,7 +78,7 @@ std::vector<Exact> clipped(const std::vector<Exact>& polygon, const Plane& plane
 
 bool equal(const Exact& p, const Exact& q) { return p.n == q.n; }
 
-/// The definition: corners of the common part, of which one is no point of what corners that both have span.
+/// The definition: corners of the common part, of which one lies outside of the span of the common corners.
 bool cross_by_definition(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
   std::array<Exact, 3> corner;
   for (int i = 0; i < 3; ++i) corner[i] = exact(t[i]);
@@ -95,7 +95,7 @@ bool cross_by_definition(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>
   if (shared.size() < 2)
     return std::any_of(part.begin(), part.end(),
                        [&](const Exact& p) { return shared.empty() || !equal(p, shared[0]); });
-  // All are in both triangles, whose common line is that of their common edge.
+  // All are in both triangles, whose common line is the line of their common edge.
   const Triple along = minus(shared[1], shared[0]);
   return std::any_of(part.begin(), part.end(), [&](const Exact& p) {
     const Triple to{p.n[0] - shared[0].n[0] * p.n[3], p.n[1] - shared[0].n[1] * p.n[3],
@@ -125,7 +125,7 @@ Pairs found_in(const std::vector<Vec3>& vertices, const std::vector<Indices>& tr
 }
 
 /// Integer places in a small box: corners on edges, edges on edges, triangles in one plane and double points abound.
-TEST(Intersections, AreThoseOfTheDefinitionOnRandomMeshes) {
+TEST(Intersections, MatchTheDefinitionOnRandomMeshes) {
   std::mt19937 random(11);
   std::array<int, 2> seen{};
   for (int round = 0; round < 300; ++round) {
@@ -183,7 +183,7 @@ TEST(Intersections, AreNoneInASheetOrBetweenSheetsThatTouchAtVertices) {
   add_sheet(
       40, [](double x, double y) { return x / 3 + y / 7; }, vertices, triangles);
   EXPECT_TRUE(found_in(vertices, triangles).empty());
-  // Beside it one with vertices of its own at the same places.
+  // Beside it a triangle with separate vertices at the same places.
   const auto n = static_cast<std::int32_t>(vertices.size());
   const std::vector<Vec3> copy = vertices;
   for (const Vec3& p : copy)
@@ -193,7 +193,7 @@ TEST(Intersections, AreNoneInASheetOrBetweenSheetsThatTouchAtVertices) {
   EXPECT_TRUE(found_in(vertices, triangles).empty());
 }
 
-TEST(Intersections, OfTwoSheetsLieAlongTheirCommonLineWhateverTheNumberOfThreads) {
+TEST(Intersections, TwoSheetsMeetAlongTheirCommonLineForAnyNumberOfThreads) {
   std::vector<Vec3> vertices;
   std::vector<Indices> triangles;
   constexpr int n = 30;
@@ -251,7 +251,7 @@ TEST(Intersections, AreFoundByManyProcessesAsByOne) {
 }
 
 /// After some vertices have moved, triangles have gone, come and been doubled, and all have other numbers.
-TEST(Intersections, OfAChangedMeshAreFoundFromThoseOfBefore) {
+TEST(Intersections, AreFoundInAChangedMeshFromPreviousOnes) {
   std::mt19937 random(5);
   const auto upto = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   std::int64_t all = 0, kept = 0;
@@ -320,7 +320,7 @@ TEST(Intersections, TakeATimeThatGrowsAsTheTriangles) {
   EXPECT_LT(seconds(160) / seconds(40), 80);
 }
 
-TEST(Intersections, StopWhenAsked) {
+TEST(Intersections, StopOnRequest) {
   std::vector<Vec3> vertices;
   std::vector<Indices> triangles;
   add_sheet(

@@ -57,7 +57,7 @@ Vec3 value_at(CellKind kind, const Jacobian& j, double s, double t) {
   return sum;
 }
 
-TEST(Jacobian, CoefficientsAreThoseOfTheElementsMap) {
+TEST(Jacobian, CoefficientsMatchTheElementsMap) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> place(0, 1);
   for (const CellKind kind : kinds)
@@ -112,7 +112,7 @@ TEST(CellQuality, SquaresAndEquilateralTrianglesAreTheBest) {
 }
 
 TEST(CellQuality, ARhombusAndARectangleHaveTheirClosedForms) {
-  // Sides 1, angles 60 and 120 degrees: h = sqrt 3, rho that of the flat halves, area / (half the perimeter).
+  // Sides 1, angles 60 and 120 degrees: h = sqrt 3, rho as in the flat halves, area / (half the perimeter).
   const double c = std::sqrt(3.0) / 2;
   const CellQuality rhombus = cell_quality(CellKind::quad4, std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1.5, c, 0}, {0.5, c, 0}});
   const double rho = c / (2 + std::sqrt(3.0));
@@ -148,7 +148,7 @@ TEST(Jacobian, TheBoundOfACurvedTriangleIsBelowItsLeastCoefficient) {
 }
 
 // Straight sides, halved: all coefficients are one. Bent by a fiftieth on a sphere's side: far from invalid.
-TEST(Jacobian, TheBoundOfACurvedTriangleTellsOfStraightOnes) {
+TEST(Jacobian, TheBoundOfACurvedTriangleDetectsStraightOnes) {
   std::vector<Vec3> x{{0, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1.5, 0, 0}, {2, 1, 0}, {0.5, 1, 0}};
   EXPECT_NEAR(least_of_triangle6(std::span<const Vec3>(x)), 1, 1e-15);
   EXPECT_NEAR(least_of_triangle6(std::span<const Vec2>(in_plane(x))), 1, 1e-15);

@@ -50,7 +50,7 @@ TEST(RingByRing, LooksAtARingAsItWasFoundOrInAscendingOrder) {
   EXPECT_EQ(ascending.order, (Items{4, 2, 1, 3, 2, 1}));
 }
 
-TEST(RingByRing, EndsWithTheBudgetOrTheRingsAndTellsWhatIsLeft) {
+TEST(RingByRing, EndsWithTheBudgetOrTheRingsAndReturnsTheRest) {
   Row row({0, 0, 0, 5});
   Budget budget(2);
   EXPECT_EQ(row.run({3}, {}, budget), (Items{2, 3}));
@@ -77,7 +77,7 @@ TEST(InPasses, WorstFirstUntilAPassImprovesNothing) {
   EXPECT_FALSE(improve_in_passes(10, monitor, list, improve)) << "nothing is bad any more";
 }
 
-TEST(InPasses, AndSearchesStopWhenAsked) {
+TEST(InPasses, AndSearchesStopOnRequest) {
   Monitor monitor;
   monitor.request_stop();
   const auto one = [] { return Items{0}; };

@@ -49,7 +49,7 @@ TEST(QualitySummary, CountsOfATetrahedron) {
 }
 
 // Triangles of many shapes, also flat ones and such with corners that coincide, against one at a time.
-TEST(QualitySummary, OfAnyNumberOfThreadsIsThatOfEachTriangle) {
+TEST(QualitySummary, MatchesEachTriangleForAnyNumberOfThreads) {
   FlatMesh mesh;
   double area = 0, smallest = 180, largest = 0, sum = 0;
   const auto angle = [](Vec3 p, Vec3 q) { return std::atan2(norm(cross(p, q)), dot(p, q)) * 180 / std::numbers::pi; };
@@ -77,8 +77,8 @@ TEST(QualitySummary, OfAnyNumberOfThreadsIsThatOfEachTriangle) {
   EXPECT_NEAR(summarise_shapes(mesh, 2).angle_max_deg, 180, 1e-12);
 }
 
-// Faces number their vertices themselves; what is read where it is must be what a flat copy has.
-TEST(QualitySummary, OfFacesIsThatOfTheirFlatCopy) {
+// Faces number their vertices themselves; values read in place must agree with a flat copy.
+TEST(QualitySummary, MatchesTheFlatCopyOfFaces) {
   SurfaceMesh mesh;
   for (int i = 0; i < 3000; ++i) mesh.vertices.push_back({i % 60 + 0.3 * std::sin(i), i / 60 + 0.3 * std::cos(3 * i), 0.1 * (i % 7)});
   mesh.vertex_ref.assign(mesh.vertices.size(), 0);

@@ -34,7 +34,7 @@ Vec3 place_of(const std::vector<Vec3>& vertices, const Simplex& s, const std::ar
   return place;
 }
 
-TEST(SimplexSearch, FindsWhatAllSimplicesTogetherSay) {
+TEST(SimplexSearch, MatchesAllSimplicesTogether) {
   Numbers number;
   for (int round = 0; round < 30; ++round) {
     std::vector<Vec3> vertices;

@@ -84,7 +84,7 @@ DistanceBounds bounds(const Soup& from, const Soup& to, double share = 0.01, int
   return bound_distance(from.view(), to.view(), {.share = share}, threads, silent);
 }
 
-/// The distance lies between, and the bounds are as near as asked.
+/// The distance lies between, and the bounds are as near as requested.
 void expect_distance(const Soup& from, const Soup& to, double distance, double diagonal) {
   for (const double share : {0.01, 1e-4}) {
     const DistanceBounds found = bounds(from, to, share);
@@ -94,7 +94,7 @@ void expect_distance(const Soup& from, const Soup& to, double distance, double d
   }
 }
 
-TEST(SurfaceDistance, OfParallelPlanesIsTheirOffset) {
+TEST(SurfaceDistance, IsTheOffsetOfParallelPlanes) {
   const Soup low = sheet(1, 1, 0, 3, 5), high = sheet(1, 1, 0.25, 7, 2);
   expect_distance(low, high, 0.25, std::sqrt(2));
   expect_distance(high, low, 0.25, std::sqrt(2));
@@ -103,7 +103,7 @@ TEST(SurfaceDistance, OfParallelPlanesIsTheirOffset) {
   expect_distance(low, wide, 0.25, std::hypot(1.5, 1));
 }
 
-TEST(SurfaceDistance, OfTheSameSurfaceIsNothingWhateverItsTriangles) {
+TEST(SurfaceDistance, IsZeroForTheSameSurfaceWithOtherTriangles) {
   const DistanceBounds found = bounds(sheet(1, 1, 0.3, 7, 11), sheet(1, 1, 0.3, 64, 49));
   EXPECT_LT(found.lower, 1e-15);
   EXPECT_LE(found.upper, 1e-6 * std::sqrt(2) + 1e-14);
@@ -111,7 +111,7 @@ TEST(SurfaceDistance, OfTheSameSurfaceIsNothingWhateverItsTriangles) {
   expect_distance(octahedron(20, same), octahedron(3, same), 0, std::sqrt(12));
 }
 
-TEST(SurfaceDistance, OfCubesIsThatOfCornersAndOfSides) {
+TEST(SurfaceDistance, CubesHaveTheDistancesOfCornersAndSides) {
   expect_distance(box(2), box(1), std::sqrt(3), std::sqrt(12));  // a corner from a corner
   expect_distance(box(1), box(2), 1, 2 * std::sqrt(12));
 }
@@ -131,7 +131,7 @@ TEST(SurfaceDistance, IsLargestWhereNoSampleIs) {
 }
 
 // The octahedron in the unit sphere: from the middles of its sides to the sphere, 1 - 1 / sqrt(3). A sphere of triangles is nearer by its own sagitta.
-TEST(SurfaceDistance, OfASphereAndPolyhedra) {
+TEST(SurfaceDistance, ASphereAndPolyhedra) {
   const double exact = 1 - 1 / std::sqrt(3.0);
   double before = 1;
   for (const int n : {3, 6, 12, 24}) {  // a vertex over the middle of each side
@@ -208,8 +208,8 @@ Soup joined(const Soup& soup) {
   return all;
 }
 
-// Heights over a piece bound it where the mesh below hangs together: distances are the same as those to single triangles.
-TEST(SurfaceDistance, OfMeshesThatHangTogetherIsThatOfTheirTriangles) {
+// Heights over a piece bound it where the mesh below is connected: distances equal the distances to single triangles.
+TEST(SurfaceDistance, ConnectedMeshesMatchTheirTriangles) {
   const Soup floor = joined(sheet(1, 1, 0, 3, 200)), high = sheet(1, 1, 0.25, 7, 2), wide = sheet(1.5, 1, 0.25, 4, 3);
   expect_distance(high, floor, 0.25, std::sqrt(2));
   expect_distance(wide, floor, std::hypot(0.5, 0.25), std::sqrt(2));
@@ -234,7 +234,7 @@ TEST(SurfaceDistance, OfMeshesThatHangTogetherIsThatOfTheirTriangles) {
   EXPECT_EQ(bounds(coarse, fine).upper, bounds(coarse, fine, 0.01, 3).upper);
 }
 
-// The same triangles with and without common vertices, at random: no bound is below what samples see.
+// The same triangles with and without common vertices, at random: no bound is below the distances of samples.
 TEST(SurfaceDistance, HeightsHoldOverRandomRelief) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> height(-0.1, 0.1), way(-0.03, 0.03);
@@ -295,7 +295,7 @@ TEST(SurfaceDistance, TheSameForAnyNumberOfProcesses) {
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
 }
 
-TEST(SurfaceDistance, OfNothingIsNothingAndAStopIsObeyed) {
+TEST(SurfaceDistance, IsZeroForEmptyInputAndObeysAStop) {
   const Soup sphere = octahedron(40, onto_sphere);
   EXPECT_EQ(bounds({}, sphere).upper, 0);
   EXPECT_EQ(bounds(sphere, {}).upper, 0);

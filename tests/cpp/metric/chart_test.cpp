@@ -40,7 +40,7 @@ double largest_error(double h, bool curved) {
   return worst;
 }
 
-TEST(Chart, TellsDistancesToThirdOrder) {
+TEST(Chart, GivesDistancesToThirdOrder) {
   const double tensor = std::log2(largest_error(0.02, false) / largest_error(0.01, false));
   const double chart = std::log2(largest_error(0.02, true) / largest_error(0.01, true));
   EXPECT_NEAR(tensor, 2, 0.1);

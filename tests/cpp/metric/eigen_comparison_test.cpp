@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why some algebra of this room is not Eigen's: tensors whose decompositions are known exactly, with the bound that ours
-// keeps and what Eigen's solvers make of the same entries.
+// The reason why some algebra of this folder is not Eigen's: tensors whose decompositions are known exactly, with the
+// bound of ours and the results of Eigen's solvers for the same entries.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -83,7 +83,7 @@ TEST(AgainstEigen, TheSquareRootOfAPlaneTensorKeepsItsSmallEigenvalueHereOnly) {
     const Eigen::Matrix2d s = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(matrix(t.m)).operatorSqrt();
     theirs = std::max(theirs, error(eigen(Metric2{s(0, 0), s(0, 1), s(1, 1)}).minor, std::sqrt(t.minor)));
   }
-  EXPECT_LT(ours, 1e-7);  // the square root of the condition, times what rounding of the entries of the root costs
+  EXPECT_LT(ours, 1e-7);  // the square root of the condition, times the error by rounding the entries of the root
   EXPECT_FALSE(theirs < 1e-3);
 }
 
@@ -94,7 +94,7 @@ struct Graded {
       : m{4, s, s * s, 4 * s * s, s * s * s, 4 * s * s * s * s},
         determinant(54 * std::pow(s, 6)),
         trace_of_inverse(5 / 18. * (1 + 1 / (s * s) + 1 / (s * s * s * s))) {}
-  /// Of eigenvalues, whose product and sum of inverses are known.
+  /// The error of eigenvalues, whose product and sum of inverses are known.
   [[nodiscard]] double error_of(double p, double q, double r) const {
     return std::max(error(p * q * r, determinant), error(1 / p + 1 / q + 1 / r, trace_of_inverse));
   }

@@ -8,7 +8,7 @@
 namespace carreau {
 namespace {
 
-TEST(FieldLength, OfAConstantFieldIsTheMetricsOwn) {
+TEST(FieldLength, AConstantFieldGivesTheMetricsLength) {
   const Metric2 m{3, 1, 5};
   const auto field = [&](Vec2) { return m; };
   const Vec2 p{0.3, -1}, q{2, 4};

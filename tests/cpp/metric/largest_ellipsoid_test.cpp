@@ -31,15 +31,15 @@ Metric3 random_metric(std::mt19937& random) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
 }
 
-TEST(LargestEllipsoid, OfTwoItIsTheIntersection) {
+TEST(LargestEllipsoid, IsTheIntersectionOfTwo) {
   const Metric2 p = ellipse(1, 0.2, 0.3), q = ellipse(0.7, 0.1, 1.4);
   EXPECT_EQ(largest_inside(std::array{p, q}), intersection(p, q));
   EXPECT_EQ(largest_inside(std::array{p, p, q, q, p}), intersection(p, q));
   EXPECT_EQ(largest_inside(std::array{p}), p);
 }
 
-TEST(LargestEllipsoid, OfEllipsesTurnedEvenlyItIsACircle) {
-  // By symmetry; its radius is their small half axis. One after another they leave less.
+TEST(LargestEllipsoid, IsACircleForEllipsesTurnedEvenly) {
+  // A ball, by symmetry; its radius is their small half axis. Pairwise intersections in turn leave less.
   for (const int n : {3, 4, 7}) {
     std::vector<Metric2> metrics;
     for (int k = 0; k < n; ++k) metrics.push_back(ellipse(0.2, 1, 0.1 + k * pi / n));

@@ -105,7 +105,7 @@ TEST(Eigen, ComposeIsTheInverse) {
   EXPECT_EQ(compose(eigen({3, 0, 3})), (Metric2{3, 0, 3}));
 }
 
-TEST(ClampEigenvalues, LeavesWhatIsWithinAndBringsTheRestToTheBounds) {
+TEST(ClampEigenvalues, LeavesInnerValuesAndBringsTheRestToTheBounds) {
   RandomMetrics random;
   for (int k = 0; k < 2000; ++k) {
     const Metric2 m = random.next(6);

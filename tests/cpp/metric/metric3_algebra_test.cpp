@@ -63,8 +63,8 @@ Metric3 rotated(const Metric3& m, const Rotation& q) {
   return compose(e);
 }
 Metric3 times(double s, const Metric3& m) { return {s * m.xx, s * m.xy, s * m.xz, s * m.yy, s * m.yz, s * m.zz}; }
-/// That the unit ball of `inner` lies inside that of `outer`: no length in `outer` exceeds that in `inner`. A relative
-/// error `slack` of eigenvalues is what the entries of tensors of condition 1e12 leave.
+/// Expects that the unit ball of `inner` lies inside the unit ball of `outer`: no length in `outer` exceeds the length
+/// in `inner`. Entries of tensors of condition 1e12 leave a relative error `slack` of eigenvalues.
 void expect_inside(const Metric3& inner, const Metric3& outer, double slack) {
   EXPECT_LE(length_ratios(outer, inner).largest, 1 + slack);
 }
@@ -74,7 +74,7 @@ void expect_inside_by_directions(const Metric3& inner, const Metric3& outer, Ran
   std::vector<Vec3> d(e.axis.begin(), e.axis.end());
   d.insert(d.end(), f.axis.begin(), f.axis.end());
   for (int k = 0; k < 20; ++k) d.push_back(random.direction());
-  // What rounding the entries of either tensor does to a squared length.
+  // The effect on a squared length of rounding the entries of either tensor.
   const double rounding = 2e-15 * (largest_entry(inner) + largest_entry(outer));
   for (const Vec3& v : d) EXPECT_LE(squared_length(outer, v), squared_length(inner, v) * (1 + slack) + rounding);
 }
@@ -114,7 +114,7 @@ TEST(Eigen3, AnySymmetricTensor) {
   EXPECT_EQ(eigen({0, 0, 0, 0, 0, 0}).value[0], 0);
 }
 
-TEST(PositiveDefinite, TellsWhatIsNot) {
+TEST(PositiveDefinite, DetectsOtherMatrices) {
   const double nan = std::nan("");
   EXPECT_TRUE(is_positive_definite(Metric3{}));
   EXPECT_TRUE(is_positive_definite(Metric3{1e-300, 0, 0, 1e-300, 0, 1e-300}));
@@ -160,7 +160,8 @@ TEST(Reduction3, BothTensorsComeBack) {
     const Metric3 p = random.metric(), q = random.metric();
     const Reduction3 r = reduce(p, q);
     EXPECT_LE(distance(compose({{1, 1, 1}, r.axis}), p), 1e-14);
-    EXPECT_LE(distance(compose({r.ratio, r.axis}), q), 1e-9) << k;  // p of condition 1e12 multiplies what rounding left
+    EXPECT_LE(distance(compose({r.ratio, r.axis}), q), 1e-9) << k;  // p of condition 1e12 multiplies the rounding
+                                                                    // errors
     EXPECT_GT(r.ratio[2], 0);
   }
 }

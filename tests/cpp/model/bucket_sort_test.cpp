@@ -13,7 +13,7 @@ namespace {
 
 using Item = std::array<std::int32_t, 3>;
 
-TEST(BucketSort, OrderIsThatOfASort) {
+TEST(BucketSort, OrderMatchesASort) {
   std::mt19937 random(7);
   for (const std::int32_t count : {1, 5, 1000})
     for (const int n : {0, 1, 3000}) {

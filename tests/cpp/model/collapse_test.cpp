@@ -98,7 +98,7 @@ TEST(CollapseTinyCurves, KeepsInternalCurves) {
   EXPECT_TRUE(contains(remarks[0], "it is inside face 1")) << remarks[0];
 }
 
-TEST(CollapseTinyCurves, SaysNothingOfPointsThatHaveNoLength) {
+TEST(CollapseTinyCurves, IgnoresPointsThatHaveNoLength) {
   const Model model = glue(unglued(cone()), traces_of(cone()), 0.01);
   Remarks remarks;
   const Model result = collapse_tiny_curves(model, traces_of(cone()), 1e-3, &remarks);
@@ -106,7 +106,7 @@ TEST(CollapseTinyCurves, SaysNothingOfPointsThatHaveNoLength) {
   EXPECT_TRUE(remarks.empty());
 }
 
-TEST(CollapseTinyCurves, RefusesANegativeLength) {
+TEST(CollapseTinyCurves, RejectsANegativeLength) {
   EXPECT_THROW(collapse_tiny_curves(unglued(paraboloid()), traces_of(paraboloid()), -1), InvalidArgument);
 }
 

@@ -71,7 +71,7 @@ TEST(Geometries, OneGeometryMayNotMixReferences) {
   EXPECT_EQ(list_model_defects(model).size(), 1);
 }
 
-TEST(Geometries, RefuseReferencesThatNoModelMayHave) {
+TEST(Geometries, RejectReferencesThatNoModelMayHave) {
   Model model = model_of({polygon(5, 4, 1)});
   const auto refused = [&](const Face& face) {
     EXPECT_THROW(append_geometry(model, model_of({face})), InvalidModel);

@@ -24,7 +24,7 @@ TEST(Glue, NumbersTheParaboloidAsTheManualDoes) {
   EXPECT_EQ(references(glued(paraboloid(), 7.7 / 500)), manual);
 }
 
-TEST(Glue, GivesWhatIsMergedTheSmallestNumber) {
+TEST(Glue, MergedEntitiesHaveTheSmallestNumber) {
   // Two squares; the fourth side of the second is the second side of the first, reversed.
   AnalyticCad cad;
   cad.faces[3] = flat(rectangle({0, 0}, {1, 1}));
@@ -118,7 +118,7 @@ TEST(Glue, OpenCurvesStayApartAcrossAShortCurveAndASlit) {
   AnalyticCad cad;
   cad.faces[1] = flat(rectangle({0, 0}, {1, 1}));
   cad.faces[2] = flat(rectangle({1.009, 0}, {2, 1}));
-  cad.faces[3] = flat(rectangle({1, -1}, {1.009, 0}));  // its upper side is what lies between
+  cad.faces[3] = flat(rectangle({1, -1}, {1.009, 0}));  // its upper side lies between
   const Model model = glued_where_open(cad, 0.001, 0.01);
   EXPECT_NE(model.faces[0].curves[1].ref, model.faces[1].curves[3].ref);
   EXPECT_NE(model.faces[2].curves[2].end1, model.faces[2].curves[2].end2);
@@ -260,7 +260,7 @@ TEST(Glue, FindsSeamsWithinTheRoundingOfFiles) {
   EXPECT_EQ(references(glue(unglued(exact), traces, 1e-7)), references(expected));
 }
 
-TEST(Glue, TellsOfCurvesThatItCloses) {
+TEST(Glue, ReportsCurvesThatItCloses) {
   AnalyticCad cad;
   cad.faces[1] = flat({arc({0, 0}, 1, 0.005, 2 * pi), segment({1, 0}, {std::cos(0.005), std::sin(0.005)})});
   Model model = unglued(cad);
@@ -300,7 +300,7 @@ TEST(Glue, GluesInternalCurvesOfOtherFacesOnly) {
   EXPECT_EQ(result.faces[1].curves[3].ref, 5);
 }
 
-TEST(Glue, RefusesATolerancePositiveOnlyByMistakeAndTracesOfAnotherModel) {
+TEST(Glue, RejectsATolerancePositiveOnlyByMistakeAndTracesOfAnotherModel) {
   const Model model = unglued(paraboloid());
   EXPECT_THROW(glue(model, traces_of(paraboloid()), 0), InvalidArgument);
   EXPECT_THROW(glue(model, traces_of(paraboloid()), std::nan("")), InvalidArgument);

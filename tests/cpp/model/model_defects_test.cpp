@@ -56,15 +56,15 @@ TEST(FindModelDefects, AllowsSeamsClosedCurvesAndInternalOnes) {
   EXPECT_EQ(find_model_defects(model), Sentences{});
 }
 
-TEST(FindModelDefects, WantsFacesWithPositiveAndDistinctReferences) {
+TEST(FindModelDefects, RequiresFacesWithPositiveAndDistinctReferences) {
   EXPECT_EQ(find_model_defects({}), Sentences{"the model has no face"});
   EXPECT_EQ(defects_after([](Model& m) { m.faces[1].ref = 1; }),
             Sentences{"x.pardom, line 9, face 1: face number 2 has the same reference as face number 1 (line 2)"});
   EXPECT_EQ(defects_after([](Model& m) { m.faces[1].ref = 0; }),
-            Sentences{"x.pardom, line 9: the reference of a face must be positive; that of face number 2 is 0"});
+            Sentences{"x.pardom, line 9: the reference of a face must be positive; face number 2 has 0"});
 }
 
-TEST(FindModelDefects, WantsAnOrientationThatNamesABoundaryCurve) {
+TEST(FindModelDefects, RequiresAnOrientationThatNamesABoundaryCurve) {
   for (const int orientation : {5, -5, INT_MAX, INT_MIN})
     EXPECT_EQ(defects_after([&](Model& m) { m.faces[0].orientation = orientation; }),
               Sentences{"x.pardom, line 2, face 1: orientation " + std::to_string(orientation) +
@@ -78,7 +78,7 @@ TEST(FindModelDefects, WantsAnOrientationThatNamesABoundaryCurve) {
       Sentences{"x.pardom, line 2, face 1: orientation -5 names curve 5 (line 77), which is not of type 1 (boundary)"});
 }
 
-TEST(FindModelDefects, WantsWiresWithoutBorders) {
+TEST(FindModelDefects, RequiresWiresWithoutBorders) {
   const std::string of_wire = ": a wire (orientation 0) bounds nothing: its curves have type 2 (internal), not 1";
   const Sentences found = defects_after([](Model& m) { m.faces[0].orientation = 0; });
   ASSERT_EQ(found.size(), 5U);
@@ -92,7 +92,7 @@ TEST(FindModelDefects, WantsWiresWithoutBorders) {
             Sentences{});
 }
 
-TEST(FindModelDefects, WantsABoundary) {
+TEST(FindModelDefects, RequiresABoundary) {
   EXPECT_EQ(defects_after([](Model& m) { m.faces[1].curves.clear(); }),
             Sentences{"x.pardom, line 9, face 2: the face has no curve"});
   EXPECT_EQ(defects_after([](Model& m) {
@@ -101,7 +101,7 @@ TEST(FindModelDefects, WantsABoundary) {
             Sentences{"x.pardom, line 9, face 2: the face has no curve of type 1 (boundary)"});
 }
 
-TEST(FindModelDefects, WantsKnownTypes) {
+TEST(FindModelDefects, RequiresKnownTypes) {
   const Sentences found = defects_after([](Model& m) { m.faces[0].curves[1].type = static_cast<CurveType>(3); });
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(
@@ -110,11 +110,11 @@ TEST(FindModelDefects, WantsKnownTypes) {
       "is 3");
 }
 
-TEST(FindModelDefects, WantsAllReferencesUnlessTheFirstIsZero) {
+TEST(FindModelDefects, RequiresAllReferencesUnlessTheFirstIsZero) {
   EXPECT_EQ(
       defects_after([](Model& m) { m.faces[1].curves[0].ref = 0; }),
       Sentences{"x.pardom, line 10, face 2, curve 1: zero references are mixed with others (refc 0, refp1 2, refp2 "
-                "5): to have references found, those of all curves must be 0"});
+                "5): to find references, the references of all curves must be 0"});
   Model model = unglued(paraboloid());
   model.source = "x.pardom";
   model.faces[0].curves[0].line = 5;
@@ -124,7 +124,7 @@ TEST(FindModelDefects, WantsAllReferencesUnlessTheFirstIsZero) {
   EXPECT_EQ(references_to_forget(model), 1U);
 }
 
-TEST(FindModelDefects, WantsPositiveReferences) {
+TEST(FindModelDefects, RequiresPositiveReferences) {
   EXPECT_EQ(
       defects_after([](Model& m) { m.faces[1].curves[1].end1 = -5; }),
       Sentences{"x.pardom, line 11, face 2, curve 2 (reference 6): references must be positive (refc 6, refp1 -5, "
@@ -133,13 +133,13 @@ TEST(FindModelDefects, WantsPositiveReferences) {
             Sentences{"x.pardom, line 14, face 2: the reference of internal point 1 must not be negative; it is -1"});
 }
 
-TEST(FindModelDefects, WantsTheSameEndsForAllCurvesOfAReference) {
+TEST(FindModelDefects, RequiresTheSameEndsForAllCurvesOfAReference) {
   const Sentences found = defects_after([](Model& m) {
     m.faces[1].curves[3].end1 = 8;
     m.faces[1].curves[2].end2 = 8;
   });
   EXPECT_EQ(found,
-            Sentences{"x.pardom, line 13, face 2, curve 4 (reference 2): its ends 8 and 2 are not those of the first "
+            Sentences{"x.pardom, line 13, face 2, curve 4 (reference 2): its ends 8 and 2 differ from the ends of the first "
                       "curve of this reference, 2 and 3 (line 4)"});
 }
 
@@ -153,18 +153,18 @@ TEST(FindModelDefects, AllowsABoundaryReferenceTwiceInAFaceAndNoMore) {
   EXPECT_EQ(with_sides(2), Sentences{});
   EXPECT_EQ(
       with_sides(4).front(),
-      "x.pardom, line 12, face 1, curve 3 (reference 2): the reference is that of boundary curves 1 (line 10) and 2 "
+      "x.pardom, line 12, face 1, curve 3 (reference 2): the reference belongs to boundary curves 1 (line 10) and 2 "
       "(line 11) of the face already; twice is a seam, more is not possible");
   const Sentences twice = defects_after([](Model& m) {
     m.faces[0].curves.push_back({CurveType::internal, 20, 21, 22, 30});
     m.faces[0].curves.push_back({CurveType::internal, 20, 21, 22, 31});
   });
   EXPECT_EQ(twice,
-            Sentences{"x.pardom, line 31, face 1, curve 6 (reference 20): the reference is that of internal curve 5 "
+            Sentences{"x.pardom, line 31, face 1, curve 6 (reference 20): the reference belongs to internal curve 5 "
                       "(line 30) of the face already"});
 }
 
-TEST(FindModelDefects, WantsBoundariesThatClose) {
+TEST(FindModelDefects, RequiresBoundariesThatClose) {
   const Sentences found = defects_after([](Model& m) { m.faces[0].curves[2].end2 = 8; });
   EXPECT_EQ(found,
             (Sentences{"x.pardom, line 6, face 1, point of reference 4: the boundary of the face does not close: "
@@ -178,7 +178,7 @@ TEST(FindModelDefects, WantsBoundariesThatClose) {
   EXPECT_TRUE(contains(odd[0], "boundary curves 1, 4 and 5 end there, which is an odd number of ends")) << odd[0];
 }
 
-TEST(FindModelDefects, WantsInternalPointsThatAreFiniteAndApart) {
+TEST(FindModelDefects, RequiresInternalPointsThatAreFiniteAndApart) {
   EXPECT_EQ(defects_after([](Model& m) { m.faces[0].points[0].uv.y() = infinity; }),
             Sentences{"x.pardom, line 7, face 1: the coordinates of internal point 1 are not finite"});
   EXPECT_EQ(
@@ -189,7 +189,7 @@ TEST(FindModelDefects, WantsInternalPointsThatAreFiniteAndApart) {
                 "1 (line 7)"});
 }
 
-TEST(FindModelDefects, TellsEveryViolationOnceAndNeedsNoFile) {
+TEST(FindModelDefects, ReportsEveryViolationOnceAndNeedsNoFile) {
   Model model = sound();
   model.source.clear();
   for (Face& face : model.faces) {

@@ -81,13 +81,13 @@ TEST(BuildTopology, FindsTheDirectionsOfSeams) {
   }
 }
 
-TEST(BuildTopology, RefusesClosedCurvesWithoutADirection) {
+TEST(BuildTopology, RejectsClosedCurvesWithoutADirection) {
   // A circle smaller than the tolerance that starts a quarter turn later: as far off in either direction.
   AnalyticCad cad;
   cad.faces[1] = flat({arc({0, 0}, 0.01, 0, 2 * pi)});
   cad.faces[2] = flat({arc({0, 0}, 0.01, pi / 2, 2.5 * pi)});
   const std::string text = refusal(cad, referenced(cad, {{{5, 1, 1}}, {{5, 1, 1}}}), 0.05);
-  EXPECT_TRUE(contains(text, "face 2, curve 1 (reference 5): the direction of the closed curve cannot be told"))
+  EXPECT_TRUE(contains(text, "face 2, curve 1 (reference 5): the direction of the closed curve is ambiguous"))
       << text;
 }
 
@@ -99,7 +99,7 @@ TEST(BuildTopology, AcceptsClosedCurvesThatAreTheSameInBothDirections) {
   EXPECT_EQ(refusal(cad, referenced(cad, {{{5, 1, 1}}, {{5, 1, 1}}}), 0.01), "");
 }
 
-TEST(BuildTopology, RefusesClosedCurvesThatStartElsewhere) {
+TEST(BuildTopology, RejectsClosedCurvesThatStartElsewhere) {
   AnalyticCad cad;
   cad.faces[1] = flat({arc({0, 0}, 1, 0, 2 * pi)});
   cad.faces[2] = flat({arc({0, 0}, 1, 1, 1 + 2 * pi)});
@@ -119,7 +119,7 @@ TEST(BuildTopology, MakesOneCornerOfADegenerateSideWhateverItsReferences) {
   EXPECT_FALSE(topology.curves[0].degenerate);
 }
 
-TEST(BuildTopology, TellsASmallHoleFromAPoint) {
+TEST(BuildTopology, DistinguishesASmallHoleFromAPoint) {
   AnalyticCad cad;
   auto curves = rectangle({0, 0}, {1, 1});
   curves.push_back(arc({0.5, 0.5}, 0.002, 0, 2 * pi));
@@ -129,8 +129,8 @@ TEST(BuildTopology, TellsASmallHoleFromAPoint) {
   EXPECT_FALSE(topology.curves[4].degenerate);
 }
 
-// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points, with it they are not, nor for the face
-// beside it; a pole of its own stays one.
+// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points. With it they are not, nor for the face
+// beside it; a real pole stays one.
 TEST(BuildTopology, KeepsFacesWhoseSidesAreAllTiny) {
   const double a = 8e-6;
   AnalyticCad cad;
@@ -159,7 +159,7 @@ TEST(BuildTopology, TakesATinyCurveWhoseEndsWereGluedForAPoint) {
   EXPECT_EQ(topology.curves[0].end2, topology.curves[2].end1);
 }
 
-TEST(BuildTopology, RefusesCurvesOfOneReferenceThatAreApart) {
+TEST(BuildTopology, RejectsCurvesOfOneReferenceThatAreApart) {
   AnalyticCad cad;
   cad.faces[1] = flat({segment({-1, 0}, {1, 0}), arc({0, 0}, 1, 0, pi)});
   cad.faces[2] = flat({arc({0, 0}, 1, pi, 2 * pi), segment({1, 0}, {-1, 0})});
@@ -174,24 +174,24 @@ TEST(BuildTopology, RefusesCurvesOfOneReferenceThatAreApart) {
       contains(refusal(cad, model, 0.02), " away from curve 2 of face 1 (line 4), which has the same reference"));
 }
 
-TEST(BuildTopology, RefusesExchangedReferences) {
+TEST(BuildTopology, RejectsExchangedReferences) {
   const AnalyticCad cad = two_squares();
   auto refs = two_squares_refs;
   std::swap(refs[1][3][1], refs[1][3][2]);
   EXPECT_EQ(refusal(cad, referenced(cad, refs), 0.02),
             "face 2, curve 4 (reference 20): refp1 and refp2 are exchanged: its first end is at the point of reference "
             "4, its "
-            "second one at that of 2");
+            "second end at the point of reference 2");
 }
 
-TEST(BuildTopology, RefusesExchangedReferencesOfCurvesShorterThanItsTolerance) {
+TEST(BuildTopology, RejectsExchangedReferencesOfCurvesShorterThanItsTolerance) {
   AnalyticCad cad;
   cad.faces[1] = flat({segment({0, 0}, {1, 0}), segment({1, 0.02}, {0, 0}), segment({1, 0}, {1, 0.02})});
   EXPECT_EQ(refusal(cad, referenced(cad, {{{1, 1, 2}, {2, 3, 1}, {3, 2, 3}}}), 0.05), "");
   EXPECT_TRUE(contains(refusal(cad, referenced(cad, {{{1, 1, 2}, {2, 3, 1}, {3, 3, 2}}}), 0.05), "are exchanged"));
 }
 
-TEST(BuildTopology, RefusesEndsThatAreNotWhereTheirReferenceIs) {
+TEST(BuildTopology, RejectsEndsThatAreNotWhereTheirReferenceIs) {
   const AnalyticCad cad = two_squares();
   auto refs = two_squares_refs;
   refs[1][0][2] = refs[1][1][1] = 6;  // a corner of the first square
@@ -200,7 +200,7 @@ TEST(BuildTopology, RefusesEndsThatAreNotWhereTheirReferenceIs) {
   EXPECT_TRUE(contains(text, "away from the point of reference 6")) << text;
 }
 
-TEST(BuildTopology, RefusesOneReferenceForBothEndsOfAnOpenCurve) {
+TEST(BuildTopology, RejectsOneReferenceForBothEndsOfAnOpenCurve) {
   AnalyticCad cad;
   cad.faces[1] = flat({segment({-1, 0}, {1, 0}), arc({0, 0}, 1, 0, pi)});
   EXPECT_EQ(
@@ -218,7 +218,7 @@ TEST(BuildTopology, AcceptsGapsWithinItsTolerance) {
   EXPECT_NE(refusal(cad, model, 0.008), "");
 }
 
-TEST(BuildTopology, RefusesATolerancePositiveOnlyByMistakeAndTracesOfAnotherModel) {
+TEST(BuildTopology, RejectsATolerancePositiveOnlyByMistakeAndTracesOfAnotherModel) {
   const Model model = referenced(two_squares(), two_squares_refs);
   EXPECT_THROW(build_topology(model, traces_of(two_squares()), 0), InvalidArgument);
   EXPECT_THROW(build_topology(model, traces_of(paraboloid()), 0.1), InvalidArgument);

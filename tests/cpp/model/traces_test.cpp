@@ -36,7 +36,7 @@ double by_all_pairs(const std::vector<Vec3>& from, const std::vector<Vec3>& to) 
   return worst;
 }
 
-TEST(HausdorffDistance, IsThatOfAllPairs) {
+TEST(HausdorffDistance, MatchesAllPairs) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const auto p = winding(80 + static_cast<int>(seed), 1e-3, false, seed),
                q = winding(47, 1e-2, seed % 2 == 1, seed + 99);

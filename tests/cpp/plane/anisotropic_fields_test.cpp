@@ -20,7 +20,7 @@ struct Asked {
 class AnisotropicField : public ::testing::TestWithParam<Asked> {};
 
 // A straight edge follows a curved layer when its sagitta is small beside the size across: ratio 100 on a circle of
-// radius 0.5 wants h = 1e-4 (edges of 0.01, sagitta 2.5e-5).
+// radius 0.5 needs h = 1e-4 (edges of 0.01, sagitta 2.5e-5).
 TEST_P(AnisotropicField, GetsUnitEdgesAndGoodTriangles) {
   const MetricCase c = GetParam().make(GetParam().h, GetParam().ratio);
   Monitor monitor;
@@ -63,8 +63,8 @@ TEST(AnisotropicField, ARatioOfAThousandGivesAValidMesh) {
   }
 }
 
-// Vertices put on edges are on them but for rounding: no triangle is left between an edge and its own middle, though
-// the lengths of its sides, each by the tensor in its middle, are those of a good one.
+// Vertices put on edges are on them up to rounding. No triangle is left between an edge and its own middle, even if the
+// lengths of its sides look good, each by the tensor in its middle.
 TEST(AnisotropicField, FieldsThatEdgesCannotFollowLeaveNoFlatTriangle) {
   for (const bool frontal : {true, false})
     for (const double ratio : {50.0, 100.0, 200.0}) {

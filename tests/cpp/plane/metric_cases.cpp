@@ -96,7 +96,7 @@ MetricCase layer_on_circle(double h, double ratio) {
 }
 
 MetricCase layer_on_spiral(double h, double ratio) {
-  // r = pitch (angle / 2 pi + k): the nearest turn; away from the origin, where there is none.
+  // r = pitch (angle / 2 pi + k): the nearest turn; away from the origin, which has no nearest turn.
   constexpr double pitch = 0.3;
   return on_box("layer on a spiral", {0.2, 0.2}, {1.2, 1.2}, [=](Vec2 p) {
     const double r = norm(p), turn = r / pitch - std::atan2(p.y(), p.x()) / (2 * std::numbers::pi);

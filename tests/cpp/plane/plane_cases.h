@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parametric patches in closed form, with their unit boundaries: what the tests and the benchmark of the plane mesher
-// mesh. Sizes are wanted edge lengths in space.
+// Parametric patches in closed form, with their unit boundaries, for the tests and the benchmark of the plane mesher.
+// Sizes are prescribed edge lengths in space.
 #pragma once
 
 #include <functional>

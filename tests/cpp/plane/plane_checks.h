@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every plane mesh must be, and how good it is.
+// Checks of every plane mesh, and its quality.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace carreau::testing {
 
-/// Empty when `mesh` is a triangulation of `domain`: imposed vertices first and unmoved, every triangle strictly
-/// counterclockwise (exactly), an edge in one triangle if it is on the boundary and in two otherwise, once in each
-/// direction, all imposed edges present, no vertex unused, one fan (a union of fans on the boundary) round each vertex,
-/// Euler's number and the area those of the domain.
+/// Empty when `mesh` is a triangulation of `domain`. Imposed vertices come first and unmoved, and every triangle is
+/// strictly counterclockwise (exactly). An edge is in one triangle if it is on the boundary and in two otherwise, once
+/// in each direction. All imposed edges are present, no vertex is unused, and each vertex has one fan (on the boundary
+/// a union of fans). Euler's number and the area agree with the domain.
 std::vector<std::string> find_plane_defects(const PlaneDomain& domain, const PlaneMesh& mesh);
 
 struct PlaneQuality {

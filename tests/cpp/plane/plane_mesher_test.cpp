@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What mesh_plane promises on any domain: a valid mesh, limits, cancellation, determinism.
+// The guarantees of mesh_plane on any domain: a valid mesh, limits, cancellation, determinism.
 #include <gtest/gtest.h>
 
 #include <cmath>

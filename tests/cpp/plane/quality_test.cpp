@@ -23,7 +23,7 @@ PlaneQuality quality_of(const PlaneCase& c, bool frontal = true) {
   return measure(c, mesh);
 }
 
-TEST(Quality, OfTheManualsParaboloid) {
+TEST(Quality, TheManualsParaboloid) {
   const PlaneCase c = paraboloid(0.15462);
   EXPECT_EQ(c.domain.edges.size(), 216U);
   const PlaneQuality q = quality_of(c);
@@ -44,7 +44,7 @@ void PrintTo(const Fine& f, std::ostream* out) { *out << f.name; }
 
 class FineQuality : public ::testing::TestWithParam<Fine> {};
 
-TEST_P(FineQuality, MeetsTheFiguresAskedAt100000Triangles) {
+TEST_P(FineQuality, MeetsTheFiguresAt100000Triangles) {
   const PlaneQuality q = quality_of(GetParam().make(GetParam().size));
   SCOPED_TRACE(to_string(q));
   EXPECT_NEAR(static_cast<double>(q.triangles), 100000, 5000);
@@ -76,10 +76,9 @@ TEST(Turning, EighteenToOne) { expect_in_space(swirl(0.009, 4), 0.994); }
 // Straight edges of the parameter plane are arcs of space whose sagitta is nearly their length.
 TEST(Turning, FiftyOneToOne) { expect_in_space(swirl(0.0089, 7), 0.97); }
 
-// Where borders that meet at a corner part from each other, the width asks for one edge, then for two: each triangle
-// is as good as three in the place of one can be. From 4 sin(a / 2) = sqrt(2) on the second edge is long enough to
-// halve.
-TEST(Quality, OfTrianglesInCorners) {
+// Between borders that part from each other at a corner, the width needs one edge, then two: each triangle is as good
+// as three in the place of one can be. From 4 sin(a / 2) = sqrt(2) on the second edge is long enough to halve.
+TEST(Quality, TrianglesInCorners) {
   for (double degrees = 42; degrees <= 75; degrees += 1) {
     SCOPED_TRACE(degrees);
     const double a = degrees * std::numbers::pi / 180;

@@ -58,7 +58,7 @@ TEST(Orientation, AgreesWithIntegersNearCollinearAtEveryScale) {
   };
   std::array<int, 3> seen{};
   for (int i = 0; i < 4000; ++i) {
-    // c = a + k (b - a) / m, moved by a few units: collinear, or off by what doubles cannot see.
+    // c = a + k (b - a) / m, moved by a few units: collinear, or off by less than doubles resolve.
     std::array<std::array<std::int64_t, 2>, 3> p;
     const std::int64_t m = 1 + (i % 5), dx = integer(45), dy = integer(45);
     p[0] = {integer(50), integer(50)};

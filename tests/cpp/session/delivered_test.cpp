@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was delivered, as a session tells it: asked when wanted, said, written.
+// The delivered mesh as a session reports it: measured on request, in messages and in files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -70,7 +70,7 @@ class SessionDelivered : public ::testing::Test {
   Session session{monitor};
 };
 
-TEST_F(SessionDelivered, IsMeasuredOnceWhenAsked) {
+TEST_F(SessionDelivered, IsMeasuredOnceOnRequest) {
   session.make_mesh();
   const CallCounts run = session.report().calls, before = cad->calls;
   EXPECT_EQ(monitor.count(Level::summary, "deviation A0, "), 0);
@@ -88,7 +88,7 @@ TEST_F(SessionDelivered, IsMeasuredOnceWhenAsked) {
   EXPECT_EQ(d[Kind::length_ratio].values.size(), session.mesh().vertices.size());
   const double edges = static_cast<double>(d.edges.vertices.size());
   EXPECT_LT(static_cast<double>(d.calls.surface()) / static_cast<double>(session.mesh().vertices.size()), 60);
-  // Another mesh is measured anew. Uniform on a smooth patch: as it is asked.
+  // Another mesh is measured anew. Uniform on a smooth patch: as prescribed.
   session.parameters().set("hphydef", 0.05);
   session.make_mesh();
   const MeshEvaluation& fine = session.delivered();
@@ -127,7 +127,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
   session.make_mesh();
   session.write_delivered(path("a.json"));
   const std::string text = read("a.json");
-  const Json json = Json::parse(text);  // throws when it is none
+  const Json json = Json::parse(text);  // throws when it is not JSON
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"format", "mesh", "faces", "diag", "measures", "lengths_in_range", "short_edges",
@@ -139,7 +139,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
     for (const auto& n : value["histogram"]["counts"]) sum += n.get<std::int64_t>();
     EXPECT_EQ(sum, value["count"].get<std::int64_t>()) << key;
     EXPECT_EQ(value["histogram"]["counts"].size(), value["histogram"]["bounds"].size() + 1) << key;
-    EXPECT_TRUE(value["limit"].is_null()) << key;  // nothing but sizes was asked
+    EXPECT_TRUE(value["limit"].is_null()) << key;  // only sizes were prescribed
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2",
                                             "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle", "A0_bound", "A1_bound", "bound_share",
@@ -170,7 +170,7 @@ TEST_F(SessionDelivered, JsonListsFacesThatAreNotMeshedAsTheyAre) {
                          {{"reference", 8}, {"name", ""}, {"status", "failed"}, {"why", "face 8: no \"curve\""}}}));
 }
 
-TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
+TEST_F(SessionDelivered, JsonHasNullForNonFiniteNumbers) {
   MeshEvaluation nothing;
   nothing[Kind::deviation].values = {std::nan(""), infinity};
   summarise(nothing);
@@ -182,8 +182,8 @@ TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
   EXPECT_EQ(json["lengths_in_range"].get<double>(), 0);
 }
 
-TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndSaid) {
-  // By the manual an edge of unit length makes the angle: half of them are above it.
+TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndReported) {
+  // In the manual an edge of unit length makes the angle: half of them are above it.
   Parameters& p = session.parameters();
   p.set("hphy_flag", 0);
   p.set("hgeo_flag", 1);
@@ -198,7 +198,7 @@ TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndSaid) {
   EXPECT_EQ(monitor.count(Level::warning,
                           std::to_string(above) + " of " + std::to_string(d.edges.vertices.size()) + " edges ("),
             1);
-  EXPECT_EQ(monitor.count(Level::warning, "an angle with a tangent plane at their ends of more than the 8 asked"), 1);
+  EXPECT_EQ(monitor.count(Level::warning, "an angle with a tangent plane at their ends of more than the 8 prescribed"), 1);
   const Json json = Json::parse(delivered_json(session.mesh(), session.report(), d));
   EXPECT_EQ(json["measures"]["edge_angle"]["limit"].get<double>(), 8);
   EXPECT_EQ(json["measures"]["edge_angle"]["beyond"].get<std::int64_t>(), above);
@@ -230,13 +230,13 @@ TEST_F(SessionDelivered, FieldsOfTheExportAreItsValues) {
     on_curves += flat.edge_refs[e] != 0;
   }
   EXPECT_EQ(on_curves, session.mesh().edge_count());
-  // In the plane: every corner is that of the triangle of space, with its values.
+  // In the plane: every corner belongs to the triangle of space, with its values.
   session.parameters().set("option", "onesurf2d");
   const FlatMesh plane = session.exported(&d);
   EXPECT_EQ(plane.dimension, 2);
   EXPECT_EQ(field(plane, "A1").values, d[Kind::angle].values);
   EXPECT_EQ(plane.edges.size(), d.edges.vertices.size());
-  // Without measures the export is what it was.
+  // Without measures the export does not change.
   session.parameters().set("option", "allsurf3d");
   EXPECT_EQ(session.exported().edges.size(), session.mesh().edge_count());
   EXPECT_EQ(session.exported().fields.size(), 3U);
@@ -260,7 +260,7 @@ TEST_F(SessionDelivered, SphereInThePlaneHasNoValuesForFlattenedTriangles) {
   EXPECT_EQ(d.folded_triangles, 0);
   EXPECT_EQ(2 * d.edges.vertices.size(), 3 * face.triangles.size());
   EXPECT_GE(d.share_in_range(), 0.99);
-  // Lengths are those of arcs, at the poles too, where edges of (u, v) end at another longitude.
+  // Lengths are arc lengths, at the poles too, where edges of (u, v) end at another longitude.
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = session.mesh().vertices[d.edges.vertices[e][0]], q = session.mesh().vertices[d.edges.vertices[e][1]];
     const double arc = 2 * std::asin(norm(q - p) / 2) / 0.2;
@@ -318,7 +318,7 @@ TEST_F(SessionDelivered, ActionOfBlsurfEnvWritesJsonBesideIt) {
   }
 }
 
-TEST_F(SessionDelivered, ErrorsAreToldAndLoseNothing) {
+TEST_F(SessionDelivered, ErrorsAreReportedAndLoseNothing) {
   EXPECT_THROW(session.delivered(), InvalidArgument);
   EXPECT_THROW(session.write_delivered(path("a.json")), InvalidArgument);
   session.make_mesh();

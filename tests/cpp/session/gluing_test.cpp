@@ -102,7 +102,7 @@ TEST(Gluing, CutsTheRectangleOfFigure418) {
   for (const CurveMesh& curve : run.session.mesh().curves)
     if (curve.uses.size() == 1) on_free_curves += static_cast<long>(curve.vertices.size()) - 1;
   EXPECT_EQ(run.open_edges(), on_free_curves);
-  // The second mesh uses what was found.
+  // The second mesh uses the interfaces found before.
   run.session.parameters().set("hphydef", 0.3);
   run.session.make_mesh();
   EXPECT_EQ(run.euler(), 1);
@@ -123,12 +123,12 @@ Model with_references(AnalyticCad& cad) {
   return model;
 }
 
-TEST(Gluing, OfOpenCurvesKeepsReferences) {
+TEST(Gluing, OpenCurvesKeepReferences) {
   Patches run(three_patches(1e-3), 0.2, 0.01);
   const Model known = with_references(*run.cad);
   run.session.set_model(known);
   run.session.make_mesh();
-  EXPECT_EQ(run.euler(), 3);  // nothing was asked
+  EXPECT_EQ(run.euler(), 3);  // no option is set
   run.session.parameters().set("glue_open", 1);
   run.session.make_mesh();
   EXPECT_EQ(find_defects(run.session.mesh()), std::vector<std::string>{});
@@ -139,7 +139,7 @@ TEST(Gluing, OfOpenCurvesKeepsReferences) {
   std::set<int> refs;
   for (const Face& face : known.faces)
     for (const FaceCurve& curve : face.curves) refs.insert(curve.ref);
-  // Only the three parts that were cut off, and what they were glued to, have new ones.
+  // Only the three parts that were cut off, and their glued partners, have new ones.
   std::set<int> fresh;
   for (const Face& face : model.faces)
     for (const FaceCurve& curve : face.curves)
@@ -160,7 +160,7 @@ TEST(Gluing, OfOpenCurvesKeepsReferences) {
             3);
 }
 
-TEST(Gluing, OfOpenCurvesLeavesSharedOnesAlone) {
+TEST(Gluing, OpenCurvesLeaveSharedOnesAlone) {
   // Two pairs of squares; the sides x = 1 of each pair have one reference, the pairs only touch along y = 1.
   AnalyticCad cad;
   cad.faces[1] = polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0);
@@ -193,7 +193,7 @@ TEST(Gluing, LeavesGapsAboveItsTolerance) {
   EXPECT_EQ(run.euler(), 3);
 }
 
-TEST(Gluing, FindsWhatTwoShiftedSidesShare) {
+TEST(Gluing, FindsTheCommonPartOfTwoShiftedSides) {
   AnalyticCad cad;
   cad.faces[1] = polygon({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, 0);
   cad.faces[2] = polygon({{1, 1}, {3, 1}, {3, 2}, {1, 2}}, 0);
@@ -206,7 +206,8 @@ TEST(Gluing, FindsWhatTwoShiftedSidesShare) {
   EXPECT_NEAR(summarise_quality(run.session.exported()).area, 4, 1e-12);
 }
 
-// The smaller tolerance is below what circles bulge off their polylines: the end of one lies on the other all the same.
+// The smaller tolerance is below the bulge of circles off their polylines: the end of one lies on the other all the
+// same.
 TEST(Gluing, ClosesACylinderWhoseLidStartsElsewhere) {
   constexpr double two_pi = 2 * std::numbers::pi;
   for (const double eps : {1e-3, 1e-7}) {

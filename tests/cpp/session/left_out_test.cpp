@@ -116,7 +116,7 @@ TEST(FailingFaces, OnCurvesAreFoundTogether) {
   run.session.make_mesh();
   EXPECT_EQ(run.failed(), (std::set<int>{1, 2, 5, 7}));
   EXPECT_EQ(run.monitor.runs, 1);
-  // What was left out is left out of one run, not of the model.
+  // Faces are left out of one run, not of the model.
   EXPECT_EQ(run.session.model().faces[0].curves.size(), 4U);
   EXPECT_EQ(run.session.model().faces[0].left_out, "");
   run.session.set_cad(std::make_shared<AnalyticCad>(row()));
@@ -125,7 +125,7 @@ TEST(FailingFaces, OnCurvesAreFoundTogether) {
   EXPECT_EQ(run.failed(), std::set<int>{});
 }
 
-// surf1 that contradicts surf0 is told of its face, and all such faces are left out at once.
+// A surf1 that contradicts surf0 is reported for its face, and all such faces are left out at once.
 TEST(FailingFaces, WithWrongDerivativesAreFoundTogether) {
   AnalyticCad cad = row();
   for (const int face : {2, 5, 6}) {
@@ -143,7 +143,7 @@ TEST(FailingFaces, WithWrongDerivativesAreFoundTogether) {
   EXPECT_NE(run.session.mesh().faces[4].why.find("surf1 gives Su = (3, 0, 0)"), std::string::npos);
 }
 
-TEST(FailingFaces, OfAHostAreNotAsked) {
+TEST(FailingFaces, LeftOutFacesAreNotEvaluated) {
   AnalyticCad cad = row();
   for (const int face : {2, 6}) cad.faces.erase(face);  // std::map::at throws
   Row run(row());

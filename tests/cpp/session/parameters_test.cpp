@@ -72,7 +72,7 @@ TEST(ParameterTable, IsSortedAndEveryDefaultIsAllowed) {
   }
 }
 
-TEST(Parameters, KeepWhatIsSetUntilTheyAreReset) {
+TEST(Parameters, KeepValuesUntilTheyAreReset) {
   Parameters parameters;
   parameters.set("hphydef", 0.25);
   parameters.set("hphymax", 3);  // an integer is a number
@@ -134,7 +134,7 @@ TEST(Parameters, UnknownNamesGetTheNearestOne) {
   EXPECT_EQ(nearest_parameter(std::string(1000000, 'h')), "");
 }
 
-TEST(Parameters, RefuseOtherTypes) {
+TEST(Parameters, RejectOtherTypes) {
   Parameters parameters;
   EXPECT_EQ(sentence_of([&] { parameters.set("flag", 0.5); }), "parameter flag is an integer, not the real number 0.5");
   EXPECT_EQ(sentence_of([&] { parameters.set("pref", 3); }), "parameter pref is a text, not the number 3");
@@ -145,7 +145,7 @@ TEST(Parameters, RefuseOtherTypes) {
   EXPECT_EQ(sentence_of([&] { (void)parameters.text("flag"); }), "parameter flag is an integer, not a text");
 }
 
-TEST(Parameters, RefuseValuesOutOfRangeAndKeepTheOldOne) {
+TEST(Parameters, RejectValuesOutOfRangeAndKeepTheOldOne) {
   Parameters parameters;
   parameters.set("hmean_flag", 1);
   EXPECT_EQ(sentence_of([&] { parameters.set("hmean_flag", -2); }),

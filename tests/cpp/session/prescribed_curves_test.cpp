@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges prescribed on curves, through a whole run: all faces keep them, the mesh conforms, what disagrees is told.
+// Edges prescribed on curves, through a whole run: all faces keep them, the mesh conforms, contradictions are reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ Model model_of_two_squares() {
   return model;
 }
 
-TEST(PrescribedCurves, OfTwoFacesHoldInBoth) {
+TEST(PrescribedCurves, TwoFacesKeepThemInBoth) {
   for (const bool by_second : {false, true}) {
     Meshing run(two_squares(), 0.1);
     for (const char* name : {"CheckCloseEdges", "CheckAdjacentEdges"}) run.session.parameters().set(name, 20);
@@ -139,7 +139,7 @@ TEST(PrescribedCurves, OnASeamHoldOnBothOfItsSides) {
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(lengths[5 - k], 2.0 / 12 * (1 + 2 * double(k) / 5), 1e-10);
 }
 
-TEST(PrescribedCurves, OfGluedFacesHoldInBoth) {
+TEST(PrescribedCurves, GluedFacesKeepThemInBoth) {
   Meshing run(two_squares(), 0.1);
   Model model = testing::unglued(*run.cad);
   model.faces[1].curves[3].edges = told(Progression::equal, 3);
@@ -147,7 +147,7 @@ TEST(PrescribedCurves, OfGluedFacesHoldInBoth) {
   EXPECT_EQ(run.lengths(2).size(), 3U);
 }
 
-TEST(PrescribedCurves, AreToldWhereSomethingWantsOthers) {
+TEST(PrescribedCurves, AreReportedWhereOtherSizesContradict) {
   Meshing run(testing::hemisphere(), 0.5);
   run.session.parameters().set("hgeo_flag", 1);
   run.session.parameters().set("geo_guarantee", 1);
@@ -159,7 +159,7 @@ TEST(PrescribedCurves, AreToldWhereSomethingWantsOthers) {
               run.monitor.says("the edges prescribed on it stay, although geo_guarantee"));
 }
 
-TEST(PrescribedCurves, AreToldWhereElementsHalveThem) {
+TEST(PrescribedCurves, AreReportedWhereElementsHalveThem) {
   for (const char* element : {"p2", "q1.0", "q1.1"}) {
     Meshing run(two_squares(), 0.2);
     run.session.parameters().set("element", element);
@@ -172,7 +172,7 @@ TEST(PrescribedCurves, AreToldWhereElementsHalveThem) {
   }
 }
 
-TEST(PrescribedCurves, OfNarrowFacesKeepThemFromCollapsing) {
+TEST(PrescribedCurves, KeepNarrowFacesFromCollapsing) {
   AnalyticCad cad;
   cad.faces[1] = {flat_jet, testing::rectangle({0, 0}, {1, 1})};
   cad.faces[2] = {flat_jet, testing::rectangle({1, 0}, {1.001, 1})};
@@ -191,7 +191,7 @@ TEST(PrescribedCurves, OfNarrowFacesKeepThemFromCollapsing) {
   }
 }
 
-// A ring whose outer circle is told to be a triangle that crosses the inner one.
+// A ring whose outer circle is prescribed as a triangle that crosses the inner circle.
 TEST(PrescribedCurves, ThatCrossFailTheirFaceWithASentence) {
   AnalyticCad cad;
   AnalyticFace ring{flat_jet, {testing::arc({0, 0}, 1, 0, 2 * pi), testing::arc({0, 0}, 0.8, 0, -2 * pi)}};
@@ -223,7 +223,7 @@ TEST(PrescribedCurves, ThatContradictThemselvesEndTheRunAndLeaveNoFaceOut) {
   EXPECT_THROW(run.session.make_mesh(), InvalidModel);
 }
 
-TEST(PrescribedCurves, OneEdgeTwiceBetweenTwoPointsIsRefused) {
+TEST(PrescribedCurves, OneEdgeTwiceBetweenTwoPointsIsRejected) {
   AnalyticCad cad;
   cad.faces[1] = {flat_jet, {testing::arc({0, 0}, 1, 0, pi), testing::arc({0, 0}, 1, pi, 2 * pi)}};
   Meshing run(cad, 0.5);
@@ -281,7 +281,7 @@ TEST(Wires, AreEdgesOfTheMeshAndShareItsVertices) {
   EXPECT_EQ(run.lengths(18).size(), 30U);
   EXPECT_EQ(run.curve(18).vertices.front(), run.curve(2).vertices.back());  // point 3
   EXPECT_EQ(mesh.loose_edge_count(), 93U);
-  // Whether other edges are exported or not.
+  // With and without the export of other edges.
   for (const int flag : {0, 1}) {
     run.session.parameters().set("flag", flag);
     const FlatMesh flat = run.session.exported();

@@ -46,7 +46,7 @@ std::string sentence_of(const BackgroundMesh& mesh) {
   return "";
 }
 
-TEST(TriangleSearch, FindsWhatAllTrianglesTogetherSay) {
+TEST(TriangleSearch, MatchesAllTrianglesTogether) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int round = 0; round < 30; ++round) {
@@ -112,7 +112,7 @@ TEST(BackgroundField, PointsOutsideTakeTheNearestValueAndAreCounted) {
   EXPECT_EQ(field.report(), BackgroundReport{});
 }
 
-TEST(BackgroundField, OfASurfaceInSpaceIsFoundAtItsNearestPoint) {
+TEST(BackgroundField, LooksUpTheNearestPointOfASurfaceInSpace) {
   BackgroundMesh mesh = grid(24, sphere);
   for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(2 + p.z());
   BackgroundField field(mesh);
@@ -128,7 +128,7 @@ TEST(BackgroundField, OfASurfaceInSpaceIsFoundAtItsNearestPoint) {
   EXPECT_EQ(field.report().outside, 1);
 }
 
-TEST(BackgroundField, LawsAreThoseOfTheInterpolationAlongEdges) {
+TEST(BackgroundField, LawsMatchTheInterpolationAlongEdges) {
   BackgroundMesh mesh;
   mesh.dimension = 2;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -184,8 +184,8 @@ TEST(BackgroundField, EachFaceHasTheTrianglesThatNameIt) {
   EXPECT_EQ(named.on_surface(3, {0.2, 0.2}, {}).kind, Prescription::Kind::none);
 }
 
-TEST(BackgroundField, OfASessionsMeshIsLookedUpInEachParameterPlane) {
-  // Two faces that lie on each other in space, and are told apart by their parameters.
+TEST(BackgroundField, LooksUpASessionsMeshInEachParameterPlane) {
+  // Two faces that lie on each other in space, and differ by their parameters.
   SurfaceMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.vertex_ref.resize(6);
@@ -270,7 +270,7 @@ TEST(BackgroundField, MetricsInTetrahedraAreOneOnTheFacesBetween) {
   EXPECT_EQ(one.at_point(1, mesh.vertices[2]).space, mesh.values.space[2]);
 }
 
-TEST(BackgroundField, EdgesOfCurvesSpeakOfCurvesAlone) {
+TEST(BackgroundField, EdgesOfCurvesGovernCurvesAlone) {
   BackgroundMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}};
   mesh.values.sizes = {1, 4, 2};
@@ -303,7 +303,7 @@ TEST(BackgroundField, SidesOfTrianglesAreNoEdgesOfTheirOwn) {
   }
 }
 
-TEST(BackgroundField, RefusesWhatItCannotUse) {
+TEST(BackgroundField, RejectsUnusableInput) {
   BackgroundMesh sound = grid(1, flat);
   sound.values.sizes = {1, 1, 1, 1};
   EXPECT_EQ(sentence_of(sound), "");
@@ -341,7 +341,7 @@ TEST(BackgroundField, RefusesWhatItCannotUse) {
   EXPECT_EQ(sentence_of(mesh), "the background mesh: vertex 1 (from 0) has a metric that is not positive definite");
   mesh.values.space.clear();
   mesh.values.parameter.resize(4);
-  EXPECT_EQ(sentence_of(mesh), "the background mesh is a surface in space, but its metrics are those of a plane");
+  EXPECT_EQ(sentence_of(mesh), "the background mesh is a surface in space, but its metrics belong to a plane");
   mesh.dimension = 2;
   mesh.values.parameter[0].c = -1;
   EXPECT_EQ(sentence_of(mesh), "the background mesh: vertex 0 (from 0) has a metric that is not positive definite");

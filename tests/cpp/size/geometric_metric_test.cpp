@@ -54,8 +54,8 @@ TEST(GeometricSizes, FiguresOfThePapers) {
   EXPECT_NEAR(h[1], 2 * std::sqrt(eps * (2 - eps)) * 4 * std::sqrt(1 - 0.75 * 0.75), 1e-14);
 }
 
-// The ellipse stays inside the curve of Euler's formula: in no direction is a size larger than that of the radius of
-// the normal section there (HDR eq. 4.33, 4.39; RR-2928 eq. 42).
+// The ellipse stays inside the curve of Euler's formula: no size exceeds the size by the radius of the normal section
+// in its direction (HDR eq. 4.33, 4.39; RR-2928 eq. 42).
 TEST(GeometricSizes, NoDirectionExceedsItsOwnRadius) {
   for (const double ratio : {1.0, 1.001, 4.0, 1e3, 1e6})
     for (const GeometricCriterion c : criteria) {

@@ -251,7 +251,7 @@ TEST(Sources, CurvesAndPointsWithoutAnAnswerTakeTheMeanOfTheSurfacesBeside) {
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.05, 1e-12);
 }
 
-TEST(Sources, WhereNobodyAnswersTheSizeIsTheDefaultOrInterpolated) {
+TEST(Sources, WithoutAnswersTheSizeIsTheDefaultOrInterpolated) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   FieldSource source;
@@ -264,8 +264,8 @@ TEST(Sources, WhereNobodyAnswersTheSizeIsTheDefaultOrInterpolated) {
   expect_near(metric_at(rules, s.cad, 0, {0.4, 0.1}), {k, 0, k}, 1e-12);
   p.physical = PhysicalSizes::asked;
   SizeRules interpolating = s.rules(p);
-  expect_near(metric_at(interpolating, s.cad, 0, {0.4, 0.1}), {25, 0, 25}, 1e-12);  // what metric_at says is around
-  EXPECT_NEAR(interpolating.on_curve(0, middle, 0.4), p.hphydef, 1e-12);            // nobody answers at its ends either
+  expect_near(metric_at(interpolating, s.cad, 0, {0.4, 0.1}), {25, 0, 25}, 1e-12);  // the metric around, by metric_at
+  EXPECT_NEAR(interpolating.on_curve(0, middle, 0.4), p.hphydef, 1e-12);            // no answer at its ends either
 }
 
 TEST(Sources, AllAnswersCount) {
@@ -298,7 +298,7 @@ TEST(Sources, SizesInTheTangentPlaneAreClamped) {
   EXPECT_NEAR(rules.on_curve(0, middle, 0.4), p.hphymax, 1e-12);
 }
 
-// RR-2928 sec. 5.3 on a cylinder: the geometry asks for h1 along u, hgeomax along v.
+// RR-2928 sec. 5.3 on a cylinder: the geometry prescribes h1 along u, hgeomax along v.
 TEST(Sources, AreCombinedWithTheGeometryInOneOfTwoWays) {
   FourPatches s(cylinder(0.7));
   const double h1 = 2 * std::sin(8 * pi / 180) * 0.7;
@@ -320,7 +320,7 @@ TEST(Sources, AreCombinedWithTheGeometryInOneOfTwoWays) {
   EXPECT_NEAR(scaled.ask_on_curve(0, middle, 0.4).physical, 0.5, 1e-12);
 }
 
-TEST(Sources, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {
+TEST(Sources, UnusableMetricsHaveASentenceWithThePlaceAndTheMatrix) {
   FourPatches s;
   Prescription answer;
   FieldSource source = field_of_space([&](Vec3) { return answer; });

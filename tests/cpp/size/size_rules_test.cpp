@@ -45,7 +45,7 @@ TEST(SizeRules, MinimumAndGeometricMeansOfTheFourPatches) {
   EXPECT_DOUBLE_EQ(s.rules(p).on_curve(0, middle, 0.4), 0.45);
 }
 
-TEST(SizeRules, CurvesAreAskedBeforeSurfacesAndPointsBeforeCurves) {
+TEST(SizeRules, CurvesPrecedeSurfacesAndPointsPrecedeCurves) {
   FourPatches s;
   // Curve 1 answers through its second use only: face 4 sees it as its curve 1, from t = 0 outside to 1 at the centre.
   s.cad.hphyc = [](int face, int ic, double t) {
@@ -54,7 +54,7 @@ TEST(SizeRules, CurvesAreAskedBeforeSurfacesAndPointsBeforeCurves) {
   SizeRules rules = s.rules(parameters(2, 0));
   EXPECT_DOUBLE_EQ(rules.on_curve(0, middle, 0.4), 0.3 + 0.1 * 0.6);
   EXPECT_DOUBLE_EQ(rules.on_curve(1, middle, 0.4), 0.075);
-  EXPECT_DOUBLE_EQ(rules.at_point(0), 0.4);  // the one curve that answers, at its end; no surface is asked
+  EXPECT_DOUBLE_EQ(rules.at_point(0), 0.4);  // the only curve that answers, at its end; no surface is called
   EXPECT_DOUBLE_EQ(rules.at_point(1), 0.3);
   s.cad.hphyp = [](int ref) { return ref == 6 ? std::optional<double>(0.01) : std::nullopt; };
   SizeRules with_point = s.rules(parameters(2, 0));
@@ -62,7 +62,7 @@ TEST(SizeRules, CurvesAreAskedBeforeSurfacesAndPointsBeforeCurves) {
   EXPECT_DOUBLE_EQ(with_point.at_point(1), 0.3);
 }
 
-TEST(SizeRules, InterpolatesBetweenTheEndsWhenNobodyAnswers) {
+TEST(SizeRules, InterpolatesBetweenTheEndsWithoutAnswers) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   s.cad.hphyp = [](int ref) { return ref == 6 ? std::optional<double>(0.01) : std::optional<double>(0.5); };
@@ -74,7 +74,7 @@ TEST(SizeRules, InterpolatesBetweenTheEndsWhenNobodyAnswers) {
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.255 - 0.245 * std::cos(0.4 * pi), 1e-15);
 }
 
-TEST(SizeRules, NobodyAtAllMeansTheDefault) {
+TEST(SizeRules, NoAnswerMeansTheDefault) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   SizeRules rules = s.rules(parameters(2, 0));
@@ -94,7 +94,7 @@ TEST(SizeRules, EveryAnswerIsClampedBeforeTheMean) {
   EXPECT_EQ(s.rules(p).constant(), 0.94);
 }
 
-TEST(SizeRules, ConstantSizeAsksNobody) {
+TEST(SizeRules, ConstantSizeNeedsNoCalls) {
   FourPatches s;
   SizeRules rules = s.rules(parameters(1, 0));
   EXPECT_EQ(rules.constant(), 0.094);
@@ -107,7 +107,7 @@ TEST(SizeRules, ConstantSizeAsksNobody) {
   EXPECT_FALSE(s.rules(parameters(1, 1)).constant());
 }
 
-TEST(SizeRules, PointsAreAskedOnce) {
+TEST(SizeRules, PointsAreEvaluatedOnce) {
   FourPatches s;
   SizeRules rules = s.rules(parameters(2, 0));
   rules.at_point(0);
@@ -238,7 +238,7 @@ TEST(SizeRules, PolesTakeTheRadiusBesideThem) {
   SizeRules rules(model, topology, cad, parameters(0, 1));
   const double expected = 4 * std::sin(8 * pi / 180);
   EXPECT_NEAR(rules.at_point(1), expected, 1e-9);
-  // Inside a face, the nearest sound point of the batch speaks for the pole.
+  // Inside a face, the pole takes the answer of the nearest sound point of the batch.
   const Vec2 uv[] = {{0.5, pi / 2}, {0.5, 1.2}};
   const SurfaceJet jets[] = {cad.surfaces[1].jet(uv[0]), cad.surfaces[1].jet(uv[1])};
   double h[2];
@@ -248,7 +248,8 @@ TEST(SizeRules, PolesTakeTheRadiusBesideThem) {
 }
 
 TEST(SizeRules, ASeamCountsOncePerUseAndItsEndOncePerCorner) {
-  // A cylinder whose lower circle touches a plane: at the seam's foot the cylinder has two corners, the plane one.
+  // A cylinder whose lower circle touches a plane: at the lower end of the seam the cylinder has two corners, the plane
+  // one.
   AnalyticCad cad;
   cad.surfaces[1] = cylinder(1);
   cad.surfaces[2] = flat();
@@ -273,7 +274,7 @@ TEST(SizeRules, ASeamCountsOncePerUseAndItsEndOncePerCorner) {
   EXPECT_DOUBLE_EQ(rules.at_point(0), (0.1 + 0.1 + 0.4) / 3);
 }
 
-TEST(SizeRules, RefusesParametersThatContradictThemselves) {
+TEST(SizeRules, RejectsParametersThatContradictThemselves) {
   FourPatches s;
   EXPECT_THROW(s.rules(parameters(0, 0)), InvalidArgument);
   const auto with = [](auto change) {

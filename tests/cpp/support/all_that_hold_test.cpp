@@ -9,7 +9,7 @@
 namespace carreau {
 namespace {
 
-TEST(AllThatHold, AreThoseOfALoopForAnyNumberOfThreadsAndProcesses) {
+TEST(AllThatHold, MatchALoopForAnyNumberOfThreadsAndProcesses) {
   for (const std::size_t n : {0, 1, 32'768, 32'769, 200'001}) {
     const auto holds = [](std::size_t i) { return i % 7 == 3 || i > 150'000; };
     std::vector<std::int32_t> expected;
@@ -27,7 +27,7 @@ TEST(AllThatHold, AreThoseOfALoopForAnyNumberOfThreadsAndProcesses) {
   }
 }
 
-TEST(AllThatHold, StopsWhenAsked) {
+TEST(AllThatHold, StopsOnRequest) {
   Monitor monitor;
   monitor.request_stop();
   EXPECT_THROW((void)all_that_hold(10, {}, "", monitor, [](std::size_t) { return true; }), Cancelled);

@@ -20,7 +20,7 @@ struct Boxes {
   std::vector<Vec3> centres;
 };
 
-/// Every third one is where the one before it is.
+/// Every third box equals its predecessor.
 Boxes random_boxes(int n) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0, 1), side(0, 0.1);
@@ -84,7 +84,7 @@ TEST(BoxTree, FindsAllBoxesThatMeetOne) {
   }
 }
 
-TEST(BoxTree, OfNothingFindsNothing) {
+TEST(BoxTree, EmptyTreeFindsNothing) {
   const BoxTree tree;
   EXPECT_TRUE(tree.empty());
   tree.all_that_meet([](const Box&) { return true; }, [](const BoxTree::Node&) { FAIL(); });
@@ -92,7 +92,7 @@ TEST(BoxTree, OfNothingFindsNothing) {
                      [](const BoxTree::Node&) { FAIL(); });
 }
 
-TEST(BoxTree, StopsWhenItIsAskedTo) {
+TEST(BoxTree, StopsOnRequest) {
   const Boxes all = random_boxes(300'000);
   Monitor stop;
   stop.request_stop();

@@ -39,7 +39,7 @@ TEST(FormatNumber, IsTheSameInEveryLocale) {
   std::setlocale(LC_ALL, "C");
 }
 
-TEST(ShortNumber, HasNoMoreDigitsThanAsked) {
+TEST(ShortNumber, HasNoMoreDigitsThanRequested) {
   EXPECT_EQ(short_number(4.1658e-22), "4.166e-22");  // 4166 / 1e25 is no double of four digits
   EXPECT_EQ(short_number(7.366276317363692e-10), "7.366e-10");
   EXPECT_EQ(short_number(-123456), "-123500");
@@ -78,7 +78,7 @@ TEST(ParseNumber, AcceptsFortranExponentsAndASign) {
   EXPECT_EQ(value, 0);
 }
 
-TEST(ParseNumber, RefusesWhatIsNotWhollyANumberAndLeavesTheValue) {
+TEST(ParseNumber, RejectsOtherTextAndLeavesTheValue) {
   double value = 7;
   for (const char* word : {"", "1.5x", "x", "+-1", "1 ", "--1", "1.5dd3", "+"})
     EXPECT_FALSE(parse_number(word, value)) << word;

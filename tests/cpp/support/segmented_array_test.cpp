@@ -8,7 +8,7 @@
 namespace carreau {
 namespace {
 
-TEST(SegmentedArray, HoldsWhatWasAppended) {
+TEST(SegmentedArray, HoldsAppendedValues) {
   SegmentedArray<int, 8> array;
   EXPECT_EQ(array.size(), 0U);
   for (int k = 0; k < 100; ++k) array.push_back(k * k);
@@ -26,8 +26,8 @@ TEST(SegmentedArray, AppendsDefaultValues) {
   for (std::size_t k = 0; k < array.size(); ++k) EXPECT_EQ(array[k].number, 7);
 }
 
-// Those who hold a reference may append.
-TEST(SegmentedArray, NeverMovesWhatItHolds) {
+// A holder of a reference may append.
+TEST(SegmentedArray, NeverMovesItsValues) {
   SegmentedArray<double, 4> array;
   std::vector<const double*> places;
   for (int k = 0; k < 1000; ++k) {

@@ -270,7 +270,7 @@ TEST(SteppedTasks, NoneAreNothing) {
   EXPECT_NO_THROW(carreau::run_stepped({}, {.threads = 4}, monitor));
 }
 
-TEST(RunEach, CallsEveryIndexOnceAndThrowsWhatTheFirstDoes) {
+TEST(RunEach, CallsEveryIndexOnceAndThrowsTheFirstException) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   for (const int threads : {1, 2, 8})
     for (const std::size_t n : {0U, 1U, 7U, 1000U}) {

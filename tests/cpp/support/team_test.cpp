@@ -19,7 +19,7 @@ namespace {
 
 using testing::in_processes;
 
-// Each process is heard by all, in the order of ranks, and what it gives is its own.
+// All processes receive the data of each process, in the order of ranks.
 TEST(Team, ProcessesGiveInTurn) {
   constexpr int n = 4;
   std::vector<std::vector<std::string>> heard(n);
@@ -34,7 +34,7 @@ TEST(Team, ProcessesGiveInTurn) {
   for (const auto& all : heard) EXPECT_EQ(all, (std::vector<std::string>{"", "x", "xx", "xxx"}));
 }
 
-// One that cannot read what comes leaves, and the others do not wait for it.
+// A process that cannot read its input leaves, and the others do not wait for it.
 TEST(Team, OneThatLeavesInItsTurnIsNotWaitedFor) {
   const auto thrown = in_processes(3, [&](Team& team) {
     team.exchange_in_turn("turn", "bytes", [&](int rank, const std::string&) {
@@ -58,7 +58,7 @@ TEST(Team, EveryJobIsTakenOnceInEachRound) {
   for (const auto& times : taken) EXPECT_EQ(times, static_cast<int>(rounds));
 }
 
-TEST(Team, ExchangeGivesWhatEachRankHasGiven) {
+TEST(Team, ExchangeGivesTheBytesOfEachRank) {
   in_processes(4, [](Team& team) {
     const std::string mine(static_cast<std::size_t>(team.rank()), 'x');
     const std::vector<std::string> all = team.exchange("step", mine);
@@ -84,7 +84,7 @@ TEST(Team, AnErrorAfterTheLastStepReachesAllAsWell) {
   for (const std::size_t r : {1, 2}) EXPECT_EQ(thrown[r], "rank 0 of 3: there is not enough memory");
 }
 
-TEST(Team, RanksAtDifferentStepsAreTold) {
+TEST(Team, RanksAtDifferentStepsAreReported) {
   const auto thrown = in_processes(2, [](Team& team) { team.exchange(team.rank() == 0 ? "curves" : "patches", ""); });
   EXPECT_EQ(thrown[0],
             "the processes do not make the same mesh: rank 1 is at \"patches\" (step 1), rank 0 at \"curves\" (step 1)");
@@ -114,7 +114,7 @@ TEST(Team, DifferentValuesNameTheRank) {
 
 std::string squared(std::size_t i) { return std::to_string(i * i); }
 
-TEST(DealtWork, ReachesAllWhoeverDidIt) {
+TEST(DealtWork, ReachesAllProcesses) {
   for (const int threads : {1, 3}) {
     std::vector<std::atomic<int>> times(100);
     const auto thrown = in_processes(4, [&](Team& team) {
@@ -200,7 +200,7 @@ TEST(SharedRows, AreMadeOnceAndReachAll) {
   for (const auto& each : times) EXPECT_EQ(each, 3);
 }
 
-TEST(SharedWork, ResultsAreThoseOfTheirNumbers) {
+TEST(SharedWork, ResultsMatchTheirNumbers) {
   const auto work = [](std::size_t i, Monitor&) { return std::string(i, 'x'); };
   const auto put = [](PacketWriter& packet, const std::string& text) { packet.put(std::string_view(text)); };
   const auto get = [](PacketReader& packet) { return packet.text(); };
@@ -241,7 +241,7 @@ TEST(SharedError, KeepsClassSentenceAndPlace) {
   EXPECT_THROW(SharedError::of(std::make_exception_ptr(std::logic_error("f"))).raise(), std::runtime_error);
 }
 
-TEST(Packet, GivesBackWhatWasPut) {
+TEST(Packet, RestoresItsValues) {
   PacketWriter packet;
   packet.put(std::int64_t{-5}), packet.put(0.1), packet.put(true), packet.put(std::string_view("text"));
   packet.put(std::vector<std::int32_t>{1, -2}), packet.put(std::vector<Vec3>{Vec3{1, 2, 3}});
@@ -258,7 +258,7 @@ TEST(Packet, GivesBackWhatWasPut) {
   EXPECT_TRUE(reader.at_end());
 }
 
-TEST(Packet, RefusesBytesThatEndEarly) {
+TEST(Packet, RejectsBytesThatEndEarly) {
   PacketWriter packet;
   packet.put(std::vector<double>(10, 1.));
   for (std::size_t n = 0; n < packet.bytes().size(); ++n) {
@@ -268,13 +268,13 @@ TEST(Packet, RefusesBytesThatEndEarly) {
 }
 
 TEST(Checksum, IsFnv1a) {
-  // Of the authors' test vectors.
+  // From the authors' test vectors.
   EXPECT_EQ(checksum(""), "cbf29ce484222325");
   EXPECT_EQ(checksum("a"), "af63dc4c8601ec8c");
   EXPECT_EQ(checksum("foobar"), "85944171f73967e8");
 }
 
-TEST(Checksum, OfLongArraysTellsEachBitAndOrder) {
+TEST(Checksum, DependsOnEachBitAndTheOrderOfLongArrays) {
   std::vector<std::int32_t> values(101);
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = static_cast<std::int32_t>(k);
   const auto sum = [](const std::vector<std::int32_t>& of) {

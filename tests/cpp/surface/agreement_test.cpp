@@ -90,7 +90,7 @@ TEST_P(SurfaceAgreement, WhateverTheGeometricRule) {
         }
 }
 
-TEST_P(SurfaceAgreement, OfOneSize) {
+TEST_P(SurfaceAgreement, HoldsForOneSize) {
   const AnalyticCad cad = GetParam().make();
   for (const double h : {0.05, 0.2, 0.4, 0.8}) {
     SCOPED_TRACE(h);
@@ -182,8 +182,8 @@ TEST(AgreementBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
   }
 }
 
-// As it is where such edges are left alone: no division makes the triangles on them agree with the surface, and none
-// goes on until vertices coincide. That they are turned over is told.
+// If such edges are left alone, no division makes the triangles on them agree with the surface, and divisions end
+// before vertices coincide. The mesh reports that they are turned over.
 TEST(AgreementBesideChords, AreNotDividedForEver) {
   Fillet run(2 * pi, 8.8, [](Parameters& p) {
     by_direction(p, 40);

@@ -73,7 +73,7 @@ TEST(BadModels, ASoundOneIsMeshed) {
   EXPECT_TRUE(outcome.sound);
 }
 
-// A host's gap stays what it is when edges become smaller than four times it.
+// A host's gap does not change when edges become smaller than four times the gap.
 TEST(BadModels, CornerWithAGapClosesAtAnySize) {
   AnalyticCad cad = square();
   cad.faces[1].curves[0] = segment({0, 0}, {1, -0.004});
@@ -137,7 +137,7 @@ TEST(BadModels, CurveWithoutLength) {
   expect_refused(try_mesh(none, square_model()), "no extent");
 }
 
-// A cylinder whose host says that it closes after six radians.
+// A cylinder whose host declares that it closes after six radians.
 TEST(BadModels, PeriodThatIsNotOne) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
@@ -167,7 +167,7 @@ TEST(BadModels, SurfaceThatJumps) {
   EXPECT_TRUE(outcome.sound);
 }
 
-// Nor where the step, which goes through the whole face, is a few edges high: triangles without area lay along it.
+// Likewise for a step of a few edges through the whole face: triangles without area lay along it.
 TEST(BadModels, SurfaceThatJumpsByAFewEdges) {
   AnalyticCad cad = square();
   cad.faces[2] = {[](Vec2 p) {
@@ -205,8 +205,8 @@ TEST(BadModels, SurfaceThatJumpsInManyPlaces) {
   }
 }
 
-// Derivatives vanish on one border (a cusp): edges there are many times longer than these say, and the surface is
-// continuous.
+// Derivatives vanish on one border (a cusp): edges there are many times longer than the derivatives suggest, and the
+// surface is continuous.
 TEST(BadModels, DerivativesThatVanishOnABorderAreNoJump) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
@@ -219,7 +219,7 @@ TEST(BadModels, DerivativesThatVanishOnABorderAreNoJump) {
   EXPECT_TRUE(outcome.sound);
 }
 
-// A face that shrinks to a line in space while its curves do not say so.
+// A face that shrinks to a line in space although its curves do not.
 TEST(BadModels, SurfaceWithoutArea) {
   AnalyticCad cad = square();
   cad.faces[2] = {[](Vec2 p) {
@@ -258,7 +258,7 @@ TEST(BadModels, SurfaceThatIsOnePointInside) {
 // ---- tiny edges (eps_collapse) ----
 
 // A hole that is tangent to a side: CAD systems leave two tiny edges there, one in either loop, on the same place.
-TEST(TinyEdges, OfTwoLoopsOnOnePlaceBecomeOnePoint) {
+TEST(TinyEdges, TwoLoopsOnOnePlaceBecomeOnePoint) {
   constexpr double tiny = 1e-10;
   AnalyticCad cad;
   cad.faces[1] = {

@@ -65,7 +65,7 @@ Intersections all_crossings(const SurfaceMesh& mesh) {
 }
 std::int64_t crossings(const SurfaceMesh& mesh) { return all_crossings(mesh).count; }
 
-// What meshing has found is what a search in its mesh finds.
+// The crossings that meshing has found equal the result of a search in its mesh.
 void expect_known(const Session& session) {
   const Intersections found = all_crossings(session.mesh());
   ASSERT_TRUE(session.knows_crossings(found.pairs.size()));
@@ -93,8 +93,8 @@ TEST(CloseWalls, ThatCrossByTheirChordsAreParted) {
     const auto parted = meshed(cad, 10, 1, monitor);
     EXPECT_EQ(crossings(parted->mesh()), 0);
     EXPECT_TRUE(equal(parted->mesh(), meshed(cad, 10, 4, monitor)->mesh()));
-    // An edge of length h leaves the sphere by h^2 / 8, a triangle by h^2 / 6: no need of edges below half of what
-    // parts the walls.
+    // An edge of length h leaves the sphere by h^2 / 8, a triangle by h^2 / 6: edges need not be below half of the
+    // distance of the walls.
     const double h = std::sqrt(6 * gap) / 2, area = 4 * pi * (1 + (1 - gap) * (1 - gap));
     EXPECT_LT(static_cast<double>(parted->mesh().triangle_count()), area / (std::sqrt(3.) / 4 * h * h));
   }
@@ -108,7 +108,7 @@ TEST(CloseWalls, ThatCrossOrCoincideThemselvesStayAsTheyAre) {
     const auto as_it_is = meshed(cad, 0, 1, monitor), tried = meshed(cad, 10, 1, monitor);
     EXPECT_GT(crossings(as_it_is->mesh()), 0);
     EXPECT_TRUE(equal(as_it_is->mesh(), tried->mesh()));
-    EXPECT_FALSE(as_it_is->knows_crossings(0));  // nobody has looked
+    EXPECT_FALSE(as_it_is->knows_crossings(0));  // no search yet
     expect_known(*tried);
   }
 }
@@ -148,7 +148,7 @@ TEST(CloseWalls, EffortBoundsTheWorkOfRounds) {
   }
 }
 
-TEST(CloseWalls, LevelsOfEffortAreThoseOfTheSynonyms) {
+TEST(CloseWalls, LevelsOfEffortMatchTheSynonyms) {
   Monitor monitor;
   const AnalyticCad cad = spheres(0.97, 0);
   const auto at = [&](int effort, int rounds, int trials) {

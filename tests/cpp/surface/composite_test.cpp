@@ -95,7 +95,7 @@ struct PatchCase {
 };
 class SmoothPatch : public ::testing::TestWithParam<PatchCase> {};
 
-TEST_P(SmoothPatch, Near100000TrianglesMeetsTheQualityAsked) {
+TEST_P(SmoothPatch, Near100000TrianglesMeetsTheQuality) {
   const PatchCase& c = GetParam();
   const MeshedCase run(c.make(), c.size);
   EXPECT_NEAR(static_cast<double>(run.quality.triangles), 100000, 30000);
@@ -167,14 +167,14 @@ TEST(Teapot, BordersAreNoWorseThanTheMiddle) {
   EXPECT_GE(q2[q2.size() / 100], 0.7);
 }
 
-TEST(Teapot, FineMeshMeetsTheQualityAsked) {
+TEST(Teapot, FineMeshMeetsTheQuality) {
   const MeshedCase run(testing::teapot(), 0.035);
   EXPECT_GE(run.quality.q2.mean, 0.990);
   EXPECT_GE(run.quality.q2.p1, 0.89);
   EXPECT_GE(run.quality.q2.min, 0.4);
 }
 
-TEST(Teapot, GeometricMeshMeetsTheQualityAsked) {
+TEST(Teapot, GeometricMeshMeetsTheQuality) {
   const MeshedCase run(testing::teapot(), 0, [](Parameters& p) {
     p.set("hphy_flag", 0);
     p.set("hgeo_flag", 1);

@@ -60,7 +60,7 @@ struct Cracked {
 
 const std::vector<testing::AnalyticCurve> buried{segment({1, 2}, {3, 2.5})};
 
-TEST(Cracks, AreWeldedUnlessTheyAreWanted) {
+TEST(Cracks, AreWeldedUnlessRequested) {
   const Cracked welded(buried, 0), open(buried, 1);
   EXPECT_EQ(welded.euler_and_open().first, 1);
   EXPECT_EQ(welded.mesh().triangle_count(), open.mesh().triangle_count());
@@ -114,7 +114,7 @@ TEST(Cracks, ThatMeetPartAsManyAsTheyAre) {
   EXPECT_EQ(loop.euler_and_open().first, 1);  // a ring and a disc
 }
 
-TEST(Cracks, OfAllElements) {
+TEST(Cracks, OpenInAllElements) {
   for (const char* element : {"p2", "q1.0", "q1.1", "q2.0"}) {
     const Cracked welded(buried, 0, element), open(buried, 1, element);
     EXPECT_EQ(find_defects(open.mesh()), std::vector<std::string>{}) << element;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges of curves against their curves (HDR sec. 2.6): A0 and A1 in closed form, limits, and what geo_guarantee keeps.
+// Edges of curves against their curves (HDR sec. 2.6): A0 and A1 in closed form, limits, and the guarantee of
+// geo_guarantee.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ struct Meshed {
     session->make_mesh();
   }
   [[nodiscard]] const MeshEvaluation& delivered() const { return session->delivered(); }
-  /// Of edges of curves.
+  /// Values of edges of curves.
   [[nodiscard]] std::vector<double> values(Kind kind) const {
     std::vector<double> known = delivered()[kind].values;
     std::erase_if(known, [](double x) { return std::isnan(x); });
@@ -36,7 +37,7 @@ struct Meshed {
   }
   [[nodiscard]] std::int64_t curve_edges() const {
     std::int64_t count = 0;
-    for (const CurveMesh& curve : session->mesh().curves)  // those that vanish have no vertices
+    for (const CurveMesh& curve : session->mesh().curves)  // curves that vanish have no vertices
       count += std::max<std::int64_t>(static_cast<std::int64_t>(curve.vertices.size()), 1) - 1;
     return count;
   }
@@ -58,7 +59,7 @@ TEST(CurveAccuracy, ChordsOfACircleHaveTheirClosedForms) {
   }
 }
 
-TEST(CurveAccuracy, FourEdgesOfADiscAreToldWhenFewerDegreesAreAsked) {
+TEST(CurveAccuracy, FourEdgesOfADiscAreReportedForASmallAngle) {
   const auto asked = [](double angle, int guarantee) {
     return Meshed(disc(), 1, [=](Parameters& p) {
       p.set("hphy_flag", 0), p.set("hgeo_flag", 1), p.set("angle_mesh", angle), p.set("geo_guarantee", guarantee);
@@ -143,8 +144,8 @@ TEST(CurveAccuracy, LinesOfIndependentMeshesAreMeasuredToo) {
 }
 
 TEST(CurveAccuracy, TrianglesHaveTheAnglesOfTheirVertices) {
-  // RT-0232 sec. 3.3: the plane of a triangle and the tangent planes at its three vertices. Those of a sphere are one
-  // angle, asin of the radius of the circle around.
+  // RT-0232 sec. 3.3: the plane of a triangle and the tangent planes at its three vertices. On a sphere all three
+  // angles are asin of the radius of the circle around.
   const Meshed run(sphere(), 0.3, [](Parameters&) {});
   const SurfaceMesh& mesh = run.session->mesh();
   for (std::size_t t = 0; t < mesh.faces[0].triangles.size(); ++t) {

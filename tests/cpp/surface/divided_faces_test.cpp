@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ShapeTrials", torus, 0.005, 0, false, unglued, [](Parameters& p) { p.set("shape_trials", 1); }}),
     [](const auto& of) { return std::string(of.param.name); });
 
-/// A host with a hole in it: of one place nothing can be said.
+/// A host with a hole in it: it fails at one place.
 class FailingTorus final : public AnalyticCad {
  public:
   FailingTorus() : AnalyticCad(whole_torus()) {}
@@ -160,7 +160,7 @@ class FailingTorus final : public AnalyticCad {
   bool fails = true;
 };
 
-TEST(DividedFaces, FailuresOfTheHostAreToldAsByOneThread) {
+TEST(DividedFaces, FailuresOfTheHostAreReportedAsByOneThread) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   const Case c{"", whole_torus, 0.011, 0, true};
   std::set<std::string> sentences;

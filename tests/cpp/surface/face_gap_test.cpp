@@ -51,7 +51,7 @@ class Triangles {
   std::vector<std::vector<CurveSupport>> supports_;
 };
 
-TEST(FaceGap, OfConcentricCylindersIsTheDifferenceOfTheirRadii) {
+TEST(FaceGap, ConcentricCylindersHaveTheDifferenceOfTheirRadii) {
   testing::AnalyticCad cad;
   cad.faces[1].at = [](Vec2 p) { return cylinder_jet(p, 1); };
   cad.faces[2].at = [](Vec2 p) { return cylinder_jet(p, 0.95); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes by A0 and A1 keep what they promise, measured on the surfaces (HDR sec. 4.3; geo_guarantee = 1).
+// Meshes by A0 and A1 keep their guarantees, measured on the surfaces (HDR sec. 4.3; geo_guarantee = 1).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double share_within(const std::vector<double>& values, double limit) {
   return static_cast<double>(within) / static_cast<double>(values.size());
 }
 
-// What is known of a kind, for those who choose the factors.
+// Figures of a kind, for the choice of the factors.
 std::string known(const Delivery& delivery, double asked) {
   std::vector<double> values = delivery.values;
   std::sort(values.begin(), values.end());
@@ -40,7 +40,7 @@ TEST_P(Guarantee, AngleOfEdges) {
     EXPECT_EQ(edges.limit, angle);
     EXPECT_GE(share_within(edges.values, angle), 0.995);
     EXPECT_LE(edges.spread.max, 1.25 * angle);
-    // Edges are what is guaranteed. RT-0232 means triangles: these stand on their edges more steeply.
+    // The guarantee holds for edges. RT-0232 means triangles: these stand on their edges more steeply.
     const Delivery& triangles = d[Kind::vertex_angle];
     EXPECT_EQ(triangles.limit, angle);
     EXPECT_GE(share_within(triangles.values, angle), 0.89);

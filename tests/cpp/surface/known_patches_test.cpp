@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A face that is asked the same again gets its patch of the round before; one that is asked anything else does not.
+// A face with an unchanged request gets its patch of the previous round; a face with a different request does not.
 #include "pipeline/base/known_patches.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace carreau {
 namespace {
 
-/// What two faces are asked: a triangle with one short edge to grow from.
+/// The requests for two faces: a triangle with one short edge to grow from.
 struct Asked {
   Asked() {
     domain.plane.vertices = {{0, 0}, {1, 0}, {0, 1}};
@@ -53,7 +53,7 @@ KnownPatches knowing(const Asked& asked, const FaceOutcome& outcome) {
   return known;
 }
 
-TEST(KnownPatches, AreThoseOfFacesThatAreAskedTheSame) {
+TEST(KnownPatches, AreUsedForEqualRequests) {
   const Asked asked;
   const KnownPatches known = knowing(asked, outcome_of(1));
   EXPECT_FALSE(known.find(1, asked.input, asked.grow_from));
@@ -66,7 +66,7 @@ TEST(KnownPatches, AreThoseOfFacesThatAreAskedTheSame) {
   EXPECT_TRUE(same->space);
 }
 
-TEST(KnownPatches, AreNotThoseOfFacesThatAreAskedAnythingElse) {
+TEST(KnownPatches, AreNotUsedForOtherRequests) {
   const Asked before;
   const KnownPatches known = knowing(before, outcome_of(1));
   const std::vector<std::function<void(Asked&)>> changes{
@@ -85,11 +85,11 @@ TEST(KnownPatches, AreNotThoseOfFacesThatAreAskedAnythingElse) {
   }
 }
 
-TEST(KnownPatches, OfLargeModelsAreNotKept) {
+TEST(KnownPatches, LargeModelsAreNotKept) {
   const Asked asked;
   EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::most_known)).find(0, asked.input, asked.grow_from));
   EXPECT_FALSE(knowing(asked, outcome_of(thresholds::crossings::most_known + 1)).find(0, asked.input, asked.grow_from));
-  // A patch that takes the place of another one needs no more than its own room.
+  // A patch that replaces another patch needs no more than its own room.
   KnownPatches known = knowing(asked, outcome_of(thresholds::crossings::most_known));
   known.keep(0, asked.input, asked.grow_from);
   known.keep(0, outcome_of(thresholds::crossings::most_known));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes that would have too many triangles: what is refused, and what is bounded.
+// Meshes that would have too many triangles: rejected and bounded sizes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST(Limits, AFaceBeyondThemFailsAlone) {
   }
 }
 
-TEST(Limits, FacesThatFitOneByOneButNotTogetherAreRefused) {
+TEST(Limits, FacesThatFitOneByOneButNotTogetherAreRejected) {
   for (const int threads : {1, 4}) {
     Monitor monitor;
     const auto session = testing::session_of_size(squares(1), 0.1, monitor);
@@ -59,7 +59,7 @@ TEST(Limits, FacesThatFitOneByOneButNotTogetherAreRefused) {
   }
 }
 
-TEST(Limits, AModelWithoutAnyOtherFaceIsRefused) {
+TEST(Limits, AModelWithoutAnyOtherFaceIsRejected) {
   Monitor monitor;
   AnalyticCad cad = squares(10);
   cad.faces.erase(1), cad.faces.erase(3);
@@ -103,9 +103,9 @@ Model model_of_cone() {
   return {{side, disc}, {}};
 }
 
-// Of growth by 1.5 from edges of 8e-7 the samples of a square grid in (u, v) see nothing but the first one: the control
+// If sizes grow by 1.5 from edges of 8e-7, the samples of a square grid in (u, v) see only the first edge: the control
 // space promised 860 000 triangles. A ring of growth has 6 to 10, and there are 20 from one e-fold to the next.
-TEST(Limits, GrowthFromTinyEdgesIsBoundedByWhatAControlSpaceCanFollow) {
+TEST(Limits, GrowthFromTinyEdgesIsBoundedByTheControlSpace) {
   for (const double top : {1.6e-5, 1.6e-6, 4.8e-7}) {
     SCOPED_TRACE(top);
     Monitor monitor;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run needs in memory above the mesh that it makes: bytes asked for, counted exactly.
+// The memory of a run above the mesh that it makes: requested bytes, counted exactly.
 #include <gtest/gtest.h>
 #include <malloc.h>
 

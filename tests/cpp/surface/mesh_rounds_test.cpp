@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop over whole meshes: what inspectors request is meshed, and the best mesh stays.
+// The loop over whole meshes: requests of inspectors are meshed, and the best mesh stays.
 #include "pipeline/mesh_rounds.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ struct Square {
   std::optional<MeshRounds> rounds;
 };
 
-/// Requests the same thing a number of times, and judges as it is told.
+/// Requests the same thing a number of times, and judges by a script.
 class Scripted final : public Inspector {
  public:
   int rounds = 0;

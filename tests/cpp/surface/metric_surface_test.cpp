@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole surfaces under metrics: unit edges, deviations that were asked for, fewer triangles.
+// Whole surfaces under metrics: unit edges, prescribed deviations, fewer triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,7 +111,7 @@ struct UnitCase {
 
 class UnitMesh : public ::testing::TestWithParam<UnitCase> {};
 
-TEST_P(UnitMesh, OfAnAnisotropicFieldByCurvature) {
+TEST_P(UnitMesh, FollowsAnAnisotropicFieldByCurvature) {
   const UnitCase& c = GetParam();
   Meshed run(c.make(), c.rule);
   double stretched = 1;
@@ -139,12 +139,12 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, UnitMesh,
                                            UnitCase{"angle", ellipsoid, {.name = "angle", .angle = 4}, 4}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-// ---- what was asked is kept ----
+// ---- prescribed deviations hold ----
 
 class MetricGuarantee : public ::testing::TestWithParam<UnitCase> {};
 
 // A0: distance of at most eps0 for 99.5 % of the triangles, nowhere above 1.3 eps0, over three decades.
-TEST_P(MetricGuarantee, OfTheDistance) {
+TEST_P(MetricGuarantee, TheDistanceHolds) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.anisotropic = false, .chord = eps, .guarantee = true});
     const MeshEvaluation delivered = run.measure();
@@ -154,9 +154,9 @@ TEST_P(MetricGuarantee, OfTheDistance) {
   }
 }
 
-// By both principal radii too, with a gradation that keeps the long edges where a curvature vanishes (on top of the
-// torus) from reaching away from there.
-TEST_P(MetricGuarantee, OfTheDistanceByDirection) {
+// Sizes by both principal radii too. A gradation keeps the long edges near places where a curvature vanishes (on top of
+// the torus).
+TEST_P(MetricGuarantee, TheDistanceHoldsByDirection) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.chord = eps, .guarantee = true, .gradation = 2});
     const MeshEvaluation delivered = run.measure();
@@ -167,7 +167,7 @@ TEST_P(MetricGuarantee, OfTheDistanceByDirection) {
 }
 
 // A1: at most 8 degrees between an edge and the tangent planes at its ends for 99.5 % of the edges, nowhere above 10.
-TEST_P(MetricGuarantee, OfTheAngle) {
+TEST_P(MetricGuarantee, TheAngleHolds) {
   Meshed run(GetParam().make(), {.name = "angle", .anisotropic = false, .guarantee = true});
   const MeshEvaluation delivered = run.measure();
   const Delivery& angle = delivered[EvaluationKind::edge_angle];
@@ -299,7 +299,7 @@ TEST(Source, TheTeapotUnderOneMetricOfSpace) {
   EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.mean, 0.93);
 }
 
-// Half of the surface has a metric, the rest takes hphydef (hphy_flag 1) or what the curves around have (2).
+// Half of the surface has a metric, the rest takes hphydef (hphy_flag 1) or the sizes of the curves around (2).
 TEST(Source, AnswersInOnePlaceAndNotInAnother) {
   const auto field = [](Vec3 p) { return metric_of_sizes({-p.y(), p.x(), 0.1}, 0.05, 0.2); };
   const auto source = testing::field_of_space(
@@ -373,7 +373,7 @@ TEST(Source, VerticesReportTheSizeInTheMean) {
 }
 
 // A source of sizes alone makes the mesh that the host's sizes make, within the last digits of its callbacks.
-TEST(Source, OfSizesIsAsGoodAsTheHostsOwn) {
+TEST(Source, SizesAreAsGoodAsTheHostsOwn) {
   const auto size = [](Vec3 p) { return 0.05 + 0.05 * p.z(); };
   auto own = testing::paraboloid();
   own.size_on_surface = [&](int, Vec2 uv) { return std::optional(size(testing::paraboloid_jet(uv).s)); };
@@ -395,7 +395,7 @@ TEST(Source, OfSizesIsAsGoodAsTheHostsOwn) {
 
 // Edges of the rim's curves bend by more than a right angle; triangles beside them were halved until edges had a
 // thousandth of the size.
-TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
+TEST(Source, CoarseSizesLeaveTrianglesBesideCoarseCurvesAlone) {
   for (const auto& [h, gradation] : {std::pair{0.15, 0.}, {0.2, 0.}, {0.3, 0.}, {0.2, 1.3}}) {
     const double size = h;
     const auto source = testing::field_of_space([size](Vec3) { return Prescription::of_size(size); });
@@ -407,7 +407,7 @@ TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
   }
 }
 
-// What no sample hit, a vertex does.
+// A vertex hits the dip that no sample hit.
 TEST(Source, DipsThatNoSampleHitsAreMeshed) {
   AnalyticCad square;
   square.faces[1] = {[](Vec2 p) {

@@ -22,7 +22,7 @@ inline std::unique_ptr<Session> session_of_size(const AnalyticCad& cad, double s
   return session;
 }
 
-/// The same with what `carreau mesh` sets for boundaries.
+/// The same with the boundary parameters of `carreau mesh`.
 inline std::unique_ptr<Session> session_of_command(const AnalyticCad& cad, double size, Monitor& monitor) {
   auto session = session_of_size(cad, size, monitor);
   Parameters& parameters = session->parameters();

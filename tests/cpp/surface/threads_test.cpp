@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh does not depend on the number of threads, and a host that is not re-entrant never sees another one.
+// The mesh does not depend on the number of threads, and a host that is not re-entrant never sees a second thread.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -102,7 +102,7 @@ TEST(Threads, AHostThatIsNotReentrantSeesOneOnly) {
 
 TEST(Threads, AReentrantHostSeesSeveral) { EXPECT_GT(make(8, true, true).threads.size(), 1U); }
 
-TEST(Threads, LimitsAndErrorsAreThoseOfOneThread) {
+TEST(Threads, LimitsAndErrorsMatchOneThread) {
   for (const int threads : {1, 4}) {
     const auto cad = std::make_shared<AnalyticCad>(testing::teapot());
     cad->size_on_surface = [](int face, Vec2) -> std::optional<double> {

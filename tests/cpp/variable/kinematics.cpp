@@ -131,7 +131,8 @@ class Cutting final : public Kinematics {
   static constexpr double depth = 2, top = 12, rake = 5 * std::numbers::pi / 180, radius = 0.2;
   static constexpr double clearance = 8 * std::numbers::pi / 180, shear = 30 * std::numbers::pi / 180;
 
-  /// Where rake and clearance faces would meet without the radius: it comes from the right, at the height of the cut.
+  /// The place at which rake and clearance faces would meet without the radius: it comes from the right, at the height
+  /// of the cut.
   [[nodiscard]] Vec2 tip() const { return {1 - moved_, top - depth}; }
   [[nodiscard]] Tool tool() const {
     const Vec2 up{std::sin(rake), std::cos(rake)}, back{std::cos(clearance), std::sin(clearance)};
@@ -147,7 +148,7 @@ class Cutting final : public Kinematics {
     // It comes nearer to the rake all the time.
     const Vec2 chip = Vec2{-0.96, 0} + chip_speed * Vec2{std::sin(rake), std::cos(rake)};
     const double above = step_of((p.y() - edge.y()) / 0.15);
-    // What has passed under the edge rests.
+    // Material that has passed under the edge rests.
     const Vec2 face{std::sin(rake), std::cos(rake)};
     if (p.x() > edge.x() && cross(face, p - edge) < -0.15) return {0, 0};
     return above * step_of(behind / 0.5) * chip;

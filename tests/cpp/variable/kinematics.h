@@ -13,9 +13,9 @@ namespace carreau::testing {
 class Kinematics {
  public:
   virtual ~Kinematics() = default;
-  /// The state with the next increment added: what remesh() gets.
+  /// The state with the next increment added: the input of remesh().
   virtual const variable::RemeshInput& advance() = 0;
-  /// What it has returned.
+  /// Takes the result of the remeshing.
   void accept(variable::RemeshResult result) {
     input_.piece = std::move(result.piece);
     input_.damage = std::move(result.damage);
@@ -34,7 +34,7 @@ class Kinematics {
 std::unique_ptr<Kinematics> brazilian_test();
 
 /// A tool of rake 5 degrees and edge radius .2 mm takes a chip of 2 mm off a block: material in front of a shear plane
-/// rests, behind it it runs along the rake. What comes before the edge is damaged; at 29.7 mm the chip's base.
+/// rests, behind it it runs along the rake. Material in front of the edge is damaged; at 29.7 mm the chip's base.
 std::unique_ptr<Kinematics> orthogonal_cutting();
 
 }  // namespace carreau::testing

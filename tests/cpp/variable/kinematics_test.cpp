@@ -14,13 +14,13 @@ namespace {
 
 using namespace variable;
 
-/// Of all increments of a run.
+/// Figures of all increments of a run.
 struct Course {
   double q2_mean = 1, q2_worst = 1;
   double in_range = 0;        ///< share of edges, mean of the increments
   double least_in_range = 1;  ///< of one increment
-  double area_change = 0;     ///< of the new boundary's geometry to that of the boundary before, largest; relative
-  double change_beside_removed = 0;  ///< the same of increments that removed elements
+  double area_change = 0;     ///< from the previous boundary's geometry to the new boundary's, largest; relative
+  double change_beside_removed = 0;  ///< likewise for increments that removed elements
   std::int64_t most_bound = 0, removed = 0;
   int parts = 1;
   double breaks_at = 0, first_crack = 0;  ///< mm
@@ -43,7 +43,7 @@ void see_summary(const RemeshSummary& s, double moved, Course& course) {
   course.most_bound = std::max(course.most_bound, s.bound_vertices);
 }
 
-/// The new mesh has other nodes on the boundary: what is enclosed by splines through these, over what was before.
+/// The new mesh has other nodes on the boundary: the area enclosed by splines through these, over the previous area.
 double change_by_geometry(const RemeshInput& input, const RemeshResult& result, Monitor& monitor) {
   RemeshInput again = input;
   again.piece = result.piece;

@@ -60,7 +60,7 @@ TEST(CubicSpline, IsContinuousUpToCurvature) {
 /// A rake of 0 degrees above an edge of radius .5 at the origin; the solid is in the first quadrant.
 Tool corner() { return {{{0, 10}, {0, 0}, {10, 0}}, {0, 0.5, 0}, false}; }
 
-TEST(Tools, TellDistancesAndSides) {
+TEST(Tools, GiveDistancesAndSides) {
   const Tools tools(std::vector<Tool>{corner()});
   const auto at = [&](double x, double y) { return tools.nearest({x, y}); };
   EXPECT_NEAR(at(-1, 5).distance, 1, 1e-14);
@@ -76,7 +76,7 @@ TEST(Tools, TellDistancesAndSides) {
   EXPECT_NEAR(norm(tools.at(0, 9.5 + 0.125 * pi).point - Vec2{0.5, 0.5}), 0.5, 1e-14);
 }
 
-TEST(Tools, RefusesRadiiThatDoNotFit) {
+TEST(Tools, RejectsRadiiThatDoNotFit) {
   const auto make = [](Tool tool) { return Tools(std::vector<Tool>{std::move(tool)}); };
   EXPECT_NO_THROW(make({{{0, 1}, {0, 0}, {1, 0}}, {0, 1, 0}, false}));  // takes all of both sides
   EXPECT_THROW(make({{{0, 1}, {0, 0}, {1, 0}}, {0, 1.01, 0}, false}), InvalidArgument);

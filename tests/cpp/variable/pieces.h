@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces to deform, and what every remeshed piece must be.
+// Pieces to deform, and checks of every remeshed piece.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@ variable::Piece disc(Vec2 centre, double radius, double h);
 /// Options of a piece without tools, damage or fields.
 variable::RemeshInput input_of(variable::Piece piece, double h_min, double h_max);
 
-/// Empty when the result is a mesh: triangles counterclockwise (exactly), no multiple vertex, edges those of its
-/// boundary, kinds and parts fit; no node is inside a tool, and bound ones are within 1e-3 h_min of theirs.
+/// Empty when the result is a mesh: triangles counterclockwise (exactly), no multiple vertex, edges on its boundary,
+/// kinds and parts that fit. No node is inside a tool, and bound nodes are within 1e-3 h_min of their tools.
 std::vector<std::string> find_defects(const variable::RemeshInput& input, const variable::RemeshResult& result);
 
 struct PieceQuality {

@@ -144,7 +144,7 @@ TEST(Remesh, SizesFollowTheErrorOfAField) {
 }
 
 TEST(Remesh, ShortEdgesAreGradedInwards) {
-  // A notch .6 wide in a square of 10: its edges are shorter than the size wanted.
+  // A notch .6 wide in a square of 10: its edges are shorter than the prescribed size.
   const Piece piece = meshed({{{0, 0}, {4.7, 0}, {4.7, 0.6}, {5.3, 0.6}, {5.3, 0}, {10, 0}, {10, 10}, {0, 10}}},
                              [](Vec2) { return 3.; });
   Monitor monitor;
@@ -212,7 +212,7 @@ TEST(Remesh, IsTheSameEachTime) {
   EXPECT_EQ(p.piece.vertices, q.piece.vertices);
 }
 
-/// The sentence that refuses an input.
+/// The sentence that rejects an input.
 std::string refusal(const std::function<void(RemeshInput&)>& spoil) {
   RemeshInput input = disc_input();
   spoil(input);
@@ -225,7 +225,7 @@ std::string refusal(const std::function<void(RemeshInput&)>& spoil) {
   return "";
 }
 
-TEST(Remesh, RefusesBadInputWithASentence) {
+TEST(Remesh, RejectsBadInputWithASentence) {
   const auto says = [](const std::function<void(RemeshInput&)>& spoil, const std::string& words) {
     const std::string sentence = refusal(spoil);
     EXPECT_NE(sentence.find(words), std::string::npos) << "'" << sentence << "' lacks '" << words << "'";

@@ -62,7 +62,7 @@ void spoil(Random& random, Net& net) {
     case 3:  // two columns change places
       for (int k = 0, other = column(); k <= net.n(); ++k) std::swap_ranges(net.at(i, k), net.at(i, k) + 3, net.at(other, k));
       break;
-    case 4:  // a side closes upon the one beyond
+    case 4:  // a side closes upon the opposite side
       for (int k = 0; k <= net.n(); ++k) net.set(net.m(), k, net.at(0, k));
       break;
     case 5:  // all in one plane, or on one line

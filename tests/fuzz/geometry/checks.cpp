@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for the mesh of any geometry.
+// Checks of the mesh of any geometry.
 #include <cstdlib>
 #include <cstring>
 #include <set>

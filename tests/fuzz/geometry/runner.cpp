@@ -29,7 +29,7 @@ struct Options {
   int jobs = 1;
 };
 
-/// What a process leaves behind when it is killed.
+/// The data that a killed process leaves behind.
 struct Shared {
   std::uint64_t seed;
   std::uint64_t results[3];

@@ -123,7 +123,7 @@ Surface shells(Random& random) {
   return s;
 }
 
-/// One change to a few triangles: what a broken file has.
+/// One change to a few triangles, as in broken files.
 void spoil(Random& random, Surface& s) {
   const auto any_point = [&] { return random.below(static_cast<int>(s.points.size())); };
   const auto any_triangle = [&] { return random.below(static_cast<int>(s.triangles.size())); };

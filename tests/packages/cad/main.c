@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A customer of libcarreau_cad: meshes a sphere of radius 1 (sphere.brep beside the program, or a path), and is told of a file
- * that is none. */
+/* A customer of libcarreau_cad: meshes a sphere of radius 1 (sphere.brep beside the program, or a path), and gets an error for
+ * a file of another kind. */
 #include <carreau_cad.h>
 #include <math.h>
 #include <stdio.h>

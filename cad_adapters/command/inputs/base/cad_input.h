@@ -31,26 +31,26 @@ class CadInput {
   virtual carreau_status give_to(carreau_session* session) = 0;
   /// Diagonal of the box of the geometry.
   [[nodiscard]] virtual double diagonal() const = 0;
-  /// Distance below which curves that one face only has are one, as the file's own tolerances have it; 0: none is.
+  /// Distance below which open curves are one, by the file's own tolerances; 0: do not glue.
   [[nodiscard]] virtual double glue_tolerance() const { return 0; }
-  /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
+  /// Distance for curves that are still open, whatever the shortest curve of the file; 0: as above.
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
   /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
   [[nodiscard]] virtual double ends_tolerance() const { return 0; }
-  /// Faces are divided by curves that mean nothing, and may be crooked: edges on them are not cut for the sake of the
+  /// True if faces are divided by arbitrary, perhaps crooked curves: edges on them are not cut for the sake of the
   /// shapes beside them.
   [[nodiscard]] virtual bool has_arbitrary_borders() const { return false; }
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
-  /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.
+  /// Sets the size of the face of this number, or of all faces of this name; before give_to. False: no such face.
   virtual bool set_face_size(const std::string& face, double size) = 0;
-  /// The same for a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
+  /// Sets the size of a vertex (dimension 0), an edge (1), a face (2) or all faces of a solid (3) by its number.
   virtual bool set_size(int dimension, std::int32_t number, double size) {
     return dimension == 2 && set_face_size(std::to_string(number), size);
   }
-  /// Whether the geometry answers with the sizes of set_face_size() itself, when hphy_flag = 2.
+  /// True if the geometry itself answers with the sizes of set_face_size(), when hphy_flag = 2.
   [[nodiscard]] virtual bool answers_face_sizes() const = 0;
-  /// The size of set_face_size() where it does not; 0: none.
+  /// The size of set_face_size() if the geometry does not answer with it; 0: none.
   [[nodiscard]] virtual double face_size(std::int32_t face) const = 0;
   /// The point at (u, v), as callbacks of the session get them. May be called from several threads when the geometry
   /// may. False: the geometry fails there.
@@ -67,7 +67,7 @@ class CadInput {
     std::string name;  ///< "" when it has none
   };
   [[nodiscard]] virtual Part part_of_face(std::int32_t) const { return {}; }
-  /// The parts on both sides of a face: the one that its triangles look out of, and the other one.
+  /// The parts on both sides of a face: first the part that its triangles look out of.
   [[nodiscard]] virtual std::array<Part, 2> parts_beside(std::int32_t face) const { return {part_of_face(face), Part{}}; }
   /// 0xRRGGBB; -1: none.
   [[nodiscard]] virtual std::int32_t face_colour(std::int32_t) const { return -1; }
@@ -84,22 +84,22 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   /// A table of the small features that were found and removed, or stay: a line each.
   [[nodiscard]] virtual std::vector<std::string> small_features() const { return {}; }
-  /// The face of the file that a face of the session is or is a part of; the same for curves, and the parts of a face
-  /// of the file. A geometry that cuts no faces has none.
+  /// The face of the file that contains a face of the session; likewise for curves. parts(): the faces of the session
+  /// in a face of the file. A geometry that does not cut faces returns its argument.
   [[nodiscard]] virtual std::int32_t whole_face(std::int32_t face) const { return face; }
   [[nodiscard]] virtual std::int32_t whole_curve(std::int32_t curve) const { return curve; }
   [[nodiscard]] virtual std::vector<std::int32_t> parts(std::int32_t face) const { return {face}; }
-  /// Faces that bend inside and could not be cut there, which curvatures do not tell: a sentence each.
+  /// Faces that bend inside and could not be cut there, which curvatures do not show: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
-  /// Whether the geometry, or a file beside it, prescribes sizes of its own, when hphy_flag = 2.
+  /// True if the geometry, or a file beside it, prescribes sizes, when hphy_flag = 2.
   [[nodiscard]] virtual bool has_sizes() const { return false; }
-  /// Whether the file has edges and no face: its mesh has edges alone.
+  /// True if the file has edges and no face: its mesh has edges alone.
   [[nodiscard]] virtual bool is_wires() const { return false; }
-  /// Whether no edge of the file has one face alone.
+  /// False if an edge of the file has one face alone.
   [[nodiscard]] virtual bool closed() const { return false; }
   /// A sentence of the geometry about the mesh of a session; "": none. Throws Failure.
   [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }
-  /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
+  /// Gaps of the interfaces as a sentence; "" when the file has no curves in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
 };
 

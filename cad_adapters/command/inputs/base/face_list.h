@@ -20,14 +20,14 @@ struct FaceLook {
   Point low{}, high{};   ///< its box
 };
 
-/// Length over width of the rectangle that has the area and the perimeter; 1 for what is rounder than a square.
+/// Length over width of the rectangle that has the area and the perimeter; 1 for shapes rounder than a square.
 double narrowness(const FaceLook& face);
 
 /// A table.
 void print_faces(const std::vector<FaceLook>& faces);
 nlohmann::ordered_json faces_json(const std::vector<FaceLook>& faces);
 
-/// Whether a name fits a pattern in which * stands for any characters and ? for one.
+/// True if a name fits a pattern in which * stands for any characters and ? for one.
 bool fits(const std::string& name, const std::string& pattern);
 
 }  // namespace command

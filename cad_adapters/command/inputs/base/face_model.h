@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A model in memory: what a session is told of faces.
+// A model in memory: the description of faces for a session.
 #pragma once
 
 #include <carreau.h>
@@ -24,7 +24,7 @@ struct FaceModel {
     std::int32_t ref = 0, orientation = 1;
     std::vector<Curve> curves;
     std::vector<Point> points;
-    double size = 0;  ///< wanted on this face; 0: none of its own
+    double size = 0;  ///< on this face; 0: none
   };
   std::vector<Face> faces;
 

@@ -22,7 +22,7 @@ struct GridChoice {
   double join_angle = 0;     ///< degrees; 0: borders of blocks keep their angles
   double tolerance = 0;      ///< below which nodes of borders are one; 0: a millionth of the diagonal
   bool fill = false;         ///< holes inside
-  double step = 0;           ///< of heights and scans whose file does not tell it; 0: 1
+  double step = 0;           ///< of heights and scans whose file has no step; 0: 1
 };
 
 /// Defines which edges of a surface given as triangles are lines.

@@ -36,14 +36,14 @@ void ModelInput::measure(const std::string& path) {
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
           },
-          [] {});  // told with the place when the mesh is made
+          [] {});  // reported with the place when the mesh is made
   diagonal_ = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
   if (!(diagonal_ > 0) || !std::isfinite(diagonal_) || low.x > high.x)
     throw Failure("'" + path + "': its curves have no extent in space.");
 }
 
 ModelFigures ModelInput::look_at() const {
-  constexpr double pole = 1e-9, tiny = 1e-3;  // shares of the diagonal; the latter is that of CAD files
+  constexpr double pole = 1e-9, tiny = 1e-3;  // shares of the diagonal; `tiny` as for CAD files
   ModelFigures figures;
   std::vector<ModelDanger> tiny_sides, failures;
   figures.faces = static_cast<int>(model_.faces.size());
@@ -95,8 +95,7 @@ bool holds(const std::vector<std::pair<Inside, Inside>>& sides, Inside p) {
 
 }  // namespace
 
-// The area by midpoints of a grid over the box of the domain, within about 1 %: to be told from others, a face needs no
-// more.
+// Computes the area by midpoints of a grid over the box of the domain, within about 1 %: enough to identify a face.
 FaceLook ModelInput::look_at(const FaceModel::Face& face) const {
   constexpr int cells = 96;
   FaceLook look{.number = face.ref, .name = face_name(face.ref), .kind = kind(face.ref)};

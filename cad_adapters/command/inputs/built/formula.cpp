@@ -15,7 +15,7 @@
 namespace command {
 namespace {
 
-constexpr std::size_t longest = 4096;  // what is longer is no formula that a person has typed
+constexpr std::size_t longest = 4096;  // longer texts are not typed formulas
 
 [[noreturn]] void refuse(const std::string& text, std::size_t position, const std::string& why) {
   throw Failure("The formula '" + text + "' is wrong at position " + std::to_string(position + 1) + ": " + why + ".");
@@ -29,7 +29,7 @@ void check_characters(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if ((c < ' ' && c != '\t') || c > '~') refuse(text.substr(0, i) + "...", i, "a character that is not plain text");
-    if (c == '"') refuse(text, i, "there are no strings");
+    if (c == '"') refuse(text, i, "strings are not allowed");
     if (c != '=') continue;
     if (i + 1 < text.size() && text[i + 1] == '=') {
       ++i;
@@ -40,7 +40,7 @@ void check_characters(const std::string& text) {
   }
 }
 
-/// An expression with variables of its own.
+/// An expression with its variables.
 struct Evaluator {
   Place at;
   mu::Parser parser;
@@ -82,8 +82,8 @@ Formula::Formula(const std::string& text, const std::string& names)
 Formula::~Formula() = default;
 
 double Formula::operator()(const Place& place) const noexcept try {
-  // A parser holds the values of its variables: one for each thread, and a few formulas at a time are in use: a size,
-  // and the coordinates of a surface.
+  // A parser holds the values of its variables, so that each thread has parsers. A few formulas are in use at a time: a
+  // size, and the coordinates of a surface.
   struct Known {
     std::uint64_t serial = 0;
     std::unique_ptr<Evaluator> evaluator;

@@ -13,8 +13,8 @@ namespace command {
 /// "z > 1 ? 0.1 : 0.5". May be evaluated by several threads at a time.
 class Formula {
  public:
-  /// Throws Failure with the position (from 1) of what is wrong, and where this program was built without muParser.
-  /// `names`: the variables that it may use.
+  /// Throws Failure with the position (from 1) of the error, and if this program was built without muParser. `names`:
+  /// the variables that it may use.
   explicit Formula(const std::string& text, const std::string& names = "xyzuv");
   ~Formula();
   Formula(const Formula&) = delete;
@@ -24,7 +24,7 @@ class Formula {
   [[nodiscard]] double operator()(const Place& place) const noexcept;
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
-  /// Whether this program has formulas.
+  /// True if this program has formulas.
   static bool available() noexcept;
 
  private:

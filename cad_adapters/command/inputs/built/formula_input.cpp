@@ -122,7 +122,7 @@ class FormulaInput final : public ModelInput {
 
   void add(const std::string& equation) {
     const char name = left_side(equation);
-    if (name == ' ') throw Failure("'" + equation + "' is no equation of x, y or z.");
+    if (name == ' ') throw Failure("'" + equation + "' is not an equation of x, y or z.");
     std::unique_ptr<Formula>& formula = formula_[static_cast<std::size_t>(name - 'x')];
     if (formula) throw Failure(std::string("There are two equations of ") + name + ".");
     formula = std::make_unique<Formula>(equation.substr(equation.find('=') + 1));
@@ -168,7 +168,7 @@ bool is_formula(const std::string& input) {
 }
 
 std::string domain_defect(const std::string& text) {
-  return sides_of(text).empty() ? "'" + text + "' is no domain: box:x0,y0,x1,y1, disc:x,y,radius or ring:x,y,inner,outer" : "";
+  return sides_of(text).empty() ? "'" + text + "' is not a domain: box:x0,y0,x1,y1, disc:x,y,radius or ring:x,y,inner,outer" : "";
 }
 
 std::unique_ptr<CadInput> open_formula(const std::string& input, const std::string& domain) {

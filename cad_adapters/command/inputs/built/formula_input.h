@@ -11,9 +11,9 @@ class CadInput;
 
 inline constexpr const char* usual_domain = "box:-1,-1,1,1";
 
-/// Whether an input is no file that is there but "z = ..." or "x = ...; y = ...; z = ...".
+/// True if an input is "z = ..." or "x = ...; y = ...; z = ..." and not an existing file.
 bool is_formula(const std::string& input);
-/// "" or what is wrong with a domain of the parameter plane: "box:x0,y0,x1,y1", "disc:x,y,radius", "ring:x,y,r0,r1".
+/// The error in a domain of the parameter plane: "box:x0,y0,x1,y1", "disc:x,y,radius", "ring:x,y,r0,r1". "": no error.
 std::string domain_defect(const std::string& text);
 
 /// `domain`: empty: usual_domain. Throws Failure.

@@ -43,7 +43,7 @@ carreau_grid_options options_of(const GridChoice& choice) {
   return options;
 }
 
-/// Whether a line holds integers alone, and how many.
+/// Counts the integers of a line that holds integers alone.
 int integers_in(const std::string& line) {
   std::istringstream words(line);
   int count = 0;
@@ -52,8 +52,8 @@ int integers_in(const std::string& line) {
   return count;
 }
 
-/// Files .xyz are molecules or grids of PLOT3D. Those of grids are binary, or begin with counts of nodes: two numbers or
-/// three, which may stand below the number of blocks. A molecule begins with the number of its atoms and a title.
+/// Files .xyz are molecules or grids of PLOT3D. Grids are binary, or begin with counts of nodes: two numbers or three,
+/// which may stand below the number of blocks. A molecule begins with the number of its atoms and a title.
 bool is_plot3d(const std::string& path) {
   if (suffix_of(path) != ".xyz") return false;
   std::ifstream file(path, std::ios::binary);
@@ -107,7 +107,7 @@ bool is_grid(const std::string& path, const GridChoice& choice) {
 
 std::string smoothing_defect(const std::string& text) {
   carreau_grid_options options{};
-  return read_smoothing(text, options) ? "" : "'" + text + "' is no number of rounds, alone or with two weights: 2000,0.06,0.061";
+  return read_smoothing(text, options) ? "" : "'" + text + "' is not a number of rounds, alone or with two weights: 2000,0.06,0.061";
 }
 
 std::unique_ptr<CadInput> open_grid(const std::string& path, const GridChoice& choice) {

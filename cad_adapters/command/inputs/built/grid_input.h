@@ -14,9 +14,9 @@ class CadInput;
 inline constexpr const char* grid_formats[] = {"plot3d", "heights", "scan", "nodes"};
 inline constexpr const char* grid_suffixes[] = {".fmt", ".p3d", ".x", ".grd", ".asc", ".dem", ".txt", ".cyl", ".ijk"};
 
-/// Whether a format is given, or the suffix is that of a grid, or a file .xyz begins as one of PLOT3D.
+/// True if a format is given, if the suffix belongs to grids, or if a file .xyz begins as PLOT3D does.
 bool is_grid(const std::string& path, const GridChoice& choice);
-/// "" or what is wrong with the text of --smooth.
+/// The error in the text of --smooth; "": no error.
 std::string smoothing_defect(const std::string& text);
 
 /// Throws Failure.

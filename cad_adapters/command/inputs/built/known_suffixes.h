@@ -6,9 +6,9 @@
 
 namespace command {
 
-/// "'x.cml' cannot be read: ... reads .step, ...": of a geometry whose suffix is not known.
+/// The error for a geometry with an unknown suffix: "'x.cml' cannot be read: ... reads .step, ...".
 std::string unknown_geometry(const std::string& path);
-/// The same of a file of triangles.
+/// The error for a file of triangles.
 std::string unknown_triangles(const std::string& path);
 
 }  // namespace command

@@ -15,7 +15,7 @@ class CadInput;
 inline constexpr const char* molecule_suffixes[] = {".xyzr", ".xyz", ".pdb", ".ent", ".cif", ".mmcif"};
 inline constexpr const char* molecule_surfaces[] = {"vws", "sas", "ses"};
 
-/// Whether the suffix is that of a molecule.
+/// True if the suffix belongs to molecules.
 bool is_molecule(const std::string& path);
 
 /// Throws Failure with the library's sentence.

@@ -11,7 +11,7 @@ namespace command {
 
 class CadInput;
 
-/// Whether the name is that of a file of plane domains.
+/// True if the suffix belongs to plane domains.
 bool is_plane_file(const std::string& path);
 
 /// Throws Failure.

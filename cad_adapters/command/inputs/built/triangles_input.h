@@ -18,20 +18,21 @@ struct Place;
 
 inline constexpr const char* triangles_suffixes[] = {".stl", ".off",  ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".vtk",
                                                      ".msh", ".msh2", ".inp", ".bdf", ".unv",  ".su2",   ".tri", ".med"};
-/// Whether the suffix is that of a file of triangles, or a STEP file has no other faces.
+/// True if the suffix belongs to files of triangles, or a STEP file has no other faces.
 bool is_triangles(const std::string& path);
 
 /// Findings in the triangles of a session. Throws Failure.
 carreau_triangles_report triangles_report(carreau_session* session);
-/// The place of (u, v) of a face of a session whose surface is given as triangles; false: there is none.
+/// The place of (u, v) of a face of a session whose surface is given as triangles. False if the evaluation fails.
 bool locate_by(carreau_session* session, std::int32_t face, double u, double v, Place& place) noexcept;
-/// How far the mesh of a session and its triangles are apart, for a person; `deviation`: of the smooth surface. Throws Failure.
+/// Describes the distance between the mesh of a session and its triangles; `deviation`: of the smooth surface. Throws
+/// Failure.
 std::string distances_line(carreau_session* session, double deviation);
 
 /// Throws Failure.
 std::unique_ptr<CadInput> open_triangles(const std::string& path, const TrianglesChoice& choice);
 
-/// The triangles of a file, mended, with their lines; refined where an angle (degrees) is above 0. Warnings go to the
+/// The repaired triangles of a file, with their lines; refined if an angle (degrees) is above 0. Warnings go to the
 /// error output unless `quiet`. Throws Failure.
 MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth,
                              bool quiet);

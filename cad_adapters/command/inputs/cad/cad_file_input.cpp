@@ -40,7 +40,7 @@ CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const R
   const carreau_status status = cad_library().read(file.get(), path.c_str(), &options);
   if (status == CARREAU_ERR_MEMORY) throw Failure("'" + path + "': out of memory.");
   // Files of CAD are known by suffix or content.
-  if (status != CARREAU_OK && std::string(cad_library().last_error(file.get())).find("is no STEP, IGES or BREP") != std::string::npos)
+  if (status != CARREAU_OK && std::string(cad_library().last_error(file.get())).find("is not a STEP, IGES or BREP") != std::string::npos)
     throw Failure(unknown_geometry(path));
   require(file.get(), status);
   return file;
@@ -127,7 +127,7 @@ class CadFileInput final : public CadInput {
     const carreau_status status = carreau_model_clear(session);
     return status == CARREAU_OK ? cad_library().add(file_.get(), session) : status;
   }
-  // Without a usable face there is none: any length will do for a run that tells why of each.
+  // Without a usable face any length will do: the run reports the error of each face.
   [[nodiscard]] double diagonal() const override { return content_.diagonal > 0 ? content_.diagonal : 1; }
   [[nodiscard]] double glue_tolerance() const override { return content_.glue_tolerance; }
   [[nodiscard]] double open_tolerance() const override { return content_.open_tolerance; }

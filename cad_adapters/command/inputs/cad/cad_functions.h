@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The functions of carreau_cad.h that the command calls: included where CARREAU_CAD_FUNCTION(name) says what to make of it.
+// The functions of carreau_cad.h that the command calls. The including file defines CARREAU_CAD_FUNCTION(name).
 CARREAU_CAD_FUNCTION(add)
 CARREAU_CAD_FUNCTION(close)
 CARREAU_CAD_FUNCTION(create)

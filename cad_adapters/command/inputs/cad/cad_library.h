@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libcarreau_cad, which is loaded when the first CAD file is opened: OpenCASCADE's libraries take longer to load than a
-// small mesh takes to make, and most inputs need none of them.
+// libcarreau_cad, which is loaded when the first CAD file is opened. OpenCASCADE's libraries take longer to load than a
+// small mesh takes to make, and most inputs do not need them.
 #pragma once
 
 #include <carreau_cad.h>

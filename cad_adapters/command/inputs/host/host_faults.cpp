@@ -20,7 +20,7 @@ namespace {
 
 constexpr int unusable = 2;  // exit status
 constexpr int most_frames = 64;
-// Recursion without end uses up the stack: the handler needs one of its own.
+// Recursion without end uses up the stack: the handler needs another stack.
 constexpr std::size_t stack_size = 1 << 16;
 
 // Fixed before the handlers are installed, and only read after that.
@@ -34,7 +34,7 @@ const char* routine_at_work() noexcept {
   const char* found = nullptr;
   for (int i = 0; i < n; ++i) {
     Dl_info info{};
-    // A call that never returns may be the last of its routine: the address behind it is that of another.
+    // A call that never returns may be the last of its routine: the address behind it belongs to the next routine.
     const void* const place = static_cast<const char*>(frames[static_cast<std::size_t>(i)]) - 1;
     if (dladdr(place, &info) == 0 || info.dli_fbase != base) continue;
     found = info.dli_sname != nullptr ? info.dli_sname : "";
@@ -67,7 +67,7 @@ const char* meaning(int signal) noexcept {
     case SIGILL:
       return " (SIGILL): it met an instruction that the processor does not know";
     default:
-      return " (SIGABRT): it or what it calls gave up";
+      return " (SIGABRT): it, or a routine that it calls, gave up";
   }
 }
 
@@ -92,7 +92,7 @@ void watch_host(const std::string& library, const void* routine) {
   std::snprintf(name, sizeof name, "%s", library.c_str());
   base = info.dli_fbase;
   void* frame = nullptr;
-  backtrace(&frame, 1);  // loads what it needs, which a handler must not
+  backtrace(&frame, 1);  // loads its libraries now, which a handler must not
   static const auto memory = std::make_unique<char[]>(stack_size);
   stack_t stack{};
   stack.ss_sp = memory.get(), stack.ss_size = stack_size;

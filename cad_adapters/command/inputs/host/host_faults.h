@@ -6,9 +6,9 @@
 
 namespace command {
 
-/// From here on a fault or an abort() inside this library, or below it, and an exit() or Fortran's STOP that it calls,
-/// end the program with a sentence that names the library and its routine, with status 2 and without a file half
-/// written. Other faults end the program as ever. `routine`: the address of any function of it. Once: of two libraries
+/// From here on a fault, an abort(), an exit() or Fortran's STOP inside this library or below it ends the program with
+/// status 2. A sentence names the library and its routine, and no file stays half written. Faults elsewhere end the
+/// program as before. `routine`: the address of any function of the library. Call it once: if there are two libraries,
 /// the first one is watched.
 void watch_host(const std::string& library, const void* routine);
 

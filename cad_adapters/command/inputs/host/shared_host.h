@@ -8,11 +8,10 @@
 
 namespace command {
 
-/// Loads a shared library and finds the routines of RT-0232 sec. 3.1 in it, under the names that a C compiler gives
-/// them (also bind(C)), gfortran and ifort to those of a module cad_m, and Fortran compilers to external subroutines:
-/// surf0,
-/// __cad_m_MOD_surf0, cad_m_mp_surf0_, surf0_. The library stays loaded until the program ends, as the runtimes of some
-/// languages want.
+/// Loads a shared library and finds the routines of RT-0232 sec. 3.1 in it. Names are accepted as a C compiler makes
+/// them (also bind(C)), as gfortran and ifort name routines of a module cad_m, and as Fortran compilers name external
+/// subroutines: surf0, __cad_m_MOD_surf0, cad_m_mp_surf0_, surf0_. The library stays loaded until the program ends,
+/// since the runtimes of some languages require it.
 class SharedHost {
  public:
   /// `path` as for other files: without a folder it is in the current one. Throws Failure when the library cannot be

@@ -26,9 +26,9 @@ class StepRecords {
 
   /// Throws Failure with the file and the record.
   [[noreturn]] void fail(int number, const std::string& why) const;
-  /// The record to which record `from` refers. Fails when there is none.
+  /// The record to which record `from` refers. Fails when it is missing.
   [[nodiscard]] const Record& at(int number, int from) const;
-  /// An attribute, from 0. Fails when there is none.
+  /// An attribute, from 0. Fails when it is missing.
   [[nodiscard]] std::string_view argument(int number, const Record& record, std::size_t rank) const;
   /// The members of a list, each of which refers to a record.
   [[nodiscard]] static std::vector<int> references(std::string_view list);
@@ -42,7 +42,8 @@ class StepRecords {
   static std::string_view trimmed(std::string_view s);
   /// The number of `#number`; 0: it is no reference.
   static int reference(std::string_view s);
-  /// A simple entity as it is, or the part of a complex entity that has this type; without a type: there is none.
+  /// A simple entity as it is, or the part of a complex entity that has this type; without a type if there is no such
+  /// part.
   static Record part(const Record& record, std::string_view type);
 
  private:

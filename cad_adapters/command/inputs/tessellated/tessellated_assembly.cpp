@@ -96,7 +96,7 @@ class Assembly {
     if (a != 0 && b != 0) parent_[set_of(a)] = set_of(b);
   }
 
-  /// The product that PRODUCT_DEFINITION_SHAPE `shape` is about; an occurrence in an assembly is none.
+  /// The product that PRODUCT_DEFINITION_SHAPE `shape` is about; 0 for an occurrence in an assembly.
   [[nodiscard]] int defined_by(int shape, int from) const {
     const Record& record = records_.at(shape, from);
     return record.type == "PRODUCT_DEFINITION_SHAPE" ? StepRecords::reference(records_.argument(shape, record, 2)) : 0;
@@ -225,7 +225,7 @@ class Assembly {
   std::map<int, std::vector<int>> items_;               // by representation
   std::map<int, std::vector<int>> members_;             // representations by set
   std::map<int, std::vector<Component>> components_;    // by set
-  std::set<int> open_, reached_;                        // sets that are being placed; those that have components
+  std::set<int> open_, reached_;                        // sets that are being placed; sets that have components
   std::vector<PlacedItem> placed_;
   int count_ = 0;
 };

@@ -76,7 +76,7 @@ class TessellationReader {
   /// First vertex of each list of points.
   std::int64_t points(int list, int from, std::int64_t& count) {
     const StepRecords::Record& record = records_.at(list, from);
-    if (record.type != "COORDINATES_LIST") records_.fail(from, "its coordinates are no COORDINATES_LIST");
+    if (record.type != "COORDINATES_LIST") records_.fail(from, "its coordinates are not a COORDINATES_LIST");
     const auto [known, fresh] = first_of_list_.try_emplace(list, std::pair(0, 0));
     if (fresh) {
       const std::vector<double> values = records_.numbers(records_.argument(list, record, 2), list);

@@ -15,13 +15,13 @@ struct Tessellation {
   std::vector<std::int32_t> refs;       ///< of triangles
 };
 
-/// Whether a file is STEP, and has tessellated faces and no others (ISO 10303-42, tessellated geometry):
-/// OpenCASCADE 7.6 does not read these.
+/// True if a file is STEP, and has tessellated faces and no others (ISO 10303-42, tessellated geometry): OpenCASCADE
+/// 7.6 does not read these.
 bool is_tessellated_step(const std::string& path);
 
-/// Reads the faces of all TESSELLATED_SHELL and TESSELLATED_SOLID, or those outside of them where there is none:
-/// TRIANGULATED_FACE and COMPLEX_TRIANGULATED_FACE. A component of an assembly is read once for each of its places
-/// (tessellated_assembly.h). Throws Failure with the file and the entity.
+/// Reads the faces of all TESSELLATED_SHELL and TESSELLATED_SOLID, or the faces outside of them when the file has
+/// neither: TRIANGULATED_FACE and COMPLEX_TRIANGULATED_FACE. A component of an assembly is read once for each of its
+/// places (tessellated_assembly.h). Throws Failure with the file and the entity.
 Tessellation read_tessellation(const std::string& path);
 
 }  // namespace command

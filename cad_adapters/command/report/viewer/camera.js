@@ -44,7 +44,7 @@ class Camera {
     this.half = 1.06 * Math.max(half(this.frame.up), half(this.frame.right) / this.aspect) || 1;
   }
 
-  /** Half the height of what is seen, model length: not beyond what single precision tells apart. */
+  /** Half the height of the view, model length, bounded by single precision. */
   zoom(factor) { this.half = Math.min(20 * this.radius, Math.max(2e-6 * this.radius, this.half / factor)); }
 
   /** Turns by angles about the vertical and the horizontal of the screen. */

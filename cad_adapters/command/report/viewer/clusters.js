@@ -36,8 +36,8 @@ function cellsOf(mesh, size) {
 }
 
 /**
- * About `wanted` triangles for a mesh of many more: corners, vertices of the mesh, three a triangle; `from`: the triangle of the mesh
- * that each is made of.
+ * About `wanted` triangles for a mesh of many more: corners, vertices of the mesh, three a triangle; `from`: the
+ * triangle of the mesh that each comes from.
  */
 function coarseMesh(mesh, wanted) {
   // A surface meets about 3/2 area / size^2 cells, with two triangles each.

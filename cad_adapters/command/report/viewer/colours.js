@@ -41,8 +41,8 @@ function coloursOfFaces(mesh, face) {
 }
 
 /**
- * Four bytes a triangle: red, green, blue, and the bits of its sides. `key`: of a scale, or "face". `face`: the one that
- * is shown alone, -1: all.
+ * Four bytes a triangle: red, green, blue, and the bits of its sides. `key`: of a scale, or "face". `face`: the face
+ * that is shown alone, -1: all.
  */
 function coloursOf(mesh, key, face) {
   const scale = mesh.head.values.find((each) => each.key === key);
@@ -58,7 +58,7 @@ function coloursOf(mesh, key, face) {
   return colours;
 }
 
-/** The same of what is drawn, `length` bytes: a piece has the colour of its triangle, and sides of its own. */
+/** Makes the colours of drawn pieces, `length` bytes: a piece has the colour of its triangle, and its own sides. */
 function coloursOfPieces(mesh, ofTriangles, length) {
   const colours = new Uint8Array(length), { sides, triangle } = mesh.pieces;
   if (!triangle) colours.set(ofTriangles);

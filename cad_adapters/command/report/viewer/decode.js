@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of the page: numbers as planes of bytes, zlib's stream, base64 (packing.h tells the same from the other side).
+// The data of the page: numbers as planes of bytes, zlib's stream, base64 (packing.h encodes them).
 
 /** The header: counts, box, faces, scales. */
 function readHead() {

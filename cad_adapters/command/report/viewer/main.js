@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Starts all of it. Without WebGL, or where the data cannot be read, tables and histograms stay, and a sentence tells why.
+// Starts the page. Without WebGL, or with unreadable data, tables and histograms stay, and a sentence reports the
+// reason.
 
 /**
  * For tests and measurements: the time of each of n pictures, milliseconds, the mesh turning; each is waited for. `fine`: as

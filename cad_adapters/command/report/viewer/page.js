@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page around the view: what was picked, the legend, tables, buttons.
+// The page around the view: the picked triangle, the legend, tables, buttons.
 
 const byId = (id) => document.getElementById(id);
 

@@ -152,7 +152,7 @@ class Renderer {
     if (this.coarse) this.paintCoarse();
   }
 
-  /** Each coarse triangle has the colour of the one that it is made of, without lines. */
+  /** Gives each coarse triangle the colour of its source, without lines. */
   paintCoarse() {
     const all = coloursOf(this.mesh, ...this.painted);
     const own = new Uint8Array(this.coarse.bytes.colours);
@@ -165,7 +165,7 @@ class Renderer {
 
   hasCoarse() { return this.whole.triangles >= coarseFrom; }
 
-  /** Made when it is first wanted: fast machines never do. */
+  /** Made on first use: fast machines never use it. */
   coarseSet() {
     if (!this.coarse) {
       const { corners, from } = coarseMesh(this.mesh, coarseCount);
@@ -242,7 +242,7 @@ class Renderer {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
-  /** Milliseconds from now until the card has drawn all that was asked of it so far. */
+  /** Milliseconds from now until the card has drawn all requests so far. */
   async finished() {
     const gl = this.gl, start = performance.now();
     const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The view: what is drawn, what is picked, where it flies to.
+// The view: drawing, picking and flights.
 
 const textOf = (x) => (Number.isFinite(x) ? Number(x.toPrecision(4)).toString() : 'none');
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// A place of a circle of crossing where something may change.
+/// A place of a circle of crossing where the situation may change.
 struct Mark {
   double angle = 0;
   int point = 0;

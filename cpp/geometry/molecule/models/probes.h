@@ -22,7 +22,7 @@ struct ProbePart {
   std::vector<ProbeLoop> loops;
 };
 
-/// A probe at a vertex of the arrangement of grown balls: what of its sphere is within the directions of its balls.
+/// A probe at a vertex of the arrangement of grown balls: the part of its sphere within the directions of its balls.
 class ProbeTriangle {
  public:
   ProbeTriangle(const Arrangement& arrangement, int vertex, double probe);
@@ -34,7 +34,7 @@ class ProbeTriangle {
   std::array<Vec3, 3> inward_;  // normals of the planes through the centre
 };
 
-/// What counts references of points and curves.
+/// Counters for references of points and curves.
 struct NextReferences {
   int point = 1, curve = 1;
 };
@@ -45,8 +45,8 @@ struct ProbeCrossing {
   ProbeArc arc;
 };
 
-/// `tips`: [circle], the two points of a spindle on the axis, towards balls i and j; circles that are not spindles have
-/// none. Points that the crossings end in are tips, or get new references.
+/// `tips`: [circle], the two points of a spindle on the axis, towards balls i and j; empty for other circles. Points
+/// that the crossings end in are tips, or get new references.
 struct Tips {
   int low = 0, high = 0;  ///< references; 0: none
   Vec3 at_low, at_high;
@@ -54,7 +54,7 @@ struct Tips {
 std::vector<ProbeCrossing> find_crossings(const Arrangement& arrangement, std::span<const ProbeTriangle> probes,
                                           std::span<const Tips> tips, NextReferences& next);
 
-/// The parts of one probe's sphere: `sides` are pieces of the triangle's border. Nothing when pieces do not close.
+/// The parts of one probe's sphere: `sides` are pieces of the triangle's border. Empty when pieces do not close.
 std::optional<std::vector<ProbePart>> parts_of_probe(int vertex, const ProbeTriangle& triangle,
                                                      std::vector<ProbeArc> pieces,
                                                      const std::function<bool(const Vec3&)>& bare);

@@ -17,15 +17,15 @@ namespace carreau::molecule {
 
 namespace {
 
-/// A place where a probe touches the two balls of a circle: references of the points there and of the probe's arc
-/// between them, which a spindle has in two pieces.
+/// A place where a probe touches the two balls of a circle. It has references of the points there and of the probe's
+/// arc between them, which a spindle has in two pieces.
 struct Station {
   double angle = 0;
   int low = 0, high = 0;            ///< points on balls i and j
   int curve = 0, second_curve = 0;  ///< all of the arc, or up to the tips; 0: no spindle
 };
 
-/// What a probe sweeps between two stations.
+/// The surface that a probe sweeps between two stations.
 struct Sweep {
   Station from, to;
   int arc = 0, low_curve = 0, high_curve = 0;
@@ -140,7 +140,7 @@ class ExcludedBuilder {
         }
   }
 
-  /// A contact circle as the border of a convex part: the circle of the grown balls drawn to the centre.
+  /// Adds a contact circle as the border of a convex part: the circle of the grown balls shrunk to the centre.
   void add_contacts(const ArcUse& use, double share, Face& face, std::vector<SpaceArc>& border) {
     if (a_.arcs[use.arc].tiny) return;
     SpaceArc arc = a_.space_arc(use);
@@ -314,7 +314,7 @@ class ExcludedBuilder {
     measures_.concave += area;
     for (const int ball : a_.vertices[part.vertex].balls)
       measures_.ball_concave[static_cast<std::size_t>(ball)] += area / 3;
-    // The loops run seen from inside: their vector area is that of the normal towards the probe.
+    // The loops run seen from inside: their vector area belongs to the normal towards the probe.
     measures_.volume += (dot(probe.centre - middle_, vector_area(probe, loops)) - probe.radius * area) / 3;
     if (kept_vertex_[part.vertex] == 0) return;
     const std::array<int, 3>& balls = a_.vertices[part.vertex].balls;

@@ -10,8 +10,9 @@ namespace carreau::molecule {
 struct ExcludedMeasures {
   double convex = 0, torus = 0, concave = 0, volume = 0;
   std::vector<double> ball_area;  ///< [ball]: of its convex parts
-  /// [ball]: its share of torus parts, on its side of the plane of the probe's centres, which is where the power
-  /// distances from both grown balls are equal; and a third of each part of a probe that touches three.
+  /// [ball]: its share of torus parts, and a third of each part of a probe that touches three. The torus part's share
+  /// is on the ball's side of the plane of the probe's centres, where the power distances from both grown balls are
+  /// equal.
   std::vector<double> ball_torus, ball_concave;
 };
 

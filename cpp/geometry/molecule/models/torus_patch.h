@@ -7,8 +7,8 @@
 
 namespace carreau::molecule {
 
-/// The tube of a probe that rolls along a circle of two grown balls, cut by a half-plane of the circle's axis: at a
-/// height of radius sin(phi) along the axis it is rho - radius cos(phi) from it.
+/// The tube of a probe that rolls along a circle of two grown balls, cut by a half-plane of the circle's axis. At the
+/// height radius sin(phi) along the axis it is rho - radius cos(phi) from it.
 struct Tube {
   double rho = 0;            ///< radius of the circle
   double radius = 0;         ///< of the probe

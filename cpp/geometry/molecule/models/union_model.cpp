@@ -17,7 +17,7 @@ namespace carreau::molecule {
 
 namespace {
 
-/// References of curves and points: those of arcs too short to be seen are points.
+/// References of curves and points: arcs too short to be seen have references of points.
 class References {
  public:
   explicit References(const Arrangement& a) : first_curve_(a.arcs.size(), 0), points_(a.vertices.size()) {
@@ -37,7 +37,7 @@ class References {
   [[nodiscard]] int curve(int arc) const { return first_curve_[arc]; }
   /// A whole circle has two curves, from its first point to its second one and back.
   [[nodiscard]] int point_of_curve(int curve, int which) const { return next_point_ + 2 * curve + which; }
-  /// Of a circle that no arc has.
+  /// Reference of a circle without arcs.
   int add_circle() { return std::exchange(next_curve_, next_curve_ + 2); }
   [[nodiscard]] int point(int vertex) { return static_cast<int>(points_.find(static_cast<std::size_t>(vertex))) + 1; }
 
@@ -61,7 +61,7 @@ class UnionBuilder {
       faces_.add_part_of_ball(
           component.ball, std::move(face),
           std::make_unique<SpherePatch>(ball, find_pole(a_, component).direction, std::move(border)));
-    else if (component.loops.empty() || area_of(a_, component) > ball.radius * ball.radius)  // but for tiny holes
+    else if (component.loops.empty() || area_of(a_, component) > ball.radius * ball.radius)  // except for tiny holes
       add_whole_ball(component.ball);
   }
 

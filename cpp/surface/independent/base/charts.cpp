@@ -85,7 +85,7 @@ void Charts::link(std::int32_t t, int i, std::int32_t u, int j) {
   p.same_chart[i] = q.same_chart[j] = static_cast<char>(same);
 }
 
-// Neighbours run along their edge in opposite ways, those of a face that is turned the other way round.
+// Neighbours run along their edge in opposite ways, or in one way if a face is turned the other way round.
 void Charts::turn() {
   std::vector<char> known(triangles_.size(), 0);
   std::vector<std::int32_t> todo;
@@ -212,7 +212,7 @@ SurfacePlace Charts::evaluate(Cad& cad, const Foot& f) const {
   return place(f, surface_at(cad, ref_[triangles_[f.triangle].face], want_position | want_first, f.uv));
 }
 
-// The same point of the edge in the chart on its other side.
+// Returns the point of the edge in the chart on its other side.
 Foot Charts::over(std::int32_t t, int side, const Vec2& at) const {
   const Triangle& here = triangles_[t];
   const std::int32_t next = here.beyond[side];
@@ -226,7 +226,7 @@ Foot Charts::over(std::int32_t t, int side, const Vec2& at) const {
   return {next, lerp(from, to, s)};
 }
 
-// Along the straight line, out of each triangle by the side that it meets first.
+// Walks along the straight line, out of each triangle by the first side that it meets.
 Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   std::int32_t t = from.triangle;
   for (int step = 0; step < most_steps; ++step) {
@@ -251,7 +251,7 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   return {};
 }
 
-// Through the triangles as they are in space, without an evaluation; none where a barrier is in the way.
+// Walks through the flat triangles in space, without an evaluation; empty if a barrier is in the way.
 std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) const {
   std::int32_t t = from, before = -1;
   for (int step = 0; step < most_steps; ++step) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh of before as an atlas of the surface: from a place of one face to a place of another.
+// The previous mesh as an atlas of the surface: from a place of one face to a place of a second.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace carreau {
 using MeshEdge = std::array<std::int32_t, 2>;
 inline MeshEdge mesh_edge(std::int32_t v, std::int32_t w) noexcept { return v < w ? MeshEdge{v, w} : MeshEdge{w, v}; }
 
-/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies what it needs; safe from
+/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies its input; safe from
 /// several threads.
 class Charts {
  public:
@@ -34,9 +34,8 @@ class Charts {
     bool turned = false;                              ///< runs against its face, so that neighbours agree
   };
 
-  /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too, and
-  /// those where no side is that of all neighbours (a Moebius strip), which become `twisted`. `size`: by vertex; `metrics`:
-  /// sizes by direction, or none.
+  /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too. So are edges that prevent a
+  /// consistent side of the surface (a Moebius strip); these become `twisted`. `size`: by vertex; `metrics`: sizes by direction, or none.
   Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
          PlaneMetrics metrics, Monitor& monitor);
 
@@ -55,35 +54,34 @@ class Charts {
     return uv_[t.face][t.local[corner]];
   }
 
-  /// Triangles with a vertex no farther from a place: edits there must leave nothing farther from the surface than before.
+  /// Guards triangles with a vertex near a place: edits there must not increase distances from the surface.
   void guard(const Vec3& place, double distance);
   [[nodiscard]] bool is_guarded(const Foot& f) const { return guarded_[f.triangle] != 0; }
 
-  /// The size there, linear between those of the vertices.
+  /// The size at a place, linear between the sizes of the vertices.
   [[nodiscard]] double size(const Foot& f) const;
-  /// Makes sizes so many times as large, by vertex of the mesh of before: in all directions; empty: as they were wanted.
+  /// Multiplies sizes by factors, by vertex of the previous mesh, in all directions; empty: sizes as prescribed.
   void enlarge(std::vector<double> factor) { factor_ = std::move(factor); }
-  /// The largest factors of sizes, by vertex of the mesh of before, that are no larger than those given and grow over edges by
-  /// `growth` sizes a size.
+  /// Returns the largest factors of sizes, by vertex of the previous mesh, that do not exceed `factor` and grow over edges by `growth`
+  /// sizes a size.
   [[nodiscard]] std::vector<double> graded_factors(std::vector<double> factor, double growth) const;
-  /// Whether sizes differ by direction.
+  /// Returns whether sizes differ by direction.
   [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
-  /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero where there is none.
+  /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero if it has none.
   [[nodiscard]] PlaneMetric metric(const Foot& f, const Vec3& normal) const;
-  /// At a vertex with several places: of one size the first one's, else what holds in all of their planes.
+  /// The size at a vertex with several places: the first one's, or by direction the combination of all their planes.
   [[nodiscard]] WantedSize wanted(std::span<const SurfacePlace> places) const;
-  /// One evaluation.
+  /// The surface at a place, by one evaluation.
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// Barycentric coordinates of a place of its chart, by corner.
   [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
-  /// The foot of a place on the triangles as they are in space, sought from one of them; none where a barrier is in the way.
+  /// The closest point of `target` on the flat triangles in space, sought from the triangle `from`; empty if a barrier is in the way.
   [[nodiscard]] std::optional<Foot> flat_foot(std::int32_t from, const Vec3& target) const;
-  /// What is known of it is enough: derivatives from elsewhere.
+  /// A place with derivatives that are known from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
-  /// A place of the surface near `target`: below its foot on the flat triangles, and by Gauss-Newton steps from there, or from
-  /// `from`, which is regular. Empty where a barrier
-  /// or a singular place is in the way; `slides`: on the barrier then, beside the target. `near`: share of the way that may be
-  /// left along the surface.
+  /// Returns a place of the surface near `target`. It starts below the closest point on the flat triangles, or from `from`, which is
+  /// regular, and takes Gauss-Newton steps. Empty where a barrier or a singular place is in the way; `slides`: on the barrier then, beside
+  /// the target. `near`: share of the way that may be left along the surface.
   [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
                                                     bool slides = false, double near = thresholds::independent::near_enough) const;
 
@@ -107,7 +105,7 @@ class Charts {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<Vec2>> uv_;  // by face and local vertex
   std::vector<Vec3> xyz_;              // by vertex of the mesh
-  std::vector<double> size_;           // the same
+  std::vector<double> size_;           // by vertex of the mesh
   PlaneMetrics metric_;                // by face and local vertex; may be empty
   std::vector<double> factor_;         // of sizes, by vertex; may be empty
   std::vector<int> ref_;               // by face

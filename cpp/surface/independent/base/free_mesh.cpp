@@ -119,7 +119,7 @@ void FreeMesh::update_sizes() {
   }
 }
 
-// Where the surface bends more a coarse mesh is finer, so that no feature of the size wanted is passed over.
+// If the surface bends more a coarse mesh is finer, so that features of the prescribed size stay.
 void FreeMesh::tighten(double factor) {
   tolerances_.share_of_size = asked_.share_of_size / factor;
   tolerances_.angle_deg = asked_.angle_deg / std::sqrt(factor);
@@ -157,7 +157,7 @@ double FreeMesh::double_area(const EditableMesh::Triangle& t) const {
   return norm(mesh_->normal(0, t)) / (h * h);
 }
 
-// The nearest to that of a triangle.
+// Returns the normal nearest to the normal of a triangle.
 const Vec3& FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
   static const Vec3 none{0, 0, 0};
   if (several_[v] < 0) return place_[v].normal;
@@ -202,7 +202,7 @@ void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, T
     share = std::max(share, offset * offset / (most * most));
   }
   const bool guarded = guards_ && std::ranges::any_of(v, [&](std::int32_t w) { return charts_.is_guarded(place_[w].foot); });
-  if (guarded) share = budget.is_limited() ? infinity : guarded_factor * share;  // infinity: nothing is edited there
+  if (guarded) share = budget.is_limited() ? infinity : guarded_factor * share;  // infinity: no edits there
   shapes.share = std::max(shapes.share, share);
 }
 

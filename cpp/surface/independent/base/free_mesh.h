@@ -22,12 +22,12 @@ struct MeshPart;
 
 /// How far triangles may leave the surface.
 struct SurfaceTolerances {
-  double angle_deg = 0;       ///< A1: of a triangle's normal with those of the surface at its corners
+  double angle_deg = 0;       ///< A1: of a triangle's normal with the surface's normals at its corners
   double deviation = 0;       ///< A0, model length; 0: `share_of_size` counts
   double share_of_size = 0;   ///< A0 as a share of the size
 };
 
-/// Of some triangles.
+/// Sums of the shapes of some triangles.
 struct TriangleShapes {
   double worst = 1;      ///< Q2 in the metric
   double inverses = 0;   ///< sum of 1 / Q2
@@ -36,7 +36,8 @@ struct TriangleShapes {
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 
-/// What collapses between sharp lines may cost in shapes. Costs are sums of differences of Q2; triangles that go count against a mean.
+/// The loss of shapes that collapses between sharp lines may cause. Costs are sums of differences of Q2; triangles that go count against a
+/// mean.
 struct ShapeBudget {
   double price = infinity;  ///< for an edge that comes into range
   double mean = 0;          ///< Q2 that the mesh is to keep
@@ -44,7 +45,7 @@ struct ShapeBudget {
   double floor = 0;         ///< Q2: no edit leaves a triangle that is worse, where none was
 
   [[nodiscard]] bool is_limited() const noexcept { return left < infinity; }
-  /// What shapes lose by an edit.
+  /// The loss of shapes by an edit.
   [[nodiscard]] double cost(const TriangleShapes& before, const TriangleShapes& after) const noexcept {
     return before.sum - after.sum - mean * (before.count - after.count);
   }
@@ -52,7 +53,7 @@ struct ShapeBudget {
   void pay(double cost) noexcept { left -= cost; }
 };
 
-/// HDR eq. 4.83: of a distance between two places with these sizes.
+/// Metric length of a distance between two places with these sizes (HDR eq. 4.83).
 inline double length_between_sizes(double distance, double p, double q) noexcept {
   return std::abs(q - p) > 1e-6 * p ? distance * std::log(q / p) / (q - p) : distance / p;
 }
@@ -67,9 +68,10 @@ class FreeMesh final : public PlacedVertices {
   FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
            std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
            const Charts& charts, Cad& cad);
-  /// Some triangles of `whole` by themselves: edits join no two of the frozen vertices, since others may do so beyond.
+  /// Starts with some triangles of `whole`. Edits do not join two frozen vertices, since other parts may join them.
   FreeMesh(const FreeMesh& whole, const MeshPart& part);
-  /// The same with other triangles. `added`: vertices that follow those of `mesh`; `sharp`: edges of `triangles`.
+  /// Starts with other triangles than the triangles of `mesh`. `added`: vertices that follow the vertices of `mesh`;
+  /// `sharp`: edges of `triangles`.
   FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
            std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
            const Charts& charts, Cad& cad, std::span<const SurfacePlace> added, std::vector<EditableMesh::Triangle> triangles);
@@ -85,31 +87,31 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const override;
   [[nodiscard]] double size(std::int32_t v) const override { return size_[v]; }
   [[nodiscard]] bool by_direction() const noexcept override { return charts_.by_direction(); }
-  /// If they do.
+  /// The metric at a vertex, if sizes differ by direction.
   [[nodiscard]] const Metric3& metric(std::int32_t v) const { return metric_[v]; }
   [[nodiscard]] WantedSize wanted(std::int32_t v) const { return {size_[v], by_direction() ? metric_[v] : Metric3{}}; }
   [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
   [[nodiscard]] Vec3 position(std::int32_t v) const override { return place_[v].xyz; }
 
-  /// In the prescribed metric (HDR eq. 4.83).
+  /// Length in the prescribed metric (HDR eq. 4.83).
   [[nodiscard]] double length(std::int32_t v, std::int32_t w) const;
-  /// The same of a triangle: twice the area, by its mean metric.
+  /// Twice the area of a triangle in its mean metric.
   [[nodiscard]] double double_area(const EditableMesh::Triangle& t) const;
-  /// Adds the triangle with these corners.
+  /// Adds the triangle with these corners to `shapes`.
   void judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
     judge_shape(a, b, c, shapes);
     judge_agreement(a, b, c, shapes);
   }
-  /// The same of its shape alone: much less work, and most edits fail by it.
+  /// Adds its shape alone: much less work, and most edits fail by it.
   void judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
-  /// Of its share alone.
+  /// Adds its share alone.
   void judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
   [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const { return judge_fan(v, &FreeMesh::judge); }
   [[nodiscard]] TriangleShapes judge_shapes_around(std::int32_t v) const { return judge_fan(v, &FreeMesh::judge_shape); }
   [[nodiscard]] TriangleShapes judge_agreement_around(std::int32_t v) const {
     return judge_fan(v, &FreeMesh::judge_agreement);
   }
-  /// Whether edits may leave `after` where there was `before`.
+  /// Returns whether edits may replace `before` by `after`.
   [[nodiscard]] static bool agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept;
 
   /// The surface near `target`, sought from the vertex v; `normal`: on which side, where v is kept.
@@ -117,39 +119,39 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] WantedSize wanted_at(const SurfacePlace& place) const {
     return wanted_at(std::span<const SurfacePlace>(&place, 1));
   }
-  /// At a vertex with several places.
+  /// The size at a vertex with several places.
   [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const { return charts_.wanted(places); }
 
-  /// After the sizes of the charts have changed.
+  /// Updates sizes after the sizes of the charts have changed.
   void update_sizes();
-  /// After triangles of the charts have been guarded.
+  /// Updates guarded vertices after triangles of the charts have been guarded.
   void update_guards();
-  /// Of a mesh so many times as coarse as wanted: triangles leave the surface no farther than those that are wanted may, and lean less;
-  /// 1: as was tolerated.
+  /// Tightens the tolerances of a mesh that is `factor` times as coarse as prescribed. Its triangles leave the surface no farther than
+  /// triangles of the prescribed sizes may, and lean less; 1: the given tolerances.
   void tighten(double factor);
 
   [[nodiscard]] const SurfaceTolerances& tolerances() const noexcept { return asked_; }
 
-  /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
+  /// Adds a vertex beside the mesh, to judge edits with it, until forget_vertex().
   std::int32_t try_vertex(const SurfacePlace& at);
   void forget_vertex();
 
   ShapeBudget budget;
 
-  // Edits. Those that are refused change nothing.
+  // Edits. Rejected edits change nothing.
   bool collapse(std::int32_t gone, std::int32_t kept) { return !joins_frozen(gone, kept) && mesh_->collapse(gone, kept); }
   bool swap(const Quad& q) { return !(is_frozen(q.c) && is_frozen(q.d)) && mesh_->swap(q); }
   std::int32_t split(const Quad& q, const SurfacePlace& at);
-  /// Puts a free vertex there, and gives what it was; tests nothing.
+  /// Moves a free vertex and sets its size, without tests.
   void put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
-  /// The same of a vertex on a line; the first place has the position.
+  /// Moves a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
 
-  /// Edits so far, but for put(); and back to so many: the vertices that they made are gone.
+  /// Number of edits so far, without put(). undo() goes back to a number; the vertices that later edits made are gone.
   [[nodiscard]] std::size_t edits() const noexcept { return mesh_->edits(); }
   void undo(std::size_t edits);
 
-  /// What has become of all parts of a division. Triangles get other numbers, old vertices keep theirs.
+  /// Takes over the results of all parts of a division. Triangles get other numbers, old vertices keep theirs.
   void take(const Division& division, std::vector<EditedPart>&& edited);
 
   [[nodiscard]] const Charts& charts() const noexcept { return charts_; }

@@ -19,7 +19,7 @@ namespace {
 
 using namespace thresholds::independent;
 
-/// A side of a triangle: where it starts.
+/// A side of a triangle, by its start.
 struct TriangleSide {
   MeshEdge edge;
   std::int32_t face, triangle;
@@ -147,13 +147,13 @@ std::span<const LineEnd> at_vertex(const std::vector<LineEnd>& all, std::int32_t
   return {std::ranges::lower_bound(all, v, {}, &LineEnd::vertex), std::ranges::upper_bound(all, v, {}, &LineEnd::vertex)};
 }
 
-/// Directions in which curves leave their ends, as their supports have them.
+/// Directions in which curves leave their ends, by their supports.
 class Tangents {
  public:
   Tangents(const SurfaceMesh& mesh, const Topology* topology, const std::vector<std::vector<CurveSupport>>& supports)
       : mesh_(mesh), topology_(topology), supports_(supports) {}
 
-  /// Whether the two edges at a vertex are of one line that goes straight on.
+  /// Returns whether the two edges at a vertex belong to one line that goes straight on.
   [[nodiscard]] bool go_on(std::span<const LineEnd> two, double cosine) const {
     const std::int32_t v = two[0].vertex;
     if (two[0].curve == two[1].curve && is_inside(two[0].curve, v)) return true;
@@ -234,10 +234,10 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
     const auto here = at_vertex(edges, v);
     if (here.empty() ? around.discs(v) > 1 : here.size() != 2 || !tangents.go_on(here, cosine)) corner[v] = 1;
   }
-  for (const CurveMesh& curve : mesh.curves)  // wires stay on what they end at
+  for (const CurveMesh& curve : mesh.curves)  // the ends of free curves keep their places
     for (std::size_t k = 0; curve.loose && k < curve.vertices.size(); ++k)
       if (around.discs(curve.vertices[k]) > 0) corner[curve.vertices[k]] = 1;
-  // Two lines may touch at a vertex of one of them.
+  // A line may touch a second line at one of its vertices.
   std::map<MeshEdge, int> count;
   for (const MeshEdge& e : sharp) count[e] = 0;
   for (const auto& t : charts.triangles())

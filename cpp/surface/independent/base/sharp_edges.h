@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stays of the borders of patches: sharp edges, corners, and lines between them (HDR sec. 4.5.5).
+// Remaining borders of patches: sharp edges, corners, and lines between them (HDR sec. 4.5.5).
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,16 @@ struct SharpLine {
 
 /// First derivatives at each local vertex: [face][local].
 using VertexJets = std::vector<std::vector<SurfaceJet>>;
-/// One evaluation each.
+/// Evaluates the surface once at each vertex.
 VertexJets evaluate_vertices(const SurfaceMesh& mesh, Cad& cad, Monitor& monitor);
 
-/// Edges of curves with one triangle, three or more, with normals that differ by more than `angle` degrees at one end,
-/// and those of internal curves. Ascending.
+/// Edges of internal curves, and edges of curves with one triangle, three or more, or with normals that differ by more
+/// than `angle` degrees at one end. Ascending.
 std::vector<MeshEdge> find_sharp_edges(const SurfaceMesh& mesh, const VertexJets& jets, double angle);
 
-/// Vertices that neither move nor go, ascending: where other than two sharp edges meet, or two that turn by more than
-/// `angle` degrees; imposed points; ends of wires; singular places; vertices around which the surface is not one disc, or as many as
-/// meet at the edges of the line. `topology` may be null: then every end of a curve on a line is one.
+/// Vertices that stay where they are, ascending. These are imposed points, ends of wires and singular places. Vertices where other than two
+/// sharp edges meet, or two that turn by more than `angle` degrees, stay too. So do vertices around which the surface is not one disc, or
+/// not as many discs as meet at the edges of the line. `topology` may be null: then every end of a curve on a line is one.
 std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets& jets, const Charts& charts,
                                        const std::vector<MeshEdge>& sharp, const Topology* topology,
                                        const std::vector<std::vector<CurveSupport>>& supports, double angle);

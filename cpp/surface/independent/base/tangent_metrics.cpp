@@ -17,7 +17,7 @@ Metric3 with_normal(const Metric3& m, double factor, const Vec3& n) noexcept {
 
 bool is_plane(const PlaneMetric& m) noexcept { return dot(m.normal, m.normal) > 0; }
 
-/// Of a metric of a plane, in any orthonormal basis of it: the sum and the product of its eigenvalues.
+/// Invariants of a metric of a plane, in any orthonormal basis: the sum and the product of its eigenvalues.
 struct Invariants {
   double trace, product;
 

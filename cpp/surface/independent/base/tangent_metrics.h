@@ -11,26 +11,27 @@
 
 namespace carreau {
 
-/// A metric of space that knows the directions of one tangent plane: nothing along its normal. Lengths of chords are those
-/// of their parts in the plane.
+/// A metric of space with the directions of one tangent plane, without an entry along its normal. Lengths of chords are the lengths of
+/// their parts in the plane.
 struct PlaneMetric {
   Metric3 metric;
   Vec3 normal;  ///< unit, either side; zero: all of space is known (at a pole, an apex)
 };
 
-/// By face and local vertex; empty: sizes do not differ by direction.
+/// Metrics by face and local vertex; empty: sizes do not differ by direction.
 using PlaneMetrics = std::vector<std::vector<PlaneMetric>>;
 
-/// What a metric of (u, v) is in the tangent plane of a jet with first derivatives; where there is none the isotropic
-/// one of the size `h`.
+/// Lifts a metric of (u, v) to the tangent plane of a jet with first derivatives. A jet without a tangent plane gets
+/// the isotropic metric of size `h`.
 PlaneMetric plane_metric(const SurfaceJet& jet, Metric2 metric, double h) noexcept;
 
-/// In the plane of the unit vector `normal`: planes are turned into it the short way, then sizes are linear by `weights` (their
+/// The metric in the plane of the unit vector `normal`. Planes are turned into it the short way, then sizes are linear by `weights` (their
 /// sum is 1, none is negative).
 PlaneMetric interpolate(const std::array<const PlaneMetric*, 3>& corners, const std::array<double, 3>& weights,
                         const Vec3& normal) noexcept;
 
-/// What holds in all planes that meet at a vertex: along each normal the larger size of its plane, and the largest ellipsoid inside all. Of one plane: its own.
+/// Combines the metrics of all planes that meet at a vertex. Along each normal it takes the larger size of the plane, and then the largest
+/// ellipsoid inside all. A single plane keeps its metric.
 Metric3 where_planes_meet(std::span<const PlaneMetric> planes);
 
 /// sqrt(h1 h2) in the plane.
@@ -38,7 +39,8 @@ double mean_size(const PlaneMetric& m) noexcept;
 /// h2 / h1 >= 1.
 double anisotropy(const PlaneMetric& m) noexcept;
 
-/// Between both ends of a straight edge, whose lengths by the metrics of the ends are l_p and l_q: sizes along it are linear (HDR eq. 4.83).
+/// Metric length between both ends of a straight edge, whose lengths by the metrics of the ends are l_p and l_q. Sizes along the edge are
+/// linear (HDR eq. 4.83).
 double length_between(double l_p, double l_q) noexcept;
 
 /// Squares and products of two vectors in a metric: (p.p, p.q, q.q).

@@ -37,7 +37,7 @@ SpreadPlaces::Look SpreadPlaces::look(const PlaceInTriangle& place) const {
   const auto nearest = std::ranges::min_element(flat_.p, {}, [&](const Vec3& p) { return norm(p - look.flat); });
   look.offset = *nearest - look.flat;
   const auto found = triangle_.over(weight);
-  // Farther than a corner is another part of the surface.
+  // A place farther than a corner belongs to another part of the surface.
   look.found = found && norm(found->xyz - look.flat) < norm(look.offset);
   if (look.found)
     look.offset = found->xyz - look.flat, look.normal = triangle_.normal(*found);
@@ -60,7 +60,7 @@ void SpreadPlaces::lean_on_others(Look& look) const {
   if (!look.found) look.offset = offset;
 }
 
-// By how normals differ from place to place.
+// The curvature, by the differences of normals between places.
 double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_size>& looks) const {
   double most = 0;
   for (std::size_t i = 0; i < looks.size(); ++i)
@@ -73,7 +73,8 @@ double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_
   return (1 + variation) * most;
 }
 
-// The distance of the tangent plane, and by how much the surface bends away from it beside the place that was found; or the distance of a corner.
+// The distance of the tangent plane, and the bend of the surface away from it beside the place that was found. Otherwise the distance of a
+// corner.
 BoundPlace SpreadPlaces::over(const Look& look) const {
   double nearest = norm(look.offset);
   for (const Vec3& p : flat_.p) nearest = std::min(nearest, norm(p - look.flat));

@@ -9,14 +9,15 @@
 
 namespace carreau {
 
-/// Such a triangle. Each place has the point that lies over it along its normal, as far as the surface is from it at most. Keeps references.
+/// The places of a triangle with corners in several charts. Each place has the point that lies over it along its normal, at most as far as
+/// the surface is from it. Keeps references.
 class SpreadPlaces {
  public:
   SpreadPlaces(const SpreadTriangle& triangle, const BoundedTriangle& flat);
 
   [[nodiscard]] std::array<BoundPlace, TriangleBound::lattice_size> lattice() const;
   [[nodiscard]] BoundPlace at(const PlaceInTriangle& place) const { return over(look(place)); }
-  /// Whether a normal was found at each place.
+  /// Returns whether a normal was found at each place.
   [[nodiscard]] bool has_normals() const noexcept { return has_normals_; }
 
  private:

@@ -57,7 +57,7 @@ std::optional<SurfacePlace> SpreadTriangle::near(const std::array<double, 3>& we
   return {};
 }
 
-// Normals of places are those of the atlas.
+// Normals of places have the side of the atlas.
 Vec3 SpreadTriangle::normal(const SurfacePlace& place) const { return turned_ ? Vec3(-place.normal) : place.normal; }
 
 }  // namespace carreau

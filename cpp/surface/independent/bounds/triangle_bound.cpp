@@ -20,9 +20,10 @@ constexpr int cells = 4;  // of a side
 /// Rank in the lattice of j cells towards the second corner and k towards the third one.
 constexpr std::size_t rank_of(int j, int k) noexcept { return static_cast<std::size_t>(k * (cells + 1) - k * (k - 1) / 2 + j); }
 
-/// How far a function is from the linear interpolation of its corners at most. Its second derivatives along the sides of a triangle, times their
-/// squared lengths, are constants of at most m, which make 1/2 sum x_i x_j m_ij at the place with weights x; and what varies, `variation` times m
-/// at most, which makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's formula there for each corner.
+/// The largest distance of a function from the linear interpolation of its corners. Its second derivatives along the sides of a triangle,
+/// times their squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at
+/// the place with weights x. The variable part is at most `variation` times m. It makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's
+/// formula at the place for each corner.
 double most_off(double m0, double m1, double m2) noexcept {
   const double largest = std::max({m0, m1, m2}), sides = (m0 + m1 + m2) / 8;
   return std::min(largest / 6, sides) + variation * std::min(5. / 18 * largest, sides);
@@ -114,7 +115,7 @@ TriangleBound::Seen TriangleBound::see(const BoundPlace& place, const PlaceInTri
   return seen;
 }
 
-// Into four; sides of each are parallel to those of the whole.
+// Cuts the part into four; sides of each are parallel to the sides of the whole.
 void TriangleBound::cut(const std::array<Seen, 3>& corner, const std::array<Seen, 3>& middle, const Bends& bends, int cuts) {
   judge({{corner[0], middle[0], middle[2]}, bends, cuts});
   judge({{middle[0], corner[1], middle[1]}, bends, cuts});
@@ -122,7 +123,7 @@ void TriangleBound::cut(const std::array<Seen, 3>& corner, const std::array<Seen
   judge({{middle[1], middle[2], middle[0]}, bends, cuts});
 }
 
-// Into two, from the pole on: ways to it are many, however near to it.
+// Cuts the part into two, from the pole on: there are many ways to the pole, however near.
 void TriangleBound::cut_at_pole(const Part& part, const std::array<Seen, 3>& middle, Bends bends) {
   const std::size_t pole = part.corner[0].singular ? 0 : part.corner[1].singular ? 1 : 2, next = (pole + 1) % 3, last = (pole + 2) % 3;
   for (const std::size_t side : {pole, last}) {  // to the pole: as long as before
@@ -141,10 +142,10 @@ void TriangleBound::judge(Part&& part) {
   const double deviation = deviation_of(part), angle = angle_of(part);
   const auto is_near = [&](double bound, double seen, double floor, double tolerance) {
     if (bound <= tolerance || (triangle_.decides && seen > tolerance)) return bound <= (1 + bound_gap) * seen + floor;
-    // Where what is seen is not beyond, that is to be decided.
+    // If the observed value is within the tolerance, the bound must decide.
     return seen > tolerance ? bound <= (1 + bound_gap_beyond) * seen + floor : bound <= (1 + bound_gap_undecided) * seen;
   };
-  // What is not known of a normal is no better known of parts.
+  // Parts of a triangle do not improve a normal that is unknown.
   const bool leans = std::ranges::any_of(part.corner, [](const Seen& c) { return c.place.lean > 0; });
   const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
                     (leans || is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance));
@@ -170,7 +171,7 @@ double TriangleBound::deviation_of(const Part& part) const noexcept {
   return goes_on_beside(part, beyond) ? std::min(distance, height + beyond * triangle_.slope) : distance;
 }
 
-// How far beyond the triangle the surface is at most, seen along its normal.
+// Largest distance of the surface beyond the triangle, seen along its normal.
 double TriangleBound::overshoot_of(const Part& part) const noexcept {
   const double rounding = beyond_side * triangle_.longest;
   const Bends& b = part.bends;
@@ -198,7 +199,7 @@ double TriangleBound::overshoot_of(const Part& part) const noexcept {
   return beside ? std::min(beyond[one], most + off) : most + off;
 }
 
-// Whether there are triangles of the mesh under what is so far beyond.
+// Returns whether the mesh has triangles under the places that are so far beyond.
 bool TriangleBound::goes_on_beside(const Part& part, double overshoot) const noexcept {
   double away = 1;  // from corners where the mesh ends
   for (std::size_t i = 0; i < 3; ++i) {
@@ -232,12 +233,12 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
   if (singular > 1) return turned;
   const auto off = [&](double Bend::*of) {
     const auto bend = [&](std::size_t side) { return part.bends[side % 3].*of; };
-    // At a pole normals are as long as the way to it: so is what they are off by.
+    // At a pole the lengths of normals, and their errors, are proportional to the distance from it.
     return singular == 0 ? most_off(bend(0), bend(1), bend(2))
                          : (1 + variation) * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
   };
   if (largest >= right) return turned;
-  // The interpolated normal is in the cone of those at the corners.
+  // The interpolated normal is in the cone of the normals at the corners.
   const double least = upright - off(&Bend::upright);
   return least > 0 ? std::atan((std::tan(largest) * upright + off(&Bend::leaning)) / least) : turned;
 }

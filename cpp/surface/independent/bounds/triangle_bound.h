@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a triangle and the surface over it are apart at most.
+// Bounds of the distance between a triangle and the surface over it.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct BoundPlace {
   double lean = 0;  ///< radians that the normal may be off by
 };
 
-/// A triangle of a mesh, and what lies beyond its sides. Side i goes from corner i to the next one.
+/// A triangle of a mesh, and the surroundings of its sides. Side i goes from corner i to the next one.
 struct BoundedTriangle {
   BoundedTriangle() = default;
   explicit BoundedTriangle(const std::array<Vec3, 3>& corners) noexcept;
@@ -31,30 +31,30 @@ struct BoundedTriangle {
   std::array<bool, 3> open_side{true, true, true}, open_corner{true, true, true};  ///< the mesh ends there
   /// The triangles around: tangent of the largest angle with one of them, and their smallest height.
   double slope = infinity, reach = 0;
-  double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to what is seen; model length, radians
+  double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to the observed values; model length, radians
   double deviation_tolerance = infinity, angle_tolerance = infinity;  ///< bounds beyond are nearer to it
-  bool decides = false;  ///< whether bounds are beyond is all that is asked
-  bool roughly = false;  ///< of what may come to be: bounds may be looser, for few places
+  bool decides = false;  ///< only whether bounds are beyond matters
+  bool roughly = false;  ///< for triangles of edits to test: bounds may be looser, for few places
 };
 
 /// Weights of the second and the third corner.
 using PlaceInTriangle = Vec2;
 
-/// Bounds of HDR eq. 4.1 and 4.3 for one triangle: A0, no point of the surface over it is farther from the mesh; and A1, no normal there makes a
-/// larger angle with its own. They hold if over each part of the triangle second derivatives of the surface, and of Su x Sv, along its sides differ from
-/// a constant by at most the largest second difference of the places seen (thresholds.h).
+/// Bounds of HDR eq. 4.1 and 4.3 for one triangle: A0, no point of the surface over it is farther from the mesh; and A1, no normal there
+/// makes a larger angle with its own. They hold under a condition on second derivatives of the surface, and of Su x Sv, along the sides of
+/// each part of the triangle. These must differ from a constant by at most the largest observed second difference (thresholds.h).
 ///
-/// Over a part of the triangle the surface is no farther from the linear interpolation of its corners than those second derivatives let it be, and the
+/// Over a part of the triangle these second derivatives bound the distance of the surface from the linear interpolation of its corners. The
 /// distance of the interpolation from a convex set is largest at a corner. Parts for which that leaves too much open are cut into four.
 class TriangleBound {
  public:
   static constexpr std::size_t lattice_size = 15;
-  /// The places at which the surface is seen first: quarters of the sides and three inside.
+  /// The places of the first evaluations: quarters of the sides and three inside.
   static const std::array<PlaceInTriangle, lattice_size>& lattice() noexcept;
 
   TriangleBound(const BoundedTriangle& triangle, std::span<const BoundPlace, lattice_size> places);
 
-  /// Places to be seen next; none: done.
+  /// Places to evaluate next; empty: done.
   [[nodiscard]] const std::vector<PlaceInTriangle>& wanted() const noexcept { return wanted_; }
   void take(std::span<const BoundPlace> places);
 
@@ -62,8 +62,8 @@ class TriangleBound {
   [[nodiscard]] double angle() const noexcept { return angle_; }  ///< radians; pi where the surface is turned over, or no normal is known
 
  private:
-  /// Second differences along a side: of the height over the plane, of all, of the part of the normal along that of the triangle and of the rest,
-  /// and across the sides.
+  /// Second differences along a side: of the height over the plane, of the whole vector, and of the two parts of the normal. One part is
+  /// along the triangle's normal, the other across it. The last ones are differences across the sides.
   struct Bend {
     double height = 0, whole = 0, upright = 0, leaning = 0;
     std::array<double, 3> across{};
@@ -74,7 +74,7 @@ class TriangleBound {
   struct Seen {
     BoundPlace place;
     PlaceInTriangle at;
-    double height = 0, angle = 0, upright = 0;  ///< over the plane; of the normal; its part along that of the triangle
+    double height = 0, angle = 0, upright = 0;  ///< over the plane; of the normal; its part along the triangle's normal
     std::array<double, 3> beyond{};             ///< sides
     bool singular = false;
   };
@@ -96,7 +96,7 @@ class TriangleBound {
   void want_middles();
 
   BoundedTriangle triangle_;
-  double singular_ = 0;  // shorter normals are none
+  double singular_ = 0;  // shorter normals do not count
   double seen_deviation_ = 0, seen_angle_ = 0;
   double deviation_ = 0, angle_ = 0;
   int parts_ = 0;

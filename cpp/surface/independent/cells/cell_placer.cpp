@@ -36,7 +36,7 @@ PlacedCell CellPlacer::operator()(const FreeCell& cell, const FreeCell& nodes) {
   return result;
 }
 
-// Where corners have one place each, as inside: the face that common_faces() finds, -1: there is none.
+// Returns the face that common_faces() finds if corners have one place each, as inside, or -1 if no face is common.
 std::optional<std::int32_t> CellPlacer::only_one_each() const {
   std::int32_t face = -1;
   bool common = true;
@@ -50,7 +50,7 @@ std::optional<std::int32_t> CellPlacer::only_one_each() const {
   return common ? face : -1;
 }
 
-// Those in which each corner has a place, on the side of the cell; ascending.
+// Returns the faces in which each corner has a place, on the side of the cell; ascending.
 std::vector<std::int32_t> CellPlacer::common_faces() const {
   std::vector<std::int32_t> common;
   for (int i = 0; i < n_; ++i) {
@@ -68,7 +68,7 @@ std::vector<std::int32_t> CellPlacer::common_faces() const {
   return common;
 }
 
-// Among the places of the corners in a face, those that are as far apart in (u, v) as in space.
+// Selects, among the places of the corners in a face, places that are as far apart in (u, v) as in space.
 std::optional<PlacedCell> CellPlacer::in_one_chart(std::int32_t face) const {
   std::array<std::vector<std::int32_t>, 4> choice;
   for (int i = 0; i < n_; ++i) {
@@ -139,7 +139,7 @@ std::optional<SurfacePlace> CellPlacer::below(const std::array<double, 4>& weigh
   return {};
 }
 
-// The face that holds most of some places, where the corners are of three; else that of the centroid.
+// The face that holds most of some places, if the corners lie in three faces; otherwise the face of the centroid.
 std::optional<SurfacePlace> CellPlacer::most_of(const Choice& k) const {
   constexpr double most = 2. / 3;
   const double rest = n_ == 3 ? 1. / 6 : 1. / 9;
@@ -168,7 +168,7 @@ std::optional<SurfacePlace> CellPlacer::most_of(const Choice& k) const {
   return found;
 }
 
-// Where all places of the corners are in one face.
+// Returns the face if all places of the corners are in one face.
 std::optional<std::int32_t> CellPlacer::only_face() const {
   const std::int32_t face = face_of(vertices_.places(vertex_[0]).front());
   for (int i = 0; i < n_; ++i)
@@ -191,7 +191,7 @@ PlacedCell CellPlacer::over_several() const {
   return placed(face, k, is_turned(middle), true);
 }
 
-// Of the places of a node that nearest to `middle` in the face of a cell, else that on the side of the cell.
+// Returns the place of a node nearest to `middle` in the face of a cell, otherwise the place on the side of the cell.
 std::int32_t CellPlacer::place_of_node(std::int32_t node, const PlacedCell& cell, const Vec2& middle) const {
   const auto places = vertices_.places(node);
   std::int32_t best = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// To which face a cell of a free mesh belongs, and where in (u, v) its corners and nodes are.
+// The face of a cell of a free mesh, and the places of its corners and nodes in (u, v).
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace carreau {
 /// Corners of a cell; the last one of a triangle is -1.
 using FreeCell = std::array<std::int32_t, 4>;
 
-/// A vertex of a cell, and which of its places. Cells of several sheets of a face that meet along an edge may have one place there: the
-/// sheet tells their corners apart.
+/// A vertex of a cell, and the number of its place. Cells of several sheets of a face that meet along an edge may have one place there; the
+/// sheet distinguishes their corners.
 struct PlacedCorner {
   std::int32_t vertex = -1, place = 0, sheet = 0;
   friend auto operator<=>(const PlacedCorner&, const PlacedCorner&) = default;
@@ -27,7 +27,7 @@ struct PlacedCell {
   int count = 3;  ///< of corners
   std::array<PlacedCorner, 4> corners{};  ///< as the face turns
   std::array<PlacedCorner, 4> nodes{};    ///< on the sides from each corner to the next one, of cells of second order
-  bool spread = false;  ///< it is no element of (u, v)
+  bool spread = false;  ///< it is not an element of (u, v)
 };
 
 /// Keeps references.
@@ -36,8 +36,8 @@ class CellPlacer {
   CellPlacer(const PlacedVertices& vertices, const Charts& charts, Cad& cad)
       : vertices_(vertices), charts_(charts), cad_(cad) {}
 
-  /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which all of its corners have
-  /// places that fit, else to that of the foot of its centroid.
+  /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which
+  /// all of its corners have places that fit. Otherwise it belongs to the face of the closest point of its centroid.
   PlacedCell operator()(const FreeCell& cell, const FreeCell& nodes = {-1, -1, -1, -1});
 
  private:

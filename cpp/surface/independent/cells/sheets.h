@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// Gives the corners of the cells of a face their sheets. Where two cells run along one edge the same way, cells that hang together over
-/// other edges are one sheet at its ends. Elsewhere there is one sheet. `may_be_of_several`: a vertex on a line.
+/// Gives the corners of the cells of a face their sheets. If two cells run along one edge the same way, cells that are connected over other
+/// edges are one sheet at its ends. Elsewhere there is one sheet. `may_be_of_several`: a vertex on a line.
 void part_sheets(std::vector<PlacedCell>& cells, const std::function<bool(std::int32_t)>& may_be_of_several);
 
 }  // namespace carreau

@@ -50,7 +50,7 @@ class Certifier::Work {
         for (const std::int32_t t : group) corners.push_back(mesh_.triangles()[t]);
         if (failed_.contains(corners)) continue;
         end_ = std::min(end, bounds_.evaluations() + most_evaluations_of_group * static_cast<std::int64_t>(group.size()));
-        // What is far beyond is not mended edit by edit.
+        // Groups far beyond the tolerances first allow splits that degrade triangles.
         const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > most_moved; });
         if (!work_at(group, boldly)) (void)work_at(group, !boldly);
         if (edits() == before_group) failed_.insert(std::move(corners));
@@ -86,12 +86,12 @@ class Certifier::Work {
     Corners corners;
     std::int32_t index;
   };
-  /// What an edit leaves.
+  /// The result of an edit.
   struct Outcome {
     double share = infinity;
     TriangleShapes shapes;
   };
-  /// A vertex where it was.
+  /// A moved vertex with its old place.
   struct Moved {
     std::int32_t vertex;
     SurfacePlace from;
@@ -110,7 +110,7 @@ class Certifier::Work {
       for (const Place p : mesh_.mesh().fan(last.vertex)) forget(p);
       moved_.pop_back();
     }
-    // Of triangles that come back nothing is known.
+    // Shares of triangles that come back are unknown.
     for (const std::int32_t t : touched_) share_[t] = unknown;
     mesh_.undo(to.edits);
     share_.resize(mesh_.triangles().size(), unknown);
@@ -124,7 +124,7 @@ class Certifier::Work {
     return mean < std::min(least_mean, mean_before) && (mean_before >= least_mean || mean < mean_before - most_mean_lost);
   }
 
-  // Triangles that share a vertex. The worst group is last: it may be one that nothing helps.
+  // Triangles that share a vertex. The worst group is last: no edit may help it.
   [[nodiscard]] std::vector<std::vector<std::int32_t>> groups(const std::vector<Beyond>& beyond) const {
     std::map<std::int32_t, std::vector<std::int32_t>> at;  // by vertex: triangles
     for (const Beyond& b : beyond)
@@ -143,11 +143,11 @@ class Certifier::Work {
     return found;
   }
 
-  /// How far some triangles are beyond: the largest share, and the sum of what exceeds 1.
+  /// The excess of some triangles: the largest share, and the sum of the excesses over 1.
   struct Excess {
     double most = 0, sum = 0;
   };
-  // Of what the group has become.
+  // Returns the excess of the present triangles of the group.
   Excess excess() {
     std::ranges::sort(touched_);
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -156,7 +156,8 @@ class Certifier::Work {
     return all;
   }
 
-  // Whether none of it is beyond any more. `boldly`: splits may come before those that make them good. Of what the rounds leave the best counts.
+  // Returns whether the whole group is within tolerances. `boldly` allows degradation by splits that later splits repair. The best state of
+  // all rounds counts.
   bool work_at(const std::vector<std::int32_t>& group, bool boldly) {
     touched_ = group, changed_.clear(), boldly_ = boldly;
     std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
@@ -166,7 +167,7 @@ class Certifier::Work {
     State best = start;
     const double first = excess().sum;
     double least = first;
-    // A round halves edges once. What splits help is nearer after two rounds.
+    // A round halves edges once. If splits help, two rounds show an improvement.
     constexpr int most_rounds = 6, rounds_without_success = 3;
     for (int round = 0; round < most_rounds && least > 0; ++round) {
       const std::int64_t before = edits();
@@ -180,7 +181,7 @@ class Certifier::Work {
       if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best = state();
       if (round + 1 >= rounds_without_success && least == first) break;
     }
-    // Edges out of range for little are not worth it.
+    // Rejects edits that bring edges out of range for a small gain.
     if (least > least_success * first) best = start, least = first;
     if (mesh_.edits() > best.edits || moved_.size() > best.moves) undo(best);
     return least == 0;
@@ -203,7 +204,7 @@ class Certifier::Work {
     return std::ranges::any_of(vertices, [&](std::int32_t v) { return mesh_.charts().is_guarded(mesh_.place(v).foot); });
   }
 
-  // The surface is not known to be within tolerances by far.
+  // The bounds are not far within the tolerances.
   [[nodiscard]] bool is_suspect(const Corners& t) const {
     if (all_) return true;
     TriangleShapes shapes;
@@ -213,7 +214,7 @@ class Certifier::Work {
 
   [[nodiscard]] double shapes_mean() const { return summarise_shapes(mesh_, workers_.threads, monitor_).mean; }
 
-  // Of all triangles that are suspect, whose shares are known then. A part is a fixed number of them.
+  // Bounds all suspect triangles, and keeps their shares. A part is a fixed number of them.
   std::vector<char> bound_suspects() {
     const auto& all = mesh_.triangles();
     share_.resize(all.size(), unknown);
@@ -246,7 +247,7 @@ class Certifier::Work {
     return found;
   }
 
-  // Shapes and the agreement of corners cost nothing: most edits fail by them.
+  // Tests of shapes and of agreement at corners are cheap, and reject most edits.
   [[nodiscard]] bool is_fair(const TriangleShapes& before, const TriangleShapes& after, double least) const {
     return after.worst >= std::min(before.worst, least) && after.share < infinity && after.share <= std::max(before.share, upright_);
   }
@@ -293,7 +294,7 @@ class Certifier::Work {
     return true;
   }
 
-  // To where nothing around is beyond.
+  // Moves a vertex to a place where all triangles around are within tolerances.
   bool move(std::int32_t v) {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
@@ -309,7 +310,7 @@ class Certifier::Work {
     return false;
   }
 
-  /// Where no share around exceeds `most`, nor is a shape below `least`.
+  /// Moves the vertex if no share around exceeds `most`, and no shape is below `least`.
   bool put(std::int32_t v, const Vec3& target, double most, double least) {
     const SurfacePlace from = mesh_.place(v);
     const WantedSize size = mesh_.wanted(v);
@@ -320,7 +321,7 @@ class Certifier::Work {
     mesh_.put(v, *to, mesh_.wanted_at(*to));
     const TriangleShapes after = mesh_.judge_around(v);
     bool good = after.worst >= least && is_fair(before, after, 0) && out_of_range(mesh_, v) <= out;
-    // What was beyond is asked first: most moves fail there.
+    // Triangles that were beyond come first: most moves fail there.
     std::vector<Place> fan(mesh_.mesh().fan(v).begin(), mesh_.mesh().fan(v).end());
     share_.resize(mesh_.triangles().size(), unknown);
     std::ranges::stable_sort(fan, std::greater<>{}, [&](Place p) { return share_[p.triangle]; });
@@ -363,7 +364,8 @@ class Certifier::Work {
     return outcome;
   }
 
-  // The edge whose parts come nearest; where none does the longest one, as long as nothing is worse.
+  // Splits the edge whose parts come nearest. If no split helps it takes the longest edge, unless something becomes
+  // worse.
   bool split(const std::array<std::optional<Quad>, 3>& quads) {
     int best = -1;
     std::pair<double, double> least{infinity, 0};
@@ -389,7 +391,7 @@ class Certifier::Work {
     return true;
   }
 
-  // Shapes around edits, where nothing comes to be beyond.
+  // Improves shapes around edits, if all triangles stay within tolerances.
   void tidy() {
     std::ranges::sort(changed_);
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
@@ -405,7 +407,7 @@ class Certifier::Work {
     }
   }
 
-  // What groups have left is nobody's any more: shapes there are made as good as they can be.
+  // Improves shapes around finished groups as far as possible.
   void tidy_all(std::vector<std::int32_t> worked) {
     std::erase_if(worked, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
     changed_ = std::move(worked);
@@ -447,7 +449,7 @@ class Certifier::Work {
   Monitor& monitor_;
   FreeBounds bounds_;
   const std::size_t edits_before_;  // the mesh was made by them
-  const double upright_;       // FreeMesh's share of what stands upright
+  const double upright_;       // FreeMesh's share for upright triangles
   std::vector<double> share_;  // by triangle
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
   std::vector<Moved> moved_;

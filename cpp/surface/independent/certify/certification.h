@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// At last: no triangle of a free mesh is farther from the surface than is tolerated, by upper bounds.
+// The last step: edits until upper bounds of all triangles of a free mesh are within tolerances.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,21 @@ struct Certification {
   [[nodiscard]] bool has_edits() const noexcept { return swaps + moves + splits > 0; }
 };
 
-/// Bounds A0 and A1 of triangles, and works where some are beyond their tolerances. Keeps a reference to `mesh`. Threads bound triangles, one edits.
+/// Bounds A0 and A1 of triangles, and edits the mesh where triangles are beyond their tolerances. Keeps a reference to `mesh`. Threads
+/// bound triangles, one edits.
 class Certifier {
  public:
-  /// `all`: of triangles that none of the normals at their corners makes suspect, too.
+  /// `all`: bounds also triangles that the normals at their corners do not make suspect.
   Certifier(FreeMesh& mesh, bool all, const RemeshingWorkers& workers, Monitor& monitor);
   ~Certifier();
   Certifier(const Certifier&) = delete;
   Certifier& operator=(const Certifier&) = delete;
 
-  /// Swaps edges, moves vertices and splits edges around each group of such triangles, and undoes what has not brought the group nearer to its tolerances. Shapes
-  /// stay fair, no triangle turns over, edges become no shorter than a share of the size, and nothing is done where the atlas is guarded. Deterministic. Throws
-  /// what the host throws, and Cancelled.
+  /// Swaps edges, moves vertices and splits edges around each group of such triangles. Undoes edits that have not brought the group nearer
+  /// to its tolerances. Shapes stay fair, no triangle turns over, and edges become no shorter than a share of the size. Guarded places of
+  /// the atlas stay. Deterministic. Throws the exceptions of the host, and Cancelled.
   Certification run();
-  /// Undoes all of it: run() may follow, where other places are guarded.
+  /// Undoes all edits. run() may follow after other places are guarded.
   void undo();
 
  private:

@@ -20,7 +20,7 @@ using thresholds::certify::within;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A triangle in (u, v): its sides are parabolas over their chords, as far as derivatives at their ends tell, or straight ways to a pole.
+/// A triangle in (u, v): its sides are parabolas over their chords, by the derivatives at their ends, or straight ways to a pole.
 class ChartMap {
  public:
   ChartMap(const std::array<SurfacePlace, 3>& corner, const std::array<bool, 3>& on_line) : corner_(corner) {
@@ -60,7 +60,7 @@ class ChartMap {
     }
   }
 
-  // Where the middle of the image lies over that of the chord; weights change by a quarter at most.
+  // The offset of the middle of the image from the middle of the chord; weights change by a quarter at most.
   static Vec2 bulge(const SurfacePlace& p, const SurfacePlace& q, const Vec2& ab, const Vec2& ac, double area) {
     const Vec2 way = q.foot.uv - p.foot.uv;
     const Vec3 su = 0.5 * (p.su + q.su), sv = 0.5 * (p.sv + q.sv);
@@ -88,7 +88,7 @@ double FreeBounds::deviation_tolerance(const Corners& corners) const {
   return within * asked.share_of_size * sum / 3;
 }
 
-// Around it the mesh is no steeper than twice as its own corners see it.
+// The slope of the mesh around it is at most twice the slope at its own corners.
 BoundedTriangle FreeBounds::flat(const Corners& corners) const {
   BoundedTriangle made({corners.place[0].xyz, corners.place[1].xyz, corners.place[2].xyz});
   if (made.is_flat()) return made;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upper bounds of A0 and A1 of single triangles of a free mesh, and of those that edits would make.
+// Upper bounds of A0 and A1 of single triangles of a free mesh, and of triangles that edits would make.
 #pragma once
 
 #include <array>
@@ -11,20 +11,20 @@
 
 namespace carreau {
 
-/// As measures bound them (measure/bounds): of a triangle of (u, v) over its image, of one whose corners are of several charts over itself. Keeps a
-/// reference to `mesh`.
+/// Bounds as measures compute them (measure/bounds): for a triangle of (u, v) over its image, for a triangle with corners in several charts
+/// over itself. Keeps a reference to `mesh`.
 class FreeBounds {
  public:
   explicit FreeBounds(const FreeMesh& mesh, Cad& cad) : mesh_(mesh), cad_(cad), placer_(mesh, mesh.charts(), cad) {}
 
-  /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`); a triangle without area, or turned over, has the share of half a turn. About twelve evaluations, and more where
-  /// it is near 1.
+  /// The larger bound over its tolerance, or a little less than that (thresholds.h, `within`). A triangle without area, or turned over, has
+  /// the share of half a turn. About twelve evaluations, and more where it is near 1.
   [[nodiscard]] double share(const EditableMesh::Triangle& t) { return share(t, false); }
-  /// The same of a triangle that an edit would make, for fewer evaluations: it may be larger.
+  /// The share of a triangle that an edit would make, with fewer evaluations: it may be larger.
   [[nodiscard]] double share_roughly(const EditableMesh::Triangle& t) { return share(t, true); }
-  /// Places of the surface that were asked for.
+  /// Number of evaluated places of the surface.
   [[nodiscard]] std::int64_t evaluations() const noexcept { return evaluations_; }
-  /// Others asked for so many.
+  /// Adds evaluations of others.
   void count(std::int64_t evaluations) noexcept { evaluations_ += evaluations; }
 
  private:

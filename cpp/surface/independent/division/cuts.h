@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a free mesh is cut into parts: by its triangles and their sizes, whoever works at them.
+// Cuts of a free mesh into parts, by its triangles and their sizes, for any number of executors.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace carreau {
 
-/// Cuts triangles into parts of equal weight, at most `most` but for rounding: where their centroids extend farthest, in halves and again. `weight`: by
-/// triangle of the mesh. Triangles of a part are ascending.
+/// Cuts triangles into parts of equal weight, at most `most` but for rounding. It halves parts where their centroids extend farthest, again
+/// and again. `weight`: by triangle of the mesh. Triangles of a part are ascending.
 std::vector<std::vector<std::int32_t>> cut_across(const FreeMesh& mesh, std::vector<std::int32_t> triangles,
                                                   std::span<const float> weight, double most);
 
-/// Those that share vertices, directly or by others of them, in the order of their first triangles.
+/// Returns the groups of triangles that share vertices, directly or over others of the group, in the order of their
+/// first triangles.
 std::vector<std::vector<std::int32_t>> connected(const FreeMesh& mesh, std::span<const std::int32_t> triangles);
 
-/// By vertex: whether it is no farther than so many edges from one of `vertices`.
+/// Marks vertices within `edges` edges of one of `vertices`.
 std::vector<char> near_vertices(const FreeMesh& mesh, std::span<const std::int32_t> vertices, int edges);
 
 /// Triangles with a corner that is near, ascending.

@@ -24,10 +24,11 @@ using namespace thresholds::independent;
 
 using Vertices = std::vector<std::int32_t>;
 
-/// Triangles as they are wanted: what one counts at least, so that it is in some part.
+/// Triangles of prescribed size: least work of a triangle, so that each triangle is in some part.
 constexpr double least_work = 1e-3;
 
-// What remesh() starts with where it does not work everywhere: corners of triangles that are not as wanted, by vertex.
+// Marks the starting vertices of remesh() if it does not work everywhere: corners of triangles that violate the
+// prescription.
 std::vector<char> bad_corners(const FreeMesh& mesh, const RemeshingWorkers& workers, Monitor& monitor) {
   const auto& all = mesh.triangles();
   std::vector<char> bad(all.size(), 0);
@@ -50,8 +51,8 @@ Vertices numbers_of(const std::vector<char>& marked) {
   return numbers;
 }
 
-/// The work that triangles are, by triangle: 1 is one triangle as it is wanted. Parts of many small triangles that become few would have few inside, and irregular
-/// vertices along their borders, which those finer meshes keep that are made of a coarse one.
+/// The work for each triangle of the mesh, in triangles of the prescribed size. Parts of many small triangles that become few would have
+/// few triangles inside, and irregular vertices along their borders. Finer meshes that are made of a coarse one would keep these vertices.
 std::vector<float> work_everywhere(const FreeMesh& mesh) {
   std::vector<float> work(mesh.triangles().size(), 0);
   for (std::size_t t = 0; t < work.size(); ++t)
@@ -97,13 +98,14 @@ class DividedRemeshing {
     sum.add(places), sum.add(sizes);
     workers_.team->require_same("free mesh", sum.text(), [](int rank) {
       return "the mesh of rank " + std::to_string(rank) +
-             " is another one than that of rank 0 before it is made free of its patches: its callbacks or parameters differ";
+             " differs from the mesh of rank 0 before cross-patch remeshing: its callbacks or parameters differ";
     });
   }
 
   Vertices zone(const Vertices& cuts) const { return triangles_at(mesh_, near_vertices(mesh_, cuts, rings_of_zone)); }
 
-  /// `around`: vertices that work starts from; empty: as remesh() says. Where parts have met, if there is anything to do there.
+  /// Remeshes all parts and returns the vertices where parts have met. `around`: vertices that work starts from; empty: the start of
+  /// remesh(). Returns nothing without parts.
   Vertices remesh_parts(std::vector<Vertices> parts, const Vertices& around) {
     if (parts.empty()) return {};
     const Division division(std::move(parts), mesh_.triangles().size());
@@ -122,7 +124,7 @@ class DividedRemeshing {
   EditedPart edit_part(const Division& division, std::size_t p, const Vertices& around, Monitor& monitor) const {
     const MeshPart part(mesh_, division, static_cast<std::int32_t>(p));
     FreeMesh own(mesh_, part);
-    // What one part gains another one cannot spend before the next round: none knows of the others.
+    // A part cannot spend gains of the other parts before the next round, since parts work independently.
     if (own.budget.is_limited()) own.budget.left /= static_cast<double>(division.parts.size());
     const Vertices start = everywhere_ ? part.local(around) : Vertices{};
     if (everywhere_ && start.empty() && !around.empty()) return {mesh_, part, own, {}};

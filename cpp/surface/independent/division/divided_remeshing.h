@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large free meshes made as they are wanted in parts, by several threads and processes.
+// Large free meshes remeshed to the prescribed sizes in parts, by several threads and processes.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,21 @@
 
 namespace carreau {
 
-/// Who works at parts of a mesh. The mesh does not depend on it.
+/// The threads and processes that remesh parts of a mesh. The mesh does not depend on it.
 struct RemeshingWorkers {
   Team* team = nullptr;       ///< processes; null: this one alone
   int threads = 1;
-  bool hosts_threads = false; ///< the host may be asked by several threads
+  bool hosts_threads = false; ///< several threads may call the host
 
   RemeshingWorkers() = default;
   RemeshingWorkers(const CompositeOptions& options, const Cad& cad)
       : team(options.team), threads(options.threads), hosts_threads(asks_from_threads(options, cad)) {}
 };
 
-/// remesh(); where as many triangles are to be worked at as pay the cuts, in three rounds. The mesh is cut into parts of a fixed number of them, each of which
-/// is remeshed by itself; then what is near the cuts, in parts again; then what is near the cuts of those. All processes of a team call it: throws
-/// InvalidModel where their meshes differ before.
+/// remesh(); in three rounds if there are enough triangles to remesh that cuts pay. The first round cuts the mesh into parts with a fixed
+/// number of triangles and remeshes each part by itself. The second round remeshes the surroundings of the cuts, in parts again, and the
+/// third round the surroundings of these new cuts. All processes of the communicator call it: throws InvalidModel if their meshes differ
+/// before.
 RemeshingReport remesh_divided(FreeMesh& mesh, const RemeshingWorkers& workers, Monitor& monitor, bool everywhere, bool thorough,
                                std::span<const std::int32_t> around = {});
 

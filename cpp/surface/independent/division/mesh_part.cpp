@@ -121,7 +121,7 @@ EditedPart EditedPart::from(PacketReader& packet) {
   part.moved = packet.integers();
   part.places = places_of(packet);
   part.cost = packet.real();
-  if (part.places.size() < part.moved.size()) throw Error("what another process has sent is no part of a mesh");
+  if (part.places.size() < part.moved.size()) throw Error("another process has sent bytes that are not a part of a mesh");
   part.report.collapses = packet.integer(), part.report.splits = packet.integer(), part.report.swaps = packet.integer();
   part.report.moves = packet.integer(), part.report.rounds = static_cast<int>(packet.integer());
   return part;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Some triangles of a free mesh, to be edited by themselves while others edit others.
+// Some triangles of a free mesh that one executor edits by itself.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace carreau {
 
 class FreeMesh;
 
-/// To which part each triangle of a mesh belongs.
+/// The part of each triangle of a mesh.
 struct Division {
   static constexpr std::int32_t none = -1;
   std::vector<std::vector<std::int32_t>> parts;  ///< triangles, ascending
@@ -26,25 +26,26 @@ struct Division {
   [[nodiscard]] std::vector<std::int32_t> meeting(const FreeMesh& mesh) const;
 };
 
-/// The triangles of a part, and those beyond that have a corner on its border: these stay, and so do all vertices that are not of the part alone.
+/// The triangles of a part, and triangles beyond with a corner on its border. The latter stay, and so do all vertices that do not belong to
+/// the part alone.
 struct MeshPart {
   std::vector<std::int32_t> vertex;  ///< numbers in the whole mesh, ascending
   std::vector<char> frozen;          ///< by vertex
   std::vector<EditableMesh::Triangle> triangles, beyond;
 
   MeshPart(const FreeMesh& whole, const Division& division, std::int32_t part);
-  /// Those of the whole mesh, ascending, that are here.
+  /// Returns the local numbers of the vertices that are here, ascending.
   [[nodiscard]] std::vector<std::int32_t> local(std::span<const std::int32_t> vertices) const;
-  /// Of a vertex of the whole mesh; -1: it is not here.
+  /// Local number of a vertex of the whole mesh; -1: it is not here.
   [[nodiscard]] std::int32_t local(std::int32_t v) const;
 };
 
-/// What has become of a part.
+/// The result of a part.
 struct EditedPart {
-  /// Corners are vertices of the whole mesh; numbers from that of its vertices on are new ones.
+  /// Corners are vertices of the whole mesh; numbers from its number of vertices on are new vertices.
   std::vector<EditableMesh::Triangle> triangles;
   std::vector<std::int32_t> moved;   ///< vertices of the whole mesh that are elsewhere
-  std::vector<SurfacePlace> places;  ///< of these, and behind them those of the new ones
+  std::vector<SurfacePlace> places;  ///< of the moved vertices, and behind them of the new ones
   RemeshingReport report;
   double cost = 0;                   ///< to shapes (ShapeBudget), where that is limited
 
@@ -52,7 +53,8 @@ struct EditedPart {
   /// `edited`: made of `part`.
   EditedPart(const FreeMesh& whole, const MeshPart& part, const FreeMesh& edited, const RemeshingReport& report);
 
-  /// As bytes for another process, and back. The second throws Error for bytes that are no part.
+  /// Converts to bytes for another process, and back. The second function throws Error for bytes that do not hold a
+  /// part.
   void put(PacketWriter& packet) const;
   static EditedPart from(PacketReader& packet);
 };

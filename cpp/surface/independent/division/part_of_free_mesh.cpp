@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of a free mesh as meshes of their own, and what becomes of them in the whole one.
+// Parts of a free mesh as separate meshes, and their results in the whole mesh.
 #include <algorithm>
 #include <utility>
 

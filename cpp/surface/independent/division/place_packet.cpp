@@ -23,7 +23,7 @@ std::vector<SurfacePlace> places_of(PacketReader& packet) {
   const std::vector<Vec3> vectors = packet.points();
   const std::size_t n = triangles.size();
   if (regular.size() != n || uv.size() != n || vectors.size() != 4 * n)
-    throw Error("what another process has sent are no places of a surface");
+    throw Error("another process has sent bytes that are not places of a surface");
   std::vector<SurfacePlace> places(n);
   for (std::size_t k = 0; k < n; ++k)
     places[k] = {{triangles[k], uv[k]}, vectors[4 * k], vectors[4 * k + 1], vectors[4 * k + 2], vectors[4 * k + 3], regular[k] != 0};

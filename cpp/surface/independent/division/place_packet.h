@@ -10,7 +10,7 @@
 namespace carreau {
 
 void put_places(PacketWriter& packet, const std::vector<SurfacePlace>& places);
-/// Throws Error for bytes that are no places.
+/// Throws Error for bytes that do not hold places.
 std::vector<SurfacePlace> places_of(PacketReader& packet);
 
 }  // namespace carreau

@@ -18,7 +18,7 @@ int is_out_of_range(const FreeMesh& mesh, std::int32_t v, std::int32_t w) {
   return l < shortest || l > longest ? 1 : 0;
 }
 
-// Whether a triangle around would have all corners on sharp lines, or had the ones that stay.
+// Returns whether the collapse makes, or has, a triangle with all corners on sharp lines.
 bool spans_lines(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
   return std::ranges::any_of(mesh.mesh().fan(gone), [&](FreeMesh::Place p) {
     const auto& t = mesh.mesh().at(p);

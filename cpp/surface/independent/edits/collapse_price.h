@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a collapse may cost in shapes for what it gains in lengths.
+// The allowed loss of shapes by a collapse for its gain in lengths.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace carreau {
 
-/// What shapes around lose by a collapse, if the lengths that come into range are worth it and there is as much left (ShapeBudget); else none. `before`, `after`:
-/// the triangles around `gone` that stay. The two that go count as triangles of the mean each would.
+/// Returns the loss of shapes around a collapse, if the lengths that come into range justify it and the budget allows it (ShapeBudget);
+/// otherwise nothing. `before`, `after`: the triangles around `gone` that stay. The two triangles that go count with the mean shape.
 [[nodiscard]] std::optional<double> cost_of_collapse(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept,
                                                      const TriangleShapes& before, const TriangleShapes& after);
 

@@ -22,7 +22,8 @@ double edge_quality(double length) noexcept { return length <= 1 ? length : 1 / 
 
 bool has(const EditableMesh::Triangle& t, std::int32_t v) noexcept { return t[0] == v || t[1] == v || t[2] == v; }
 
-/// What becomes of the triangles around a vertex that goes. `judge` adds one, `refuses` ends it by a new edge's end.
+/// Judges the triangles around a vertex that goes. `judge` adds one, `refuses` rejects the collapse because of a new
+/// edge's end.
 template <typename Judge, typename Refuses>
 bool judge_collapse(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, const Judge& judge, const Refuses& refuses,
                     TriangleShapes& before, TriangleShapes& after) {
@@ -62,7 +63,7 @@ bool evens_degrees(const FreeMesh& mesh, std::int32_t a, std::int32_t b, std::in
   const auto excess = [&](std::int32_t v) {
     return mesh.is_free(v) ? static_cast<int>(mesh.mesh().fan(v).size()) - 6 : 0;
   };
-  // Moving one edge from a and b to c and d.
+  // The effect of moving one edge from a and b to c and d.
   int gain = 0;
   for (const std::int32_t v : {a, b}) gain += 2 * excess(v) - 1;
   for (const std::int32_t v : {c, d}) gain -= mesh.is_free(v) ? 2 * excess(v) + 1 : 1;

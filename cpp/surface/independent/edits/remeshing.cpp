@@ -35,7 +35,7 @@ class Remesher {
     activate_all();
     const auto old = static_cast<std::int32_t>(mesh_.vertices());
     split_long();
-    // Of each triangle the first edge that was split leads from its middle to a corner: the last middles are to be joined.
+    // The first split edge of each triangle leads from its middle to a corner: swaps join the last middles.
     const auto last = static_cast<std::int32_t>(mesh_.vertices());
     for (std::int32_t m = old; m < last; ++m) {
       monitor_.checkpoint();
@@ -96,8 +96,8 @@ class Remesher {
   using Place = FreeMesh::Place;
   using Quad = FreeMesh::Quad;
 
-  // What is known of a vertex: it is at work; what decides on a swap of its edges, or on its move, has changed since
-  // these were tried the last time.
+  // State of a vertex: it is at work; a swap of its edges, or its move, is due. An edit is due if its surroundings have
+  // changed since the last test.
   enum State : unsigned char { active = 1, swap_due = 2, move_due = 4, all_due = 7 };
   [[nodiscard]] bool is(std::int32_t v, State s) const { return (state_[v] & s) != 0; }
   void mark(std::int32_t v, unsigned s) { state_[v] = static_cast<unsigned char>(state_[v] | s); }
@@ -107,7 +107,7 @@ class Remesher {
     shape_.resize(mesh_.triangles().size(), unknown);
   }
 
-  // Shapes of triangles are known until a corner moves or changes.
+  // Shapes of triangles stay valid until a corner moves or changes.
   static constexpr double unknown = -1;
   [[nodiscard]] double shape_of(Place p) {
     double& known = shape_[p.triangle];
@@ -121,7 +121,7 @@ class Remesher {
     for (const Place p : mesh_.mesh().fan(v)) shape_[p.triangle] = unknown;
   }
 
-  // What is bad, and what is around.
+  // Activates the corners of bad triangles, and their surroundings.
   void activate_all() {
     state_.assign(mesh_.vertices(), everywhere_ ? all_due : swap_due | move_due);
     if (everywhere_) return;
@@ -134,7 +134,7 @@ class Remesher {
     widen();
   }
 
-  // What is around these.
+  // Activates the surroundings of these vertices.
   void activate_around(std::span<const std::int32_t> vertices) {
     state_.assign(mesh_.vertices(), swap_due | move_due);
     for (const std::int32_t v : vertices) mark(v, active);
@@ -173,7 +173,7 @@ class Remesher {
       for (const std::int32_t w : mesh_.mesh().at(p)) mark(w, s);
   }
 
-  /// Edges between vertices at work whose length is `wanted`, in this order.
+  /// Edges between vertices at work whose length satisfies `wanted`, in the order `before`.
   template <typename Wanted, typename Before>
   std::vector<LongEdge> edges(const Wanted& wanted, const Before& before) {
     know_new();
@@ -214,8 +214,8 @@ class Remesher {
     }
   }
 
-  // Where triangles are smaller than equilateral ones of unit length, though no edge is short: while triangles stay no
-  // larger in the mean.
+  // Collapses edges that are not short where triangles are smaller than equilateral ones of unit length, while
+  // triangles stay no larger in the mean.
   void thin_out() {
     for (const LongEdge& e : edges([](double l) { return l < short_when_dense; }, std::less<>())) {
       monitor_.checkpoint();
@@ -291,7 +291,7 @@ class Remesher {
     spokes_.clear();
     look_at_spokes(v);
   }
-  // After swaps, too; edges that are no more have no corners.
+  // Updates the spokes after swaps, too; edges that have gone have no corners.
   void look_at_spokes(std::int32_t v) {
     for (Spoke& e : spokes_) e = Spoke{e.w};
     for (const Place p : mesh_.mesh().fan(v)) {
@@ -358,7 +358,7 @@ RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, 
 
 RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor) {
   const ShapeBudget budget = mesh.budget;
-  mesh.budget.left = 0;  // what is gained may be spent again
+  mesh.budget.left = 0;  // gains may be spent again
   const RemeshingReport report = Remesher(mesh, monitor, false, false).polish(below);
   mesh.budget = budget;
   return report;

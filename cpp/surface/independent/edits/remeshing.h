@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lengths and shapes as they are wanted, all over a free mesh.
+// Remeshing of a whole free mesh to the prescribed lengths and to good shapes.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@ struct RemeshingReport {
   }
 };
 
-/// Whether a triangle is to be worked at where not all are: its shape, or the length of a side.
+/// Returns whether a triangle needs remeshing if not all do: by its shape, or the length of a side.
 [[nodiscard]] bool is_bad(const FreeMesh& mesh, const EditableMesh::Triangle& t);
 
-/// Halves the edges of a mesh that is well shaped and twice as coarse as wanted: each triangle with three long edges becomes four, whose
-/// new vertices have six edges. Lengths and shapes are then as the coarse ones were, and remesh() may follow.
+/// Halves the edges of a mesh that is well shaped and twice as coarse as prescribed. Each triangle with three long edges becomes four,
+/// whose new vertices have six edges. Lengths and shapes are then as the coarse ones were, and remesh() may follow.
 RemeshingReport halve(FreeMesh& mesh, Monitor& monitor);
 
 /// Swaps edges and moves vertices around triangles of a shape below `below` where shapes are better for it, in the sum. The budget stays.
 RemeshingReport polish(FreeMesh& mesh, double below, Monitor& monitor);
 
-/// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
-/// `everywhere`: all triangles are worked at, not only those below `good_enough` and what is around: of a mesh that is no
-/// mesher's. `thorough`: shapes are worked at longer. `around`: work starts around these vertices only; empty: as said before.
-/// Deterministic. Throws what the host throws, and Cancelled.
+/// Collapses short edges inside, splits long ones, swaps and moves, around triangles that violate the prescription, until little changes.
+/// `everywhere`: for meshes that no mesher made: works at all triangles, not only at triangles below `good_enough` and their surroundings.
+/// `thorough`: more passes for shapes. `around`: work starts around these vertices only; empty: around bad triangles. Deterministic. Throws
+/// the exceptions of the host, and Cancelled.
 RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false, bool thorough = false,
                        std::span<const std::int32_t> around = {});
 

@@ -35,8 +35,8 @@ void VertexMover::look_around(std::int32_t v) {
   }
 }
 
-// The mean of the places where each triangle around would be equilateral, its sides the mean of the one that stays
-// and of the wanted one.
+// The mean of the places where each triangle around would be equilateral. The side of that triangle is the mean of its
+// fixed side and the prescribed side.
 Vec3 VertexMover::ideal_place(const Vec3& from) const {
   Vec3 sum{0, 0, 0};
   double count = 0;
@@ -53,7 +53,7 @@ Vec3 VertexMover::ideal_place(const Vec3& from) const {
   return count > 0 ? Vec3(sum / count) : from;
 }
 
-// The same in the mean metric of each triangle.
+// The mean place, measured in the mean metric of each triangle.
 Vec3 VertexMover::ideal_place_by_direction(std::int32_t v) const {
   Vec3 sum{0, 0, 0};
   double count = 0;
@@ -74,7 +74,7 @@ Vec3 VertexMover::ideal_place_by_direction(std::int32_t v) const {
   return count > 0 ? Vec3(sum / count) : mesh_.position(v);
 }
 
-// As FreeMesh::judge_shape has them, with v there; HDR eq. 1.6.
+// Shapes as in FreeMesh::judge_shape, with v there; HDR eq. 1.6.
 TriangleShapes VertexMover::shapes(const Vec3& at) const {
   TriangleShapes shapes;
   for (const Side& s : sides_) {
@@ -142,7 +142,7 @@ bool VertexMover::move(std::int32_t v) {
   const int out = by_direction ? carreau::out_of_range(mesh_, v) : out_of_range(from, mesh_.size(v));
   for (const double share : {1.0, 0.4}) {
     const Vec3 target = lerp(from, ideal, share);
-    // What does not gain beside the surface is not worth an evaluation.
+    // A place without gain beside the surface is not worth an evaluation.
     if (!by_direction && !gains(before, shapes(target), mesh_.budget)) continue;
     const auto to = mesh_.near(v, normal, target);
     if (!to) continue;

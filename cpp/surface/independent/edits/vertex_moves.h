@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves of free vertices towards where the triangles around would be equilateral and of the wanted size.
+// Moves of free vertices towards places where the triangles around would be equilateral and of the prescribed size.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace carreau {
 
-/// Keeps room for what is around a vertex.
+/// Keeps buffers for the surroundings of a vertex.
 class VertexMover {
  public:
-  /// `least`: share of the size; what is shorter is no move.
+  /// `least`: share of the size; shorter moves do not count.
   VertexMover(FreeMesh& mesh, double least) : mesh_(mesh), least_(least) {}
 
   /// Moves a free vertex where shapes around gain, no more lengths are out of range and the surface agrees.
   bool move(std::int32_t v);
 
  private:
-  /// Of a triangle around: the side across, and the sizes at its ends.
+  /// The side of a triangle around opposite the vertex, and the sizes at its ends.
   struct Side {
     Vec3 a, b;
     double squared, h_a, h_b;

@@ -21,7 +21,7 @@ using namespace thresholds::independent;
 
 using Corners = EditableMesh::Triangle;
 
-// What has failed is tried again only where something around has changed; where there is little to spend, always.
+// Repeats failed edits only if their surroundings have changed; if the budget is limited, always.
 class WorstFirst {
  public:
   WorstFirst(FreeMesh& mesh, double floor, Monitor& monitor)
@@ -50,7 +50,7 @@ class WorstFirst {
     return shapes.worst;
   }
 
-  // Those where something has changed since the last pass began.
+  // Returns the triangles where something has changed since the last pass began.
   [[nodiscard]] std::vector<std::pair<double, Corners>> below_floor() const {
     std::vector<std::pair<double, Corners>> found;
     for (const Corners& t : mesh_.triangles()) {
@@ -78,7 +78,7 @@ class WorstFirst {
     for (const std::int32_t k : {q->a, q->b, q->c, q->d}) has_changed(k);
   }
 
-  // Uphill in the tangent plane, by steps that become shorter.
+  // Searches uphill in the tangent plane, by steps that become shorter.
   void move(std::int32_t v) {
     if (!forgets_ && tried_[v] >= changed_[v]) return;
     bool moved = false;
@@ -129,7 +129,7 @@ class WorstFirst {
   bool forgets_;
   std::int64_t edits_ = 0;
   std::int64_t now_ = 1, last_began_ = 0;
-  std::vector<std::int64_t> changed_, tried_;  // by vertex: when something around it has, and when no move of it was any good
+  std::vector<std::int64_t> changed_, tried_;  // by vertex: number of the last change around it, and of the last search without a good move
 };
 
 }  // namespace

@@ -9,17 +9,17 @@
 
 namespace carreau {
 
-/// Of all triangles, in the metric.
+/// Shapes of all triangles, in the metric.
 struct ShapeSummary {
   double mean = 1, worst = 1;  ///< Q2
   int count = 0;
 };
-/// The same for any number of threads.
+/// The result is identical for any number of threads.
 ShapeSummary summarise_shapes(const FreeMesh& mesh, int threads, Monitor& monitor);
 
-/// Swaps edges of triangles below `floor` and moves their corners, worst first, where the worst one around is better
-/// for it, no more lengths are out of range and the surface agrees. Number of edits. Deterministic. Throws what the
-/// host throws, and Cancelled.
+/// Swaps edges of triangles below `floor` and moves their corners, worst first. An edit must improve the worst triangle
+/// around, bring no more lengths out of range, and agree with the surface. Returns the number of edits. Deterministic.
+/// Throws the exceptions of the host, and Cancelled.
 std::int64_t raise_worst(FreeMesh& mesh, double floor, Monitor& monitor);
 
 }  // namespace carreau

@@ -62,7 +62,7 @@ TEST(BlendedSurface, ChartsOfATorusAgree) {
 }
 
 /// Charts of the sphere of 1280 triangles disagree at some places by more than they are wide.
-TEST(BlendedSurface, FoldsAreMendedAndChartsStillAgree) {
+TEST(BlendedSurface, FoldsAreRepairedAndChartsStillAgree) {
   const BlendedSurface surface(Covering(test::icosphere(3)));
   const Covering& covering = surface.covering();
   EXPECT_GT(surface.folds().folded_before, 0u);
@@ -77,7 +77,7 @@ TEST(BlendedSurface, FoldsAreMendedAndChartsStillAgree) {
     const Chart& chart = covering.charts()[i];
     const Primitive fitted = primitive_of(fit_heights(covering.surface(), chart), chart.frame);
     changed += surface.primitive(i).coefficient != fitted.coefficient;
-    // At places that are not those of the mend's grid.
+    // At places that are not on the repair's grid.
     for (int k = 0; k < 200; ++k) {
       const SurfaceJet jet =
           surface.at(i, value_of(chart.annulus.at(unit(random), chart.annulus.period() * unit(random))));
@@ -99,7 +99,7 @@ TEST(BlendedSurface, SurfacesThatDoNotFoldKeepTheirHeightFields) {
   }
 }
 
-TEST(BlendedSurface, DerivativesAreThoseOfDifferences) {
+TEST(BlendedSurface, DerivativesMatchDifferences) {
   const BlendedSurface surface(Covering(test::icosphere(2)));
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -131,7 +131,7 @@ TEST(BlendedSurface, LowerOrdersAreTheSameToTheLastBit) {
 }
 
 /// Triangles of a torus that are two to three times longer than wide: charts disagree by more than they are wide.
-TEST(BlendedSurface, FoldsOfUnevenTrianglesAreMended) {
+TEST(BlendedSurface, FoldsOfUnevenTrianglesAreRepaired) {
   const BlendedSurface surface(Covering(test::torus(2, .8, 40, 36)));
   EXPECT_GT(surface.folds().folded_before, 0u);
   EXPECT_EQ(surface.folds().folded_after, 0u);

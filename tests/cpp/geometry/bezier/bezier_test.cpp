@@ -53,7 +53,7 @@ TEST(BezierPatch, IsItsPolynomialInAnyDegree) {
   }
 }
 
-TEST(BezierPatch, OfDegreeOneHasNoSecondDerivative) {
+TEST(BezierPatch, DegreeOneHasNoSecondDerivative) {
   BezierPatch patch{.m = 1, .n = 1, .control = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}}};
   SurfaceJet jet;
   evaluate(patch, all, {0.25, 0.5}, jet);
@@ -77,7 +77,7 @@ TEST(BezierPatch, StaysInTheBoxOfItsControlPoints) {
   }
 }
 
-TEST(BezierCad, RadiiAreThoseOfTheParaboloid) {
+TEST(BezierCad, RadiiMatchTheParaboloid) {
   // z = (u^2 + v^2) / 2: at the distance r from the axis the radii are sqrt(1 + r^2) and its cube.
   BezierCad cad({Quadric{0, 0, 0, 0.5, 0, 0.5}.patch(3, 4)});
   for (const double r : {0.0, 0.3, 0.8}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes by direction on surfaces given as triangles: unit lengths in the metric, and as many triangles as its density
-// asks for.
+// prescribes.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -86,15 +86,15 @@ TEST(DirectedMeshes, AConstantMetricOnASphereCountsAsASpheroid) {
   }
 }
 
-// By curvature: around a torus the density is 1 / (h1 h2), with the sizes that the rule has for both radii in closed
-// form.
+// Sizes by curvature: around a torus the density is 1 / (h1 h2), with the sizes that the rule has for both radii in
+// closed form.
 TEST(DirectedMeshes, CurvatureOfATorusIsFollowedByDirection) {
   constexpr double R = 2, r = 0.7, largest = 0.6;
   const GeometricRule rule{.criterion = GeometricCriterion::angle, .anisotropic = true, .angle_deg = 8};
   DirectedRun run(built_on(torus(64, 32)));
   run.curvature(8, largest);
   const SurfaceMesh& mesh = run.mesh();
-  // Trapezoids around the tube: exact to rounding for what is smooth.
+  // Trapezoids around the tube: exact to rounding for smooth functions.
   double wanted = 0, isotropic = 0;
   constexpr int n = 20000;
   for (int i = 0; i < n; ++i) {
@@ -139,13 +139,13 @@ TEST(DirectedMeshes, ACylinderKeepsItsRimsUnderLongTriangles) {
   EXPECT_EQ(mesh.curves.size(), 2u);
   for (const CurveMesh& curve : mesh.curves) EXPECT_NEAR(static_cast<double>(curve.vertices.size() - 1), 2 * pi / s, 2);
   for (const Vec3& p : mesh.vertices) EXPECT_LE(std::hypot(p.x(), p.y()), 1 + 2e-4);
-  // Fewer than half of what the smaller size everywhere takes.
+  // Fewer than half the triangles of the smaller size everywhere.
   const double isotropic = (2 * pi * 2 + 2 * pi) / (s * s) / unit_area;
   EXPECT_LT(static_cast<double>(mesh.triangle_count()), 0.7 * isotropic);
   EXPECT_GE(share_in_range(run.session.delivered()[EvaluationKind::length].values), 0.85);
 }
 
-TEST(DirectedMeshes, GradationBoundsWhatGrows) {
+TEST(DirectedMeshes, GradationBoundsGrowingSizes) {
   // Across x = 0 the size along x falls to a tenth.
   const auto metric = [](const Vec3& p) {
     const double h = std::abs(p.x()) < 0.05 ? 0.03 : 0.3;
@@ -186,8 +186,9 @@ TEST(DirectedMeshes, SizesWithoutDirectionNeedNoMetric) {
   EXPECT_NEAR(static_cast<double>(a) / static_cast<double>(b), 1, 0.01);  // sizes differ in the last places
 }
 
-// The tensor of a torus: 1 / r across, cos v / (R + r cos v) around. Of first order: the diagonals all run one way.
-TEST(CurvatureTensors, ConvergeToThoseOfATorus) {
+// The tensor of a torus: 1 / r across, cos v / (R + r cos v) around. The convergence has first order: the diagonals all
+// run one way.
+TEST(CurvatureTensors, ConvergeOnATorus) {
   constexpr double R = 2, r = 0.7;
   double before = 0;
   for (const int n : {24, 48, 96}) {

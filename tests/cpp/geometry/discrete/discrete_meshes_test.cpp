@@ -53,7 +53,7 @@ double mean_quality(const SurfaceMesh& mesh) {
   return sum / static_cast<double>(mesh.triangle_count());
 }
 
-TEST(DiscreteMeshes, ATorusHasTheSizesAskedForAndLiesOnItsSurface) {
+TEST(DiscreteMeshes, ATorusHasThePrescribedSizesAndLiesOnItsSurface) {
   const BuiltGeometry built = geometry(torus(48, 24));
   for (const double size : {0.12, 0.4}) {  // finer and coarser than the triangles
     const Made made = mesh_of(built, size, 0, true);

@@ -37,7 +37,7 @@ TEST(WaltonMeek, TangentsAreOrthogonalToAnyNormals) {
   }
 }
 
-/// Largest difference of unit normals, and of points, over edges that are not sharp; of points over those that are.
+/// Largest difference of unit normals, and of points, over edges that are not sharp; of points over sharp edges.
 std::array<double, 3> jumps(const DiscreteSurface& s) {
   std::array<double, 3> most{0, 0, 0};
   const Triangulation& m = s.mesh();
@@ -85,7 +85,7 @@ TEST(DiscreteSurface, PassesItsVertices) {
       EXPECT_EQ(s.at(t, corner[static_cast<std::size_t>(k)], want_position).s, s.mesh().at(s.mesh().corner(t, k)));
 }
 
-TEST(GregoryTriangle, DerivativesAreThoseOfDifferences) {
+TEST(GregoryTriangle, DerivativesMatchDifferences) {
   const DiscreteSurface s = surface_of(sphere(2));
   const double h = 1e-4;
   for (std::int32_t t = 0; t < 20; ++t)

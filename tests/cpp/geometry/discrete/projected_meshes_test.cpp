@@ -31,12 +31,12 @@ namespace {
 
 using namespace carreau::thresholds::projected;
 
-/// What a run says, and whether it was made in planes.
+/// Records the messages of a run, and whether its remeshing was parametric.
 class Listener final : public Monitor {
  public:
   void message(Level, std::string_view text) override {
-    if (text.starts_with("made in planes")) in_planes = true, ++times;
-    if (text.starts_with("the mesh is made by edits")) in_planes = false;
+    if (text.starts_with("parametric remeshing: ")) in_planes = true, ++times;
+    if (text.starts_with("local instead of parametric remeshing")) in_planes = false;
     crossed = crossed || text.ends_with("pairs of triangles cross");
   }
   bool in_planes = false, crossed = false;
@@ -75,7 +75,7 @@ double mean_quality(const FlatMesh& mesh) {
   return sum / static_cast<double>(mesh.triangles.size());
 }
 
-TEST(ProjectedMeshes, ShapesAndLengthsAreThoseAskedFor) {
+TEST(ProjectedMeshes, ShapesAndLengthsMatchTheRequest) {
   for (const auto& [triangles, size, chi] :
        {std::tuple{sphere(12), 0.06, 2}, {torus(48, 24), 0.1, 0}, {cube(3), 0.05, 2}, {cylinder(36), 0.06, 2}}) {
     const MadeInPlanes made = made_of(triangles, size);
@@ -105,7 +105,7 @@ TEST(ProjectedMeshes, TheSameForAnyNumberOfThreads) {
   }
 }
 
-/// What each process makes, or the sentence of what it throws.
+/// The mesh of each process, or the sentence of its exception.
 std::vector<std::pair<MadeInPlanes, std::string>> made_by_processes(int n, const std::function<double(int)>& size) {
   carreau::testing::CommonOfThreads common(n);
   std::vector<std::pair<MadeInPlanes, std::string>> made(static_cast<std::size_t>(n));
@@ -135,11 +135,11 @@ TEST(ProjectedMeshes, TheSameForAnyNumberOfProcesses) {
 
 TEST(ProjectedMeshes, NameTheProcessWithOtherSizes) {
   for (const auto& [made, sentence] : made_by_processes(3, [](int rank) { return rank == 2 ? 0.081 : 0.08; }))
-    EXPECT_NE(sentence.find("others on rank 2"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("differ on rank 2"), std::string::npos) << sentence;
 }
 
 // Three triangles at an edge: edits make the mesh.
-TEST(ProjectedMeshes, WhatNoPlaneShowsIsMadeByEdits) {
+TEST(ProjectedMeshes, SurfacesThatNoPlaneShowsAreRemeshedLocally) {
   FlatMesh fins;
   fins.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
   fins.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
@@ -345,7 +345,8 @@ TEST(ProjectedCharts, MergedOnesDoNotTurnOverAtTheirCorners) {
   }
 }
 
-// Borders of one chart and those of all: vertices of the atlas are among them, and between these as many others as the size wants, on the surface.
+// Borders of one chart and of all charts: they contain vertices of the atlas, and between these the number of vertices that the size
+// prescribes, on the surface.
 TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
   Atlas atlas(sphere(6));
   const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
@@ -375,9 +376,9 @@ TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
     }
 }
 
-// Of the triangles of the plane each place is found in its own one. Over the plane z = z(x, y) the metric has the
+// Each place is found in its own triangle of the plane. Over the plane z = z(x, y) the metric has the
 // determinant 1 + z_x^2 + z_y^2 = 1 / n_z^2, and n is the place itself on a unit sphere.
-TEST(ChartPlanes, TellTriangleAndMetricOfEachPlace) {
+TEST(ChartPlanes, GiveTriangleAndMetricOfEachPlace) {
   Atlas atlas(sphere(24));
   const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
   for (std::size_t c = 0; c < found.axis.size(); ++c) {

@@ -113,7 +113,7 @@ TEST(SideBySide, HalvesThatShareALoopConformThere) {
   EXPECT_EQ(mesh.findings.euler_number, 2);
   EXPECT_EQ(mesh.triangles.size(), whole.triangles.size());
   ASSERT_EQ(halves.sentences.size(), 1u);
-  EXPECT_EQ(halves.sentences[0], "16 vertices are those of other surfaces of triangles: the meshes are one there");
+  EXPECT_EQ(halves.sentences[0], "16 vertices belong to other surfaces of triangles, too: the meshes are joined there");
   EXPECT_EQ(halves.surface->lines().lines.size(), 8u + 8 + 4);
   EXPECT_EQ(halves.surface->lines().corners.size(), 12u);
   EXPECT_EQ(halves.surface->lines().regions, 10);
@@ -150,7 +150,7 @@ TEST(SideBySide, HalvesOfASphereMeetInOneLine) {
   for (const Vec3& p : one.vertices) EXPECT_NEAR(norm(p), 1, 5e-3);
 }
 
-TEST(SideBySide, CommonTrianglesStayThoseOfTheFirst) {
+TEST(SideBySide, CommonTrianglesBelongToTheFirst) {
   const FlatMesh base = cube(2);
   const Joined boxes = joined({base, moved(base, {1, 0, 0})});  // a wall in common
   EXPECT_EQ(boxes.surface->mesh().findings.repeated_triangles, 8);
@@ -159,7 +159,7 @@ TEST(SideBySide, CommonTrianglesStayThoseOfTheFirst) {
   const std::vector<std::int32_t> refs = face_refs(*boxes.surface);
   EXPECT_EQ(std::set<std::int32_t>(refs.begin(), refs.end()).size(), 11u);
   ASSERT_EQ(boxes.sentences.size(), 3u);
-  EXPECT_EQ(boxes.sentences[1], "8 triangles are those of surfaces before: dropped");
+  EXPECT_EQ(boxes.sentences[1], "8 triangles belong to earlier surfaces: dropped");
   EXPECT_EQ(boxes.sentences[2], "8 edges have three triangles or more of several surfaces");
   const SurfaceMesh made = meshed(boxes.surface, 0.2);
   EXPECT_EQ(find_defects(made), std::vector<std::string>{});

@@ -136,7 +136,7 @@ TEST(Triangulation, DropsTrianglesWithoutAreaAndDividesTheirNeighbours) {
   }
 }
 
-TEST(Triangulation, RejectsWithAPlaceWhatItCannotMend) {
+TEST(Triangulation, RejectsIrreparableInputWithAPlace) {
   FlatMesh flat;
   flat.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
   flat.triangles = {{0, 1, 2}};
@@ -149,7 +149,7 @@ TEST(Triangulation, RejectsWithAPlaceWhatItCannotMend) {
   EXPECT_EQ(refusal(flat), "vertex 2 (from 0) has a coordinate that is not finite");
 }
 
-TEST(Triangulation, TellsBordersBreaksAndPinches) {
+TEST(Triangulation, ReportsBordersBreaksAndPinches) {
   FlatMesh fins;  // three triangles on one edge
   fins.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
   fins.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
@@ -190,7 +190,7 @@ TEST(Triangulation, AMoebiusStripHasALineOnWhichItTurns) {
   EXPECT_EQ(lines.edges, 2 * n + 1);
 }
 
-TEST(SharpLines, OfACubeAndACylinder) {
+TEST(SharpLines, ACubeAndACylinder) {
   const SharpLines of_cube = find_sharp_lines(Triangulation(cube(3)));
   EXPECT_EQ(of_cube.lines.size(), 12u);
   EXPECT_EQ(of_cube.corners.size(), 8u);
@@ -273,7 +273,7 @@ FlatMesh turned(const std::vector<Vec2>& profile, int n) {
   return mesh;
 }
 
-TEST(SharpLines, OfACountersinkHaveAnAngleInTheGap) {
+TEST(SharpLines, ACountersinkHasAnAngleInTheGap) {
   // A washer whose hole has a cone on top.
   for (const int n : {18, 36, 90})
     for (const double slope : {25.0, 30.0, 41.0, 45.0, 60.0}) {
@@ -287,7 +287,7 @@ TEST(SharpLines, OfACountersinkHaveAnAngleInTheGap) {
     }
 }
 
-TEST(SharpLines, OfAHingeKeepTheSurfaceAtItsTriangles) {
+TEST(SharpLines, AHingeKeepsTheSurfaceAtItsTriangles) {
   // Two plates bent by 30 degrees at their common edge.
   FlatMesh hinge;
   const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
@@ -339,7 +339,7 @@ TEST(SharpLines, StayOutOfCoarseCurvedSurfaces) {
   EXPECT_EQ(find_sharp_lines(Triangulation(shifted)).edges, 0);
 }
 
-TEST(SharpLines, OfNoiseAreThoseOf45Degrees) {
+TEST(SharpLines, NoiseHasTheLinesOf45Degrees) {
   FlatMesh mesh = sphere(12);
   const Triangulation even(mesh);
   mesh.vertices = even.vertices, mesh.triangles = even.triangles;
@@ -351,7 +351,7 @@ TEST(SharpLines, OfNoiseAreThoseOf45Degrees) {
   EXPECT_EQ(found.sharp, find_sharp_lines(noisy, {.sharp_angle = 45}).sharp);
 }
 
-TEST(SharpLines, ALineThatFadesOutStopsAndIsTold) {
+TEST(SharpLines, ALineThatFadesOutStopsAndIsReported) {
   // A ridge along x whose bend falls from 80 degrees to nothing.
   FlatMesh mesh;
   const int n = 30;
@@ -395,7 +395,7 @@ TEST(SharpLines, GivenEdgesAndReferencesAreLines) {
   EXPECT_EQ(only.regions, 1);
 }
 
-TEST(SharpLines, RefusesAnglesOutOfRange) {
+TEST(SharpLines, RejectsAnglesOutOfRange) {
   EXPECT_THROW(find_sharp_lines(Triangulation(icosahedron()), {.sharp_angle = 0}), InvalidArgument);
   EXPECT_THROW(find_sharp_lines(Triangulation(icosahedron()), {.sharp_angle = 45, .corner_angle = 200}),
                InvalidArgument);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is glued, what is left out, and what is refused.
+// Glued borders, omitted cells, and rejected grids.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -96,7 +96,7 @@ TEST(Glue, SixBlocksMakeACube) {
   for (const int ref : refs) EXPECT_EQ(refs.count(ref), 2U);
 }
 
-TEST(Glue, NormalsOfAClosedBodyPointOutwardsWhenAsked) {
+TEST(Glue, NormalsOfAClosedBodyPointOutwardsOnRequest) {
   for (unsigned mirrored = 0; mirrored < 64; ++mirrored) {
     std::vector<Block> blocks;
     for (unsigned side = 0; side < 6; ++side) {
@@ -142,7 +142,7 @@ TEST(Cells, AHoleIsALoopAndAStripOfHolesCutsTheBlockInTwo) {
   ASSERT_EQ(cut.built.model.faces.size(), 2U);
   EXPECT_EQ(cut.built.model.faces[0].ref, 1);
   EXPECT_EQ(cut.built.model.faces[1].part_of, 1);
-  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a face of its own");
+  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a separate face");
 }
 
 TEST(Holes, AreFilledByAMembraneThatIsExactForLinearGrids) {
@@ -161,7 +161,7 @@ TEST(Holes, AreFilledByAMembraneThatIsExactForLinearGrids) {
 
 TEST(Cells, CellsThatTouchByACornerKeepTheirLoops) {
   Block block = flat(5, 5);
-  // What is left are cells (1, 1) and (2, 2), counted from 0, beside one missing corner each way.
+  // The remaining cells are (1, 1) and (2, 2), counted from 0, beside one missing corner each way.
   for (const auto& [i, j] : {std::pair{0, 0}, {4, 4}, {0, 4}, {4, 0}, {3, 1}, {1, 3}, {0, 1}, {0, 2}, {0, 3}, {4, 1}, {4, 2}, {4, 3},
                              {1, 0}, {2, 0}, {3, 0}, {1, 4}, {2, 4}, {3, 4}})
     block.nodes[block.index(i, j)].x() = missing;
@@ -170,7 +170,7 @@ TEST(Cells, CellsThatTouchByACornerKeepTheirLoops) {
   for (const Face& face : made.built.model.faces) EXPECT_EQ(face.curves.size(), 4U);
 }
 
-TEST(Cells, FoldsAreToldAndLinesLeftOut) {
+TEST(Cells, FoldsAreReportedAndLinesLeftOut) {
   Block folded = flat(4, 4);
   folded.nodes[folded.index(1, 1)] = {2.5, 2.5, 0};
   EXPECT_EQ(build({folded}).warnings.at(0).substr(0, 17), "3 cells fold, the");
@@ -181,7 +181,7 @@ TEST(Cells, FoldsAreToldAndLinesLeftOut) {
   EXPECT_EQ(euler(made.built.model), 1);
 }
 
-TEST(Cells, BadGridsAreRefusedWithBlockAndNode) {
+TEST(Cells, BadGridsAreRejectedWithBlockAndNode) {
   EXPECT_EQ(error_of({}), "there is no block of a grid");
   EXPECT_EQ(error_of({flat(3, 3), flat(4, 1)}), "block 2 has 4 x 1 nodes; a surface needs two rows and two columns");
   Block infinite = flat(3, 3);

@@ -19,8 +19,8 @@ Block block_of(int columns, int rows, At&& at) {
   return block;
 }
 
-/// A sphere of radius 1, or what r(theta, phi) says: `around` intervals of longitude, closed, and `up` of latitude from
-/// pole to pole.
+/// A sphere of radius 1, or the surface r(theta, phi): `around` intervals of longitude, closed, and `up` of latitude
+/// from pole to pole.
 template <typename Radius>
 Block globe(int around, int up, Radius&& radius) {
   return block_of(around + 1, up + 1, [&](int i, int j) -> Vec3 {

@@ -97,11 +97,11 @@ TEST(Coons, ASampledSphereConvergesAtThirdOrderAndFergusonsIsWorse) {
   const double coarse = error_of_sphere(8, {}), fine = error_of_sphere(16, {}), finest = error_of_sphere(32, {});
   EXPECT_GT(std::log2(coarse / fine), 2.9);
   EXPECT_GT(std::log2(fine / finest), 2.9);
-  // Without cross derivatives the error is that of the twist, of order two.
+  // Without cross derivatives the error is the error of the twist, of order two.
   EXPECT_GT(error_of_sphere(32, {.cross_derivatives = false}), 3 * finest);
 }
 
-/// Two halves of one grid, the second one turned by `turns` quarters and mirrored if asked.
+/// Two halves of one grid, the second one turned by `turns` quarters and mirrored if requested.
 std::vector<Block> halves(int turns, bool mirrored) {
   const auto at = [](double i, double j) -> Vec3 { return {i, j, std::sin(0.5 * i) * std::cos(0.4 * j)}; };
   const Block left = block_of(6, 8, at);

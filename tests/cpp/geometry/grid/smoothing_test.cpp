@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr Smoothing voltaire{.rounds = 2000, .inward = 0.06, .outward = 0.061};
 
-/// What `rounds` rounds leave of mode m of a closed line of 144 values.
+/// The remainder after `rounds` rounds of mode m of a closed line of 144 values.
 double left_of_mode(int m, int rounds) {
   constexpr int n = 144;
   std::vector<double> values(n);

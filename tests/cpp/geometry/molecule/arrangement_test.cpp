@@ -207,7 +207,7 @@ TEST(Arrange, DoesNotDependOnThreads) {
   EXPECT_EQ(one.vertices.size(), two.vertices.size());
 }
 
-TEST(Arrange, RefusesBallsThatAreNone) {
+TEST(Arrange, RejectsInvalidBalls) {
   const auto sentence = [](const std::vector<Ball>& balls) -> std::string {
     try {
       of(balls);

@@ -28,7 +28,7 @@ double area_of(const SurfaceMesh& mesh) {
   return sum;
 }
 
-/// Of a closed mesh.
+/// Euler's number of a closed mesh.
 int euler_number_of(const SurfaceMesh& mesh) {
   return static_cast<int>(mesh.vertices.size()) - static_cast<int>(mesh.triangle_count() / 2);
 }
@@ -288,7 +288,7 @@ TEST(SolventExcluded, ManySpheresThroughAPointLeaveNoThinFaces) {
     EXPECT_GT(norm(mesh.vertices[curve.vertices.front()] - mesh.vertices[curve.vertices[1]]), 1e-3);
 }
 
-TEST(SolventExcluded, AreasAndVolumesAreThoseOfFineMeshes) {
+TEST(SolventExcluded, AreasAndVolumesMatchFineMeshes) {
   for (const std::vector<Ball>& balls : {with_hole, with_tips, with_many_tips}) {
     MoleculeSummary summary;
     const BuiltGeometry built = excluded(balls, &summary);
@@ -324,7 +324,7 @@ TEST(SolventExcluded, NoProbeBesideAVertexGoesIntoABall) {
   check_probes(read_balls("caffeine.xyzr"), 0.3);
 }
 
-/// A spindle of short arcs, where what is left of a probe's triangle comes apart at both tips of one side.
+/// A spindle of short arcs, where the rest of a probe's triangle comes apart at both tips of one side.
 TEST(SolventExcluded, PartsOfAProbeThatComeApartAreFacesOfTheirOwn) {
   std::mt19937 random(7);
   int apart = 0;

@@ -101,7 +101,7 @@ TEST(Arrangement, OnAGridPointsRepeatAndSegmentsOverlap) {
   }
 }
 
-TEST(Arrangement, CountsWhatItDoes) {
+TEST(Arrangement, CountsItsWork) {
   PlaneDomainInput input;
   add_segment(input, {0, 0}, {4, 0});
   add_segment(input, {0, 0}, {4, 0});   // the same again

@@ -52,7 +52,7 @@ TEST(CirclePiece, PointsOnALineHaveNone) {
   EXPECT_FALSE(arc_through({0, 0}, {3, 3}, {2, 2}));
 }
 
-TEST(CirclePiece, CurvatureIsOneOverTheRadiusAndDerivativesAreThoseOfThePoints) {
+TEST(CirclePiece, CurvatureIsOneOverTheRadiusAndDerivativesMatchThePoints) {
   const auto arc = arc_through({0, 0}, {1, 2}, {5, 1});
   ASSERT_TRUE(arc);
   for (double t = 0; t <= 1; t += 0.125) {
@@ -119,7 +119,7 @@ double area_of(const SurfaceMesh& mesh) {
   return area;
 }
 
-TEST(PlaneArcsOfCircles, AreaOfDiscSegmentsIsThatOfEqualEdges) {
+TEST(PlaneArcsOfCircles, AreaOfDiscSegmentsMatchesEqualEdges) {
   for (const double sweep : {1.0, 2.5, 5.0}) {
     const double r = 1.5, size = 0.1;
     Monitor silent;
@@ -175,7 +175,7 @@ TEST(PlaneArcsOfCircles, ACircleIsOneCurve) {
       EXPECT_NEAR(norm(session->mesh().vertices[static_cast<std::size_t>(v)]), 2, 1e-14);
 }
 
-TEST(PlaneArcsOfCircles, MistakesAreToldWithTheirPlaces) {
+TEST(PlaneArcsOfCircles, MistakesAreReportedWithTheirPlaces) {
   const auto sentence_of = [](const PlaneDomainInput& input) -> std::string {
     try {
       (void)build_plane_geometry(input);

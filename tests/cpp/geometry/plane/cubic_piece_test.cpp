@@ -46,7 +46,7 @@ TEST(CatmullRom, SubdivisionOfRegularPolygonsHasTheCountsOfTheProcedure) {
   for (const int n : {8, 16, 32}) EXPECT_EQ(edges(n, 0.001), 1024u) << n;
 }
 
-TEST(CatmullRom, EndsFollowWhatIsGivenThere) {
+TEST(CatmullRom, EndsFollowTheirGivenDerivatives) {
   const std::vector<Vec2> points{{0, 0}, {1, 1}, {3, 1}};
   const auto free = catmull_rom(points, {});
   EXPECT_EQ(free[0].a[3], Vec2(0, 0));  // a parabola: its one tangent is at (1, 1)
@@ -113,7 +113,7 @@ TEST(CubicPiece, CuspIsWhereTheDerivativeVanishes) {
   EXPECT_FALSE(cusp_of(unit_piece({1, 1}, {1, 1})));
 }
 
-TEST(CubicPiece, TurningBackIsToldFromAPieceThatAdvances) {
+TEST(CubicPiece, TurningBackDiffersFromAPieceThatAdvances) {
   EXPECT_FALSE(turns_back(unit_piece({1, 1}, {1, -1})));
   EXPECT_TRUE(turns_back(unit_piece({-1, 1}, {1, 1})));
   EXPECT_TRUE(turns_back(unit_piece({5, 0.1}, {5, 0.1})));

@@ -167,7 +167,7 @@ TEST(PlaneGeometry, SizesVaryAlongACurveWithItsLength) {
   EXPECT_TRUE(seen);
 }
 
-TEST(PlaneGeometry, MistakesAreToldWithTheirPlaces) {
+TEST(PlaneGeometry, MistakesAreReportedWithTheirPlaces) {
   PlaneDomainInput open;
   open.points = {{.xy = {0, 0}}, {.xy = {1, 0}}, {.xy = {1, 1}, .name = "C"}};
   open.curves = {{.points = {0, 1, 2}, .name = "s"}};
@@ -218,7 +218,7 @@ TEST(PlaneGeometry, TwoClaimsOnOneSubdomainContradict) {
 }
 
 // Random segments of a triangulated grid, whatever is left out: faces and their curves satisfy Euler's relation, and
-// points are in the face that the grid says.
+// points are in the face that the grid gives.
 TEST(PlaneGeometry, FacesOfACheckerboardAreItsSquares) {
   PlaneDomainInput input;
   input.rest = PlaneRest::inside;

@@ -45,7 +45,7 @@ void read_names(const std::string& text, Content& content) {
   }
 }
 
-/// What the manual of Gmsh says of version 2.2.
+/// Reads version 2.2 by the manual of Gmsh.
 Content read_2(const std::string& text) {
   Content content;
   read_names(text, content);
@@ -160,7 +160,7 @@ TEST(Msh, BothVersionsHoldTheSameMesh) {
   EXPECT_EQ(now.names, names);
 }
 
-TEST(Msh, CurvesAndCornersAreLeftOutWhenTheirGroupsAreNotWanted) {
+TEST(Msh, CurvesAndCornersAreLeftOutWithoutTheirGroups) {
   for (const MeshFormat format : {MeshFormat::msh2, MeshFormat::msh}) {
     const std::string text = mesh_bytes(named_square(), format, {.curve_groups = false});
     const Content content = format == MeshFormat::msh2 ? read_2(text) : read_4(text);

@@ -50,7 +50,7 @@ void expect_blocks(const Grid& grid, bool missing = false) {
   }
 }
 
-/// All x, all y, all z of a block, then its IBLANK if asked.
+/// All x, all y, all z of a block, then its IBLANK if requested.
 std::vector<double> numbers_of(int b, bool blanks) {
   const int columns = b == 0 ? 3 : 2, rows = b == 0 ? 2 : 4;
   std::vector<double> numbers;
@@ -163,7 +163,7 @@ TEST(GridFiles, Plot3dVolumesAreTheirOuterFaces) {
   }
 }
 
-TEST(GridFiles, WrongPlot3dIsRefusedWithBlockAndLine) {
+TEST(GridFiles, WrongPlot3dIsRejectedWithBlockAndLine) {
   EXPECT_EQ(refusal(read_plot3d, "3 1 1\n"), "g, line 1: block 1 has 3 x 1 x 1 nodes, one row only; a surface has two or more");
   EXPECT_EQ(refusal(read_plot3d, "2 2 0\n"), "g, line 1: block 1 has 2 x 2 x 0 nodes; all three counts must be positive");
   EXPECT_EQ(refusal(read_plot3d, "2 2 1\n0 1 0 1\n0 0 1 1\n0 0 0"), "g, line 4: the file ends where z of block 1 was expected");
@@ -177,7 +177,7 @@ TEST(GridFiles, WrongPlot3dIsRefusedWithBlockAndLine) {
   EXPECT_NE(refusal(read_plot3d, "30000 30000 1\n1").find("more than the file can hold"), std::string::npos);
   std::string cut = Binary(true, false, true).of(false);
   cut.pop_back();
-  EXPECT_NE(refusal(read_plot3d, cut).find("bytes are no PLOT3D"), std::string::npos);
+  EXPECT_NE(refusal(read_plot3d, cut).find("bytes are not PLOT3D"), std::string::npos);
 }
 
 TEST(GridFiles, EsriGridsStartInTheNorthAndHaveCells) {
@@ -205,7 +205,7 @@ TEST(GridFiles, PlainHeightsHaveAHeaderOrNone) {
   EXPECT_EQ(high, 195);
 }
 
-TEST(GridFiles, WrongHeightsAreRefusedWithTheLine) {
+TEST(GridFiles, WrongHeightsAreRejectedWithTheLine) {
   EXPECT_EQ(refusal(heights, ""), "g, line 1: the file is empty");
   EXPECT_EQ(refusal(heights, "1 2 3\n4 5\n"), "g, line 2: the row has 2 heights, the first one has 3");
   EXPECT_EQ(refusal(heights, "1 2 3 4 5 6 7\n"), "g, line 1: the grid has 7 x 1 nodes; a surface needs two rows and two columns");
@@ -270,7 +270,7 @@ TEST(GridFiles, ListsOfNodesComeInAnyOrder) {
   EXPECT_EQ(refusal(read_nodes, "1 1 0\n"), "g, line 1: lines of nodes are 'i j x y z' or 'block i j x y z'");
 }
 
-TEST(GridFiles, AnotherSuffixIsToldWhatThereIs) {
+TEST(GridFiles, AnErrorForOtherSuffixesListsTheFormats) {
   EXPECT_THROW(read_grid("x.foo"), FileError);
   EXPECT_THROW(read_grid("does not exist.fmt"), FileError);
 }

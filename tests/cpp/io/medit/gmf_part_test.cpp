@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that several processes write: what parts have of them.
+// Files that several processes write: the bytes of parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -106,7 +106,7 @@ TEST(GmfParts, NumberBeyond32Bits) {
   EXPECT_EQ(corners[3], 1);
 }
 
-TEST(GmfParts, RefuseOtherFormatsAndCoordinates) {
+TEST(GmfParts, RejectOtherFormatsAndCoordinates) {
   Part part = part_of(strip(3, 3), 0, 1);
   const PositionedSink nowhere = [](std::uint64_t, std::string_view) {};
   EXPECT_THROW(write_part(part.numbers, part.mesh, MeshFormat::mesh, nowhere), InvalidArgument);

@@ -86,7 +86,7 @@ TEST(Gmf, Version3HasTheSameMeshWithPositionsOf64Bits) {
   EXPECT_FALSE(gmf_needs_64_bits(mesh));
 }
 
-// Files too large to be made here: what their counts say.
+// Files too large to be made here: only their counts are tested.
 TEST(Gmf, PositionsGoBeyond32Bits) {
   constexpr std::uint64_t many = (std::uint64_t{1} << 31) - 1, start = 20;
   const std::uint64_t triangles = gmf_next(start, 3, many, 28);
@@ -102,8 +102,8 @@ TEST(Gmf, PositionsGoBeyond32Bits) {
   EXPECT_TRUE(gmf_needs_64_bits(GmfCounts{.vertices = most + 1, .triangles = 2 * most + 2}));
 }
 
-// A triangle behind a section of three gigabytes, which is a hole in the file and read by nobody.
-TEST(Gmf, ReadsWhatIsBeyond32Bits) {
+// A triangle behind a section of three gigabytes, which is a hole in the file and never read.
+TEST(Gmf, ReadsBeyond32Bits) {
   constexpr std::int64_t far = std::int64_t{3} << 30, vertices_end = far + 16 + 3 * 28, triangles_end = vertices_end + 32;
   const bool big_endian = std::endian::native == std::endian::big;
   Bytes head(big_endian), tail(big_endian);
@@ -196,7 +196,7 @@ TEST(Gmf, NamesTheByteOfEveryViolation) {
             "x.meshb: byte 36: 1099511627776 vertices are announced, but there is room for 0");
 }
 
-TEST(Gmf, IndicesOf64BitsThatDoNotFitAreRefused) {
+TEST(Gmf, IndicesOf64BitsThatDoNotFitAreRejected) {
   const auto b =
       Bytes().i32(1).i32(4).i32(3).i64(24).i32(2).i32(4).i64(68).i64(1).f64(0).f64(0).i64(std::int64_t{1} << 33);
   EXPECT_EQ(error_of(b.text()), "x.meshb: byte 60: the number 8589934592 does not fit in 32 bits");

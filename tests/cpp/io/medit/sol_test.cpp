@@ -67,14 +67,14 @@ TEST(Solution, FieldsOfSeveralTypesAreReadAndWritten) {
   EXPECT_EQ(space.count(), 1u);
 }
 
-TEST(Solution, ListsOfTypesWithoutSenseAreRefused) {
+TEST(Solution, ListsOfTypesWithoutSenseAreRejected) {
   const auto refused = [](const std::string& text) {
     return sentence_of<FileError>([&] { read_solution_text(header + text, "x.sol", SolutionUse::fields); });
   };
-  EXPECT_NE(refused("SolAtVertices 1\n0\nEnd").find("x.sol, line 4: there are 0 values at each vertex; 1 to 64 are wanted"),
+  EXPECT_NE(refused("SolAtVertices 1\n0\nEnd").find("x.sol, line 4: there are 0 values at each vertex; 1 to 64 are required"),
             std::string::npos);
   EXPECT_NE(refused("SolAtVertices 1\n65\nEnd").find("there are 65 values"), std::string::npos);
-  EXPECT_NE(refused("SolAtVertices 1\n2 1 5\n1 2\nEnd").find("type 5 is none of"), std::string::npos);
+  EXPECT_NE(refused("SolAtVertices 1\n2 1 5\n1 2\nEnd").find("type 5 is not 1"), std::string::npos);
   EXPECT_NE(refused("SolAtVertices 2\n1 2\n1 2 3\nEnd"), "");
 }
 
@@ -90,7 +90,7 @@ TEST(Solution, BinaryVersions1To4AreReadInBothByteOrders) {
       }
 }
 
-TEST(Solution, BothFormsGiveBackWhatWasWritten) {
+TEST(Solution, BothFormsRestoreWrittenValues) {
   std::mt19937_64 random(3);
   const TemporaryFolder folder;
   for (int round = 0; round < 40; ++round) {
@@ -137,12 +137,12 @@ TEST(Solution, NamesTheLineOfEveryViolation) {
   EXPECT_EQ(error_of(header + "SolAtVertices 1000000000\n1 3\n1 0 1"),
             "x.sol, line 3: 1000000000 vertices are announced, but the rest of the file has room for at most 0");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n2 1 1\n1 2\nEnd"),
-            "x.sol, line 4: there are 2 values at each vertex (1 scalar, 2 scalar); one size, field or metric is wanted, which the "
+            "x.sol, line 4: there are 2 values at each vertex (1 scalar, 2 scalar); one size, field or metric is required, which the "
             "parameter sol_field chooses");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n1 2\n1 2 3\nEnd"),
-            "x.sol, line 4: the values are vectors (type 2); scalars (1) or symmetric tensors (3) are wanted");
+            "x.sol, line 4: the values are vectors (type 2); scalars (1) or symmetric tensors (3) are required");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n1 7\n1\nEnd"),
-            "x.sol, line 4: type 7 is none of 1 (scalar), 2 (vector), 3 (symmetric tensor), 4 (tensor)");
+            "x.sol, line 4: type 7 is not 1 (scalar), 2 (vector), 3 (symmetric tensor) or 4 (tensor)");
   EXPECT_EQ(error_of(header + "SolAtVertex 1\n1 1\n1\nEnd"), "x.sol, line 6: the file has no SolAtVertices");
   EXPECT_EQ(error_of(header + "SolutionAtVertices 1\n1 1\n1\nEnd"), "x.sol, line 6: the file has no SolAtVertices");
   EXPECT_EQ(error_of(header + "SolAtVertices 1\n1 1\n1\nEn"),
@@ -158,9 +158,9 @@ TEST(Solution, NamesTheByteOfEveryViolation) {
   EXPECT_EQ(after(Bytes().i32(62).i32(48).i32(1).i32(1).i32(1).f64(std::nan(""))),
             "x.solb: byte 40: a value is not finite");
   EXPECT_EQ(after(Bytes().i32(62).i32(48).i32(1).i32(1).i32(2).f64(1)),
-            "x.solb: byte 32: the values are vectors (type 2); scalars (1) or symmetric tensors (3) are wanted");
+            "x.solb: byte 32: the values are vectors (type 2); scalars (1) or symmetric tensors (3) are required");
   EXPECT_EQ(after(Bytes().i32(62).i32(48).i32(1).i32(2).i32(1).i32(2).f64(1)),
-            "x.solb: byte 32: there are 2 values at each vertex (1 scalar, 2 vector); one size, field or metric is wanted, "
+            "x.solb: byte 32: there are 2 values at each vertex (1 scalar, 2 vector); one size, field or metric is required, "
             "which the parameter sol_field chooses");
 }
 
@@ -209,14 +209,14 @@ TEST(Solution, TensorsComeInTheOrderOfTheLowerTriangle) {
   EXPECT_EQ(plane_tensor({.dimension = 2, .tensor = true, .values = {0, 0, 0, 1, 2, 3}}, 1), (Metric2{1, 2, 3}));
 }
 
-TEST(Solution, WhatNoReaderWouldTakeIsNotWritten) {
+TEST(Solution, ValuesThatNoReaderWouldTakeAreNotWritten) {
   const auto refusal = [](const Solution& s) { return sentence_of<InvalidArgument>([&] { solution_text(s); }); };
   EXPECT_EQ(refusal({.dimension = 2, .tensor = true, .values = {1, 2}}),
-            "a solution cannot be written: 2 values are no multiple of 3");
+            "a solution cannot be written: 2 values are not a multiple of 3");
   EXPECT_EQ(refusal({.dimension = 3, .tensor = false, .values = {1, std::nan("")}}),
             "a solution cannot be written: the value at vertex 1 (from 0) is not finite");
   EXPECT_EQ(sentence_of<InvalidArgument>([] { write_solution({}, "x.txt"); }),
-            "'x.txt' has none of the suffixes of a solution file: .sol, .solb");
+            "'x.txt' does not have a suffix of solution files: .sol, .solb");
 }
 
 }  // namespace

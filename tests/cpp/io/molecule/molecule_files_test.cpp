@@ -100,7 +100,7 @@ TEST(MoleculeFiles, EachMistakeHasASentenceWithItsLine) {
   EXPECT_EQ(refusal(read_xyz, "x\n"), "m, line 1: the first line is 'x'; it must be a positive number of atoms");
   EXPECT_EQ(refusal(read_xyz, "2\n\nC 0 0 0\n"), "m, line 3: the file ends after 1 of 2 atoms");
   EXPECT_EQ(refusal(read_xyz, "1\n\nQq 0 0 0\n"),
-            "m, line 3: 'Qq' is no element of the periodic table: it has no van der Waals radius");
+            "m, line 3: 'Qq' is not an element of the periodic table: it has no van der Waals radius");
   EXPECT_EQ(refusal(read_pdb, "HEADER\nATOM      7  CA  ALA B  12      18.9\n"), "m, line 2: y is missing");
   EXPECT_EQ(refusal(read_pdb, "HETATM    3  O   HOH A   3      19.736  30.706  18.656\n"),
             "m, line 1: the file holds no atom but of waters");

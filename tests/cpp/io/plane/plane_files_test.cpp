@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of plane domains: what they say, and a sentence with the line for each mistake.
+// Files of plane domains: their content, and a sentence with the line for each mistake.
 #include "io/plane/plane_files.h"
 
 #include <gtest/gtest.h>
@@ -168,7 +168,7 @@ TEST(Bl2dData, MistakesHaveTheirLines) {
   EXPECT_NE(of("E 20 -15", "A 20 -15").find("the point 'A' comes twice"), std::string::npos);
 }
 
-TEST(Bl2dGeometry, TheCompiledFormSaysTheSame) {
+TEST(Bl2dGeometry, TheCompiledFormAgrees) {
   const auto input = read_bl2d_g_text(
       "3 1 1 0 3 1\n-90 -15\n20 -15\n20 30\n2\n2 20\n4 0 1 2 0 7\n4 1 2 3 0 0\n4 2 3 1 0 0\n1 1 200\n", "x.g");
   const auto data = read_bl2d_data_text(piece_data, "x.data");
@@ -211,7 +211,7 @@ TEST(Bl2dSizes, ValuesArePositiveAndAsManyAsPoints) {
             std::string::npos);
 }
 
-TEST(PlaneMesh, TrianglesSayWhereTheDomainIs) {
+TEST(PlaneMesh, TrianglesDefineTheDomain) {
   FlatMesh mesh;
   mesh.dimension = 2;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

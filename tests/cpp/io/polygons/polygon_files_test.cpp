@@ -47,7 +47,7 @@ TEST(Off, CutsAStarIntoTrianglesOfItsArea) {
   EXPECT_NEAR(area_of(mesh), n * r * std::sin(std::numbers::pi / n), 1e-5);
 }
 
-TEST(Off, NamesTheLineOfWhatIsWrong) {
+TEST(Off, NamesTheLineOfAMistake) {
   const std::string good = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   EXPECT_EQ(read_mesh_off(good, "x").triangles.size(), 1u);
   const auto sentence = [&](std::string_view from, std::string_view to) {
@@ -141,7 +141,7 @@ TEST(Ply, ListsMayHaveFloatCountsAndIndices) {
   EXPECT_EQ(mesh.triangles.size(), 2u);
 }
 
-TEST(Ply, NamesWhatIsWrong) {
+TEST(Ply, NamesMistakes) {
   const auto sentence = [&](const std::string& text) {
     return sentence_of<FileError>([&] { read_mesh_ply(text, "x.ply"); });
   };

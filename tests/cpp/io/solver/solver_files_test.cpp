@@ -16,7 +16,7 @@ namespace {
 
 using Read = FlatMesh (*)(std::string_view, const std::string&);
 
-/// Elements with their references, whatever their order: those of one face and kind stay together.
+/// Elements with their references, whatever their order: elements of one face and kind stay together.
 std::multiset<std::pair<std::int32_t, std::vector<std::int32_t>>> elements_of(const FlatMesh& mesh) {
   std::multiset<std::pair<std::int32_t, std::vector<std::int32_t>>> elements;
   for (const FaceSet& face : sets_of(mesh, 80).faces)
@@ -184,7 +184,7 @@ TEST(SolverFiles, Su2HasMarkersOfThePlaneAndOfSpace) {
   EXPECT_EQ(std::ranges::count(space.triangle_refs, 8), 3);
 }
 
-TEST(SolverFiles, OrderTwoIsRefusedWhereThereIsNone) {
+TEST(SolverFiles, OrderTwoIsRejectedInFormatsWithoutIt) {
   for (const MeshFormat format : {MeshFormat::su2, MeshFormat::off, MeshFormat::obj, MeshFormat::ply})
     EXPECT_NE(sentence_of<InvalidArgument>([&] { mesh_bytes(plate(true), format); }).find("has no elements of order 2"), std::string::npos);
 }
@@ -298,7 +298,7 @@ TEST(SolverFiles, UnvGroupsAreFacesAndCurves) {
   EXPECT_EQ(mesh.faces[0].name, "Left side");
 }
 
-TEST(SolverFiles, NameTheLineOfWhatIsWrong) {
+TEST(SolverFiles, NameTheLineOfAMistake) {
   const auto sentence = [](Read read, const std::string& text) { return sentence_of<FileError>([&] { read(text, "x"); }); };
   EXPECT_NE(sentence(read_mesh_inp, "*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n").find("x, line 3: node 1 comes twice"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_inp, "*NODE\n1, 0, a, 0\n").find("not 'a'"), std::string::npos);

@@ -9,7 +9,7 @@
 namespace carreau {
 namespace {
 
-/// What the VTK documentation says of an array in the appended section: its offset counts from the byte after the
+/// Reads an array in the appended section by the VTK documentation. Its offset counts from the byte after the
 /// underscore, and 64 bits of length in bytes come first (header_type UInt64).
 template <typename T>
 std::vector<T> array_of(const std::string& file, const std::string& section, const std::string& name,

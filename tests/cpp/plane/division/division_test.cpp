@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large domains are meshed in pieces: no measure tells where these have met.
+// Large domains are meshed in pieces: no measure shows where these have met.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -64,7 +64,7 @@ PlaneCase two_squares(double h) {
 
 class Divided : public ::testing::TestWithParam<Large> {};
 
-// A fifth of a percent of degrees, a thousandth of mean shape and length: what another seed of the boundary does.
+// A fifth of a percent of degrees, a thousandth of mean shape and length: the effect of another seed of the boundary.
 TEST_P(Divided, IsAsGoodAsInOnePiece) {
   const PlaneCase c = GetParam().make(GetParam().size);
   const ControlSpace space = control_space(c);
@@ -154,7 +154,7 @@ TEST(Division, LeavesStripsAlone) {
   expect_same(mesh, uncut(c.domain, space));
 }
 
-/// Asks for a stop at the checkpoint of that rank.
+/// Requests a stop at the checkpoint of that rank.
 class StopsAt : public Monitor {
  public:
   explicit StopsAt(int rank) : rank_(rank) {}
@@ -195,7 +195,7 @@ TEST(Division, KeepsTheLimitOfTriangles) {
   EXPECT_THROW((void)mesh_plane(c.domain, space, options, monitor), LimitError);
 }
 
-TEST(Division, FindsWhatIsWrongBetweenPieces) {
+TEST(Division, FindsDefectsBetweenPieces) {
   PlaneCase c = two_squares(0.004);
   const ControlSpace space = control_space(c);
   for (std::size_t v = c.domain.vertices.size() / 2; v < c.domain.vertices.size(); ++v)
@@ -204,7 +204,7 @@ TEST(Division, FindsWhatIsWrongBetweenPieces) {
   EXPECT_THROW((void)mesh_plane(c.domain, space, {}, monitor), DomainError);
 }
 
-TEST(Division, IsWhatLargeDomainsGet) {
+TEST(Division, AppliesToLargeDomains) {
   const PlaneCase c = flat_square(0.0028);
   const ControlSpace space = control_space(c);
   Monitor monitor;

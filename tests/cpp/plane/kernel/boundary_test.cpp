@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulation of imposed vertices and edges alone: what it is, and what it refuses.
+// Triangulation of imposed vertices and edges alone: its properties, and rejected input.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,7 +80,7 @@ TEST(TriangulateDomain, RandomStarPolygonsHaveAllTheirEdges) {
   }
 }
 
-TEST(TriangulateDomain, HolesIslandsAndComponentsAreToldApart) {
+TEST(TriangulateDomain, HolesIslandsAndComponentsAreDistinguished) {
   PlaneDomain domain = square(10);
   add_loop(domain, reversed({{1, 1}, {6, 1}, {6, 6}, {1, 6}}));
   add_loop(domain, {{2, 2}, {5, 2}, {5, 5}, {2, 5}});
@@ -212,7 +212,7 @@ TEST(TriangulateDomain, CrossingEdgesAreNamedWithTheirPlace) {
   EXPECT_NE(error.find("u = 1, v = 1"), std::string::npos) << error;
 }
 
-TEST(TriangulateDomain, BadDomainsAreRefusedWithASentence) {
+TEST(TriangulateDomain, BadDomainsAreRejectedWithASentence) {
   const auto refused = [](const PlaneDomain& domain, const std::string& why) {
     const std::string error = error_of(domain);
     EXPECT_NE(error.find(why), std::string::npos) << why << " expected, got: " << error;

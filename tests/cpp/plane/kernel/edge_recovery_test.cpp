@@ -47,7 +47,7 @@ void expect_valid(const Triangulation& mesh) {
   }
 }
 
-TEST(RecoverEdge, MakesTheEdgeOrTellsTheVertexOnIt) {
+TEST(RecoverEdge, MakesTheEdgeOrReturnsTheVertexOnIt) {
   std::mt19937 random(2);
   int made = 0, on_vertex = 0;
   for (int trial = 0; trial < 20; ++trial) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walks from a triangle to the one that holds a point.
+// Walks from a triangle to the triangle that holds a point.
 #include <gtest/gtest.h>
 
 #include <map>

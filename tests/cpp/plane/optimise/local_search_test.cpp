@@ -41,7 +41,7 @@ PlaneCase ellipse(double h, double ratio) {
   });
 }
 
-// Where sizes are the same everywhere, what is judged is the shape itself.
+// If sizes are the same everywhere, the search judges the shape itself.
 TEST(LocalSearch, RaiseTheWorstOfEllipses) {
   double sum = 0, sum_before = 0;
   int count = 0;
@@ -92,7 +92,7 @@ TEST(LocalSearch, LeaveNoMoreToWishForThanThereWas) {
 }
 
 // Imposed points, internal curves, holes, corners, poles: all stays as it must be.
-TEST(LocalSearch, KeepWhatIsImposed) {
+TEST(LocalSearch, KeepImposedEdges) {
   struct Named {
     PlaneCase (*make)(double);
     double h;

@@ -15,8 +15,8 @@ PlaceKey triangle(const std::array<Vec2, 3>& p) {
   return key_of_triangle(key_of_place(p[0]), key_of_place(p[1]), key_of_place(p[2]));
 }
 
-// A triangle is the same from each of its corners, and another one when it is turned over or one corner moves by the
-// last bit.
+// A triangle has one key from each of its corners, and a different key when it is turned over or one corner moves by
+// the last bit.
 TEST(Memo, KeysOfTrianglesDependOnPlacesAndTurn) {
   const Vec2 a{0, 0}, b{1, 0}, c{0.5, 1};
   EXPECT_EQ(triangle({a, b, c}), triangle({b, c, a}));
@@ -26,13 +26,13 @@ TEST(Memo, KeysOfTrianglesDependOnPlacesAndTurn) {
 }
 
 // A diagonal is the same from both of its sides; the other one of the quadrilateral is not.
-TEST(Memo, KeysOfDiagonalsTellWhichOneItIs) {
+TEST(Memo, KeysOfDiagonalsDiffer) {
   const PlaceKey a = key_of_place({0, 0}), b = key_of_place({1, 1}), c = key_of_place({0, 1}), d = key_of_place({1, 0});
   EXPECT_EQ(key_of_diagonal(c, a, b, d), key_of_diagonal(d, b, a, c));
   EXPECT_NE(key_of_diagonal(c, a, b, d), key_of_diagonal(a, d, c, b));
 }
 
-// Coordinates of regular grids have few bits: all their triangles are told apart even so.
+// Coordinates of regular grids have few bits: all their triangles have different keys even so.
 TEST(Memo, TrianglesOfAGridHaveKeysOfTheirOwn) {
   constexpr int n = 64;
   std::set<PlaceKey> keys;
@@ -45,7 +45,7 @@ TEST(Memo, TrianglesOfAGridHaveKeysOfTheirOwn) {
   EXPECT_EQ(keys.size(), 4U * n * n);
 }
 
-TEST(Memo, WhatIsNotKnownIsNotFound) {
+TEST(Memo, UnknownKeysAreNotFound) {
   Memo<double> memo;
   memo.clear();
   const PlaceKey known = key_of_place({0.25, 0.5}), other = key_of_place({0.5, 0.25});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one look at a triangle promises of its edges (plane/kernel/settled.h).
+// The guarantees for the edges of a triangle after one look at it (plane/kernel/settled.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>

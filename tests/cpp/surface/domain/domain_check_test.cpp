@@ -159,7 +159,7 @@ TEST(FindCrossings, ReportsTouchesOverlapsAndTwins) {
 }
 
 TEST(FindCrossings, SeesTheSmallestGap) {
-  // A vertex one ulp off an edge is no touch; on it, it is. No epsilon can tell.
+  // A vertex one ulp off an edge is no touch; on it, it is. No epsilon can decide this.
   const double y = 0.1, above = std::nextafter(y, 1), below = std::nextafter(y, 0);
   for (const double tip : {above, y, below}) {
     const PlaneDomain domain = polygon({{0, y}, {1, y}, {1, 1}, {0.5, tip}, {0, 1}});
@@ -250,7 +250,7 @@ TEST(OrientLoops, TakesLoopsThatMeetAtAVertex) {
     }
 }
 
-TEST(OrientLoops, RefusesWhatIsNoDomain) {
+TEST(OrientLoops, RejectsInvalidDomains) {
   // HDR fig. 3.1, third: open.
   PlaneDomain open = polygon(circle(10, {0, 0}, 1));
   open.edges.pop_back();
@@ -268,7 +268,7 @@ TEST(OrientLoops, RefusesWhatIsNoDomain) {
 }
 
 TEST(OrientLoops, FollowsTheLargerPartOfABoundaryThatCrossesItself) {
-  // A disc with a small reversed curl next to the seed: turned as the disc is, so that refinement can mend it.
+  // A disc with a small reversed curl next to the seed: turned as the disc is, so that refinement can repair it.
   std::vector<Vec2> loop = circle(40, {0, 0}, 10);
   std::swap(loop[0], loop[1]);
   PlaneDomain domain = polygon(loop);
@@ -286,7 +286,7 @@ void expect_sentence(const std::vector<std::string>& sentences, const std::vecto
   for (const std::string& word : words) EXPECT_NE(sentences[0].find(word), std::string::npos) << sentences[0];
 }
 
-TEST(FindLoopDefects, SaysWhatIsWrong) {
+TEST(FindLoopDefects, DescribesDefects) {
   const PlaneDomain square = polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
   EXPECT_TRUE(find_loop_defects(square).empty());
 

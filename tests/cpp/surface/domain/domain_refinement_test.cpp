@@ -77,7 +77,7 @@ CurvedDomain bridge(double width, double h) {
   return domain;
 }
 
-TEST(Crossings, AreMendedByRefinement) {
+TEST(Crossings, AreRemovedByRefinement) {
   // HDR fig. 3.2: a ring between circles of radius 1 and 0.95 cut into 7 and 5 edges: the polygons cross.
   CurvedDomain ring;
   const int outer = ring.add_vertex({1, 0});
@@ -295,7 +295,7 @@ TEST(Closeness, RefinesBeyondTheTipOfANeedle) {
   EXPECT_GT(shortest(needle.plane), 0.009);
 }
 
-TEST(Closeness, CoefficientZeroAsksForNothing) {
+TEST(Closeness, CoefficientZeroHasNoEffect) {
   const CurvedDomain domain = bridge(0.01, 0.5);
   const ControlSpace metric = ControlSpace::constant({4, 0, 4});
   EXPECT_TRUE(edges_to_split_for_closeness(domain.plane, metric, 0).empty());

@@ -65,7 +65,7 @@ struct Curved {
 };
 
 /// Largest difference between a function of space and its interpolation, over all elements; exact points of the surface
-/// are those of (u, v) interpolated in the same way.
+/// are at (u, v) interpolated in the same way.
 double interpolation_error(const Curved& run, const std::function<double(const Vec3&)>& field) {
   double worst = 0;
   for (const FaceMesh& face : run.mesh().faces)
@@ -101,8 +101,8 @@ TEST(CurvedElements, AQuadraticFieldIsExactOnAPlaneMesh) {
   EXPECT_GT(interpolation_error(Curved(square(), 0.1, "p1"), field), 1e-3);
 }
 
-TEST(CurvedElements, NobodyHasLookedForTheirCrossings) {
-  // Those of the straight triangles before are known where crossing_rounds is positive.
+TEST(CurvedElements, HaveNoSearchForCrossings) {
+  // Crossings of the preceding straight triangles are known if crossing_rounds is positive.
   const auto crossings = [](const char* element) {
     Monitor monitor;
     const AnalyticCad cad = square();
@@ -136,7 +136,7 @@ TEST(CurvedElements, NodesLieOnTheSurfaceAndFacesShareThem) {
       for (std::size_t m = 0; m < face.mid_uv.size(); ++m)
         off = std::max(off, norm(cad.faces.at(face.ref).at(face.mid_uv[m]).s -
                                  run.mesh().mid_vertices[face.mid_vertex[m]]));
-    EXPECT_LT(off, 2e-3 * 0.25);  // curves of two faces: what carrying them tolerates
+    EXPECT_LT(off, 2e-3 * 0.25);  // curves of two faces: the tolerance of carrying them
     for (const CurveMesh& curve : run.mesh().curves)
       EXPECT_EQ(curve.mid.size() + 1, std::max<std::size_t>(curve.vertices.size(), 1));
   }
@@ -159,7 +159,7 @@ TEST(CurvedElements, InterpolationIsOfOrderThree) {
   }
 }
 
-TEST(CurvedElements, TheMeshOfStraightTrianglesIsThatOfP1) {
+TEST(CurvedElements, TheMeshOfStraightTrianglesMatchesP1) {
   const Curved straight(testing::torus_patch(), 0.2, "p1"), curved(testing::torus_patch(), 0.2, "p2");
   EXPECT_EQ(straight.mesh().vertices, curved.mesh().vertices);
   ASSERT_EQ(straight.mesh().faces.size(), curved.mesh().faces.size());
@@ -199,7 +199,7 @@ TEST(CurvedElements, CurvedQuadrilateralsLieOnSurfaces) {
 }
 
 // Measured with the element's own map, A0 is of a higher order.
-TEST(CurvedElements, WhatIsDeliveredIsThatOfTheCurvedElement) {
+TEST(CurvedElements, MeasuresAreOfTheCurvedElement) {
   const auto deviation = [](double h, const char* element) {
     Curved run(testing::hemisphere(), h, element);
     return run.session->delivered()[EvaluationKind::deviation].spread;

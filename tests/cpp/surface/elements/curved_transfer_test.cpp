@@ -54,7 +54,7 @@ double largest_difference(const std::vector<double>& p, const std::vector<double
   return largest;
 }
 
-/// The mesh with faces that another one does not know: fields are looked up in space.
+/// The mesh with faces that another mesh does not know: fields are looked up in space.
 SurfaceMesh renamed(SurfaceMesh mesh) {
   for (FaceMesh& face : mesh.faces) face.ref += 100;
   return mesh;
@@ -109,7 +109,7 @@ TEST(CurvedTransfer, StraightTrianglesOverAllNodesCoverTheMesh) {
   }
 }
 
-TEST(CurvedTransfer, TheErrorOfWhatShapeFunctionsHoldIsRounding) {
+TEST(CurvedTransfer, FieldsOfShapeFunctionsHaveRoundingErrors) {
   const Field f = [](const Vec3& p) { return 1 + p.x() * p.x() - 3 * p.x() * p.y(); };
   const FieldFunction exact = [&](std::span<const Vec3> points, std::span<double> values) {
     for (std::size_t i = 0; i < points.size(); ++i) values[i] = f(points[i]);

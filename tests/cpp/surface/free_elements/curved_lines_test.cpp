@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements beside sharp lines that turn fast, on meshes that are independent of their patches; wires beside such meshes.
+// Elements beside sharp lines that turn fast, on cross-patch meshes; wires beside such meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

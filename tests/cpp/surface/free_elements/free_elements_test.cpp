@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements of all kinds on meshes that are independent of their patches: sound, closed, on the surface, valid, of the order
-// that they promise.
+// Elements of all kinds on cross-patch meshes: sound, closed, on the surface, valid, of the expected order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +63,7 @@ struct Case {
 const Case cases[] = {{"p2", false, false, true},   {"q1.0", true, false, false}, {"q1.1", true, true, false},
                       {"q2.0", true, false, true}, {"q2.1", true, true, true}};
 
-/// Sound, valid, of the kinds asked for; `off`: distance of a place from the surface.
+/// Sound, valid, of the requested kinds; `off`: distance of a place from the surface.
 template <typename Off>
 void expect_elements(const SurfaceMesh& mesh, const Case& c, bool closed, const Off& off) {
   const std::vector<std::string> defects = find_defects(mesh, {.closed = closed});
@@ -140,8 +139,8 @@ TEST(FreeElements, CubeOfSquares) {
   }
 }
 
-// Of straight elements h^2, of curved ones h^4. Eight nodes do not hold all quadratic polynomials on quadrilaterals that are no
-// parallelograms: pairs of any triangles (q2.0) fall short of that order, not those that are cut (q2.1).
+// The error is h^2 for straight elements, h^4 for curved ones. Eight nodes do not hold all quadratic polynomials on
+// quadrilaterals other than parallelograms. Pairs of any triangles (q2.0) fall short of that order; cut ones (q2.1) do not.
 TEST(FreeElements, AreaConvergesAsThePolynomialsPromise) {
   Monitor quiet;
   const AnalyticCad cad = sphere_of_triangles(1);
@@ -154,7 +153,7 @@ TEST(FreeElements, AreaConvergesAsThePolynomialsPromise) {
   }
 }
 
-// In the faces that they are said to be of.
+// Nodes lie in their reported faces.
 TEST(FreeElements, NodesKnowTheirPlacesOnTheSurface) {
   Monitor quiet;
   AnalyticCad cad = sphere_of_triangles(1);
@@ -177,7 +176,7 @@ TEST(FreeElements, NodesKnowTheirPlacesOnTheSurface) {
   }
 }
 
-TEST(FreeElements, WhatIsDeliveredIsOfTheElements) {
+TEST(FreeElements, MeasuresAreOfTheElements) {
   Monitor quiet;
   for (const Case& c : cases) {
     const auto session = meshed(sphere_of_triangles(1), 0.25, c.element, quiet);
@@ -201,7 +200,7 @@ TEST(FreeElements, MeshDoesNotDependOnThreads) {
   }
 }
 
-TEST(FreeElements, StopWhereverTheyAreAskedAndLeaveNothing) {
+TEST(FreeElements, StopAnywhereOnRequestAndLeaveNothing) {
   const AnalyticCad cad = sphere_of_triangles(1);
   Counting all;
   (void)meshed(cad, 0.3, "q2.1", all);

@@ -95,7 +95,7 @@ TEST(Facing, ASmallPlateAboveALargeOne) {
   const FacingRun run(std::move(cad), 3, 0.5);
   expect_sizes(run.sizes(1), 0.02, 0.01);
   const auto below = [](Vec3 x) { return std::max(std::abs(x.x()), std::abs(x.y())) < 0.1; };
-  // Between two feet, which are two sizes apart, it grows from both by at most a factor of 1.3.
+  // Between two closest points, which are two sizes apart, it grows from both by at most a factor of 1.3.
   EXPECT_GE(run.sizes(0, below)[0], 0.99 * 0.02);
   EXPECT_LE(run.sizes(0, below)[1], 1.3 * 0.02);
   // And from there it grows as the gradation has it.
@@ -140,7 +140,7 @@ TEST(Facing, CoaxialCylinders) {
     }
 }
 
-TEST(Facing, WhereSizesDifferByDirection) {
+TEST(Facing, SizesMayDifferByDirection) {
   const double gap = 0.06;
   AnalyticCad cad;
   cad.faces[1] = tube(1, 2);

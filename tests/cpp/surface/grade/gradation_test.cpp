@@ -51,7 +51,7 @@ AnalyticCad square(double side) {
   return cad;
 }
 
-/// What the gradation of a mesh is, by the sizes prescribed at its vertices.
+/// The gradation of a mesh, by the sizes prescribed at its vertices.
 struct Graded {
   double worst_error = 0;  // of a vertex's size against the closed form
   double steepest = 1;     // max(p / q, q / p)^(1 / length) of an edge, length by the linear law
@@ -307,7 +307,7 @@ struct Anisotropic {
   double by_parameters = 1;  // as steepest, along the image of the edge's segment of (u, v) instead of its chord
 };
 
-// The offset of parameters whose image in the tangent plane is that of a chord.
+// The offset of parameters whose image in the tangent plane is the image of a chord.
 Vec2 offset_along(const SurfaceJet& j, Vec3 chord) {
   const Metric2 g = induced_metric(j.su, j.sv, 1);
   const double p = dot(chord, j.su), q = dot(chord, j.sv);
@@ -372,7 +372,7 @@ Anisotropic measure_directions(AnalyticCad& cad, CompositeOptions options, Space
 }
 
 TEST(GradedMetrics, ALayerGrowsInBothDirections) {
-  // Sizes 0.01 across and 0.1 along the side y = 0, 1 x 1 elsewhere: both grow by what the layer's metric says.
+  // Sizes 0.01 across and 0.1 along the side y = 0, 1 x 1 elsewhere: both grow by the layer's metric.
   for (const double beta : {1.1, 1.3, 2.}) {
     AnalyticCad cad = square(2);
     SpaceMetric source([](Vec3 x) {
@@ -456,7 +456,8 @@ TEST(GradedMetrics, FieldsThatObeyAreLeftAsTheyAre) {
   }
 }
 
-// The size along a curve says nothing of a face that only has one of its ends, least of all where it is normal to it.
+// The size along a curve does not apply to a face that only has one of its ends, least of all if the curve is normal to
+// the face.
 TEST(GradedMetrics, CurvesBoundFacesThatHoldThem) {
   AnalyticCad cad = fold();
   constexpr double along = 0.2, across = 0.02;  // of the crease
@@ -484,7 +485,7 @@ class Watcher : public Monitor {
   double last_ = 0;
 };
 
-TEST(GradedModel, TellsItsProgressAndStops) {
+TEST(GradedModel, ReportsItsProgressAndStops) {
   for (const bool stop : {false, true}) {
     Watcher watcher;
     watcher.stop_there = stop;
@@ -516,7 +517,7 @@ TEST(GradedModel, IsTheSameEachTime) {
   }
 }
 
-// The unit of length is the host's: multiples by a power of two have the same mesh, bit for bit.
+// The unit of length is the host's: multiples by a power of two have an identical mesh.
 TEST(GradedModel, IsTheSameInAnyUnitOfLength) {
   for (const int anisotropic : {0, 1}) {
     std::vector<Vec3> one;
@@ -550,7 +551,7 @@ AnalyticCad plate_with_hole(double radius) {
   return cad;
 }
 
-TEST(Proximity, NarrowZonesHoldTheLayersAskedFor) {
+TEST(Proximity, NarrowZonesHoldTheRequestedLayers) {
   for (const double radius : {0.8, 0.9, 0.95})
     for (const int layers : {2, 4}) {
       const GradedRun run(plate_with_hole(radius), 1.3, [&](Parameters& p) {
@@ -576,8 +577,8 @@ TEST(Proximity, NarrowZonesHoldTheLayersAskedFor) {
     }
 }
 
-// No number of layers fits into the tip of a wedge: it is a triangle of the size wanted there, and sizes do not go to
-// zero. Beyond, they follow the gap.
+// No number of layers fits into the tip of a wedge: it is a triangle of the size prescribed there, and sizes do not go
+// to zero. Beyond, they follow the gap.
 TEST(Proximity, WedgesEndInATriangle) {
   for (const double degrees : {1., 3., 10.}) {
     const double opening = std::tan(degrees * pi / 180), wanted = 0.1;
@@ -592,7 +593,7 @@ TEST(Proximity, WedgesEndInATriangle) {
     });
     const SurfaceMesh& mesh = run.session->mesh();
     const auto& h = run.session->vertex_sizes();
-    // As wide as it is one wanted edge from the tip, less what is between two vertices of the graph.
+    // As wide as it is one prescribed edge from the tip, less the distance between two vertices of the graph.
     EXPECT_GE(*std::min_element(h.begin(), h.end()), 0.7 * wanted * opening / layers) << degrees;
     for (std::size_t v = 0; v < h.size(); ++v) {
       const double x = mesh.vertices[v].x();

@@ -34,11 +34,11 @@ void expect_unit(const NamedSurface& surface, const NamedField& field, const Ask
   EXPECT_GE(quality.degree6, asked.six);
 }
 
-TEST_P(GradedSizes, OfSlope026Near20000Triangles) {
+TEST_P(GradedSizes, Slope026Near20000Triangles) {
   expect_unit(std::get<0>(GetParam()), std::get<1>(GetParam()), {0.26, 20000, 0.985, 0.90, 0.86});
 }
 
-TEST_P(GradedSizes, OfSlope011Near100000Triangles) {
+TEST_P(GradedSizes, Slope011Near100000Triangles) {
   expect_unit(std::get<0>(GetParam()), std::get<1>(GetParam()), {0.11, 100000, 0.991, 0.925, 0.91});
 }
 

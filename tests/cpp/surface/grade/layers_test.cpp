@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Narrow zones hold at least the layers of triangles that are asked for (parameter proximity), counted in the mesh.
+// Narrow zones hold at least the requested layers of triangles (parameter proximity), counted in the mesh.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -70,7 +70,8 @@ int layers_between(const SurfaceMesh& mesh, std::size_t face_index, Starts&& sta
   return layers_between(mesh, face_index, starts, ends, anywhere);
 }
 
-/// Where ways across a narrow zone may go. Towards corners, and where its sides part, the zone is none (size/README).
+/// The places of ways across a narrow zone. Towards corners, and where its sides part, there is no narrow zone
+/// (size/README).
 enum class Ways : std::uint8_t { anywhere, in_the_zone };
 
 void expect_layers_across_a_strip(double width, int layers, Ways ways) {

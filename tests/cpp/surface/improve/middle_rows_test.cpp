@@ -78,7 +78,7 @@ TEST(MiddleRows, AreNotTradedForShapesByTrials) {
                     without.turn, with.edges, with.deviation, with.turn);
       EXPECT_LE(with.edges, without.edges);
       EXPECT_LE(with.deviation, without.deviation + 1e-9);
-      // Chords across the whole fillet leave shapes in space that are not those of the plane.
+      // Chords across the whole fillet leave shapes in space that differ from the shapes in the plane.
       if (size < 0.95) {
         EXPECT_LE(with.penalty, without.penalty * (1 + 1e-6));
       }

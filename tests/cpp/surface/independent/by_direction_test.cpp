@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes independent of their patches under sizes by direction: unit edges over borders that mean nothing.
+// Cross-patch meshes under sizes by direction: unit edges over borders that mean nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

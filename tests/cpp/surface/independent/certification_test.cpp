@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes free of patches are within the tolerances of A0 and A1, by upper bounds: where sizes are as large as the surface bends, too.
+// Cross-patch meshes are within the tolerances of A0 and A1, by upper bounds, also if sizes are as large as the surface bends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ void expect_no_worse(const Session& made, const Session& before) {
   EXPECT_EQ(euler_number(made.mesh()), euler_number(before.mesh()));
 }
 
-/// Of radius 1 around the axis, cut into 12 by 8 patches.
+/// A torus of radius 1 around the axis, cut into 12 by 8 patches.
 AnalyticCad torus_of_patches(double tube) {
   AnalyticCad cad;
   add_grid(
@@ -77,7 +77,8 @@ TEST(Certification, ThinTorusIsWithinItsTolerances) {
   }
 }
 
-// A mean shape above .95 would fall below it for seven triangles that are half a per cent beyond: they stay, and are told.
+// A mean shape above .95 would fall below it for seven triangles that are half a per cent beyond: they stay, and are
+// reported.
 TEST(Certification, KeepsAGoodMeanShape) {
   const AnalyticCad cad = torus_of_patches(0.2);
   const auto before = meshed(cad, 0.3, 0), made = meshed(cad, 0.3, 1);
@@ -88,8 +89,8 @@ TEST(Certification, KeepsAGoodMeanShape) {
   EXPECT_EQ(before->exported().triangles, made->exported().triangles);
 }
 
-// What is left is told by face.
-TEST(Certification, FacesTellWhatIsBeyond) {
+// Remaining tolerance violations are reported by face.
+TEST(Certification, FacesReportToleranceViolations) {
   const auto before = meshed(torus_of_patches(0.2), 0.3, 0);
   const std::vector<BeyondInFace> beyond = beyond_in_faces(before->mesh(), before->delivered());
   ASSERT_FALSE(beyond.empty());
@@ -104,7 +105,7 @@ TEST(Certification, FacesTellWhatIsBeyond) {
   EXPECT_EQ(beyond.front().worst, shares(*before).spread.max);
 }
 
-// Whichever sides of the seam triangles at the apex are on: no normal of a cone is turned against theirs, and they are many enough.
+// On both sides of the seam, triangles at the apex agree with the normals of the cone, and they are many enough.
 TEST(Certification, ApexOfACone) {
   std::int64_t beyond = 0;
   for (const double radius : {1.2, 2.})
@@ -119,8 +120,8 @@ TEST(Certification, ApexOfACone) {
   EXPECT_GT(beyond, 0);
 }
 
-// Where the size alone keeps the tolerances nothing is edited.
-TEST(Certification, WhatIsWithinStays) {
+// If the size alone keeps the tolerances nothing is edited.
+TEST(Certification, SizesWithinTolerancesStay) {
   for (const AnalyticCad& cad : {cylinder_of_strips(24), sphere_of_triangles(2)}) {
     const auto before = meshed(cad, 0.8, 0), made = meshed(cad, 0.8, 2);
     EXPECT_EQ(shares(*made).beyond, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large meshes made anew in parts: the same whoever makes them, and no measure tells where parts have met.
+// Large meshes made anew in parts: they do not depend on the process that makes them, and no measure shows where parts
+// have met.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -77,7 +78,7 @@ class Stopping final : public Monitor {
   std::atomic<int> left_;
 };
 
-/// Each process meshes; `size` and `monitor` by rank. What each has thrown, or "".
+/// Each process meshes; `size` and `monitor` by rank. The exception of each, or "".
 template <typename Size, typename MonitorOf>
 std::vector<std::string> mesh_in_processes(int n, const Size& size, const MonitorOf& monitor, std::vector<SurfaceMesh>& meshes) {
   CommonOfThreads common(n);
@@ -104,7 +105,7 @@ std::vector<std::string> mesh_in_processes(int n, const Size& size, const Monito
 
 std::unique_ptr<Monitor> silent(int) { return std::make_unique<Monitor>(); }
 
-TEST(DividedRemeshing, ATorusIsWhatOneInOnePieceWouldBe) {
+TEST(DividedRemeshing, ATorusMatchesATorusInOnePiece) {
   const SurfaceMesh& mesh = made_by_one();
   EXPECT_EQ(find_defects(mesh, {.closed = true}), std::vector<std::string>{});
   const auto n = static_cast<std::int64_t>(mesh.vertices.size()), m = static_cast<std::int64_t>(mesh.triangle_count());
@@ -184,7 +185,7 @@ class FailingCad final : public Cad {
 
 struct Outcome {
   std::string sentence;
-  bool kept = false;  // the mesh of before
+  bool kept = false;  // the previous mesh
   std::int64_t calls = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes that are independent of their patches (HDR sec. 4.5.5): as those of the same surface in one piece, never worse.
+// Cross-patch meshes (HDR sec. 4.5.5): like meshes of the same surface in one piece, never worse.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +39,8 @@ double area_of(const FlatMesh& mesh) {
   return area;
 }
 
-// As many as one patch has, or as equilateral triangles of that size, whichever is more: few triangles of one patch are
-// as many as its corners let them be.
+// Expects as many triangles as one patch has, or as equilateral triangles of that size, whichever is more. If one patch
+// has few triangles, its corners determine their number.
 void expect_as_many(const FlatMesh& mesh, const FlatMesh& whole, double size, double area) {
   const double ideal = area / (std::numbers::sqrt3 / 4 * size * size);
   const double of_one = static_cast<double>(whole.triangles.size());
@@ -148,7 +148,7 @@ TEST(Independent, CornersKnowTheirPlacesOnTheSurface) {
 
 // On the unit sphere the surface is farthest from a triangle over its circumcentre, and the angle at its corners is the
 // largest: both in closed form.
-TEST(Independent, WhatIsDeliveredIsMeasuredAcrossBorders) {
+TEST(Independent, MeasuresGoAcrossBorders) {
   Monitor quiet;
   const auto session = meshed(sphere_of_triangles(1), 0.3, "independent", quiet);
   const FlatMesh mesh = session->exported();

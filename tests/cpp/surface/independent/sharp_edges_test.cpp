@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stays of borders, and what sharp_angle lets go.
+// Borders that stay, and borders that sharp_angle removes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;
 
-/// A prism along y, 4 long, over the polyline of (x, z); its ends and its foot are open. Strips have references 1, 2...
+/// A prism along y, 4 long, over the polyline of (x, z); its ends and its base are open. Strips have references 1, 2...
 AnalyticCad folded_sheet(const std::vector<Vec2>& profile) {
   AnalyticCad cad;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
@@ -62,7 +62,7 @@ TEST(SharpEdges, ChamfersStayUntilTheAngleIsRaised) {
   EXPECT_EQ(gone->mesh().faces[1].triangles.size(), 0U);
   EXPECT_EQ(gone->mesh().faces[1].status, FaceStatus::collapsed);
   EXPECT_NE(gone->mesh().faces[1].why.find("face 2"), std::string::npos);
-  // What was delivered lists it.
+  // The report of the delivered mesh lists it.
   const std::string file = ::testing::TempDir() + "carreau_chamfer.json";
   gone->write_delivered(file);
   std::ifstream in(file);
@@ -87,7 +87,8 @@ AnalyticCad perforated(int count, double side) {
   return cad;
 }
 
-// Sides of holes are shorter than the size, so that lengths beside them cannot be as asked: shapes do not pay for it.
+// Sides of holes are shorter than the size, so that lengths beside them cannot be as prescribed: shapes do not become
+// worse for it.
 TEST(SharpEdges, ShapesBesideSmallHolesAreNoWorse) {
   Monitor quiet;
   for (const auto& [count, side] : {std::pair{3, 0.2}, {4, 0.2}, {5, 0.1}}) {
@@ -104,7 +105,7 @@ TEST(SharpEdges, ShapesBesideSmallHolesAreNoWorse) {
 TEST(SharpEdges, CornersAndLinesOfASquareAreKept) {
   Monitor quiet;
   const auto session = freed(folded_sheet({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}), 1, 1, quiet);
-  // The four corners and sides of the sheet, and nothing of the borders inside.
+  // Only the four corners and sides of the sheet, without the borders inside.
   double length = 0;
   int corners = 0;
   for (const CurveMesh& curve : session->mesh().curves)

@@ -51,7 +51,7 @@ TEST(Sheets, PagesOfABookHaveTheirOwnCorners) {
   }
 }
 
-TEST(Sheets, OfAWholeSurfaceIsOne) {
+TEST(Sheets, AWholeSurfaceIsOneSheet) {
   std::vector<PlacedCell> cells = book(2, 1);
   const std::vector<PlacedCell> before = cells;
   part_sheets(cells, [](std::int32_t) { return true; });

@@ -59,7 +59,7 @@ BackgroundMesh lifted_grid(const Patch& patch) {
   return mesh;
 }
 
-/// By Simpson's rule in the background.
+/// The metric length by Simpson's rule in the background.
 double metric_length(BackgroundField& field, Vec3 p, Vec3 q) {
   constexpr int parts = 16;
   double sum = 0;

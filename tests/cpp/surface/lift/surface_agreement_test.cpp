@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that would lean against the surface, or fold over: long sizes are bounded, and what stays is told.
+// Triangles that would lean against the surface, or fold over: long sizes are bounded, and remaining triangles are
+// reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +45,7 @@ double bounded(const SurfaceJet& jet, Vec3 short_way, Vec3 long_way, double h1, 
 }
 
 // The arrow of a chord of length L of a circle of radius R is L^2 / (8 R), to second order.
-TEST(BoundOfLean, IsThatOfTheArrowOfAChord) {
+TEST(BoundOfLean, MatchesTheArrowOfAChord) {
   for (const double radius : {0.1, 1., 30.})
     for (const double h : {1e-4, 1e-3})
       for (const double lean : {0.2, 0.5, 1.}) {
@@ -56,7 +57,7 @@ TEST(BoundOfLean, IsThatOfTheArrowOfAChord) {
       }
 }
 
-TEST(BoundOfLean, LeavesWhatIsShortAndNeverGoesBelowTheOtherSize) {
+TEST(BoundOfLean, LeavesShortEdgesAndNeverGoesBelowTheOtherSize) {
   const SurfaceJet jet = cylinder_jet({0, 0}, 1);
   EXPECT_EQ(bounded(jet, {0, 0, 1}, {0, 1, 0}, 0.01, 0.05, 0.5), 0.05);
   EXPECT_EQ(bounded(jet, {0, 0, 1}, {0, 1, 0}, 20, 21, 0.5), 20);
@@ -92,7 +93,7 @@ TEST(BoundOfLean, DoesNotDependOnALinearChangeOfParameters) {
 
 // ---- meshes ----
 
-/// z = f over a square of side 2, as a function of what f, its first and its second derivatives are.
+/// z = f over a square of side 2, as a function of f and its first and second derivatives.
 struct Graph {
   const char* name;
   std::array<double, 6> (*at)(double x, double y);  // f, fx, fy, fxx, fxy, fyy
@@ -163,14 +164,14 @@ TEST_P(Leaning, TrianglesOfRatio100LieOnTheSurface) {
   EXPECT_LE(run.area(), 1.05 * run.of_surface);
   EXPECT_GE(run.area(), 0.97 * run.of_surface);
   EXPECT_EQ(run.session.delivered().folded_triangles, 0);
-  // That sizes are not those prescribed is told: a warning, and the reason of the face.
+  // A warning and the reason of the face report that sizes differ from the prescribed sizes.
   EXPECT_EQ(run.face().status, FaceStatus::mended);
   EXPECT_NE(run.face().why.find("face 1: with the sizes prescribed: "), std::string::npos) << run.face().why;
   EXPECT_NE(run.face().why.find("long sizes are bounded by the curvature"), std::string::npos);
   EXPECT_EQ(std::count(run.monitor.told.begin(), run.monitor.told.end(), run.face().why), 1);
 }
 
-// What lies on the surface is left alone.
+// Edges that lie on the surface are left alone.
 TEST_P(Leaning, ShortEdgesAreNotBounded) {
   Turning run(GetParam(), 0.02, 5);
   EXPECT_LE(run.area(), 1.02 * run.of_surface);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sampling of the metric misses, the lifted vertices find: the patch is then sampled there and meshed again.
+// The lifted vertices find details that the sampling of the metric misses: the patch is then sampled there and meshed
+// again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -110,7 +111,7 @@ TEST(Verification, DipsOfTheSizesThatNoSampleHitsAreMeshed) {
   EXPECT_GE(corrections, 1);
 }
 
-TEST(Verification, WhatTheSamplesKnowCostsNothing) {
+TEST(Verification, SampledDetailsCostNothing) {
   for (const double size : {0.5, 0.1, 0.03}) {
     AnalyticCad cad;
     cad.faces[1] = {[](Vec2 p) { return testing::torus_jet(p, 2, 0.7); },

@@ -116,7 +116,7 @@ TEST(Matching, LeavesOutFacesWhoseSidesExchangeVerticesWithoutEnd) {
   }
 }
 
-TEST(Matching, OfSidesThatCoincideHasTheVerticesOfBoth) {
+TEST(Matching, SidesThatCoincideHaveTheVerticesOfBoth) {
   Cut cut({straight(0, 0)}, 0.013);
   for (const int segment : {40, 9, 2}) split_segment(cut.curves[static_cast<std::size_t>(cut.topology.curve_of[0][0])], segment, cut.curve_model());
   const std::size_t vertices = cut.fractions(0, 0).size() + cut.fractions(0, 2).size();
@@ -134,7 +134,7 @@ class Sentences final : public Monitor {
   bool disagree = false;
 };
 
-// A strip that is left out is meshed as if nobody had looked for narrow faces.
+// A strip that is left out is meshed like other faces.
 TEST(Matching, StripsThatCannotBeMatchedAreMeshedAsOtherFacesAre) {
   const auto meshed = [](const char* mode, Sentences& sentences) {
     AnalyticCad cad;

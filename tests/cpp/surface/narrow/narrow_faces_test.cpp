@@ -100,7 +100,7 @@ Face face(int ref, std::vector<FaceCurve> curves) {
   return Face{.ref = ref, .curves = std::move(curves), .points = {}};
 }
 
-/// Gluing by polylines cannot tell circles as near as that.
+/// Gluing by polylines cannot distinguish circles as near as that.
 Model stepped_model() {
   Model model;
   model.faces = {face(1, {curve(1, 1, 1)}), face(2, {curve(1, 1, 1), curve(2, 1, 2), curve(3, 2, 2), curve(2, 2, 1)}),
@@ -150,7 +150,7 @@ struct Meshed {
     EXPECT_TRUE(face(ref).triangles.empty());
     EXPECT_NE(face(ref).why.find("narrow"), std::string::npos);
   }
-  /// No vertex but those of its curves, and a triangle for each of their edges but the tips.
+  /// Only vertices of its curves, and a triangle for each of their edges except at the tips.
   void expect_one_layer(int ref) const {
     const FaceMesh& f = face(ref);
     EXPECT_EQ(f.status, FaceStatus::mended) << f.why;
@@ -211,14 +211,14 @@ TEST(Narrow, ChamferOfABoxHasOneLayer) {
   }
 }
 
-TEST(Narrow, IsKeptWhenNothingIsAsked) {
+TEST(Narrow, IsKeptByDefault) {
   const Meshed run(prism(chamfered), 0.1, "keep");
   run.expect_closed(2);
   EXPECT_EQ(run.face(3).status, FaceStatus::meshed);
   EXPECT_NEAR(run.volume(), area_of(chamfered), 1e-12);
 }
 
-TEST(Narrow, RatioSaysWhatIsNarrow) {
+TEST(Narrow, RatioDefinesNarrowFaces) {
   const std::vector<Vec2> wide{{0, 0}, {1, 0}, {1, 0.95}, {0.95, 1}, {0, 1}};  // 0.07 wide
   const Meshed narrower(prism(wide), 0.2, "collapse", 0.3);
   EXPECT_EQ(narrower.face(3).status, FaceStatus::meshed);
@@ -314,7 +314,7 @@ TEST(Narrow, RingBetweenCylindersHasOneLayer) {
       const Meshed run(stepped_model(), stepped(step, angle), size, "one_layer");
       run.expect_closed(2);
       run.expect_one_layer(3);
-      // As many edges as the circle has at this size, not as many as the ring is narrow.
+      // The number of edges follows from the circle at this size, not from the width of the ring.
       EXPECT_LT(static_cast<double>(run.face(3).triangles.size()), 2 * (2 * pi / size + 8));
     }
 }
@@ -373,7 +373,7 @@ TEST(Narrow, BodyDoesNotVanish) {
   EXPECT_GT(run.volume(), 0.3);
 }
 
-// Nor half of it: a wire with a square section is no prism of three sides, an end of it neither.
+// A part is not collapsed either: a wire with a square section does not become a prism of three sides, even at an end.
 TEST(Narrow, WireKeepsItsSection) {
   for (const double width : {1e-2, 1e-4}) {
     SCOPED_TRACE(width);
@@ -396,7 +396,7 @@ TEST(Narrow, ThinPlateKeepsItsRim) {
 
 // ---- below the tolerance of a file ----
 
-// A sliver whose two sides were glued to each other: nothing is between them, whatever is asked.
+// A sliver whose two sides were glued to each other: nothing is between them, whatever the options.
 TEST(Folded, FaceWithoutWidthIsNoFailure) {
   constexpr double width = 1e-9;
   AnalyticCad cad;
@@ -421,8 +421,8 @@ TEST(Folded, SeamsAreNot) {
   for (const FaceMesh& face : run.mesh().faces) EXPECT_NE(face.status, FaceStatus::collapsed) << face.ref;
 }
 
-// A side runs past its corner by less than points may be apart, and the rest of it is a curve of its own, as gluing
-// cuts it: the next side starts at the corner.
+// A side runs past its corner by less than points may be apart, and gluing makes the rest of it a separate curve: the
+// next side starts at the corner.
 TEST(Spikes, AreLeftOut) {
   for (const double spike : {1e-4, 4e-4, 1e-3})
     for (const double size : {0.3, 0.1, 0.02}) {

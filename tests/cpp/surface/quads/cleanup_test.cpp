@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Topology of quadrilaterals: what is wrong is mended, and what is right stays.
+// Topology of quadrilaterals: defects are repaired, and sound parts stay.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matchings beside the best ones, which small graphs and paths tell.
+// Matchings beside the best ones, which are known for small graphs and paths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Pairs random_pairs(std::mt19937& random, int n) {
   return pairs;
 }
 
-/// By all sets of triangles: the first free one is left alone, or takes one of the others.
+/// The best matching among all sets of triangles: the first free one is left alone, or takes one of the others.
 double best_of_all(const Pairs& pairs, int n) {
   std::vector<double> best(std::size_t{1} << n, 0);
   for (std::size_t set = 1; set < best.size(); ++set) {
@@ -99,7 +99,7 @@ TEST(Matching, FindsTheSquaresOfARow) {
   for (int k = 0; k < squares; ++k) EXPECT_EQ(pairs[chosen[k]].weight, 1.7);
 }
 
-TEST(Matching, StopsWhenAsked) {
+TEST(Matching, StopsOnRequest) {
   std::mt19937 random(3);
   Pairs pairs;
   for (int t = 0; t + 1 < 100000; ++t) pairs.push_back({{t, t + 1}, 1 + 1e-6 * static_cast<double>(random() % 1000)});

@@ -35,7 +35,7 @@ TEST(QuadShape, SquareIsOneHoweverItLies) {
   EXPECT_NEAR(scaled_jacobian(q), 1, 1e-14);
 }
 
-// Diameter: the long diagonal 2 cos 30; the least circle is that of the triangle with the angle of 120 degrees.
+// Diameter: the long diagonal 2 cos 30; the triangle with the angle of 120 degrees has the least circle.
 TEST(QuadShape, RhombusOfSixtyDegrees) {
   const double root3 = std::numbers::sqrt3, rho = (root3 / 2) / (2 + root3), sigma = root3 / rho;
   EXPECT_NEAR(quad_quality(rhombus(60)), (2 + 2 * std::numbers::sqrt2) / sigma, 1e-14);
@@ -52,7 +52,7 @@ TEST(QuadShape, Rectangles) {
   }
 }
 
-TEST(QuadShape, WhatIsNotConvexHasNoQuality) {
+TEST(QuadShape, NonConvexQuadrilateralsHaveNoQuality) {
   const Quad dart{Vec2{0, 0}, Vec2{2, 0}, Vec2{0.5, 0.5}, Vec2{0, 2}}, crossed{Vec2{0, 0}, Vec2{1, 1}, Vec2{1, 0}, Vec2{0, 1}};
   EXPECT_EQ(quad_quality(dart), 0);
   EXPECT_LT(scaled_jacobian(dart), 0);
@@ -78,7 +78,7 @@ TEST(QuadShape, InAMetricThatStretchesASquareIsARectangle) {
   EXPECT_FALSE(is_convex(patch, {0, 2, 1, 3}));
 }
 
-TEST(QuadShape, FlatCornersAreThoseOfTheList) {
+TEST(QuadShape, FlatCornersMatchTheList) {
   QuadPatch patch;
   patch.uv = {{0, 0}, {1, 0}, {2, 0.1}, {1, 1}};
   patch.fixed = {1, 1, 1, 0};

@@ -92,7 +92,7 @@ double distance_from(const AnalyticCad& cad, const SurfaceMesh& mesh) {
   return most;
 }
 
-TEST(Quadrilaterals, OfThePlateAreGood) {
+TEST(Quadrilaterals, ThePlateHasGoodShapes) {
   for (const double h : {0.1, 0.05, 0.02})
     for (const std::string element : {"q1.0", "q1.1"}) {
       const SurfaceMesh mesh = mesh_of(plate(), h, element);
@@ -141,12 +141,12 @@ TEST(Quadrilaterals, LieOnCurvedSurfaces) {
 }
 
 // Right angles must not be bought by long rectangles beside them: where angles alone decide, .004 to .17.
-TEST(Quadrilaterals, OfTheTeapotAreNotLong) {
+TEST(Quadrilaterals, TheTeapotHasNoLongOnes) {
   for (const double h : {0.3, 0.2, 0.15, 0.1, 0.08})
     EXPECT_GE(figures_of(mesh_of(testing::teapot(), h, "q1.1")).worst, 0.2) << h;
 }
 
-TEST(Quadrilaterals, OfTheTeapotKeepItsTopology) {
+TEST(Quadrilaterals, TheTeapotKeepsItsTopology) {
   const long expected = euler(mesh_of(testing::teapot(), 0.2, "p1"));
   for (const std::string element : {"q1.0", "q1.1"}) {
     const SurfaceMesh mesh = mesh_of(testing::teapot(), 0.2, element);
@@ -210,7 +210,7 @@ class Counting final : public Monitor {
   long looks = 0, stop_at = -1;
 };
 
-TEST(Quadrilaterals, StopWhereverTheyAreAsked) {
+TEST(Quadrilaterals, StopAnywhereOnRequest) {
   const AnalyticCad cad = testing::torus_patch();
   Counting all;
   const auto session = [&](Monitor& monitor) {

@@ -57,8 +57,8 @@ TEST(QuadSmoothing, LeavesAllCellsConvexAndTheBorderWhereItIs) {
     }
 }
 
-// Where cells would be far larger than the border lets them, vertices go back in nearly each pass, and cells beside
-// them that have not turned over themselves may because of that.
+// If cells would be far larger than the border allows, vertices go back in nearly each pass. This may turn over cells
+// beside them that had not turned over themselves.
 TEST(QuadSmoothing, TurnsNothingOverWhereCellsPress) {
   const ControlSpace space = ControlSpace::constant({1, 0, 1});
   Monitor monitor;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundaries that no refinement can mend, or that need none: curves are not cut for ever, and not for nothing.
+// Boundaries that no refinement can repair, or that need none: curves are not cut for ever, and not for nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -141,7 +141,7 @@ TEST(Refinement, StripsBesideOtherFacesAreNotCutToTheirWidth) {
   EXPECT_EQ(run->exported().triangles, kept->exported().triangles);
 }
 
-// Close in space, but nothing of the face lies between: the two borders of a slit in a tube, and of one in a plane.
+// Close in space, but the face does not lie between: the two borders of a slit in a tube, and of a slit in a plane.
 TEST(Refinement, BordersWithTheOutsideBetweenThemAreNoNarrowZone) {
   for (const double gap : {1e-3, 1e-5}) {
     SCOPED_TRACE(gap);
@@ -159,7 +159,7 @@ TEST(Refinement, BordersWithTheOutsideBetweenThemAreNoNarrowZone) {
     Monitor monitor;
     EXPECT_EQ(meshed(tube, one_loop, 20, monitor)->exported().triangles.size(),
               meshed(tube, one_loop, 0, monitor)->exported().triangles.size());
-    // Away from the slit's ends: these are short, and refine what is next to them.
+    // Away from the slit's ends: these are short, and refine their neighbours.
     const auto on_slit = [&](int passes) {
       const FlatMesh mesh = meshed(plane, two_loops, passes, monitor)->exported();
       return std::count_if(mesh.vertices.begin(), mesh.vertices.end(),

@@ -101,15 +101,15 @@ TEST(ShortEdges, LetTrianglesGrow) {
       EXPECT_GT(grown.worst, 0.5);
       EXPECT_GT(grown.mean, abrupt.mean);
       EXPECT_GE(grown.worst, abrupt.worst);
-      // The area over that of triangles whose sizes grow from 10 / pieces by ln 1.5 times the distance: 1 / (l s) for
-      // each unit of the comb, and those of size 2 beyond; twice as many are too many.
+      // The area over the area of triangles whose sizes grow from 10 / pieces by ln 1.5 times the distance: 1 / (l s)
+      // for each unit of the comb, and triangles of size 2 beyond. Twice as many are too many.
       const double l = 10. / pieces, s = std::log(1.5);
       const double expected = 4 / std::sqrt(3.) * (10 * (1 / l - 0.5) / s + 100 / 4.);
       EXPECT_LT(static_cast<double>(grown.count), 2 * expected);
     }
 }
 
-// Sizes are never below the shortest edge's, nor above what is prescribed.
+// Sizes are never below the shortest edge's, nor above the prescribed size.
 TEST(ShortEdges, SizesStayBetweenTheirsAndThePrescribedOne) {
   Monitor monitor;
   const auto session = meshed(comb(flat, 40), 2, 1.5, monitor);
@@ -120,7 +120,7 @@ TEST(ShortEdges, SizesStayBetweenTheirsAndThePrescribedOne) {
   EXPECT_LE(largest, 2);
 }
 
-// Where no edge is short the meshes are the same bit for bit.
+// Without short edges the meshes are identical.
 TEST(ShortEdges, WithoutThemNothingChanges) {
   Monitor monitor;
   const auto positions = [&](double ratio) {

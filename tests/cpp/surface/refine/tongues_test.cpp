@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tongues of faces that end where a curve touches another one: their tips are as narrow as the tongues are long.
+// Tongues of faces that end where a curve touches another curve: their tips are as narrow as the tongues are long.
 #include <gtest/gtest.h>
 
 #include <cmath>

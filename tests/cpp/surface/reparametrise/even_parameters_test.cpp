@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parametrisations whose speed changes by a million within next to nothing: meshes like those of ordinary ones.
+// Parametrisations whose speed changes by a million within next to nothing: meshes like the meshes of ordinary
+// parametrisations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -135,7 +136,7 @@ TEST(UnevenParameters, NeighboursAndImposedPoints) {
   EXPECT_TRUE(find_defects(session->mesh(), {.closed = false}).empty());
   const QualitySummary q = summarise_quality(session->exported());
   EXPECT_NEAR(q.area, pi / 2 + pi / 4, 0.01);
-  // Of the quarter all but the common arc, of the sector all but the arc.
+  // The open border of the quarter without the common arc, and of the sector without the arc.
   EXPECT_NEAR(static_cast<double>(q.open_edges) * 0.05, 1 + 1 + pi / 2 + 1 + 1, 0.2);
   const std::vector<Vec2>& uv = session->mesh().faces[0].uv;
   EXPECT_NE(std::find(uv.begin(), uv.end(), imposed), uv.end());
@@ -168,7 +169,7 @@ SurfaceJet rational(double large, Vec2 p) {
 }
 
 // Its triangles cover its area, here a sum over cells that are narrow where the weights meet. No x(u), y(v) makes it
-// even: triangles are good in space, and in (u, v) some are turned, which is told.
+// even: triangles are good in space, and in (u, v) some are turned, which is reported.
 TEST(UnevenParameters, ExtremeWeights) {
   constexpr double large = 1e4;
   constexpr std::size_t cells = 300;
@@ -201,7 +202,7 @@ TEST(UnevenParameters, ExtremeWeights) {
       << face.why;
 }
 
-// What is fast along neither parameter's lines cannot be followed: a sentence with the place, at once.
+// A change that is fast along neither parameter's lines cannot be followed: the error comes at once, with the place.
 TEST(UnevenParameters, FastAlongASlantedLine) {
   AnalyticCad cad;
   const Step step{0.437, 1e-7};

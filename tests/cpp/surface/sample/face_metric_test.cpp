@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is prescribed inside a face, where its parametrisation is degenerate.
+// Prescribed sizes inside a face, where its parametrisation is degenerate.
 #include "surface/sample/face_metric.h"
 
 #include <gtest/gtest.h>
@@ -50,8 +50,8 @@ struct Ellipsoid {
   }
 };
 
-// Of a pole and of the places beside it: alone, among others, last and first.
-TEST(FaceMetric, OfAPoleDoesNotDependOnTheOthersOfItsBatch) {
+// Metrics of a pole and of the places beside it: alone, among others, last and first.
+TEST(FaceMetric, AtAPoleDoesNotDependOnTheOthersOfItsBatch) {
   Ellipsoid e;
   const SizeRules rules = e.rules();
   std::vector<Vec2> uv;
@@ -71,7 +71,7 @@ TEST(FaceMetric, OfAPoleDoesNotDependOnTheOthersOfItsBatch) {
 }
 
 // The limit along each meridian, from inside: distances along it are continuous.
-TEST(FaceMetric, OfAPoleIsTheLimitAlongItsMeridian) {
+TEST(FaceMetric, AtAPoleIsTheLimitAlongItsMeridian) {
   Ellipsoid e;
   const SizeRules rules = e.rules();
   for (int i = 0; i <= 12; ++i)

@@ -95,7 +95,7 @@ TEST(InterfaceSizes, StaysBetweenTheExtremesOnAnyDomain) {
   }
 }
 
-TEST(InterfaceSizes, AnInternalCurveHidesWhatLiesBehindIt) {
+TEST(InterfaceSizes, AnInternalCurveHidesCurvesBehindIt) {
   PlaneDomain domain = square(4);
   std::vector<double> h = sizes_of(domain, [](Vec2 p) { return p.x() < 0.5 ? 0.1 : (p.x() > 0.5 ? 3.0 : 1.0); });
   // From (0.5, 0), vertex 2, to (0.5, 1), vertex 10.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hosts say at places is asked once over all processes, and one that says something else is named.
+// Hosts are called once for each place over all processes, and an error names a host with other answers.
 #include "surface/sample/shared_answers.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::vector<Vec2> spread() {
 
 void say(const Vec2& p, double* out) { out[0] = std::sin(p.x()), out[1] = p.y() * p.y(); }
 
-/// What came out of each process, where `misbehave` is called at each place by the process that is asked.
+/// The exceptions of each process. The process that evaluates a place calls `misbehave` there.
 std::vector<std::string> thrown_by(const std::function<void(int rank, const Vec2& p)>& misbehave, std::atomic<std::size_t>* asked = nullptr) {
   const std::vector<Vec2> uv = spread();
   return in_processes(processes, [&](Team& team) {
@@ -47,7 +47,7 @@ std::vector<std::string> thrown_by(const std::function<void(int rank, const Vec2
   });
 }
 
-TEST(SharedAnswers, AreAskedOnceAndReachAll) {
+TEST(SharedAnswers, AreEvaluatedOnceAndReachAll) {
   std::atomic<std::size_t> asked{0};
   for (const std::string& sentence : thrown_by([](int, const Vec2&) {}, &asked)) EXPECT_EQ(sentence, "");
   EXPECT_EQ(asked, places + processes * ((places + 63) / 64));
@@ -64,7 +64,7 @@ TEST(SharedAnswers, AHostThatDiffersIsNamedWithTheFace) {
       (void)shared_answers(team, 7, {"answers", 1, 1, ask}, uv, monitor);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const InvalidModel& error) {
-      EXPECT_EQ(std::string(error.what()).find("face 7 is another one on rank 2 than on rank 0"), 0U) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("face 7 differs on rank 2 from rank 0"), 0U) << error.what();
     }
   });
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
@@ -77,8 +77,8 @@ TEST(SharedAnswers, TheErrorOfOneHostEndsTheRunOfAll) {
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "rank 3: face 7: surf0 gave NaN");
 }
 
-// As in one process, so that the face alone fails where that is wanted.
-TEST(SharedAnswers, AnErrorOfAllHostsIsThatOfOne) {
+// As in one process, so that the face alone fails if the options allow it.
+TEST(SharedAnswers, AnErrorOfAllHostsEqualsTheErrorOfOne) {
   const std::vector<Vec2> uv = spread();
   const auto thrown = in_processes(processes, [&](Team& team) {
     Monitor monitor;
@@ -109,7 +109,7 @@ TEST(SharedAnswers, AStopAndALackOfMemoryReachAll) {
     EXPECT_TRUE(sentence.find("memory") != std::string::npos || sentence == "std::bad_alloc") << sentence;
 }
 
-TEST(SharedAnswers, FewPlacesAreAskedByEachProcess) {
+TEST(SharedAnswers, FewPlacesAreEvaluatedByEachProcess) {
   EXPECT_FALSE(is_shared(nullptr, places));
   in_processes(2, [](Team& team) {
     EXPECT_TRUE(is_shared(&team, places));

@@ -68,7 +68,7 @@ TEST(FaceOutcome, ItsControlSpaceAnswersTheSame) {
   }
 }
 
-TEST(FaceOutcome, OfAFailureHasItsSentence) {
+TEST(FaceOutcome, AFailureHasItsSentence) {
   FaceOutcome failed;
   failed.failure = "face 7: its boundary crosses itself";
   failed.beyond_limit = LimitError(Where{.face = 7}, "too many triangles");
@@ -81,7 +81,7 @@ TEST(FaceOutcome, OfAFailureHasItsSentence) {
   EXPECT_EQ(back.beyond_limit->where().face, 7);
 }
 
-TEST(FaceOutcome, BytesThatEndEarlyAreRefused) {
+TEST(FaceOutcome, BytesThatEndEarlyAreRejected) {
   const std::string bytes = bytes_of(some_outcome());
   for (std::size_t n = 0; n < bytes.size(); n += 97) {
     PacketReader packet(std::string_view(bytes).substr(0, n));

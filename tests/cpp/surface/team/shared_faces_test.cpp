@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A large face that several processes make together is that of one, and its host is asked once over all of them.
+// A large face that several processes make together equals the face of one process, and its host is called once over
+// all of them.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -27,7 +28,7 @@ struct Made {
   CallCounts calls;
 };
 
-/// Of a host whose size callback answers where `sizes` says so. With a link: as one of its processes.
+/// The mesh of a host whose size callback answers if `sizes` is true. With a link: as one of its processes.
 Made made(const Settings& settings, bool sizes, const std::function<void(Session&)>& join) {
   auto cad = std::make_shared<AnalyticCad>(testing::paraboloid());
   std::int64_t sizes_asked = 0;
@@ -49,7 +50,7 @@ Made made(const Settings& settings, bool sizes, const std::function<void(Session
   return result;
 }
 
-/// The link of one of several threads, and what each of them makes.
+/// The link of one of several threads, and the result of each.
 std::vector<Made> made_together(int processes, const Settings& settings, bool sizes) {
   std::vector<Made> all(static_cast<std::size_t>(processes));
   testing::CommonOfThreads common(processes);
@@ -75,12 +76,12 @@ void expect_shared(const Settings& settings, bool sizes) {
     EXPECT_EQ(one.sizes, alone.sizes);
     sum.surf0 += one.calls.surf0, sum.surf1 += one.calls.surf1, sum.surf2 += one.calls.surf2, sum.sizes += one.calls.sizes;
   }
-  // One of 64 is compared; what is asked of curves and one by one is everyone's own.
+  // One of 64 is compared; each process makes its own calls for curves and single places.
   constexpr std::int64_t vertices = 125'000, own = vertices / 12;
   const auto expect_once = [&](std::int64_t of_all, std::int64_t of_one) {
     EXPECT_LT(of_all, of_one + processes * (of_one / 64 + own)) << of_one;
   };
-  if (alone.calls.surf2 == 0) {  // else others ask for less than metrics need, one by one
+  if (alone.calls.surf2 == 0) {  // else others request lower orders than metrics need, one by one
     expect_once(sum.surf0, alone.calls.surf0);
     expect_once(sum.surf1, alone.calls.surf1);
   } else {
@@ -90,9 +91,9 @@ void expect_shared(const Settings& settings, bool sizes) {
   expect_once(sum.sizes, alone.calls.sizes);
 }
 
-TEST(SharedFaces, OfSizesOfTheHost) { expect_shared({{"hphy_flag", "2"}, {"hphydef", "0.0085"}}, true); }
-TEST(SharedFaces, OfCurvature) { expect_shared({{"hphydef", "0.02"}, {"hgeo_flag", "1"}, {"angle_mesh", "0.35"}}, false); }
-TEST(SharedFaces, OfMetricsOfCurvature) {
+TEST(SharedFaces, MatchWithSizesOfTheHost) { expect_shared({{"hphy_flag", "2"}, {"hphydef", "0.0085"}}, true); }
+TEST(SharedFaces, MatchWithCurvature) { expect_shared({{"hphydef", "0.02"}, {"hgeo_flag", "1"}, {"angle_mesh", "0.35"}}, false); }
+TEST(SharedFaces, MatchWithMetricsOfCurvature) {
   expect_shared({{"hphydef", "0.02"}, {"hgeo_flag", "1"}, {"angle_mesh", "0.3"}, {"geo_metric", "1"}, {"gradation", "1.3"}}, false);
 }
 
