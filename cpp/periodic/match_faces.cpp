@@ -285,7 +285,7 @@ class Matcher {
     return is_left ? left : right;
   }
 
-  // By the even-odd rule.
+  // Uses the even-odd rule.
   [[nodiscard]] bool is_inside(int face, const Vec2& p) const {
     bool inside = false;
     for (std::size_t c = 0; c < model_.model.faces[face].curves.size(); ++c) {
