@@ -171,6 +171,10 @@ class Periodic(unittest.TestCase):
         made = self.check(self.mesh("fcc.step", *AXES, size="0.1"), 3)
         self.assertEqual(self.euler_of_skin(made), 8)
 
+    def test_circles_that_begin_at_different_places(self):
+        made = self.check(self.mesh("shifted.step", *AXES, size="0.1"), 3)
+        self.assertEqual(self.euler_of_skin(made), 2)
+
     def test_forty_inclusions(self):
         made = self.check(self.mesh("inclusions.step", *AXES, size="0.05"), 3)
         self.assertEqual(self.euler_of_skin(made), 80)
