@@ -5,7 +5,7 @@
 include_guard()
 
 option(CARREAU_UNITY "Compile several sources of a folder at once" ON)
-set(CARREAU_UNITY_SOURCES 8) # at most so many at once: a processor more has work at the end of the build
+set(CARREAU_UNITY_SOURCES 25) # at most so many at once: the largest folder
 
 # carreau_unite(<target> [ALONE <source>...]): the sources in C++ that the target has by now, but for some.
 function(carreau_unite target)

@@ -6,9 +6,18 @@ set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 . "$root/tests/setup.sh"
 need_packages g++ gcc gfortran cmake ninja-build libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev
-build=$root/build/release
 out=$root/out/teapot
-configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_FORTRAN=ON
+# A build that exists serves; a new one leaves out CAD files, .med files and Python, which the teapot does not need.
+build=$root/build/release
+if [ -e "$build/CMakeCache.txt" ]; then
+  set --
+else
+  build=$root/build/teapot
+  set -- -DCARREAU_OPENCASCADE=OFF -DCARREAU_MED=OFF -DCARREAU_PYTHON=OFF
+fi
+echo "Step 1 of 3: configure $build"
+configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_FORTRAN=ON "$@"
+echo "Step 2 of 3: compile the library, the host and the command; the first time this takes about $((11 / $(processors) + 1)) minutes on $(processors) processors"
 cmake --build "$build" -j "$(processors)" --target blsurf_teapot carreau_command
 
 mkdir -p "$out"
@@ -17,6 +26,7 @@ cp x.pardom blsurf.env teapot.bpt "$out"
 cd "$out"
 rm -f teapot.mesh teapot.vtu teapot.png
 echo
+echo "Step 3 of 3: mesh the teapot"
 echo "Teapot of 32 Bezier patches, edges of length 0.1:"
 start=$(date +%s%N)
 "$build/fortran_examples/blsurf_teapot"

@@ -53,7 +53,7 @@ module carreau
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv, carreau_mesh_corner_faces
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
-  public :: carreau_mesh_intersections
+  public :: carreau_mesh_intersections, carreau_mesh_regions, carreau_mesh_triangle_sides
   public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_cell_faces
   public :: carreau_mesh_edge_mids
   public :: carreau_mesh_cell_quality, carreau_cell_quality
@@ -65,7 +65,7 @@ module carreau
   public :: carreau_metric_reduce, carreau_metric_lengths
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
-  public :: carreau_clear_background, carreau_session_background
+  public :: carreau_clear_background, carreau_session_background, carreau_add_attractor, carreau_clear_attractors
   public :: carreau_estimate, carreau_transfer, carreau_adapt
   public :: carreau_mesh_read_metrics, carreau_set_background_fields, carreau_transfer_files
   public :: carreau_string
@@ -1756,6 +1756,32 @@ contains
     text = carreau_string(c_sentences)
   end subroutine carreau_mesh_defects
 
+  !> solids(n) and xyz(3, n) of all regions; solid 0 is a hole
+  subroutine carreau_mesh_regions(mesh, solids, xyz, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: solids(:)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: no_solids(0)
+    real(c_double) :: no_places(3, 0)
+    integer(c_int64_t) :: n, count
+    n = 0
+    status = c_mesh_regions(mesh%handle, 0_c_int64_t, n, no_solids, no_places)
+    allocate (solids(n), xyz(3, n))
+    if (n > 0) status = c_mesh_regions(mesh%handle, n, count, solids, xyz)
+  end subroutine carreau_mesh_regions
+
+  subroutine carreau_mesh_triangle_sides(mesh, solids, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: solids(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (solids(2, triangles))
+    status = c_mesh_triangle_sides(mesh%handle, triangles, solids)
+  end subroutine carreau_mesh_triangle_sides
+
   !> triangles(2, n) and xyz(3, n) of the first n pairs, n = min(most, count)
   subroutine carreau_mesh_intersections(mesh, threads, most, count, triangles, xyz, status)
     type(carreau_mesh), intent(in) :: mesh
@@ -2071,6 +2097,24 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_clear_background(session%handle)
   end subroutine carreau_clear_background
+
+  !> vertices(3, n); elements(3, m) of indices from 1: a triangle, an edge (a, b, b), a point (a, a, a).
+  subroutine carreau_add_attractor(session, vertices, elements, size_on, surrounding, reach, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: vertices(:, :), size_on, surrounding, reach
+    integer(c_int32_t), intent(in) :: elements(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(vertices, 1) /= 3 .or. size(elements, 1) /= 3) return
+    status = c_add_attractor(session%handle, size(vertices, 2, kind=c_int64_t), vertices, size(elements, 2, kind=c_int64_t), &
+      elements - 1, size_on, surrounding, reach)
+  end subroutine carreau_add_attractor
+
+  subroutine carreau_clear_attractors(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_clear_attractors(session%handle)
+  end subroutine carreau_clear_attractors
 
   subroutine carreau_session_background(session, report, status)
     type(carreau_session), intent(in) :: session

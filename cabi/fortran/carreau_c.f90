@@ -788,6 +788,29 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_background
 
+    !> Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a
+    !! size that grows linearly with the distance to `surrounding` at the distance `reach`.
+    function c_add_attractor(session, vertex_count, vertices, element_count, elements, size, surrounding, &
+      reach) result(status) bind(c, name="carreau_add_attractor")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: vertex_count
+      real(c_double), intent(in) :: vertices(*)
+      integer(c_int64_t), value :: element_count
+      integer(c_int32_t), intent(in) :: elements(*)
+      real(c_double), value :: size, surrounding, reach
+      integer(c_int32_t) :: status
+    end function c_add_attractor
+
+    !> Removes all attractors.
+    function c_clear_attractors(session) result(status) bind(c, name="carreau_clear_attractors")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_clear_attractors
+
     !> Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there.
     function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
       import :: c_double, c_estimator, c_int32_t, c_int64_t, c_ptr
@@ -1223,6 +1246,30 @@ module carreau_c
       real(c_double), intent(inout) :: xyz(*)
       integer(c_int32_t) :: status
     end function c_mesh_intersections
+
+    !> Finds the connected regions of space that the mesh bounds, for programs that fill them with solid elements:
+    !! solids in ascending order, then holes, which no solid fills.
+    function c_mesh_regions(mesh, capacity, count, solids, xyz) result(status) bind(c, name="carreau_mesh_regions")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t), intent(inout) :: solids(*)
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_regions
+
+    !> Copies the solids on both sides of each triangle (m x 2) as carreau_mesh_regions has them: the solid that the
+    !! triangle looks out of, and the solid on the other side; 0: none.
+    function c_mesh_triangle_sides(mesh, capacity, solids) result(status) bind(c, name="carreau_mesh_triangle_sides")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: solids(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_triangle_sides
 
     !> Samples the fields that governed the mesh of each face on a grid over the box of its parameter domain, and writes
     !! images.

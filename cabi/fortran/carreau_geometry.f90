@@ -5,8 +5,8 @@
 !! NULL are optional.
 module carreau_geometry
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
-  use carreau, only: carreau_session, carreau_mesh, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
-    carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
+  use carreau, only: carreau_session, carreau_mesh, carreau_mesh_count, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, &
+    carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
     carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
   use carreau_c, only: c_cad
   use carreau_geometry_c
@@ -27,6 +27,7 @@ module carreau_geometry
   public :: carreau_triangles_measure, carreau_triangles_refine, carreau_triangles_distances, &
     carreau_triangles_bounds
   public :: carreau_geometry_points, carreau_geometry_curve
+  public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
     CARREAU_GEOMETRY_MOLECULE = 3, CARREAU_GEOMETRY_PLANE = 4, CARREAU_GEOMETRY_GRID = 5, &
@@ -437,6 +438,95 @@ contains
     bounds = 0
     status = c_triangles_bounds(session%handle, share, bounds)
   end subroutine carreau_triangles_bounds
+
+  ! ---- Places of the model ----
+
+  !> parameters(dimension, n), xyz(3, n), first(3, dimension, n); second(3, 3, n) of faces, (3, 1, n) of curves
+  subroutine carreau_evaluate(session, dimension, reference, parameters, xyz, status, first, second)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: dimension, reference
+    real(c_double), intent(in) :: parameters(:, :)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), allocatable, optional, intent(out) :: first(:, :, :), second(:, :, :)
+    real(c_double), allocatable :: points(:), by_one(:), by_two(:)
+    integer(c_int64_t) :: n
+    integer :: seconds
+    status = CARREAU_ERR_ARGUMENT
+    if (size(parameters, 1) /= dimension .or. dimension < 1 .or. dimension > 2) return
+    n = size(parameters, 2, kind=c_int64_t)
+    seconds = merge(3, 1, dimension == 2)
+    allocate (points(3 * n), by_one(3 * dimension * n), by_two(3 * seconds * n))
+    points = 0
+    by_one = 0
+    by_two = 0
+    status = c_evaluate(session%handle, dimension, reference, n, reshape(parameters, [size(parameters)]), 2_c_int32_t, &
+      points, by_one, by_two)
+    if (status /= CARREAU_OK) return
+    xyz = reshape(points, [3, int(n)])
+    if (present(first)) first = reshape(by_one, [3, int(dimension), int(n)])
+    if (present(second)) second = reshape(by_two, [3, seconds, int(n)])
+  end subroutine carreau_evaluate
+
+  !> xyz(3, n), references(n), parameters(dimension, n), closest(3, n), distances(n); reference 0: the closest of all
+  subroutine carreau_project(session, dimension, reference, xyz, references, parameters, closest, distances, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: dimension, reference
+    real(c_double), intent(in) :: xyz(:, :)
+    integer(c_int32_t), allocatable, intent(out) :: references(:)
+    real(c_double), allocatable, intent(out) :: parameters(:, :), closest(:, :), distances(:)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), allocatable :: flat(:), points(:)
+    integer :: n
+    status = CARREAU_ERR_ARGUMENT
+    if (size(xyz, 1) /= 3 .or. dimension < 0 .or. dimension > 2) return
+    n = size(xyz, 2)
+    allocate (references(n), flat(dimension * n), points(3 * n), distances(n))
+    references = 0
+    flat = 0
+    points = 0
+    distances = 0
+    status = c_project(session%handle, dimension, reference, int(n, c_int64_t), reshape(xyz, [size(xyz)]), references, &
+      flat, points, distances)
+    if (status /= CARREAU_OK) then
+      deallocate (references, distances)
+      return
+    end if
+    parameters = reshape(flat, [int(dimension), n])
+    closest = reshape(points, [3, n])
+  end subroutine carreau_project
+
+  !> Of vertices: 0 points, 1 curves, 2 faces, and their references
+  subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: dimensions(:), references(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (dimensions(vertices), references(vertices))
+    dimensions = 0
+    references = 0
+    status = c_mesh_vertex_entities(mesh%handle, vertices, dimensions, references)
+    if (status /= CARREAU_OK) deallocate (dimensions, references)
+  end subroutine carreau_mesh_vertex_entities
+
+  !> t(2, k) on curve ics(k) of face faces(k)
+  subroutine carreau_mesh_edge_parameters(mesh, t, faces, ics, status)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(out) :: t(:, :)
+    integer(c_int32_t), allocatable, intent(out) :: faces(:), ics(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: vertices, triangles, edges, all_faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, all_faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (t(2, edges), faces(edges), ics(edges))
+    t = 0
+    faces = 0
+    ics = 0
+    status = c_mesh_edge_parameters(mesh%handle, edges, t, faces, ics)
+    if (status /= CARREAU_OK) deallocate (t, faces, ics)
+  end subroutine carreau_mesh_edge_parameters
 
   ! ---- Points of built-in geometries ----
 

@@ -332,6 +332,62 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_triangles_bounds
 
+    !> Evaluates an entity of dimension 2 or 1 at n places, n x dimension. `order` is the highest derivative, 0 to 2.
+    !! out_xyz is n x 3; out_first is n x dimension x 3.
+    function c_evaluate(session, dimension, reference, n, parameters, order, xyz, first, second) result(status) &
+        bind(c, name="carreau_evaluate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, reference
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: parameters(*)
+      integer(c_int32_t), value :: order
+      real(c_double), intent(inout) :: xyz(*), first(*), second(*)
+      integer(c_int32_t) :: status
+    end function c_evaluate
+
+    !> Finds the closest point of an entity to each of n points of space, n x 3; a reference of 0 means all entities of
+    !! that dimension.
+    function c_project(session, dimension, reference, n, xyz, references, parameters, closest, &
+      distances) result(status) bind(c, name="carreau_project")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, reference
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xyz(*)
+      integer(c_int32_t), intent(inout) :: references(*)
+      real(c_double), intent(inout) :: parameters(*), closest(*), distances(*)
+      integer(c_int32_t) :: status
+    end function c_project
+
+    !> Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on
+    !! edges included: a point (0, corners and imposed points), a curve (1, free edges too) or a face (2), by the
+    !! references that carreau_project takes.
+    function c_mesh_vertex_entities(mesh, capacity, dimensions, references) result(status) &
+        bind(c, name="carreau_mesh_vertex_entities")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: dimensions(*), references(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_vertex_entities
+
+    !> Gives the parameters of both ends of each edge of carreau_mesh_edges, k x 2, on curve number ic (k) of a face
+    !! (k), as callbacks get them.
+    function c_mesh_edge_parameters(mesh, capacity, t, faces, ics) result(status) &
+        bind(c, name="carreau_mesh_edge_parameters")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: t(*)
+      integer(c_int32_t), intent(inout) :: faces(*), ics(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_edge_parameters
+
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")
       import :: c_double, c_int32_t, c_int64_t, c_ptr

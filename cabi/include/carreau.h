@@ -663,6 +663,21 @@ typedef struct carreau_background_report {
 /* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
 
+/* ---- Attractors: sizes near points, edges and triangles ---- */
+
+/* Adds small sizes near things of space to the next meshes, unless hphy_flag = 0: `size` on the elements, and a size that
+ * grows linearly with the distance to `surrounding` at the distance `reach`. Farther away the attractor gives no size.
+ * If several attractors, a background mesh or callbacks give sizes, the smallest one counts. All are model lengths.
+ * vertices: vertex_count x 3. elements: element_count x 3 indices of vertices from 0: a triangle; an edge (a, b, b); a
+ * point (a, a, a). The call copies them. Errors: ARGUMENT (a length that is not positive, surrounding below size, numbers
+ * not finite, no element, an index out of range), SEQUENCE. */
+CARREAU_API carreau_status carreau_add_attractor(carreau_session* session, int64_t vertex_count, const double vertices[],
+                                                 int64_t element_count, const int32_t elements[], double size,
+                                                 double surrounding, double reach);
+
+/* Removes all attractors. */
+CARREAU_API carreau_status carreau_clear_attractors(carreau_session* session);
+
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
 
 /* The source of the error estimate: the interpolation error, by second derivatives; the angles between edges and the
@@ -803,7 +818,8 @@ CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const ca
 
 /* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2,
- * with named sets; .off, .obj, .ply, .vtk, .tri. Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters
+ * with named sets; .off, .obj, .ply, .vtk, .tri. Surfaces for programs that fill solids, which are not read: .smesh, .poly (TetGen), .vol
+ * (Netgen), .geo (a script of Gmsh for the .msh file of the same name). Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters
  * option, refs and flag choose how the mesh of a session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves
  * in the parameter plane. .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl.
  * The file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
@@ -1006,6 +1022,18 @@ CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t clos
  * capacity below *out_count is no error. Finding pairs is CARREAU_OK. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity,
                                                       int64_t* out_count, int32_t out_triangles[], double out_xyz[]);
+
+/* Finds the connected regions of space that the mesh bounds, for programs that fill them with solid elements: solids in ascending order,
+ * then holes, which no solid fills. *out_count: all of them. out_solids gets the numbers of the solids of the first `capacity` regions, 0: a
+ * hole, and out_xyz a point inside each (rows of 3, model length); both may be NULL. A capacity below *out_count is no error. Solids are those of
+ * carreau_model_set_face_sides; a mesh without them has a solid for each region that its triangles look out of. Each point lies halfway
+ * between two triangles on a ray, and its winding number is 1. Errors: ARGUMENT (NULL; the surface is open, or its solids contradict
+ * each other, with the place), SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_regions(carreau_mesh* mesh, int64_t capacity, int64_t* out_count, int32_t out_solids[],
+                                                double out_xyz[]);
+/* Copies the solids on both sides of each triangle (m x 2) as carreau_mesh_regions has them: the solid that the triangle looks out of, and
+ * the solid on the other side; 0: none. Errors as there, and ARGUMENT for a capacity below m. */
+CARREAU_API carreau_status carreau_mesh_triangle_sides(carreau_mesh* mesh, int64_t capacity, int32_t out_solids[]);
 
 /* ---- Fields as images (OpenEXR) ---- */
 

@@ -380,6 +380,51 @@ CARREAU_API carreau_status carreau_triangles_distances(carreau_session* session,
  * that is negative or not finite, other elements), CANCELLED. */
 CARREAU_API carreau_status carreau_triangles_bounds(carreau_session* session, double share, double out_bounds[4]);
 
+/* ---- Places of the model ---- */
+
+/* Evaluate the geometry of a session, of whatever kind, and project points to it. An entity has a dimension, 2 (faces), 1 (curves) or 0
+ * (points), and a reference of the model. A place of a face is (u, v), a place of a curve is t in the first face that has the curve, and a
+ * point has no parameters: rows have as many numbers as the dimension. Faces are known by the references that callbacks get, also where
+ * results name the whole of which a face is a part. Curves and points without references get theirs by a mesh; before, they are an error
+ * (SEQUENCE).
+ *
+ * Both evaluate the geometry as a run does, on several threads if it allows that (parameter threads). Finite differences replace
+ * derivatives that a host does not give.
+ * Errors: SEQUENCE (no geometry, no model, no references), ARGUMENT (no such entity, dimension, order, numbers that are not finite), MODEL,
+ * CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. */
+
+/* Evaluates an entity of dimension 2 or 1 at n places, n x dimension. `order` is the highest derivative, 0 to 2. out_xyz is n x 3; out_first
+ * is n x dimension x 3: S_u and S_v, or dx/dt; out_second is n x 3 x 3: S_uu, S_uv, S_vv, or n x 3 for a curve. Each may be NULL, as must be
+ * results above the order. */
+CARREAU_API carreau_status carreau_evaluate(carreau_session* session, int32_t dimension, int32_t reference, int64_t n,
+                                            const double parameters[], int32_t order, double out_xyz[], double out_first[],
+                                            double out_second[]);
+
+/* Finds the closest point of an entity to each of n points of space, n x 3; a reference of 0 means all entities of that dimension. The
+ * result is the closest point of all, not only of a neighbourhood, and lies within a domain or on its boundary. The same call always gives
+ * the same of several closest points. References (n) name the entities found, parameters are n x dimension, and distances are lengths of the model.
+ * Each result may be NULL.
+ *
+ * The first call cuts each face into pieces that are nearly quadratic, by 25 evaluations a piece. They serve further calls until the
+ * geometry, the model or the mesh of the session changes. Details smaller than the distances between these places stay unseen. A point then
+ * takes two to four evaluations of second order. */
+CARREAU_API carreau_status carreau_project(carreau_session* session, int32_t dimension, int32_t reference, int64_t n, const double xyz[],
+                                           int32_t out_references[], double out_parameters[], double out_closest[],
+                                           double out_distances[]);
+
+/* Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on edges included: a point (0,
+ * corners and imposed points), a curve (1, free edges too) or a face (2), by the references that carreau_project takes. Vertices on several
+ * curves have the first one. (u, v) of each corner are in carreau_mesh_corner_uv. Mesh of a session only. Either array may be NULL. Errors:
+ * ARGUMENT (capacity below the number of vertices), SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_vertex_entities(carreau_mesh* mesh, int64_t capacity, int32_t out_dimensions[],
+                                                        int32_t out_references[]);
+/* Gives the parameters of both ends of each edge of carreau_mesh_edges, k x 2, on curve number ic (k) of a face (k), as callbacks get them.
+ * A closed curve has one parameter at its first edge and another at its last. Where vertices have left the curve (narrow faces that became
+ * one curve), t is NaN, and so it is on surfaces given as triangles; face and ic are 0 on a curve without any. Mesh of a session only. Each
+ * array may be NULL. Errors: ARGUMENT (capacity below the number of edges), SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_edge_parameters(carreau_mesh* mesh, int64_t capacity, double out_t[], int32_t out_faces[],
+                                                        int32_t out_ics[]);
+
 /* ---- Points of added geometries ---- */
 
 /* Evaluates a face at n places (u, v). Errors: SEQUENCE (no geometry was added), ARGUMENT. */

@@ -33,7 +33,7 @@ static_assert(int(carreau::ErrorShape::anisotropic) == CARREAU_ANISOTROPIC);
 
 namespace {
 
-constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t largest_count = std::numeric_limits<std::int32_t>::max();
 
 /// Order of the interface: xx xy xz yy yz zz.
 Metric3 metric_of(const double* m) { return {m[0], m[1], m[2], m[3], m[4], m[5]}; }
@@ -60,9 +60,9 @@ std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* w
 }
 
 std::size_t checked_count(std::int64_t n, const char* name) {
-  if (n >= 0 && n <= most) return static_cast<std::size_t>(n);
+  if (n >= 0 && n <= largest_count) return static_cast<std::size_t>(n);
   throw InvalidArgument(std::string(name) + " is " + std::to_string(n) + "; it must lie between 0 and " +
-                        std::to_string(most));
+                        std::to_string(largest_count));
 }
 
 /// `count` rows of N indices, member `name` of the struct.
@@ -193,6 +193,25 @@ carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, c
         carreau::background_of(
             session->session, {.sizes = {}, .space = metrics_of(required(metrics, "metrics"), rows), .parameter = {}}));
   });
+}
+
+carreau_status carreau_add_attractor(carreau_session* session, int64_t vertex_count, const double* vertices,
+                                     int64_t element_count, const int32_t* elements, double size, double surrounding,
+                                     double reach) {
+  return guarded(session, [&] {
+    carreau::Attractor attractor{.vertices = {}, .elements = {}, .size = size, .surrounding = surrounding, .reach = reach};
+    const std::size_t n = checked_count(vertex_count, "vertex_count"), m = checked_count(element_count, "element_count");
+    if (n > 0) required(vertices, "vertices");
+    for (std::size_t i = 0; i < n; ++i) attractor.vertices.push_back({vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]});
+    if (m > 0) required(elements, "elements");
+    attractor.elements.resize(m);
+    for (std::size_t i = 0; i < m; ++i) std::copy_n(elements + 3 * i, 3, attractor.elements[i].begin());
+    session->session.add_attractor(attractor);
+  });
+}
+
+carreau_status carreau_clear_attractors(carreau_session* session) {
+  return guarded(session, [&] { session->session.clear_attractors(); });
 }
 
 carreau_status carreau_clear_background(carreau_session* session) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <type_traits>
 
@@ -15,6 +17,13 @@ template <typename T>
 T* required(T* pointer, const char* name) {
   if (pointer == nullptr) throw InvalidArgument(std::string("the argument ") + name + " is NULL");
   return pointer;
+}
+
+/// A count of the caller as a size; `name` is the member that holds it, such as "domain->point_count".
+inline std::size_t count_of(std::int64_t n, const std::string& name) {
+  constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
+  if (n >= 0 && n <= largest) return static_cast<std::size_t>(n);
+  throw InvalidArgument(name + " is " + std::to_string(n) + "; it must lie between 0 and " + std::to_string(largest));
 }
 
 inline void check_capacity(std::int64_t capacity, std::size_t rows, const char* what) {

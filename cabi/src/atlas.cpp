@@ -18,7 +18,7 @@ using carreau::atlas::OuterBorder;
 using carreau::atlas::Polygon;
 using namespace carreau::abi;
 
-namespace {
+namespace carreau::abi {
 
 /// The common content of the three handles.
 template <typename Content>
@@ -33,7 +33,7 @@ struct Handle {
   std::atomic<bool> busy{false};
 };
 
-}  // namespace
+}  // namespace carreau::abi
 
 struct carreau_loop : Handle<carreau::atlas::Loop> {};
 struct carreau_annulus : Handle<carreau::atlas::Annulus> {};

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <set>
 #include <vector>
 
@@ -42,16 +41,10 @@ Options options_of(const carreau_triangles_options* given) {
   return options;
 }
 
-std::size_t count_of(std::int64_t n, const char* name) {
-  if (n >= 0 && n <= std::numeric_limits<std::int32_t>::max()) return static_cast<std::size_t>(n);
-  throw InvalidArgument("triangles->" + std::string(name) + " is " + std::to_string(n) +
-                        "; it must lie between 0 and " + std::to_string(std::numeric_limits<std::int32_t>::max()));
-}
-
 FlatMesh mesh_of(const carreau_triangles& given) {
   FlatMesh mesh;
-  const std::size_t n = count_of(given.vertex_count, "vertex_count"),
-                    m = count_of(given.triangle_count, "triangle_count"), k = count_of(given.edge_count, "edge_count");
+  const std::size_t n = count_of(given.vertex_count, "triangles->vertex_count"),
+                    m = count_of(given.triangle_count, "triangles->triangle_count"), k = count_of(given.edge_count, "triangles->edge_count");
   if (n > 0) required(given.vertices, "triangles->vertices");
   if (m > 0) required(given.triangles, "triangles->triangles");
   if (k > 0) required(given.edges, "triangles->edges");

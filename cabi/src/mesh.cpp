@@ -12,6 +12,7 @@
 #include "mesh/crossings/intersections.h"
 #include "mesh/defects/flat_defects.h"
 #include "mesh/quality.h"
+#include "mesh/regions/regions.h"
 #include "mesh_content.h"
 #include "session/file_adaptation.h"
 #include "session/options.h"
@@ -437,6 +438,44 @@ carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t 
     mesh->text = std::move(text);
     *out_count = std::int64_t(defects.size());
     *out_text = mesh->text.c_str();
+  });
+}
+
+namespace {
+
+carreau::MeshRegions regions_of(const carreau_mesh& mesh) {
+  require_content(mesh);
+  if (mesh.session == nullptr) return carreau::find_regions(mesh.flat);
+  FlatMesh flat = flat_of(mesh);
+  flat.names = names_of(mesh);
+  return carreau::find_regions(flat);
+}
+
+}  // namespace
+
+carreau_status carreau_mesh_regions(carreau_mesh* mesh, int64_t capacity, int64_t* out_count, int32_t* out_solids, double* out_xyz) {
+  return guarded(mesh, [&] {
+    required(out_count, "out_count");
+    if (capacity < 0) throw InvalidArgument("capacity is " + std::to_string(capacity) + ", below 0");
+    *out_count = 0;
+    carreau::MeshRegions found = regions_of(*mesh);
+    std::vector<carreau::MeshRegion>& all = found.solids;
+    all.insert(all.end(), found.holes.begin(), found.holes.end());
+    *out_count = static_cast<std::int64_t>(all.size());
+    for (std::size_t i = 0; i < all.size() && i < static_cast<std::size_t>(capacity); ++i) {
+      if (out_solids != nullptr) out_solids[i] = all[i].solid;
+      for (int k = 0; k < 3 && out_xyz != nullptr; ++k) out_xyz[3 * i + static_cast<std::size_t>(k)] = all[i].inside[k];
+    }
+  });
+}
+
+carreau_status carreau_mesh_triangle_sides(carreau_mesh* mesh, int64_t capacity, int32_t* out_solids) {
+  return guarded(mesh, [&] {
+    const carreau::MeshRegions found = regions_of(*mesh);
+    if (capacity < static_cast<std::int64_t>(found.sides.size()))
+      throw InvalidArgument("capacity is " + std::to_string(capacity) + ", and there are " + std::to_string(found.sides.size()) + " triangles");
+    required(out_solids, "out_solids");
+    for (std::size_t t = 0; t < found.sides.size(); ++t) std::copy_n(found.sides[t].begin(), 2, out_solids + 2 * t);
   });
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <limits>
 
 #include "arguments.h"
 #include "carreau_geometry.h"
@@ -22,19 +21,13 @@ using namespace carreau::abi;
 
 namespace {
 
-std::size_t count_of(std::int64_t n, const char* name) {
-  if (n >= 0 && n <= std::numeric_limits<std::int32_t>::max()) return static_cast<std::size_t>(n);
-  throw InvalidArgument("domain->" + std::string(name) + " is " + std::to_string(n) + "; it must lie between 0 and " +
-                        std::to_string(std::numeric_limits<std::int32_t>::max()));
-}
-
 template <typename T>
 T entry(const T* array, std::size_t i, T otherwise) {
   return array != nullptr ? array[i] : otherwise;
 }
 
 void add_points(const carreau_plane_domain& given, PlaneDomainInput& input) {
-  const std::size_t n = count_of(given.point_count, "point_count");
+  const std::size_t n = count_of(given.point_count, "domain->point_count");
   if (n > 0) required(given.points, "domain->points");
   for (std::size_t i = 0; i < n; ++i) {
     PlanePoint point;
@@ -55,7 +48,7 @@ std::optional<Vec2> tangent_at(const double* values) {
 }
 
 void add_curves(const carreau_plane_domain& given, PlaneDomainInput& input) {
-  const std::size_t n = count_of(given.curve_count, "curve_count");
+  const std::size_t n = count_of(given.curve_count, "domain->curve_count");
   if (n > 0) required(given.curve_starts, "domain->curve_starts"), required(given.curve_points, "domain->curve_points");
   for (std::size_t c = 0; c < n; ++c) {
     const std::int64_t first = given.curve_starts[c], last = given.curve_starts[c + 1];
@@ -78,7 +71,7 @@ void add_curves(const carreau_plane_domain& given, PlaneDomainInput& input) {
 }
 
 void add_sides_and_seeds(const carreau_plane_domain& given, PlaneDomainInput& input) {
-  const std::size_t sides = count_of(given.side_count, "side_count"), seeds = count_of(given.seed_count, "seed_count");
+  const std::size_t sides = count_of(given.side_count, "domain->side_count"), seeds = count_of(given.seed_count, "domain->seed_count");
   if (sides > 0) required(given.sides, "domain->sides");
   if (seeds > 0) required(given.seeds, "domain->seeds"), required(given.seed_refs, "domain->seed_refs");
   for (std::size_t i = 0; i < sides; ++i) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces that are meshed anew, increment by increment.
 #include <cmath>
-#include <limits>
 
 #include "arguments.h"
 #include "carreau_remesh.h"
@@ -27,12 +26,6 @@ static_assert(int(carreau::ErrorSource::deformation) + 1 == CARREAU_ERROR_DEFORM
 
 namespace {
 
-std::size_t count_of(std::int64_t n, const char* name) {
-  if (n >= 0 && n <= std::numeric_limits<std::int32_t>::max()) return static_cast<std::size_t>(n);
-  throw InvalidArgument("input->" + std::string(name) + " is " + std::to_string(n) + "; it must lie between 0 and " +
-                        std::to_string(std::numeric_limits<std::int32_t>::max()));
-}
-
 std::int32_t choice(std::int32_t value, std::int32_t last, const char* name) {
   if (value >= 0 && value <= last) return value;
   throw InvalidArgument("input->" + std::string(name) + " is " + std::to_string(value) +
@@ -47,8 +40,8 @@ std::vector<Vec2> points_of(const double* xy, std::size_t n) {
 }
 
 void add_piece(const carreau_remesh_input& given, variable::RemeshInput& input) {
-  const std::size_t n = count_of(given.vertex_count, "vertex_count"),
-                    m = count_of(given.triangle_count, "triangle_count");
+  const std::size_t n = count_of(given.vertex_count, "input->vertex_count"),
+                    m = count_of(given.triangle_count, "input->triangle_count");
   if (n > 0) required(given.vertices, "input->vertices");
   if (m > 0) required(given.triangles, "input->triangles");
   input.piece.vertices = points_of(given.vertices, n);
@@ -60,7 +53,7 @@ void add_piece(const carreau_remesh_input& given, variable::RemeshInput& input) 
 }
 
 void add_tools(const carreau_remesh_input& given, variable::RemeshInput& input) {
-  const std::size_t n = count_of(given.tool_count, "tool_count");
+  const std::size_t n = count_of(given.tool_count, "input->tool_count");
   if (n == 0) return;
   required(given.tool_starts, "input->tool_starts"), required(given.tool_points, "input->tool_points");
   for (std::size_t k = 0; k < n; ++k) {
@@ -77,8 +70,8 @@ void add_tools(const carreau_remesh_input& given, variable::RemeshInput& input) 
 /// One field a component of the elements, since kinds differ; one for all nodal components, and one for the component
 /// whose error is estimated.
 void add_fields(const carreau_remesh_input& given, variable::RemeshInput& input) {
-  const std::size_t nodal = count_of(given.nodal_components, "nodal_components"),
-                    elements = count_of(given.element_components, "element_components");
+  const std::size_t nodal = count_of(given.nodal_components, "input->nodal_components"),
+                    elements = count_of(given.element_components, "input->element_components");
   const std::size_t n = input.piece.vertices.size(), m = input.piece.triangles.size();
   if (nodal > 0) {
     required(given.nodal_values, "input->nodal_values");

@@ -16,12 +16,23 @@ void give_list(const std::vector<std::int32_t>& list, std::int64_t capacity, std
   std::copy(list.begin(), list.end(), required(out, "the array"));
 }
 
-const Solids& solids_in(carreau_cad_file& file) {
+const std::vector<TreeRow>& tree_of(carreau_cad_file& file) {
+  if (!file.tree) file.tree = part_tree(file.shape, solids_in(file));
+  return *file.tree;
+}
+
+}  // namespace
+
+const Solids& carreau_occ::abi::solids_in(carreau_cad_file& file) {
   if (!file.solids) file.solids = solids_of(file.shape);
   return *file.solids;
 }
 
-}  // namespace
+const std::vector<FaceContact>& carreau_occ::abi::contacts_of(carreau_cad_file& file) {
+  (void)host_of(file);
+  if (!file.contacts) file.contacts = find_face_contacts(file.shape, solids_in(file));
+  return *file.contacts;
+}
 
 carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content) {
   return guarded_call(file, [&] {
@@ -45,6 +56,7 @@ carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out
     content.solids = static_cast<int32_t>(solids.names.size());
     content.shared_faces = static_cast<int32_t>(
         std::count_if(solids.of_face.begin(), solids.of_face.end(), [](const auto& sides) { return sides[1] > 0; }));
+    content.tree_rows = static_cast<int32_t>(tree_of(*file).size());
     write_struct(content, out_content, "out_content");
   });
 }
@@ -84,9 +96,51 @@ carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number, car
     const std::array<int, 2>& sides = solids.of_face[static_cast<std::size_t>(number - 1)];
     face.solid = sides[0], face.other_solid = sides[1];
     face.solid_name = solids.name(face.solid), face.other_solid_name = solids.name(face.other_solid);
+    face.layer = host.face_layer(number).c_str();
     for (const auto& [left_out, why] : file->left_out)
       if (left_out == number) face.why = why.c_str();
     write_struct(face, out_face, "out_face");
+  });
+}
+
+const char* carreau_cad_entity_name(carreau_cad_file* file, int32_t dimension, int32_t number) {
+  const char* name = "";
+  guarded_call(file, [&] {
+    const BrepHost& host = host_of(*file);
+    if (dimension == 2 && number >= 1 && number <= host.face_count()) name = host.face_name(number).c_str();
+    if (const Solids& solids = solids_in(*file); dimension == 3 && number >= 1 && static_cast<std::size_t>(number) <= solids.names.size())
+      name = solids.name(number);
+    if (dimension != 0 && dimension != 1) return;
+    const auto found = host.names(dimension).find(number);
+    if (found != host.names(dimension).end()) name = found->second.c_str();
+  });
+  return name;
+}
+
+carreau_status carreau_cad_tree_at(carreau_cad_file* file, int64_t index, carreau_cad_tree_row* out_row) {
+  return guarded_call(file, [&] {
+    (void)host_of(*file);
+    const TreeRow& known = at(tree_of(*file), index, "row");
+    carreau_cad_tree_row row{};
+    row.kind = known.kind.c_str(), row.name = known.name.c_str(), row.layer = known.layer.c_str();
+    row.depth = known.depth, row.number = known.number, row.rgb = known.rgb, row.faces = known.faces;
+    write_struct(row, out_row, "out_row");
+  });
+}
+
+carreau_status carreau_cad_count_contacts(carreau_cad_file* file, int64_t* out_count) {
+  return guarded_call(file, [&] { *required(out_count, "out_count") = static_cast<int64_t>(contacts_of(*file).size()); });
+}
+
+carreau_status carreau_cad_contact_at(carreau_cad_file* file, int64_t index, carreau_cad_contact* out_contact) {
+  return guarded_call(file, [&] {
+    const FaceContact& known = at(contacts_of(*file), index, "contact");
+    carreau_cad_contact contact{};
+    std::copy(known.solids.begin(), known.solids.end(), contact.solids);
+    std::copy(known.faces.begin(), known.faces.end(), contact.faces);
+    contact.pairs = known.pairs, contact.area = known.area;
+    std::copy(known.place.begin(), known.place.end(), contact.place);
+    write_struct(contact, out_contact, "out_contact");
   });
 }
 

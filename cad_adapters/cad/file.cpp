@@ -49,7 +49,7 @@ void take_shape(carreau_cad_file& file) {
   notes.insert(notes.end(), file.host->notes().begin(), file.host->notes().end());
   file.notes.clear();
   for (const std::string& note : notes) file.notes += (file.notes.empty() ? "" : "\n") + note;
-  file.figures.reset(), file.report.reset(), file.solids.reset();
+  file.figures.reset(), file.report.reset(), file.solids.reset(), file.tree.reset(), file.contacts.reset();
   file.sentences.clear();
 }
 

@@ -2,6 +2,8 @@
 // The content of the handle of carreau_cad.h, and the only place where an exception becomes a status.
 #pragma once
 
+#include <assembly/face_contacts.h>
+#include <assembly/part_tree.h>
 #include <brep_host.h>
 #include <changes/small_features.h>
 #include <face_figures.h>
@@ -32,6 +34,8 @@ struct carreau_cad_file {
   std::optional<carreau_occ::ShapeReport> report;                // the last one
   std::vector<std::string> sentences;                            // of its dangers
   std::optional<carreau_occ::Solids> solids;
+  std::optional<std::vector<carreau_occ::TreeRow>> tree;
+  std::optional<std::vector<carreau_occ::FaceContact>> contacts;
   std::string notes;  // a line each
   bool loose_edges = false;
   std::vector<carreau_occ::SmallFeature> features;
@@ -91,11 +95,24 @@ inline BrepHost& host_of(const carreau_cad_file& file) {
   return *file.host;
 }
 
+/// Found at the first call.
+const Solids& solids_in(carreau_cad_file& file);
+const std::vector<FaceContact>& contacts_of(carreau_cad_file& file);
+
 /// Faces of the file, from 1.
 inline void check_face(const BrepHost& host, int number) {
   if (number < 1 || number > host.face_count())
     throw Failure(CARREAU_ERR_ARGUMENT, "there is no face " + std::to_string(number) + "; the file has " +
                                             std::to_string(host.face_count()));
+}
+
+/// An element of a list that the caller names by its index, from 0.
+template <typename T>
+const T& at(const std::vector<T>& list, int64_t index, const char* what) {
+  if (index < 0 || static_cast<std::uint64_t>(index) >= list.size())
+    throw Failure(CARREAU_ERR_ARGUMENT, std::string(what) + " " + std::to_string(index) + " is out of range; there are " +
+                                            std::to_string(list.size()));
+  return list[static_cast<std::size_t>(index)];
 }
 
 template <typename Struct>

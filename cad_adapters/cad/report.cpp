@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Potential meshing problems of a file, and figures of its faces.
 #include <cstdio>
+#include <map>
 
 #include "handle.h"
 
@@ -36,20 +37,30 @@ std::string sentence(const Danger& danger, const BrepHost& host) {
 }
 
 /// Solids that touch or overlap become dangers.
-void add_contacts(const ShapeFile& shape, ShapeReport& report) {
+void add_contacts(carreau_cad_file& file, ShapeReport& report) {
   if (report.solids < 2) return;
-  const Solids solids = solids_of(shape);
+  const Solids& solids = solids_in(file);
   const auto name = [&](int s) {
     const std::string& known = solids.names[static_cast<std::size_t>(s - 1)];
     return std::to_string(s) + (known.empty() ? "" : " (" + known + ")");
   };
-  const SolidContacts found = find_contacts(shape);
+  SolidContacts found = find_contacts(file.shape);
+  std::map<std::array<int, 2>, double> areas;
+  for (const FaceContact& contact : contacts_of(file)) {
+    areas[contact.solids] = contact.area;
+    if (std::none_of(found.contacts.begin(), found.contacts.end(), [&](const SolidContact& known) { return known.solids == contact.solids; }))
+      found.contacts.push_back({.solids = contact.solids, .place = contact.place});
+  }
+  std::stable_sort(found.contacts.begin(), found.contacts.end(), [](const SolidContact& p, const SolidContact& q) { return p.solids < q.solids; });
   for (const SolidContact& contact : found.contacts) {
     const auto& [a, b] = contact.solids;
     const auto& p = contact.place;
+    const double area = areas.contains(contact.solids) ? areas[contact.solids] : 0;
     report.dangers.push_back({.kind = contact.overlap ? "overlapping solids" : "touching solids",
+                              .value = area,
                               .text = "solids " + name(a) + " and " + name(b) + (contact.overlap ? " overlap" : " touch") +
-                                      " at (" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")",
+                                      " at (" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")" +
+                                      (area > 0 ? ", common area " + number(area) : ""),
                               .solids = contact.solids});
   }
   if (found.untested > 0)
@@ -64,14 +75,6 @@ const ShapeReport& report_of(const carreau_cad_file& file) {
   host_of(file);
   if (!file.report) throw Failure(CARREAU_ERR_SEQUENCE, "there is no report: call carreau_cad_inspect first");
   return *file.report;
-}
-
-template <typename T>
-const T& at(const std::vector<T>& list, int64_t index, const char* what) {
-  if (index < 0 || static_cast<std::uint64_t>(index) >= list.size())
-    throw Failure(CARREAU_ERR_ARGUMENT, std::string(what) + " " + std::to_string(index) + " is out of range; there are " +
-                                            std::to_string(list.size()));
-  return list[static_cast<std::size_t>(index)];
 }
 
 carreau_cad_report counts_of(const ShapeReport& r) {
@@ -110,7 +113,7 @@ carreau_status carreau_cad_inspect(carreau_cad_file* file, double tiny, carreau_
     if (out_report != nullptr) write_struct(carreau_cad_report{}, out_report, "out_report");  // reports a wrong size first
     constexpr double usual = 1e-3;
     ShapeReport report = inspect(file->shape, tiny > 0 ? tiny : usual);
-    add_contacts(file->shape, report);
+    add_contacts(*file, report);
     std::vector<std::string> sentences;
     for (const Danger& danger : report.dangers) sentences.push_back(sentence(danger, host));
     file->report = std::move(report), file->sentences = std::move(sentences);

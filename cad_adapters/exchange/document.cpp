@@ -2,8 +2,12 @@
 #include "document.h"
 
 #include <BRep_Builder.hxx>
+#include <TopExp.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <algorithm>
+#include <array>
+#include <cctype>
 
 namespace carreau_occ {
 namespace {
@@ -23,6 +27,16 @@ void map_down_to_faces(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape& ma
   if (map.Add(shape) <= before || shape.ShapeType() >= TopAbs_FACE) return;
   for (TopoDS_Iterator it(shape); it.More(); it.Next())
     if (it.Value().ShapeType() <= TopAbs_FACE) map_down_to_faces(it.Value(), map);
+}
+
+/// Names that programs give to entities without a name of their own.
+bool is_automatic(const std::string& name) {
+  constexpr std::array<const char*, 7> words{"none", "advanced face", "edge curve", "vertex point",
+                                             "trim region", "trimming point", "manifold solid brep"};
+  if (name.size() > 1 && name[0] == '#' && name.find_first_not_of("0123456789", 1) == std::string::npos) return true;
+  std::string small = name;
+  std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(words.begin(), words.end(), small) != words.end();
 }
 
 }  // namespace
@@ -128,6 +142,32 @@ int Document::add_inside(int item, const TopoDS_Shape& shape) {
   return made;
 }
 
+void Document::set_name(int item, const std::string& name) {
+  if (!is_automatic(name)) at(item).name = name;
+}
+
+void Document::set_layer(int item, const std::string& layer) {
+  if (at(item).layer.empty()) at(item).layer = layer;
+}
+
+int Document::find_small(const TopoDS_Shape& wanted) {
+  if (!knows_small_)
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (items_[i].above != none || items_[i].assembly || items_[i].part != none || items_[i].shape.IsNull()) continue;
+      TopTools_IndexedMapOfShape shapes;
+      TopExp::MapShapes(items_[i].shape, TopAbs_EDGE, shapes);
+      TopExp::MapShapes(items_[i].shape, TopAbs_VERTEX, shapes);
+      for (int k = 1; k <= shapes.Extent(); ++k) small_.Bind(shapes(k), static_cast<int>(i));
+    }
+  knows_small_ = true;
+  int part = none;
+  if (!small_.Find(wanted, part)) return none;
+  if (int found = none; inside_of(part).items.Find(wanted, found)) return found;
+  const int made = make(wanted, part);
+  inside_of(part).items.Bind(wanted, made);
+  return made;
+}
+
 void Document::set_shape(int item, const TopoDS_Shape& shape) {
   at(item).shape = shape;
   remember(shape, item);
@@ -205,17 +245,20 @@ void Document::assemble(int item) {
   at(item).shape = all;
 }
 
-void Document::write_labels(int item, const TopLoc_Location& where, ShapeFile& file) const {
+void Document::write_labels(int item, const TopLoc_Location& where, int depth, ShapeFile& file) const {
   const Item& here = at(item);
   const std::optional<Quantity_Color>& colour = here.surface ? here.surface : here.general;
-  if (!here.name.empty() || colour) {
-    ShapeFile::Label label{.part = shape(item).Moved(where, Standard_False), .name = here.name};
+  using Kind = ShapeFile::Label::Kind;
+  const Kind kind = here.part != none ? Kind::use : here.assembly ? Kind::assembly : here.above == none ? Kind::part : Kind::inside;
+  const TopoDS_Shape held = shape(item);
+  if (!held.IsNull() && (kind != Kind::inside || !here.name.empty() || !here.layer.empty() || colour)) {
+    ShapeFile::Label label{.part = held.Moved(where, Standard_False), .name = here.name, .layer = here.layer, .kind = kind, .depth = depth};
     label.has_colour = colour.has_value();
     if (colour) colour->Values(label.red, label.green, label.blue, Quantity_TOC_sRGB);
     file.labels.push_back(label);
   }
-  if (here.part != none) return write_labels(here.part, where * here.place, file);
-  for (const int below : here.below) write_labels(below, where, file);
+  if (here.part != none) return write_labels(here.part, where * here.place, depth, file);
+  for (const int below : here.below) write_labels(below, where, here.assembly ? depth + 1 : depth, file);
 }
 
 void Document::write(ShapeFile& file) {
@@ -226,7 +269,7 @@ void Document::write(ShapeFile& file) {
     const auto item = static_cast<int>(i);
     assemble(item);
     if (const TopoDS_Shape whole = shape(item); !whole.IsNull()) builder.Add(all, whole);
-    write_labels(item, {}, file);
+    write_labels(item, {}, 0, file);
   }
   file.shape = all;
 }

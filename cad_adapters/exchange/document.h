@@ -18,8 +18,8 @@
 namespace carreau_occ {
 
 /// A tree of items with the meaning that OpenCASCADE's own documents (XDE) give to files; XDE requires a viewer and a
-/// window system. An item is a shape, a part of a shape, an assembly, or a placed item. Edges and vertices have no
-/// items, since a mesh has no names and colours of edges and vertices.
+/// window system. An item is a shape, a part of a shape, an assembly, or a placed item. Edges and vertices with a name
+/// are items of their parts.
 class Document {
  public:
   static constexpr int none = -1;
@@ -44,7 +44,12 @@ class Document {
   [[nodiscard]] TopoDS_Shape shape(int item) const;
   [[nodiscard]] bool is_assembly(int item) const { return at(item).assembly; }
 
-  void set_name(int item, const std::string& name) { at(item).name = name; }
+  /// Names that programs write for entities without a name are ignored: "#197", "NONE".
+  void set_name(int item, const std::string& name);
+  /// The first layer stays.
+  void set_layer(int item, const std::string& layer);
+  /// The item of an edge or vertex of a part; none: no part has this shape.
+  int find_small(const TopoDS_Shape& shape);
   /// The item of add_inside() has this shape.
   void set_shape(int item, const TopoDS_Shape& shape);
   enum class Colour { surface, general };
@@ -67,7 +72,7 @@ class Document {
     bool assembled = false;      // the shape holds all shapes below
     std::vector<int> below;      // in the order in which they were made
     std::vector<int> placed_as;  // items that refer to this one
-    std::string name;
+    std::string name, layer;
     std::optional<Quantity_Color> surface, general;
   };
   struct Inside {
@@ -86,13 +91,15 @@ class Document {
   Inside& inside_of(int item);
   void hand_down_from(int item);
   void assemble(int item);
-  void write_labels(int item, const TopLoc_Location& place, ShapeFile& file) const;
+  void write_labels(int item, const TopLoc_Location& place, int depth, ShapeFile& file) const;
 
   std::vector<Item> items_;
   TopTools_DataMapOfShapeInteger tops_;     // items that are in no other, by the shape that they have
   TopTools_DataMapOfShapeInteger known_;    // items by added shape
   TopTools_DataMapOfShapeInteger holders_;  // the last item that holds a shape
   std::map<int, Inside> insides_;
+  TopTools_DataMapOfShapeInteger small_;  // parts of edges and vertices; filled by the first find_small()
+  bool knows_small_ = false;
   std::vector<Quantity_ColorRGBA> colours_;
 };
 

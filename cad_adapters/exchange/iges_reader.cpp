@@ -125,10 +125,16 @@ void read_labels(const Handle(IGESData_IGESEntity) & entity, const TopoDS_Shape&
       document.set_colour(item, Document::Colour::general, Quantity_ColorRGBA(*colour));
   };
   if (colour) document.known_colour(Quantity_ColorRGBA(*colour));
-  if (shape.ShapeType() <= TopAbs_FACE) {  // edges have neither name nor colour in a mesh
-    const int item = document.find(shape, colour.has_value());
+  const auto name = [&](int item) {
+    if (item == Document::none) return;
+    if (entity->HasName()) document.set_name(item, trimmed(entity->NameValue()->String()));
+    if (entity->Level() > 0) document.set_layer(item, std::to_string(entity->Level()));
+  };
+  if (shape.ShapeType() > TopAbs_FACE && entity->HasName()) name(document.find_small(shape));
+  if (shape.ShapeType() <= TopAbs_FACE) {  // edges have no colour in a mesh
+    const int item = document.find(shape, colour.has_value() || entity->Level() > 0);
     set(item);
-    if (item != Document::none && entity->HasName()) document.set_name(item, trimmed(entity->NameValue()->String()));
+    name(item);
     if (item == Document::none && colour)
       for (TopoDS_Iterator it(shape); it.More(); it.Next())
         if (it.Value().ShapeType() <= TopAbs_FACE) set(document.find(it.Value(), true));

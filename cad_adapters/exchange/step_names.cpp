@@ -12,6 +12,7 @@
 #include <StepRepr_ProductDefinitionShape.hxx>
 #include <StepRepr_RepresentationRelationship.hxx>
 #include <StepShape_ClosedShell.hxx>
+#include <StepShape_EdgeCurve.hxx>
 #include <StepShape_Face.hxx>
 #include <StepShape_HArray1OfFace.hxx>
 #include <StepShape_HArray1OfShell.hxx>
@@ -21,7 +22,13 @@
 #include <StepShape_ShapeRepresentation.hxx>
 #include <StepShape_Shell.hxx>
 #include <StepShape_ShellBasedSurfaceModel.hxx>
+#include <StepShape_VertexPoint.hxx>
+#include <StepVisual_LayeredItem.hxx>
+#include <StepVisual_PresentationLayerAssignment.hxx>
+#include <StepVisual_StyledItem.hxx>
+#include <StepVisual_StyledItemTarget.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TransferBRep.hxx>
 #include <initializer_list>
 #include <set>
@@ -138,6 +145,32 @@ class Inside {
   std::vector<Handle(StepShape_ShellBasedSurfaceModel)> models_;
 };
 
+void name_edges_and_vertices(const StepParts& parts) {
+  const Handle(Interface_InterfaceModel) model = parts.session->Model();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model->Value(i);
+    if (!entity->IsKind(STANDARD_TYPE(StepShape_EdgeCurve)) && !entity->IsKind(STANDARD_TYPE(StepShape_VertexPoint))) continue;
+    const auto named = Handle(StepRepr_RepresentationItem)::DownCast(entity);
+    if (named->Name().IsNull() || named->Name()->IsEmpty()) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(parts.process->Find(entity));
+    const int item = shape.IsNull() ? Document::none : parts.document.find_small(shape);
+    if (item != Document::none) parts.document.set_name(item, utf8(named->Name()->String()));
+  }
+}
+
+/// A style stands for the entity that it styles.
+void set_layer(const Handle(Standard_Transient) & entity, const std::string& layer, const StepParts& parts) {
+  if (entity.IsNull()) return;
+  if (const auto style = Handle(StepVisual_StyledItem)::DownCast(entity); !style.IsNull())
+    return set_layer(style->ItemAP242().Value(), layer, parts);
+  const TopoDS_Shape shape = TransferBRep::ShapeResult(parts.process->Find(entity));
+  if (shape.IsNull() || shape.ShapeType() > TopAbs_FACE) return;
+  if (const int item = parts.document.find(shape, true); item != Document::none) return parts.document.set_layer(item, layer);
+  for (TopoDS_Iterator it(shape); it.More(); it.Next())
+    if (const int item = it.Value().ShapeType() > TopAbs_FACE ? Document::none : parts.document.find(it.Value(), true); item != Document::none)
+      parts.document.set_layer(item, layer);
+}
+
 }  // namespace
 
 void read_step_names(const StepParts& parts) {
@@ -168,6 +201,17 @@ void read_step_names_inside(const StepParts& parts) {
     Inside inside(parts, item);
     inside.take(representation);
     inside.name();
+  }
+  name_edges_and_vertices(parts);
+}
+
+void read_step_layers(const StepParts& parts) {
+  const Handle(Interface_InterfaceModel) model = parts.session->Model();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto layer = Handle(StepVisual_PresentationLayerAssignment)::DownCast(model->Value(i));
+    if (layer.IsNull() || layer->Name().IsNull() || layer->AssignedItems().IsNull()) continue;
+    const std::string name = utf8(layer->Name()->String());
+    for (int k = 1; k <= layer->NbAssignedItems() && !name.empty(); ++k) set_layer(layer->AssignedItemsValue(k).Value(), name, parts);
   }
 }
 

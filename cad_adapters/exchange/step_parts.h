@@ -35,7 +35,9 @@ struct StepParts {
 void read_step_colours(const StepParts& parts);
 /// Names of products, and of where they are used.
 void read_step_names(const StepParts& parts);
-/// Names of solids, shells and faces.
+/// Names of solids, shells, faces, edges and vertices.
 void read_step_names_inside(const StepParts& parts);
+/// Layers of parts, solids, shells and faces.
+void read_step_layers(const StepParts& parts);
 
 }  // namespace carreau_occ

@@ -136,6 +136,7 @@ bool StepReader::translate(STEPControl_Reader& reader, const Message_ProgressRan
   read_step_colours(parts);
   read_step_names(parts);
   read_step_names_inside(parts);
+  read_step_layers(parts);
   return true;
 }
 

@@ -320,13 +320,20 @@ void BrepHost::State::collect_names(const ShapeFile& file) {
     return std::pair(q.second.size(), p.first->part.ShapeType()) <
            std::pair(p.second.size(), q.first->part.ShapeType());
   });
-  const auto byte = [](double share) { return static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0))); };
   for (const auto& [label, held] : parts)
     for (const int number : held) {
       HostFace& face = host_faces[static_cast<std::size_t>(number - 1)];
       if (!label->name.empty()) face.name = label->name;
-      if (label->has_colour) face.rgb = byte(label->red) << 16 | byte(label->green) << 8 | byte(label->blue);
+      if (!label->layer.empty()) face.layer = label->layer;
+      if (label->has_colour) face.rgb = label->rgb();
     }
+  for (const ShapeFile::Label& label : file.labels) {
+    if (label.name.empty()) continue;
+    if (label.part.ShapeType() == TopAbs_EDGE)
+      if (const int number = edges.FindIndex(label.part); number > 0) edge_names[number] = label.name;
+    if (label.part.ShapeType() == TopAbs_VERTEX)
+      if (const int number = vertices.FindIndex(label.part); number > 0) vertex_names[number] = label.name;
+  }
 }
 
 void BrepHost::State::collect_doubts(const ShapeFile& file) {

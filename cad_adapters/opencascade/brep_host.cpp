@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "brep_state.h"
@@ -115,6 +116,27 @@ carreau_status BrepHost::add_faces(carreau_session* session) const {
       status = carreau_model_name_entities(session, 3, 1, &solid, names[s].c_str());
   for (const auto& [piece, whole] : state_->whole_edge)
     if (status == CARREAU_OK) status = carreau_model_part_of_curve(session, piece, whole);
+  return status == CARREAU_OK ? name_edges_and_vertices(session) : status;
+}
+
+/// Names go to the curves and points that the session has.
+carreau_status BrepHost::name_edges_and_vertices(carreau_session* session) const {
+  std::set<int> edges, vertices;
+  const auto use = [&](int edge, int end1, int end2) { edges.insert(edge), vertices.insert(end1), vertices.insert(end2); };
+  if (state_->edge_names.empty() && state_->vertex_names.empty()) return CARREAU_OK;
+  for (const HostFace& face : state_->host_faces)
+    for (const HostCurve& curve : face.curves)
+      if (face.broken.empty()) use(curve.edge, curve.end1, curve.end2);
+  for (const LooseEdge& wire : state_->wires) use(wire.number, wire.end1, wire.end2);
+  std::map<std::pair<int, std::string>, std::vector<int32_t>> groups;
+  for (const int edge : edges)
+    if (const auto name = state_->edge_names.find(whole_edge(edge)); name != state_->edge_names.end()) groups[{1, name->second}].push_back(edge);
+  for (const auto& [vertex, name] : state_->vertex_names)
+    if (vertices.contains(vertex)) groups[{0, name}].push_back(vertex);
+  carreau_status status = CARREAU_OK;
+  for (const auto& [group, refs] : groups)
+    if (status == CARREAU_OK)
+      status = carreau_model_name_entities(session, group.first, static_cast<int64_t>(refs.size()), refs.data(), group.second.c_str());
   return status;
 }
 
@@ -226,6 +248,8 @@ const std::string& BrepHost::face_name(int number) const {
 }
 
 int BrepHost::face_colour(int number) const { return state_->host_faces[static_cast<std::size_t>(number - 1)].rgb; }
+const std::string& BrepHost::face_layer(int number) const { return state_->host_faces[static_cast<std::size_t>(number - 1)].layer; }
+const std::map<int, std::string>& BrepHost::names(int dimension) const { return dimension == 0 ? state_->vertex_names : state_->edge_names; }
 int BrepHost::face_count() const noexcept { return state_->faces.Extent(); }
 int BrepHost::wire_count() const noexcept { return static_cast<int>(state_->wires.size()); }
 int BrepHost::reference_count() const noexcept { return static_cast<int>(state_->host_faces.size()); }

@@ -5,6 +5,7 @@
 #include <carreau_geometry.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,10 @@ class BrepHost {
   [[nodiscard]] const std::string& face_name(int number) const;
   /// 0xRRGGBB, -1: none. Numbers from 1.
   [[nodiscard]] int face_colour(int number) const;
+  /// Own layer of a face, or that of the smallest part that holds it; "": none.
+  [[nodiscard]] const std::string& face_layer(int number) const;
+  /// Names of vertices (dimension 0) and edges (1) that have one, by number.
+  [[nodiscard]] const std::map<int, std::string>& names(int dimension) const;
   [[nodiscard]] int face_count() const noexcept;
   /// Edges of no face that sessions get.
   [[nodiscard]] int wire_count() const noexcept;
@@ -101,6 +106,7 @@ class BrepHost {
   carreau_status add_face(carreau_session* session, std::size_t index) const;
   carreau_status add_wire(carreau_session* session, std::size_t index) const;
   carreau_status add_faces(carreau_session* session) const;
+  carreau_status name_edges_and_vertices(carreau_session* session) const;
   carreau_status move_reasons(carreau_session* session) const;
 
   struct State;

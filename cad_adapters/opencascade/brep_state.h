@@ -34,7 +34,7 @@ struct HostFace {
   int whole = 0;         // number of the face of the shape that it is, or is a part of
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
-  std::string name;
+  std::string name, layer;
   int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
   double size = 0;     // 0: not set
   std::string broken;  // why it cannot be meshed; "": it can
@@ -55,6 +55,7 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   std::vector<int> uses;                             // of each edge, by its number - 1; behind all edges the pieces of cut edges
   int file_edges = 0, file_vertices = 0;             // without edges and vertices that repairs added
   Solids solids;
+  std::map<int, std::string> edge_names, vertex_names;  // by number
   std::vector<std::string> notes;                    // repairs
   std::map<std::pair<int, bool>, int> missing_ends;  // vertices of edges that do not name them, by edge and last end
   int vertex_total = 0;                              // vertices of the shape and of cuts

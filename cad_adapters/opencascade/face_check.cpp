@@ -18,7 +18,7 @@
 namespace carreau_occ {
 namespace {
 
-constexpr int samples = 4;  // intervals of an edge
+constexpr int edge_samples = 4;  // intervals of an edge
 
 bool is_near(const gp_Pnt& p) { return usable(p.X()) && usable(p.Y()) && usable(p.Z()); }
 
@@ -45,8 +45,8 @@ void refuse_unusable(const TopoDS_Face& face, const std::vector<std::vector<Edge
   const BRepAdaptor_Surface surface(face, Standard_False);
   for (const std::vector<EdgeImage>& wire : wires)
     for (const EdgeImage& image : wire)
-      for (int i = 0; i <= samples && !image.curve.IsNull(); ++i) {
-        const gp_Pnt2d uv = image.curve->Value(image.first + (image.last - image.first) * i / samples);
+      for (int i = 0; i <= edge_samples && !image.curve.IsNull(); ++i) {
+        const gp_Pnt2d uv = image.curve->Value(image.first + (image.last - image.first) * i / edge_samples);
         require(usable(uv.X()) && usable(uv.Y()) && is_near(surface.Value(uv.X(), uv.Y())), "the boundary");
       }
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <TopoDS_Shape.hxx>
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -16,12 +18,23 @@ struct SmallFeature;
 /// A shape, and the data of its file about its parts.
 struct ShapeFile {
   TopoDS_Shape shape;
-  /// Name and colour of a part (a solid, a shell or a face), where the file has some.
+  /// Name, layer and colour of an assembly, a part, or a solid, shell, face, edge or vertex of a part; assemblies and
+  /// parts have a label without these, too.
   struct Label {
     TopoDS_Shape part;
     std::string name;
     bool has_colour = false;
     double red = 0, green = 0, blue = 0;  ///< 0 to 1, sRGB
+    std::string layer{};
+    /// A use places the next assembly or part of the list.
+    enum class Kind { inside, use, part, assembly } kind = Kind::inside;
+    int depth = 0;  ///< of assemblies that hold it
+
+    /// 0xRRGGBB, -1: none.
+    [[nodiscard]] int rgb() const {
+      const auto byte = [](double share) { return static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0))); };
+      return has_colour ? byte(red) << 16 | byte(green) << 8 | byte(blue) : -1;
+    }
   };
   std::vector<Label> labels;
   std::string unit;  ///< of its coordinates, "" when it has none

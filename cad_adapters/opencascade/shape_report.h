@@ -14,7 +14,7 @@ namespace carreau_occ {
 struct Danger {
   std::string kind;  ///< "tiny edge", "sliver face", "gap", "free edge", ...
   int face = 0, edge = 0;
-  double value = 0;  ///< a length in model units, a number of faces, or an angle in degrees
+  double value = 0;  ///< a length in model units, a number of faces, an angle in degrees, or a common area
   std::string text;  ///< the rest of the sentence
   std::array<int, 2> solids{};  ///< that touch or overlap; 0: not concerned
 };

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "support/vec.h"
 
@@ -25,6 +27,14 @@ struct CurveJet {
 
 struct Interval {
   double a = 0, b = 1;
+};
+
+/// Samples of a curve that bounds a face: uv[i] is the curve at t[i], and t increases. Between two samples the curve is a
+/// graph over its chord.
+struct BoundaryCurve {
+  int ic = 0;
+  std::vector<double> t;
+  std::vector<Vec2> uv;
 };
 
 /// Number of calls of each routine of the host; one point of a batch counts as one call.
@@ -66,6 +76,9 @@ class Cad {
   /// Passes the box of a face's parameter domain, so that finite differences have the right steps and stay inside. Not
   /// while other threads evaluate.
   virtual void set_parameter_box(int /*face*/, Vec2 /*low*/, Vec2 /*high*/) {}
+  /// Passes the curves that bound a face's parameter domain, which finite differences do not leave then. Not while other
+  /// threads evaluate.
+  virtual void set_boundary(int /*face*/, std::vector<BoundaryCurve> /*boundary*/) {}
 };
 
 /// One point.

@@ -117,4 +117,8 @@ void CadAssembly::set_parameter_box(int face, Vec2 low, Vec2 high) {
   of_face(face, [&](Cad& cad, int own) { cad.set_parameter_box(own, low, high); });
 }
 
+void CadAssembly::set_boundary(int face, std::vector<BoundaryCurve> boundary) {
+  of_face(face, [&](Cad& cad, int own) { cad.set_boundary(own, std::move(boundary)); });
+}
+
 }  // namespace carreau

@@ -34,6 +34,7 @@ class CadAssembly final : public Cad {
   [[nodiscard]] unsigned surface_gives() const noexcept override;
   [[nodiscard]] unsigned curve_gives() const noexcept override;
   void set_parameter_box(int face, Vec2 low, Vec2 high) override;
+  void set_boundary(int face, std::vector<BoundaryCurve> boundary) override;
 
  private:
   [[nodiscard]] const Part* part_of_face(int face) const noexcept;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <tuple>
 
 #include "support/error.h"
 #include "support/format.h"
@@ -18,6 +20,14 @@ constexpr double first_step = 1e-5;
 constexpr double second_step = 2e-4;
 // Points whose stencils are evaluated in one batch.
 constexpr std::size_t chunk = 512;
+// Steps from the centre to the last point of the longest stencil.
+constexpr double longest_stencil = 3;
+// Directions of formulas beside a boundary: their bisectors, and half the angle between both, in radians. Corners of a
+// domain are seldom sharper than the last one.
+constexpr int bisectors = 16;
+constexpr double half_angles[] = {0.785, 0.35, 0.12, 0.03};
+// Fractions of the usual step, where domains are narrow.
+constexpr double narrow_steps[] = {1, 0.125, 0.015625};
 
 // Points of all formulas of one (u, v), in the order in which `combine` reads the values.
 void append_points(bool second_from_position, Vec2 uv, DifferenceStep u, DifferenceStep v, std::vector<Vec2>& points) {
@@ -84,6 +94,25 @@ void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
   boxes_[face] = {low, high};
 }
 
+void DifferenceCad::set_boundary(int face, std::vector<BoundaryCurve> boundary) {
+  domains_[face] = ParameterDomain(std::move(boundary));
+}
+
+bool DifferenceCad::are_inside(int face, std::span<const Vec2> points, Vec2 centre) {
+  const auto domain = domains_.find(face);
+  if (domain == domains_.end()) return true;
+  const auto curve = [&](int ic, double t) -> Vec2 { return source_->curve(face, ic, want_position, t).c; };
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vec2& p) { return p == centre || domain->second.contains(p, curve); });
+}
+
+bool DifferenceCad::is_beside_boundary(int face, Vec2 uv, DifferenceStep u, DifferenceStep v) const {
+  const auto domain = domains_.find(face);
+  if (domain == domains_.end()) return false;
+  const Vec2 reach{longest_stencil * u.step, longest_stencil * v.step};
+  return domain->second.may_cross(uv - reach, uv + reach);
+}
+
 DifferenceCad::Box DifferenceCad::box_at(int face, const Vec2& uv) const {
   const auto it = boxes_.find(face);
   if (it != boxes_.end()) return it->second;
@@ -110,11 +139,16 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
   std::vector<Vec2> points;
   std::vector<std::pair<DifferenceStep, DifferenceStep>> steps;
   steps.reserve(uv.size());
+  std::vector<char> beside;
   for (const Vec2& p : uv) {
     const Box box = box_at(face, p);
-    steps.emplace_back(difference_step(p.x(), box.low.x(), box.high.x(), task.relative),
-                       difference_step(p.y(), box.low.y(), box.high.y(), task.relative));
-    append_points(second_from_position, p, steps.back().first, steps.back().second, points);
+    const DifferenceStep u = difference_step(p.x(), box.low.x(), box.high.x(), task.relative),
+                         v = difference_step(p.y(), box.low.y(), box.high.y(), task.relative);
+    steps.emplace_back(u, v);
+    const std::size_t first = points.size();
+    append_points(second_from_position, p, u, v, points);
+    beside.push_back(is_beside_boundary(face, p, u, v) && !are_inside(face, std::span(points).subspan(first), p) ? 1 : 0);
+    if (beside.back() != 0) points.resize(first);
   }
   std::vector<SurfaceJet> values(points.size());
   bool failed = false;
@@ -125,6 +159,10 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
   }
   const SurfaceJet* value = values.data();
   for (std::size_t i = 0; i < uv.size(); ++i) {
+    if (beside[i] != 0) {
+      add_one_sided(face, task, uv[i], out[i]);
+      continue;
+    }
     if (!failed) value += combine(task.missing, task.from, steps[i].first, steps[i].second, value, out[i]);
     if (failed || !is_finite(out[i], task.missing)) add_one_sided(face, task, uv[i], out[i]);
   }
@@ -134,6 +172,7 @@ bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, Diff
                                        SurfaceJet& out) {
   std::vector<Vec2> points;
   append_points(task.missing == want_second && task.from == want_position, uv, u, v, points);
+  if (!are_inside(face, points, uv)) return false;
   std::vector<SurfaceJet> values(points.size());
   try {
     source_->surface(face, task.from, points, values);
@@ -142,6 +181,60 @@ bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, Diff
   }
   combine(task.missing, task.from, u, v, values.data(), out);
   return is_finite(out, task.missing);
+}
+
+// Differences along two directions that lead into the domain, transformed to those of u and v: with the matrix W of both
+// steps, the gradient g becomes W^T g and the Hessian H becomes W^T H W.
+bool DifferenceCad::add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out) {
+  const bool second_from_position = task.missing == want_second && task.from == want_position;
+  const Stencil along = stencil_of(second_from_position ? 2 : 1, Side::forward), mixed = stencil_of(1, Side::forward);
+  std::vector<Vec2> points;
+  for (const double narrow : narrow_steps)
+    for (const double half_angle : half_angles)
+      for (int k = 0; k < bisectors; ++k) {
+        const double angle = 2 * std::numbers::pi * k / bisectors;
+        const auto step_at = [&](double a) -> Vec2 { return {narrow * u.step * std::cos(a), narrow * v.step * std::sin(a)}; };
+        const Vec2 w1 = step_at(angle - half_angle), w2 = step_at(angle + half_angle);
+        points.clear();
+        for (const Vec2& w : {w1, w2})
+          for (int i = 0; i < along.count; ++i) points.push_back(uv + along.offset[i] * w);
+        for (int i = 0; second_from_position && i < mixed.count; ++i)
+          for (int j = 0; j < mixed.count; ++j) points.push_back(uv + mixed.offset[i] * w1 + mixed.offset[j] * w2);
+        if (!are_inside(face, points, uv)) continue;
+        std::vector<SurfaceJet> values(points.size());
+        source_->surface(face, task.from, points, values);
+        const double det = w1.x() * w2.y() - w1.y() * w2.x();
+        // Gradient of f from its differences along w1 and w2.
+        const auto gradient = [&](const Vec3& d1, const Vec3& d2) {
+          return std::pair<Vec3, Vec3>{(w2.y() * d1 - w1.y() * d2) / det, (w1.x() * d2 - w2.x() * d1) / det};
+        };
+        const auto sum = [&](std::size_t first, Vec3 SurfaceJet::*member) -> Vec3 {
+          Vec3 total;
+          for (int i = 0; i < along.count; ++i)
+            total += along.weight[i] * (values[first + static_cast<std::size_t>(i)].*member);
+          return total;
+        };
+        const auto count = static_cast<std::size_t>(along.count);
+        if (task.missing == want_first) {
+          std::tie(out.su, out.sv) = gradient(sum(0, &SurfaceJet::s), sum(count, &SurfaceJet::s));
+        } else if (!second_from_position) {
+          const auto [suu, suv] = gradient(sum(0, &SurfaceJet::su), sum(count, &SurfaceJet::su));
+          const auto [svu, svv] = gradient(sum(0, &SurfaceJet::sv), sum(count, &SurfaceJet::sv));
+          out.suu = suu, out.svv = svv, out.suv = 0.5 * (suv + svu);
+        } else {
+          Vec3 both;
+          std::size_t at = 2 * count;
+          for (int i = 0; i < mixed.count; ++i)
+            for (int j = 0; j < mixed.count; ++j, ++at) both += mixed.weight[i] * mixed.weight[j] * values[at].s;
+          // The columns of W^-T (H_w W^-1) by two gradients.
+          const auto [a1, a2] = gradient(sum(0, &SurfaceJet::s), both);
+          const auto [b1, b2] = gradient(both, sum(count, &SurfaceJet::s));
+          std::tie(out.suu, out.suv) = gradient(a1, b1);
+          out.svv = gradient(a2, b2).second;
+        }
+        return is_finite(out, task.missing);
+      }
+  return false;
 }
 
 // The host's domain ends near the point, inside of its box: every pair of sides that the box allows is evaluated.
@@ -158,10 +251,11 @@ void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJe
       u.side = side_u, v.side = side_v;
       if (add_differences_at(face, task, uv, u, v, out)) return;
     }
+  if (add_along_directions(face, task, uv, u, v, out)) return;
   throw CallbackError(
       Where{.face = face, .uv = uv},
       std::string(task.missing == want_first ? "first" : "second") +
-          " derivatives are not given, and the finite differences that replace them are not finite here");
+          " derivatives are not given, and no finite differences inside the domain replace them here");
 }
 
 CurveJet DifferenceCad::curve(int face, int ic, unsigned want, double t) {

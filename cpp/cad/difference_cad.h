@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cad/cad.h"
+#include "cad/parameter_domain.h"
 #include "cad/stencil.h"
 
 namespace carreau {
@@ -16,8 +17,9 @@ namespace carreau {
 /// derivatives come from positions (relative error near 1e-10 for smooth functions). Second ones come from first ones
 /// when they are given (1e-10), else from positions (1e-7). On curves the points stay in [a, b]. On surfaces they stay
 /// in the face's box when it is known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
-/// If a point beside (u, v) is outside the host's domain (NaN, infinity or a failure there), one-sided formulas are
-/// used. If all fail the error is a CallbackError at (u, v).
+/// They stay in the closed domain when its boundary is known (set_boundary): beside the boundary one-sided formulas are
+/// used, along directions that lead inside if those of u and v do not. Without a boundary, one-sided formulas replace
+/// values that are not finite or fail. If all formulas fail, the error is a CallbackError at (u, v).
 class DifferenceCad : public Cad {
  public:
   /// *_gives: the Want bits that `source` answers itself; want_position must be among them.
@@ -37,6 +39,7 @@ class DifferenceCad : public Cad {
   [[nodiscard]] unsigned surface_gives() const noexcept override { return surface_gives_; }
   [[nodiscard]] unsigned curve_gives() const noexcept override { return curve_gives_; }
   void set_parameter_box(int face, Vec2 low, Vec2 high) override;
+  void set_boundary(int face, std::vector<BoundaryCurve> boundary) override;
 
  private:
   struct Box {
@@ -52,10 +55,16 @@ class DifferenceCad : public Cad {
   void add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out);
   bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
   void add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out);
+  bool add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
+  /// True if all points lie in the closed domain; always if its boundary is not known.
+  [[nodiscard]] bool are_inside(int face, std::span<const Vec2> points, Vec2 centre);
+  /// True if the boundary may pass within the reach of the steps from uv.
+  [[nodiscard]] bool is_beside_boundary(int face, Vec2 uv, DifferenceStep u, DifferenceStep v) const;
 
   std::unique_ptr<Cad> source_;
   unsigned surface_gives_, curve_gives_;
   std::map<int, Box> boxes_;
+  std::map<int, ParameterDomain> domains_;
 };
 
 }  // namespace carreau

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "cad/call_counter.h"
 #include "support/error.h"
+#include "support/infinity.h"
 #include "support/pieces.h"
 
 namespace carreau {
@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t batch_size = 4096;
 
 /// A value that a routine does not write must not pass for a result.
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Vec3 nan3{nan, nan, nan};
 
 bool is_unset(const Vec2& v) { return std::isnan(v.x()) && std::isnan(v.y()); }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "cad/host_exceptions.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "support/pieces.h"
 
 namespace carreau {
@@ -18,11 +18,10 @@ namespace carreau {
 namespace {
 
 /// Points of one batch: bounds the memory of the arrays that cross.
-constexpr std::size_t batch_size = 4096;
+constexpr std::size_t metric_batch = 4096;
 
 /// A value that a callback does not write must not pass for a result.
 struct Answer {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::int32_t kind = 0;
   double value[host_metric_values] = {nan, nan, nan, nan, nan, nan};
 };
@@ -80,7 +79,7 @@ Prescription HostMetrics::on_surface(int face, Vec2 uv, Vec3 xyz) {
 void HostMetrics::on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
                                     std::span<Prescription> out) {
   if (table_.surface_metric_batch == nullptr) return PrescriptionSource::on_surface_points(face, uv, xyz, out);
-  for_pieces(uv.size(), batch_size, [&](std::size_t first, std::size_t n) {
+  for_pieces(uv.size(), metric_batch, [&](std::size_t first, std::size_t n) {
     ask_batch(face, uv.subspan(first, n), xyz.subspan(first, n), out.subspan(first, n));
   });
 }
@@ -89,7 +88,7 @@ void HostMetrics::ask_batch(int face, std::span<const Vec2> uv, std::span<const 
                             std::span<Prescription> out) const {
   constexpr const char* name = "surface_metric_batch";
   const std::size_t n = uv.size();
-  std::vector<double> places(2 * n), points(3 * n), values(host_metric_values * n, Answer::nan);
+  std::vector<double> places(2 * n), points(3 * n), values(host_metric_values * n, nan);
   std::vector<std::int32_t> kinds(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < 2; ++k) places[2 * i + k] = uv[i][Eigen::Index(k)];

@@ -46,6 +46,10 @@ class PartCad final : public Cad {
   [[nodiscard]] unsigned surface_gives() const noexcept override { return host_.surface_gives(); }
   [[nodiscard]] unsigned curve_gives() const noexcept override { return host_.curve_gives(); }
   void set_parameter_box(int face, Vec2 low, Vec2 high) override { host_.set_parameter_box(face, low, high); }
+  void set_boundary(int face, std::vector<BoundaryCurve> boundary) override {
+    for (BoundaryCurve& curve : boundary) curve.ic = whole(face, curve.ic);
+    host_.set_boundary(face, std::move(boundary));
+  }
 
  private:
   [[nodiscard]] int whole(int face, int ic) const {

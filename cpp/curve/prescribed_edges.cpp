@@ -15,7 +15,7 @@ namespace carreau {
 namespace {
 
 /// Fewest edges of a curve that returns to its start: two would lie on each other.
-constexpr int least_closed = 3;
+constexpr int min_edges_closed = 3;
 /// Share. Ratios of the two uses of a curve that differ by less are equal.
 constexpr double same_ratio = 1e-12;
 
@@ -126,7 +126,7 @@ CurvePrescription prescription_of(const CurveModel& model, int index) {
   CurvePrescription result{.use = found, .t = {}};
   result.t = face_curve(model, use).edges->progression == Progression::given ? given_parameters(model, use)
                                                                              : parameters_of_progression(model, use);
-  if (curve.end1 == curve.end2 && std::ssize(result.t) <= least_closed)
+  if (curve.end1 == curve.end2 && std::ssize(result.t) <= min_edges_closed)
     refuse(model, use, "a closed curve needs three edges or more");
   if (use.reversed) std::reverse(result.t.begin(), result.t.end());
   return result;

@@ -32,7 +32,7 @@ int most_parts_in(int pass) noexcept { return pass == 1 ? most_parts : 4; }
 double with_margin(double parts) noexcept { return parts * (1.08 + 0.01 * parts); }
 constexpr int most_passes = 60;
 /// Edges are never narrower than this fraction of [a, b].
-constexpr double narrowest = 1e-13;
+constexpr double narrowest_edge = 1e-13;
 
 /// Deterministic noise in [-1, 1] (splitmix64).
 double noise(std::uint64_t seed) noexcept {
@@ -227,7 +227,7 @@ class Builder {
     const double span = support_.t.back() - support_.t.front();
     const double width = (support_.t[i + 1] - support_.t[i]) / parts;
     const double magnitude = std::max(std::abs(support_.t[i]), std::abs(support_.t[i + 1]));
-    return width > narrowest * span && width > 8 * std::numeric_limits<double>::epsilon() * magnitude;
+    return width > narrowest_edge * span && width > 8 * std::numeric_limits<double>::epsilon() * magnitude;
   }
 
   /// New parameters for this pass, ascending. `limited`: set if a deviation is too large.

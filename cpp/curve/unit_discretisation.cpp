@@ -15,12 +15,12 @@ namespace carreau {
 namespace {
 
 /// More edges than this on one curve are a wrong size, not a mesh.
-constexpr double most_edges = 20e6;
+constexpr double max_edges_of_curve = 20e6;
 
-void check_count(double l) {
-  if (l <= most_edges) return;
+void check_edge_count(double l) {
+  if (l <= max_edges_of_curve) return;
   throw LimitError("the sizes along a curve require " + format_number(std::ceil(l)) + " edges; the limit is " +
-                   format_number(most_edges));
+                   format_number(max_edges_of_curve));
 }
 
 /// log1p(x) / x, continuous at 0.
@@ -106,7 +106,7 @@ std::vector<double> split_by_sizes(std::span<const double> s, std::span<const do
   for (std::size_t i = 0; i + 1 < s.size(); ++i) {
     l[i + 1] = l[i] + normalised_length(law, h[i], h[i + 1], s[i + 1] - s[i]);
   }
-  check_count(l.back());
+  check_edge_count(l.back());
   return equal_parts(s, l, std::max(unit_edge_count(l.back()), at_least), [&](std::size_t i, double length) {
     return distance_at_normalised_length(law, h[i], h[i + 1], s[i + 1] - s[i], length);
   });

@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
+#include "support/infinity.h"
 #include "support/pieces.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const Vec3 nowhere{nan, nan, nan};
-const SurfaceJet nothing{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
+const Vec3 no_point{nan, nan, nan};
+const SurfaceJet nothing{no_point, no_point, no_point, no_point, no_point, no_point};
 // Points evaluated at a time, as elsewhere.
 constexpr std::size_t batch = 1024;
 // A host that fails everywhere, by an exception at each point, would take seconds. After so many failures at single

@@ -22,7 +22,6 @@ namespace carreau {
 namespace {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Vec3 nowhere{nan, nan, nan};
 constexpr int most_pixels_a_side = 65536;  // as in io/exr.cpp
 

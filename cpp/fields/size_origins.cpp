@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "support/error.h"
 #include "support/infinity.h"
@@ -13,10 +12,9 @@ namespace carreau {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr TangentSizes unknown{nan, nan, nan, nan};
 // Points at a time, as elsewhere.
-constexpr std::size_t batch = 1024;
+constexpr std::size_t points_at_a_time = 1024;
 // Bounds so many times as wide bound no size of a mesh; squares of their ratio are still far from overflow.
 constexpr double widening = 1e6;
 // Sizes that differ by a smaller share are equal: metrics are decomposed to some 1e-12.
@@ -101,7 +99,7 @@ void SizeOrigins::ask_beyond(Part& any, const Part& own, double low, double high
 
 void SizeOrigins::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
                      std::span<OriginsAt> origins) {
-  for_pieces(uv.size(), batch, [&](std::size_t first, std::size_t n) {
+  for_pieces(uv.size(), points_at_a_time, [&](std::size_t first, std::size_t n) {
     const auto points = uv.subspan(first, n);
     const auto there = jets.subspan(first, n);
     for (Part* part : {&physical_, &geometric_, &both_}) ask(*part, points, there);

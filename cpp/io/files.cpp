@@ -76,7 +76,7 @@ Temporary create_beside(const fs::path& target) {
   for (int i = 0; i < tries; ++i) {
     fs::path path = target.string() + "." + std::to_string(i) + ".tmp";
     errno = 0;
-    File file(std::fopen(path.c_str(), "wbx"));
+    File file(std::fopen(path.string().c_str(), "wbx"));
     if (file) return {std::move(path), std::move(file)};
     if (errno != EEXIST) fail(target, "write", reason(errno));
   }
@@ -143,7 +143,7 @@ NewFile::NewFile(const std::string& path) : state_(std::make_unique<State>()) {
   if (s.old.type() == fs::file_type::directory) fail(s.target, "write", "it is a folder");
   if (fs::exists(s.old) && s.old.type() != fs::file_type::regular) {
     errno = 0;
-    s.file.reset(std::fopen(s.target.c_str(), "wb"));
+    s.file.reset(std::fopen(s.target.string().c_str(), "wb"));
     if (!s.file) fail(s.target, "write", reason(errno));
     return;
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 
 #include "io/files.h"
 #include "io/mesh_writers.h"
@@ -28,13 +29,16 @@ constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".me
                               {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, read_mesh_unv},
                               {".su2", MeshFormat::su2, read_mesh_su2},    {".off", MeshFormat::off, read_mesh_off},
                               {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply},
-                              {".vtk", MeshFormat::vtk, read_mesh_vtk},    {".tri", MeshFormat::tri, read_mesh_tri}};
+                              {".vtk", MeshFormat::vtk, read_mesh_vtk},    {".tri", MeshFormat::tri, read_mesh_tri},
+                              {".smesh", MeshFormat::smesh, nullptr},      {".poly", MeshFormat::poly, nullptr},
+                              {".vol", MeshFormat::vol, nullptr},          {".geo", MeshFormat::geo, nullptr}};
 
 /// The format of a name's suffix. Throws InvalidArgument.
-const Format& known_format(const std::string& path) {
+const Format& known_format(const std::string& path, bool reading) {
   const std::string suffix = suffix_of(path);
   std::string known;
   for (const Format& format : formats) {
+    if (reading && format.read == nullptr) continue;
     if (suffix == format.suffix) return format;
     known.append(known.empty() ? "" : ", ").append(format.suffix);
   }
@@ -121,7 +125,7 @@ void check_mesh(const FlatMesh& mesh) {
 
 }  // namespace
 
-MeshFormat mesh_format_of(const std::string& path) { return known_format(path).format; }
+MeshFormat mesh_format_of(const std::string& path) { return known_format(path, false).format; }
 
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options) {
   check_mesh(mesh);
@@ -158,11 +162,23 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
       return vtk_text(mesh, options.ascii_stl);
     case MeshFormat::tri:
       return tri_text(mesh);
+    case MeshFormat::smesh:
+    case MeshFormat::poly:
+      return tetgen_text(mesh, format == MeshFormat::poly);
+    case MeshFormat::vol:
+      return netgen_text(mesh);
+    case MeshFormat::geo:
+      return geo_text(mesh, options.surface);
   }
   throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
 }
 
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options) {
+  if (format == MeshFormat::geo) {
+    MeshFileOptions beside = options;
+    beside.surface = std::filesystem::path(path).stem().string() + ".msh";
+    return write_file(path, mesh_bytes(mesh, format, beside));
+  }
   if (format != MeshFormat::meshb && format != MeshFormat::vtu)
     return write_file(path, mesh_bytes(mesh, format, options));
   check_mesh(mesh);
@@ -180,7 +196,7 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 }
 
 FlatMesh read_mesh(const std::string& path) {
-  const Format& format = known_format(path);
+  const Format& format = known_format(path, true);
   return format.read(read_file(path), path);
 }
 

@@ -15,7 +15,9 @@ namespace carreau {
 /// version 4.1; `.msh2`, version 2.2; both with physical names). BL2D (`.bl2d`, meshes of the plane z = 0). Solvers:
 /// Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`), SU2 (`.su2`), with named sets. Polygons: OFF
 /// (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary). VTK's legacy format (`.vtk`), Cart3D (`.tri`).
-enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply, vtk, tri };
+/// Surfaces for programs that fill solids, written only: TetGen (`.smesh`, `.poly`), Netgen (`.vol`), a script for Gmsh
+/// (`.geo`) beside a `.msh` file of the same name.
+enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply, vtk, tri, smesh, poly, vol, geo };
 
 struct MeshFileOptions {
   /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); `.vtk` as text; otherwise
@@ -24,6 +26,7 @@ struct MeshFileOptions {
   /// Gmsh's formats: edges of curves and corners are elements, each curve and corner a physical group; otherwise there
   /// are triangles only.
   bool curve_groups = true;
+  std::string surface = "surface.msh";  ///< `.geo`: the file that has the surface; write_mesh() takes the name of its own file
 };
 
 /// Format by the suffix of `path`, in any case. Throws InvalidArgument for another suffix, listing the known ones.

@@ -41,6 +41,11 @@ std::string obj_text(const FlatMesh& mesh);
 std::string ply_bytes(const FlatMesh& mesh);
 /// Cart3D: straight triangles alone.
 std::string tri_text(const FlatMesh& mesh);
+/// For programs that fill solids (mesh/regions/regions.h): TetGen's .smesh or .poly, Netgen's .vol, and a script of Gmsh for the
+/// surface in the file `surface`. InvalidArgument when the surface is open.
+std::string tetgen_text(const FlatMesh& mesh, bool poly);
+std::string netgen_text(const FlatMesh& mesh);
+std::string geo_text(const FlatMesh& mesh, const std::string& surface);
 /// A name whose control characters and quotation marks are '_'.
 std::string plain_name(const std::string& name);
 /// Plain name of a face: its own, or `prefix` and its reference.

@@ -14,7 +14,7 @@
 namespace carreau {
 namespace {
 
-constexpr int most_pixels_a_side = 65536;
+constexpr int max_png_side = 65536;
 constexpr int rows_at_once = 32;
 
 void append_number(std::string& bytes, std::uint32_t n) {
@@ -69,9 +69,9 @@ std::uint8_t srgb_byte(double linear) noexcept {
 }
 
 std::string png_bytes(int width, int height, const PngRows& rows) {
-  if (width < 1 || height < 1 || width > most_pixels_a_side || height > most_pixels_a_side)
+  if (width < 1 || height < 1 || width > max_png_side || height > max_png_side)
     throw InvalidArgument("an image would be " + std::to_string(width) + " x " + std::to_string(height) +
-                          " pixels; each number must be from 1 to " + std::to_string(most_pixels_a_side));
+                          " pixels; each number must be from 1 to " + std::to_string(max_png_side));
   std::string file = "\x89PNG\r\n\x1a\n", header;
   append_number(header, static_cast<std::uint32_t>(width));
   append_number(header, static_cast<std::uint32_t>(height));

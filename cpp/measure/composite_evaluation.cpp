@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "surface/improve/even_edges.h"
-#include "surface/independent/independent.h"
+#include "surface/remesh/frame.h"
 
 namespace carreau {
 

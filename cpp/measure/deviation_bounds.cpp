@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "measure/base/spread_samples.h"
 #include "measure/base/thresholds.h"
 #include "measure/bounds/bounded_triangles.h"
 #include "measure/bounds/charted_places.h"
-#include "surface/independent/bounds/spread_places.h"
-#include "surface/independent/bounds/thresholds.h"
+#include "support/infinity.h"
+#include "surface/remesh/bounds/spread_places.h"
+#include "surface/remesh/bounds/thresholds.h"
 
 namespace carreau {
 
@@ -20,7 +20,6 @@ namespace {
 using thresholds::bounds::near_angle, thresholds::bounds::near_deviation;
 using thresholds::measure::triangles_at_once;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double degree = std::numbers::pi / 180;
 
 class Bounds {

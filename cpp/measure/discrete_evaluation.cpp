@@ -10,7 +10,7 @@
 #include "mesh/surface_distance.h"
 #include "support/infinity.h"
 #include "surface/discrete/start_mesh.h"
-#include "surface/independent/base/charts.h"
+#include "surface/remesh/base/charts.h"
 
 namespace carreau {
 

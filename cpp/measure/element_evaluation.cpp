@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -12,13 +11,12 @@
 #include "cad/fundamental_forms.h"
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
-#include "surface/independent/bounds/thresholds.h"
+#include "support/infinity.h"
+#include "surface/remesh/bounds/thresholds.h"
 
 namespace carreau {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Places in an element: its middle first, then points inside and on its sides.
 std::vector<Vec2> sample_places(bool quad) {

@@ -27,7 +27,6 @@ namespace {
 
 using namespace thresholds::measure;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double degrees(double radians) noexcept { return radians * 180 / std::numbers::pi; }
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }

@@ -146,7 +146,13 @@ class EditableMesh {
   /// The number of edits so far that are not undone.
   [[nodiscard]] std::size_t edits() const noexcept { return edits_.size(); }
   /// Undoes edits until `edits` are left: the mesh is identical to the mesh after these.
-  void undo(std::size_t edits);
+  bool undo(std::size_t edits);
+
+  // For Trial.
+  using State = std::size_t;
+  [[nodiscard]] State state() const noexcept { return edits(); }
+  static void begin_trial() noexcept {}
+  static void end_trial() noexcept {}
 
  private:
   struct Star {

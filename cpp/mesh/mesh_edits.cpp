@@ -79,8 +79,10 @@ void EditableMesh::change_line(std::int32_t v, std::int32_t w, bool added) {
   added ? impose(v, w) : release(v, w);
 }
 
-void EditableMesh::undo(std::size_t edits) {
+bool EditableMesh::undo(std::size_t edits) {
+  const bool any = edits_.size() > edits;
   while (edits_.size() > edits) undo_last();
+  return any;
 }
 
 // Triangles come back in the order in which they were changed, so that fans do not depend on how an edit was undone.

@@ -13,15 +13,15 @@ namespace carreau {
 
 namespace {
 
-using Box = BoxTree::Box;
+using SearchBox = BoxTree::Box;
 
-Box box_of(const std::array<Vec3, 3>& corners) noexcept {
-  Box box;
+SearchBox box_of(const std::array<Vec3, 3>& corners) noexcept {
+  SearchBox box;
   for (const Vec3& p : corners) box.add(p);
   return box;
 }
 
-double surface_of(const Box& box) noexcept {
+double surface_of(const SearchBox& box) noexcept {
   const Vec3 d = box.high - box.low;
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
@@ -32,7 +32,7 @@ constexpr int most_boxes = 16;
 constexpr double large_box = 12;
 
 /// Slices of equal length along the longest side.
-int slices_of(const std::array<Vec3, 3>& c, const Box& box) noexcept {
+int slices_of(const std::array<Vec3, 3>& c, const SearchBox& box) noexcept {
   const double area = 0.5 * norm(cross(c[1] - c[0], c[2] - c[0]));
   const double ratio = surface_of(box) / large_box;
   if (!(ratio > area)) return 1;
@@ -40,7 +40,7 @@ int slices_of(const std::array<Vec3, 3>& c, const Box& box) noexcept {
 }
 
 // Boxes of the slices; widened, since their corners are rounded.
-void add_slices(const std::array<Vec3, 3>& corners, int slices, std::vector<Box>& boxes) {
+void add_slices(const std::array<Vec3, 3>& corners, int slices, std::vector<SearchBox>& boxes) {
   constexpr double rounding = 1e-14;
   std::size_t longest = 0;
   for (std::size_t i = 1; i < 3; ++i)
@@ -54,7 +54,7 @@ void add_slices(const std::array<Vec3, 3>& corners, int slices, std::vector<Box>
   const Vec3 room = rounding * (a.cwiseAbs() + b.cwiseAbs() + c.cwiseAbs());
   for (int k = 0; k < slices; ++k) {
     const double from = static_cast<double>(k) / slices, to = k + 1 < slices ? (k + 1.0) / slices : 1;
-    Box box;
+    SearchBox box;
     for (const double s : {from, to}) box.add(lerp(a, b, s)), box.add(other(s));
     if (from <= top && top <= to) box.add(c);
     if (top <= 0 && k == 0) box.add(a);
@@ -64,7 +64,7 @@ void add_slices(const std::array<Vec3, 3>& corners, int slices, std::vector<Box>
 }
 
 // Between the planes of each pair of sides, widened by rounding.
-bool meets(const Box& box, const Vec3& p, const Vec3& q) noexcept {
+bool meets(const SearchBox& box, const Vec3& p, const Vec3& q) noexcept {
   constexpr double rounding = 1e-12;
   double from = 0, to = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -131,7 +131,7 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
                                Monitor* monitor, int threads)
     : corners_(triangles.size()) {
   constexpr std::size_t at_once = 16384;
-  std::vector<Box> boxes(triangles.size());
+  std::vector<SearchBox> boxes(triangles.size());
   std::vector<Vec3> centres(triangles.size());
   Monitor silent;
   run_each(
@@ -145,7 +145,7 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
         }
       },
       monitor != nullptr ? *monitor : silent);
-  std::vector<Box> slices;
+  std::vector<SearchBox> slices;
   for (std::size_t k = 0; k < corners_.size(); ++k) {
     const int count = slices_of(corners_[k], boxes[k]);
     if (count == 1 && slices.empty()) continue;
@@ -162,7 +162,7 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
   if (!triangle_.empty()) {
     boxes = std::move(slices);
     centres.clear();
-    for (const Box& box : boxes) centres.emplace_back(0.5 * (box.low + box.high));
+    for (const SearchBox& box : boxes) centres.emplace_back(0.5 * (box.low + box.high));
   }
   tree_ = BoxTree(boxes, centres, monitor, threads);
 }
@@ -198,7 +198,7 @@ NearestOnMesh TriangleSearch::nearest(const Vec3& p, std::int32_t guess) const n
 
 void TriangleSearch::beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const {
   const std::size_t before = triangles.size();
-  tree_.all_that_meet([&](const Box& box) { return meets(box, p, q); },
+  tree_.all_that_meet([&](const SearchBox& box) { return meets(box, p, q); },
                       [&](const BoxTree::Node& leaf) {
                         each_of(leaf, [&](std::int32_t t) { triangles.push_back(t); });
                       });
@@ -206,9 +206,9 @@ void TriangleSearch::beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& t
 }
 
 void TriangleSearch::beside_box(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& triangles) const {
-  const Box asked{low, high};
+  const SearchBox asked{low, high};
   const std::size_t before = triangles.size();
-  tree_.all_that_meet([&](const Box& box) { return !box.is_apart(asked); },
+  tree_.all_that_meet([&](const SearchBox& box) { return !box.is_apart(asked); },
                       [&](const BoxTree::Node& leaf) {
                         each_of(leaf, [&](std::int32_t t) {
                           if (!box_of(corners_[static_cast<std::size_t>(t)]).is_apart(asked)) triangles.push_back(t);

@@ -22,8 +22,8 @@ Matrix<2> matrix_of(Metric2 m) { return Matrix<2>{{m.a, m.b}, {m.b, m.c}}; }
 Matrix<3> matrix_of(const Metric3& m) { return Matrix<3>{{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}; }
 void set(Metric2& m, const Matrix<2>& a) { m = {a(0, 0), a(0, 1), a(1, 1)}; }
 void set(Metric3& m, const Matrix<3>& a) { m = {a(0, 0), a(0, 1), a(0, 2), a(1, 1), a(1, 2), a(2, 2)}; }
-bool before(Metric2 p, Metric2 q) { return std::tie(p.a, p.b, p.c) < std::tie(q.a, q.b, q.c); }
-bool before(const Metric3& p, const Metric3& q) {
+bool precedes(Metric2 p, Metric2 q) { return std::tie(p.a, p.b, p.c) < std::tie(q.a, q.b, q.c); }
+bool precedes(const Metric3& p, const Metric3& q) {
   return std::tie(p.xx, p.xy, p.xz, p.yy, p.yz, p.zz) < std::tie(q.xx, q.xy, q.xz, q.yy, q.yz, q.zz);
 }
 
@@ -112,7 +112,7 @@ class LargestInside {
 template <int D, typename Metric>
 Metric largest_of(std::span<const Metric> given) {
   std::vector<Metric> metrics(given.begin(), given.end());
-  std::sort(metrics.begin(), metrics.end(), [](const Metric& p, const Metric& q) { return before(p, q); });
+  std::sort(metrics.begin(), metrics.end(), [](const Metric& p, const Metric& q) { return precedes(p, q); });
   metrics.erase(std::unique(metrics.begin(), metrics.end()), metrics.end());
   const Metric inside = intersection(std::span<const Metric>(metrics));
   if (metrics.size() < 3) return inside;

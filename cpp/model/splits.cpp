@@ -32,7 +32,7 @@ Box box_of(std::span<const Vec3> trace) {
   return box;
 }
 
-struct Entry {
+struct UnjoinedCurve {
   std::size_t face, curve;
   std::span<const Vec3> trace;
 };
@@ -68,7 +68,7 @@ class Splitter {
  private:
   /// The nearest end of each set of ends that lies inside curve k.
   std::vector<CurveSplit> splits_of(std::size_t k) {
-    const Entry& entry = entries_[k];
+    const UnjoinedCurve& entry = entries_[k];
     const Box box = box_of(entry.trace);
     const double length = trace_length(entry.trace);
     const double reach = eps_ + trace_deviation(entry.trace);  // an arc may deviate from its trace by more than eps
@@ -78,7 +78,7 @@ class Splitter {
     for (auto it = from; it != by_x_.end() && it->first <= box.high.x() + reach; ++it) near.push_back(it->second);
     std::sort(near.begin(), near.end());  // of several ends as near as one another the first one cuts
     for (const std::size_t i : near) {
-      const Entry& other = entries_[i / 2];
+      const UnjoinedCurve& other = entries_[i / 2];
       const Vec3 end = i % 2 == 0 ? other.trace.front() : other.trace.back();
       if (other.face == entry.face || !box.holds(end, reach)) continue;
       const std::size_t set = points_.find(i);
@@ -100,7 +100,7 @@ class Splitter {
   }
 
   double eps_;
-  std::vector<Entry> entries_;
+  std::vector<UnjoinedCurve> entries_;
   UnionFind points_;  // ends 2 k and 2 k + 1 of entry k
   std::vector<std::pair<double, std::size_t>> by_x_;
 };

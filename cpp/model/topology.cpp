@@ -21,7 +21,7 @@ constexpr double point_share = 1e-3;
 // A loop that is no larger than that would vanish: there, within this share of its longest side.
 constexpr double point_share_of_loop = 1e-3;
 // Rounding of coordinates has no loops.
-constexpr double rounding_share = 1e-7;
+constexpr double loop_rounding = 1e-7;
 // Fractions of the length at which closed curves are compared: more than a symmetric shape can hide.
 constexpr int probes = 23;
 
@@ -82,7 +82,7 @@ class TopologyBuilder {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       const std::vector<FaceCurve>& curves = model_.faces[f].curves;
       const auto is_tiny = [&](double extent) {
-        return extent <= point_share * eps_ && extent > rounding_share * eps_;
+        return extent <= point_share * eps_ && extent > loop_rounding * eps_;
       };
       if (std::none_of(traces_[f].begin(), traces_[f].end(),
                        [&](const auto& points) { return is_tiny(trace_extent(points)); }))

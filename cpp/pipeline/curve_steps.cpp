@@ -19,10 +19,6 @@ namespace {
 
 using namespace thresholds::patches;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // `shared`: sizes of periodic curves, of all curves, or none.
 void cut_curve(CompositeRun& run, std::size_t c, const std::vector<SizeSamples>& shared) {
   const SizeSamples* known = run.graded.curves.empty() ? nullptr : &run.graded.curves[c];

@@ -13,15 +13,11 @@
 #include "pipeline/mesh_rounds.h"
 #include "pipeline/parts/shares.h"
 #include "surface/assembly/cracks.h"
-#include "surface/free_elements/invalid_elements.h"
+#include "surface/elements/cross_patch/invalid_elements.h"
 
 namespace carreau {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Parameters of vertices on curves. Sides of narrow faces that have become one curve have none: their vertices have moved.
 void place_on_curves(CompositeRun& run) {
@@ -72,7 +68,7 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   else if (run.options.independent && !run.periodic.empty())
     run.report(Level::warning, "no cross-patch remeshing: faces are periodic");
   else if (run.options.independent)
-    inspectors.push_back(make_free_mesh_inspector());
+    inspectors.push_back(make_cross_patch_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
   return inspectors;
 }

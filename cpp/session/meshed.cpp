@@ -19,7 +19,7 @@ namespace {
 
 MeshEvaluation measure_patches(const Meshed& meshed, const CompositeResult& result, Cad& whole_cad, Monitor& monitor) {
   PartCad cad(whole_cad, parts_of(meshed.model));
-  set_parameter_boxes(meshed.model, meshed.supports, cad);
+  set_parameter_domains(meshed.model, meshed.supports, cad);
   return evaluate_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
 }
 
@@ -31,9 +31,20 @@ MeshEvaluation measure_triangles(const Meshed& meshed, const CompositeOptions& o
   return delivered;
 }
 
+/// The curves around a face; none if the host failed on one of them.
+std::vector<BoundaryCurve> boundary_of(const Face& face, const std::vector<CurveSupport>& supports) {
+  std::vector<BoundaryCurve> boundary;
+  for (std::size_t c = 0; c < supports.size(); ++c) {
+    if (face.curves[c].type != CurveType::boundary) continue;
+    if (supports[c].t.size() < 2) return {};
+    boundary.push_back({static_cast<int>(c) + 1, supports[c].t, supports[c].uv});
+  }
+  return face.is_wire() || supports.size() != face.curves.size() ? std::vector<BoundaryCurve>{} : boundary;
+}
+
 }  // namespace
 
-void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad) {
+void set_parameter_domains(const Model& model, const ModelSupports& supports, Cad& cad) {
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (const CurveSupport& support : supports.of_face[f])
@@ -41,7 +52,11 @@ void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad&
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
       }
-    if (low.x() < high.x() && low.y() < high.y()) cad.set_parameter_box(model.faces[f].ref, low, high);
+    if (!(low.x() < high.x() && low.y() < high.y())) continue;
+    cad.set_parameter_box(model.faces[f].ref, low, high);
+    if ((cad.surface_gives() & (want_first | want_second)) == (want_first | want_second)) continue;
+    if (std::vector<BoundaryCurve> boundary = boundary_of(model.faces[f], supports.of_face[f]); !boundary.empty())
+      cad.set_boundary(model.faces[f].ref, std::move(boundary));
   }
 }
 

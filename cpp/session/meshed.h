@@ -32,8 +32,8 @@ struct Meshed {
   bool bounds_to_input = false;  // the measures report them
 };
 
-/// Finite differences of a host without derivatives stay inside the box of each domain.
-void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad);
+/// Finite differences of a host without derivatives have the steps of each domain and stay inside it.
+void set_parameter_domains(const Model& model, const ModelSupports& supports, Cad& cad);
 
 /// Measures `result` on its geometry, sources and options. `parts`: the parts of a result that has patches and
 /// triangles; null: the result has one kind.

@@ -47,10 +47,12 @@ Session::~Session() = default;
 void Session::set_cad(std::shared_ptr<Cad> cad) {
   if (auto alone = std::dynamic_pointer_cast<const discrete::DiscreteCad>(cad)) state_->triangles = std::move(alone);
   state_->cad = std::move(cad);
+  state_->projector.reset();
 }
 
 void Session::set_triangles(std::shared_ptr<const discrete::DiscreteCad> triangles) {
   state_->triangles = std::move(triangles);
+  state_->projector.reset();
 }
 
 void Session::set_metric_callbacks(std::shared_ptr<PrescriptionSource> source) {
@@ -63,6 +65,12 @@ void Session::set_prescription_source(std::shared_ptr<PrescriptionSource> source
 void Session::set_background(std::shared_ptr<BackgroundField> background) {
   state_->background = std::move(background);
 }
+void Session::add_attractor(const Attractor& attractor) {
+  auto all = state_->attractors ? std::make_shared<Attractors>(*state_->attractors) : std::make_shared<Attractors>();
+  all->add(attractor);
+  state_->attractors = std::move(all);
+}
+void Session::clear_attractors() noexcept { state_->attractors = nullptr; }
 const BackgroundReport& Session::background_report() const noexcept { return state_->background_report; }
 
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
@@ -76,6 +84,7 @@ void Session::set_model(Model model) {
   if (leaves_out(state_->parameters)) leave_out_defects(model);
   state_->check_model(model);
   state_->model = std::move(model);
+  state_->projector.reset();
   state_->glued = {};
   state_->model_from_file = state_->model_from_env = false;
 }
@@ -93,6 +102,7 @@ void Session::load_pardom_of_env(const std::string& path) {
 
 void Session::clear_model() noexcept {
   state_->model = {};
+  state_->projector.reset();
   state_->glued = {};
 }
 
@@ -177,6 +187,7 @@ PartMesh Session::make_part() {
 // `part`: receives the part of this process; null: makes the mesh of the session.
 void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   State& s = *state_;
+  s.projector.reset();  // the model may be glued, and the host's data may have changed
   if (part == nullptr) s.tried_parameters = s.parameters, s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
@@ -216,7 +227,7 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
   if (has_discrete(known)) supports.diag = diagonal_with(supports, *s.triangles);
-  set_parameter_boxes(model, supports, whole_cad);
+  set_parameter_domains(model, supports, whole_cad);
   std::vector<std::string> remarks;
   s.glue_model(model, supports, whole_cad, remarks);
   PartCad cad(whole_cad, parts_of(model));

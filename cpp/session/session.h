@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,11 @@
 #include "model/model.h"
 #include "pipeline/mesh_model.h"
 #include "pipeline/parts/part_mesh.h"
+#include "projection/mesh_entities.h"
+#include "projection/projector.h"
 #include "session/gluing.h"
 #include "session/parameters.h"
+#include "size/attractors.h"
 #include "size/background.h"
 #include "support/monitor.h"
 #include "support/ranks/crew.h"
@@ -55,6 +59,10 @@ class Session {
   /// A background mesh as that other source; the parameters background_mesh and background_sol come before it. nullptr:
   /// none.
   void set_background(std::shared_ptr<BackgroundField> background);
+  /// Sizes near points, edges and triangles, beside all other sources; clear_attractors() removes all. Throws
+  /// InvalidArgument, and changes nothing then.
+  void add_attractor(const Attractor& attractor);
+  void clear_attractors() noexcept;
   /// Use of the background mesh in the last make_mesh(); zero when there was none.
   [[nodiscard]] const BackgroundReport& background_report() const noexcept;
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. If the
@@ -141,6 +149,15 @@ class Session {
   /// Geometric supports of the curves of the last make_mesh(), for the option smo3d.
   [[nodiscard]] const ModelSupports& supports() const;
 
+  /// Evaluates the geometry at places, and projects points to it (Projector). Trees are made once for a geometry and model, and
+  /// again after a run. Throw InvalidArgument without them and for curves and points whose references are not known yet.
+  void evaluate_places(int dimension, int ref, unsigned want, std::span<const Vec2> parameters, std::span<SurfaceJet> out);
+  /// The entity of each node of mesh() (entities_of_nodes), and by curve of mesh() the parameters of its vertices on the host's curve `ic` of
+  /// a face, where they are known. Throw like mesh().
+  [[nodiscard]] std::vector<MeshEntity> node_entities() const;
+  [[nodiscard]] std::vector<CurveParameters> curve_parameters() const;
+  void project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out);
+
   /// Runs all actions of a blsurf.env until `call exit` or the end of the file (RT-0232 sec. 3.3). `<pref>.pardom` is
   /// read and `<pref>.mesh` written beside the env file; a model given by set_model() or load_pardom() is used instead
   /// of that file. Parameters have their defaults at the start, after each call and at the end, also when this throws
@@ -154,6 +171,7 @@ class Session {
   void read_env(const std::string& path);
 
  private:
+  Projector& projector(int dimension);
   [[nodiscard]] const QualitySummary& shapes() const;
   void make_mesh_alone(double from, double to, PartMesh* part);
   void make_mesh_of(Model& known, Monitor& run, PartMesh* part);

@@ -29,7 +29,8 @@ void write_glued(const Model& model, std::vector<std::string>& remarks) {
 std::vector<PrescriptionSource*> Session::State::sources(BackgroundField* of_this_run) const {
   std::vector<PrescriptionSource*> all;
   for (PrescriptionSource* source :
-       {metric_callbacks.get(), prescription_source.get(), static_cast<PrescriptionSource*>(of_this_run)})
+       {metric_callbacks.get(), prescription_source.get(), static_cast<PrescriptionSource*>(of_this_run),
+        static_cast<PrescriptionSource*>(attractors.get())})
     if (source != nullptr) all.push_back(source);
   if (!all.empty() && parameters.integer("hphy_flag") == 0)
     monitor.message(Level::warning, "hphy_flag = 0: the prescribed sizes and metrics are ignored");

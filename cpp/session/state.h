@@ -23,6 +23,7 @@ struct Session::State {
   std::shared_ptr<const discrete::DiscreteCad> triangles;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
+  std::shared_ptr<Attractors> attractors;  // null: none
   std::shared_ptr<TeamLink> team_link;
   std::unique_ptr<Team> team;  // of team_link; null: this process is alone
   bool is_together = false;    // in a run of the team
@@ -38,6 +39,7 @@ struct Session::State {
   std::shared_ptr<const PartResults> parts;  // of `result`; null: it is of one kind
   Meshed meshed;
   bool has_mesh = false;
+  std::unique_ptr<Projector> projector;  // of the geometry and the model; null: it is to be made
   Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
   bool last_failed = false;                        // the last make_mesh() has thrown
   std::optional<MeshEvaluation> delivered;         // of `result`

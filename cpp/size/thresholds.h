@@ -2,6 +2,8 @@
 // Thresholds of this folder: their meaning, unit, reason and evidence.
 #pragma once
 
+#include <cstddef>
+
 namespace carreau::thresholds::size {
 
 // In brackets: the tests of each value, in tests/cpp/size unless a path is given.
@@ -25,6 +27,9 @@ inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor 
 /// it: arcs of 60 degrees are 0.13 of their chord away from it.
 /// [BackgroundField.PointsOutsideTakeTheNearestValueAndAreCounted]
 inline constexpr double outside_share = 0.125;
+/// Number of places at which an attractor is looked for between samples of faces: each costs some lookups a face.
+/// [Attractors.PlacesCoverTheElements]
+inline constexpr std::size_t most_attractor_places = 2000;
 /// Ratio of sizes, from one vertex to the next, above which a place is steep.
 /// [BackgroundField.SteepPlacesAreWhereTheFieldJumps]
 inline constexpr double steep_ratio = 1.5;

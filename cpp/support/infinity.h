@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one infinity: sizes that nothing bounds, boxes that hold nothing.
+// Infinity for sizes without a bound and for empty boxes; NaN for values that do not exist.
 #pragma once
 
 #include <limits>
@@ -7,5 +7,6 @@
 namespace carreau {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace carreau

@@ -53,7 +53,7 @@ struct CompositeOptions {
   /// Measures give upper bounds of A0 and A1.
   bool measure_bounds = true;
   /// Triangles of cross-patch meshes are edited if their bounds are beyond the tolerances
-  /// (surface/independent/certify).
+  /// (surface/remesh/certify).
   Certified certified = Certified::suspects;
   /// Times that a mesh is made again with smaller triangles at avoidable crossings; 0: crossings are not looked for.
   int crossing_rounds = 0;
@@ -63,7 +63,7 @@ struct CompositeOptions {
   bool refines_invalid_elements = true;
   bool frontal = true;
   /// Borders between patches whose normals differ by no more than sharp_angle (degrees) have no meaning: triangles
-  /// cross them (surface/independent).
+  /// cross them (surface/remesh).
   bool independent = false;
   double sharp_angle = 1;
   std::int64_t max_triangles = 0;  ///< 0: by memory

@@ -23,6 +23,9 @@ program cad_fortran_test
   type(carreau_session) :: other
   type(carreau_cad_content) :: more
   type(carreau_cad_small_feature) :: feature
+  type(carreau_cad_tree_row) :: row
+  type(carreau_cad_contact) :: contact
+  integer(c_int64_t) :: contacts
   character(kind=c_char), allocatable :: bytes(:)
   integer(c_int32_t) :: sides(2)
   integer(c_int32_t) :: status, f, tops, count
@@ -85,6 +88,16 @@ program cad_fortran_test
   call check(status == CARREAU_OK, carreau_cad_last_error(again))
   call carreau_cad_file_face(again, 1, face, status)
   call check(face%solid == 1 .and. face%solid_name == 'block' .and. face%other_solid == 0, 'the solid of a face')
+  call carreau_cad_info(again, more, status)
+  call carreau_cad_tree_at(again, int(more%tree_rows, c_int64_t), row, status)
+  call check(status == CARREAU_OK .and. len(row%kind) > 0, 'the last row of the tree')
+  call carreau_cad_tree_at(again, 0_c_int64_t, row, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'rows count from 1')
+  call check(carreau_cad_entity_name(again, 3, 1) == 'block' .and. carreau_cad_entity_name(again, 1, 1) == '', 'names of entities')
+  call carreau_cad_count_contacts(again, contacts, status)
+  call check(status == CARREAU_OK .and. contacts == 0, 'a solid touches no other')
+  call carreau_cad_contact_at(again, 1_c_int64_t, contact, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'no contact')
   call carreau_cad_set_size(again, 1, 1, -1d0, status)
   call check(status == CARREAU_ERR_ARGUMENT, 'a size below zero on an edge')
   call carreau_cad_close(again)

@@ -165,6 +165,88 @@ TEST(CadLibrary, ListsTheContentOfAFile) {
   EXPECT_NE(std::string(sentence(file)).find("face 7"), std::string::npos);
 }
 
+// press.step: a plate with two stamps on it, and names, layers and automatic names ("#197") in the file.
+TEST(CadLibrary, TellsNamesLayersAndTheTree) {
+  Session session;
+  File file;
+  EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/press.step").c_str(), nullptr, &file.handle));
+  auto content = empty<carreau_cad_content>();
+  EXPECT_OK(file, carreau_cad_info(file, &content));
+  std::vector<std::string> rows;
+  for (std::int32_t i = 0; i < content.tree_rows; ++i) {
+    auto row = empty<carreau_cad_tree_row>();
+    EXPECT_OK(file, carreau_cad_tree_at(file, i, &row));
+    EXPECT_EQ(std::string(row.name).find('#'), std::string::npos);
+    EXPECT_EQ(std::string(row.layer), row.kind == std::string("part") ? (row.name == std::string("plate") ? "walls" : "tools") : "");
+    rows.push_back(std::string(static_cast<std::size_t>(row.depth), ' ') + row.kind + " " + row.name);
+  }
+  EXPECT_EQ(rows, (std::vector<std::string>{"assembly press", " part plate", "  solid plate", "   face contact", "   edge rim", "   vertex corner",
+                                            " part stamp", "  solid stamp", " part stamp", "  solid stamp_2"}));
+  EXPECT_EQ(carreau_cad_tree_at(file, content.tree_rows, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_cad_tree_at(file, -1, nullptr), CARREAU_ERR_ARGUMENT);
+  int rims = 0, corners = 0, contacts = 0, walls = 0;
+  for (std::int32_t k = 1; k <= content.edges; ++k) rims += carreau_cad_entity_name(file, 1, k) == std::string("rim") ? 1 : 0;
+  for (std::int32_t k = 1; k <= content.vertices; ++k) corners += carreau_cad_entity_name(file, 0, k) == std::string("corner") ? 1 : 0;
+  for (std::int32_t k = 1; k <= content.faces; ++k) {
+    auto face = empty<carreau_cad_face>();
+    EXPECT_OK(file, carreau_cad_file_face(file, k, &face));
+    contacts += face.name == std::string("contact") ? 1 : 0;
+    walls += face.layer == std::string("walls") ? 1 : 0;
+    EXPECT_STREQ(carreau_cad_entity_name(file, 2, k), face.name);
+  }
+  EXPECT_EQ((std::array{rims, corners, contacts, walls}), (std::array{1, 1, 1, 6}));
+  EXPECT_STREQ(carreau_cad_entity_name(file, 3, 3), "stamp_2");
+  for (const auto& [dimension, number] : {std::pair{3, 4}, {3, 0}, {2, 99}, {1, 99}, {0, 0}, {4, 1}, {-1, 1}})
+    EXPECT_STREQ(carreau_cad_entity_name(file, dimension, number), "");
+  EXPECT_OK(session, carreau_set_real(session, "hphydef", 0.5));
+  EXPECT_OK(session, carreau_mesh_generate(session));
+  carreau_mesh* made = nullptr;
+  EXPECT_OK(session, carreau_session_mesh(session, &made));
+  int named = 0;
+  for (std::int32_t k = 1; k <= content.edges; ++k) named += carreau_mesh_entity_name(made, 1, k) == std::string("rim") ? 1 : 0;
+  EXPECT_EQ(named, 1);
+}
+
+TEST(CadLibrary, TellsContactsAndTheirAreas) {
+  Session session;
+  File file;
+  EXPECT_EQ(carreau_cad_count_contacts(nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/press.step").c_str(), nullptr, &file.handle));
+  std::int64_t count = 0;
+  EXPECT_OK(file, carreau_cad_count_contacts(file, &count));
+  ASSERT_EQ(count, 2);
+  EXPECT_EQ(carreau_cad_count_contacts(file, nullptr), CARREAU_ERR_ARGUMENT);
+  for (std::int32_t i = 0; i < 2; ++i) {
+    auto contact = empty<carreau_cad_contact>();
+    EXPECT_OK(file, carreau_cad_contact_at(file, i, &contact));
+    EXPECT_EQ((std::array{contact.solids[0], contact.solids[1], contact.pairs}), (std::array<std::int32_t, 3>{1, 2 + i, 1}));
+    EXPECT_NEAR(contact.area, 1, 1e-9);
+    EXPECT_NEAR(contact.place[2], 1, 1e-9);
+  }
+  EXPECT_EQ(carreau_cad_contact_at(file, 2, nullptr), CARREAU_ERR_ARGUMENT);
+  auto report = empty<carreau_cad_report>();
+  EXPECT_OK(file, carreau_cad_inspect(file, 0, &report));
+  int touching = 0;
+  for (std::int32_t i = 0; i < report.dangers; ++i) {
+    auto danger = empty<carreau_cad_danger>();
+    EXPECT_OK(file, carreau_cad_danger_at(file, i, &danger));
+    if (danger.kind != std::string("touching solids")) continue;
+    ++touching;
+    EXPECT_NEAR(danger.value, 1, 1e-9);
+    EXPECT_NE(std::string(danger.sentence).find("common area 1"), std::string::npos);
+  }
+  EXPECT_EQ(touching, 2);
+  EXPECT_OK(file, carreau_cad_imprint(file, 0, nullptr, nullptr));
+  EXPECT_OK(file, carreau_cad_count_contacts(file, &count));
+  EXPECT_EQ(count, 0);
+  auto content = empty<carreau_cad_content>();
+  EXPECT_OK(file, carreau_cad_info(file, &content));
+  EXPECT_EQ(content.shared_faces, 2);
+  int rims = 0;
+  for (std::int32_t k = 1; k <= content.edges; ++k) rims += carreau_cad_entity_name(file, 1, k) == std::string("rim") ? 1 : 0;
+  EXPECT_EQ(rims, 1);  // names of edges follow
+}
+
 std::string bytes_of_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};

@@ -3,6 +3,9 @@
 //   NAME.step, NAME.brep   each shape of the torture set
 //   assembly.step          two boxes of one part "block", placed apart, and a "ball", in an assembly "rig"
 //   named_faces.step       a box whose six faces are called bottom, top and side; the box is green, its top orange
+//   press.step             an assembly "press" of the part "plate" (4 x 4 x 1, on layer "walls") and two parts "stamp" (cubes
+//                          of side 1, on layer "tools") on it; the plate has a top named "contact", a side named "#197",
+//                          an edge "rim" and a vertex "corner"
 //   bracket.step           a part whose faces have names: bracket.h
 //   inch.step              a cube of one inch
 //   open.igs               five faces of a box, each on its own
@@ -37,6 +40,7 @@
 #include <TopoDS_Compound.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <cstdio>
 #include <exception>
@@ -115,6 +119,29 @@ void write_named_faces(const std::string& path) {
     name(face, e.Current().IsSame(bottom) ? "bottom" : e.Current().IsSame(top) ? "top" : "side");
     if (e.Current().IsSame(top)) colours->SetColor(face, colour(255, 128, 0), XCAFDoc_ColorSurf);
   }
+  write_document(document, path);
+}
+
+void write_press(const std::string& path) {
+  Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const auto layers = XCAFDoc_DocumentTool::LayerTool(document->Main());
+  BRepPrimAPI_MakeBox box(4, 4, 1);
+  const TDF_Label plate = shapes->AddShape(box.Shape(), Standard_False);
+  const TDF_Label stamp = shapes->AddShape(BRepPrimAPI_MakeBox(1, 1, 1).Shape(), Standard_False);
+  name(plate, "plate"), name(stamp, "stamp");
+  layers->SetLayer(plate, "walls"), layers->SetLayer(stamp, "tools");
+  name(shapes->AddSubShape(plate, box.TopFace()), "contact");
+  name(shapes->AddSubShape(plate, box.FrontFace()), "#197");
+  const TopoDS_Shape rim = TopExp_Explorer(box.TopFace(), TopAbs_EDGE).Current();
+  name(shapes->AddSubShape(plate, rim), "rim");
+  name(shapes->AddSubShape(plate, TopExp_Explorer(rim, TopAbs_VERTEX).Current()), "corner");
+  const TDF_Label press = shapes->NewShape();
+  name(press, "press");
+  shapes->AddComponent(press, plate, at(10, 0, 0));
+  shapes->AddComponent(press, stamp, at(10.5, 1, 1));
+  shapes->AddComponent(press, stamp, at(12.5, 1, 1));
+  shapes->UpdateAssemblies();
   write_document(document, path);
 }
 
@@ -235,6 +262,7 @@ int main(int argc, char** argv) {
     }
     write_assembly(folder);
     write_named_faces(folder + "named_faces.step");
+    write_press(folder + "press.step");
     write_bracket(folder + "bracket.step");
     write_plate(folder + "plate");
     write_quarter_plate(folder + "quarter_plate.step");

@@ -12,11 +12,8 @@
 
 #include "plane_cases.h"
 #include "plane/plane_mesher.h"
-#include "surface/quads/cleanup.h"
-#include "surface/quads/pairing.h"
-#include "surface/quads/quad_shape.h"
-#include "surface/quads/smoothing.h"
-#include "surface/quads/walks.h"
+#include "surface/elements/quads/passes.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace {
 
@@ -133,6 +130,7 @@ int main(int argc, char** argv) {
               space.measure(), 2e6 * seconds / static_cast<double>(mesh.triangles.size()));
   QuadPatch patch = patch_of(c, mesh);
   const FaceCharts charts(space);
+  PlaneQuads quads(patch, charts);
   std::set<std::pair<int, int>> imposed;
   for (const PlaneEdge& e : c.domain.edges) imposed.insert({std::min(e.a, e.b), std::max(e.a, e.b)});
   const PairRules rules{[&](int a, int b) { return imposed.count({std::min(a, b), std::max(a, b)}) != 0; },
@@ -142,12 +140,12 @@ int main(int argc, char** argv) {
     work();
     report(what, c, patch, now() - start);
   };
-  step("paired", [&] { pair_triangles(patch, &charts, rules, monitor); });
-  step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
-  step("walked", [&] { join_triangles(patch, charts, rules.is_imposed, monitor); });
-  step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
-  step("smoothed", [&] { smooth_quads(patch, charts, {}, monitor); });
-  step("worst", [&] { improve_worst_quads(patch, charts, 0.6, monitor); });
+  step("paired", [&] { pair_triangles(quads, rules, monitor); });
+  step("cleaned", [&] { clean_up(quads, rules.is_imposed, monitor); });
+  step("walked", [&] { join_triangles(quads, rules.is_imposed, monitor); });
+  step("cleaned", [&] { clean_up(quads, rules.is_imposed, monitor); });
+  step("smoothed", [&] { smooth_quads(quads, {}, monitor); });
+  step("worst", [&] { improve_worst_quads(quads, 0.6, monitor); });
   if (argc > 5) draw(argv[5], patch);
   return 0;
 }

@@ -138,6 +138,26 @@ TEST_F(Adaptation, SizesOfABackgroundMeshAreFollowed) {
   EXPECT_EQ(background_report().asked, 0);
 }
 
+// Sizes .02 + .36 (x + 1) from the side x = -1 of the square, up to .2 at x = -.5.
+TEST_F(Adaptation, AttractorsPrescribeSizes) {
+  const double vertices[6] = {-1, -1, 0, -1, 1, 0};
+  const std::int32_t edge[3] = {0, 1, 1}, outside[3] = {0, 1, 2};
+  EXPECT_EQ(carreau_add_attractor(nullptr, 2, vertices, 1, edge, 0.02, 0.2, 0.5), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_attractor(session, 2, vertices, 1, outside, 0.02, 0.2, 0.5), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_attractor(session, 2, nullptr, 1, edge, 0.02, 0.2, 0.5), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_attractor(session, 2, vertices, -1, edge, 0.02, 0.2, 0.5), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_attractor(session, 2, vertices, 1, edge, 0.3, 0.2, 0.5), CARREAU_ERR_ARGUMENT);
+  const std::size_t without = run().triangle_count();
+  ASSERT_EQ(carreau_add_attractor(session, 2, vertices, 1, edge, 0.02, 0.2, 0.5), CARREAU_OK) << error();
+  const auto data = run();
+  const double expected = wanted([](double x) { return std::pow(std::min(0.2, 0.02 + 0.36 * (x + 1)), 2); });
+  EXPECT_NEAR(double(data.triangle_count()) / expected, 1, 0.15);
+  for (std::size_t v = 0; v < data.vertex_count(); ++v)
+    EXPECT_NEAR(data.sizes[v], std::min(0.2, 0.02 + 0.36 * (data.xyz[3 * v] + 1)), 0.02);
+  ASSERT_EQ(carreau_clear_attractors(session), CARREAU_OK);
+  EXPECT_EQ(run().triangle_count(), without);
+}
+
 // A cube around the square, in the five tetrahedra of a corner each and the tetrahedron between; sizes that are linear
 // in x.
 TEST_F(Adaptation, SizesOfTetrahedraAreFollowed) {

@@ -89,6 +89,10 @@ TEST(CadWrapper, BytesNamesAndSizes) {
   session.set("hphydef", 0.3);
   session.generate();
   EXPECT_EQ(session.mesh().face_sides(1)[1], 0);
+  EXPECT_EQ(file.entity_name(1, 1), "");
+  EXPECT_TRUE(file.contacts().empty());
+  EXPECT_EQ(static_cast<std::int32_t>(file.tree().size()), file.info().tree_rows);
+  EXPECT_EQ(file.face(1).layer, "");
 }
 
 TEST(CadWrapper, Fails) {

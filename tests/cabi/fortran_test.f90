@@ -340,6 +340,10 @@ contains
     call carreau_mesh_intersections(mesh, 1_c_int32_t, 4_c_int64_t, defects, crossing, places, status)
     call expect(status == CARREAU_OK .and. defects == 0 .and. size(crossing, 2) == 0 .and. size(places, 2) == 0, &
       'no intersections')
+    call carreau_mesh_regions(mesh, refs, places, status)
+    call expect(status == CARREAU_ERR_ARGUMENT .and. size(refs) == 0 .and. size(places, 2) == 0, 'an open surface bounds no region')
+    call carreau_mesh_triangle_sides(mesh, crossing, status)
+    call expect(status == CARREAU_ERR_ARGUMENT, 'an open surface has no sides')
     call carreau_session_report(session, report, status)
     call expect(report%surf0_calls >= n .and. report%seconds_total > 0 .and. abs(report%diag - 7.735d0) < 0.01d0, 'report')
     call carreau_session_interface_count(session, interfaces, status)

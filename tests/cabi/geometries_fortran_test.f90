@@ -50,8 +50,10 @@ program geometries_fortran_test
   type(carreau_geometry_place) :: place
   type(carreau_quality) :: quality, of_copy
   real(c_double) :: controls(3, 4)
-  real(c_double), allocatable :: xyz(:, :), uv(:, :, :), uv_copy(:, :, :)
+  real(c_double), allocatable :: xyz(:, :), uv(:, :, :), uv_copy(:, :, :), first(:, :, :), second(:, :, :)
+  real(c_double), allocatable :: params(:, :), closest(:, :), distances(:)
   integer(c_int32_t), allocatable :: triangles(:, :), refs(:), edges(:, :), edge_refs(:), back(:, :)
+  integer(c_int32_t), allocatable :: dimensions(:), faces(:), ics(:)
   integer(c_int32_t) :: status, degrees(2), k
   integer(c_int64_t) :: count
 
@@ -66,6 +68,17 @@ program geometries_fortran_test
   call check(status == CARREAU_OK .and. all(degrees == 1), 'degrees')
   call carreau_geometry_points(session, 1, reshape([0.25d0, 0.5d0], [2, 1]), xyz, status)
   call check(status == CARREAU_OK .and. all(abs(xyz(:, 1) - [0.25d0, 0.5d0, 0.125d0]) < 1d-15), 'a point')
+  call carreau_evaluate(session, 2, 1, reshape([0.25d0, 0.5d0], [2, 1]), xyz, status, first, second)
+  call check(status == CARREAU_OK .and. all(abs(xyz(:, 1) - [0.25d0, 0.5d0, 0.125d0]) < 1d-15), 'a place')
+  call check(all(abs(first(:, 1, 1) - [1d0, 0d0, 0.5d0]) < 1d-14) .and. abs(second(3, 2, 1) - 1) < 1d-14, &
+    'derivatives')
+  call carreau_project(session, 2, 0, reshape([-0.25d0, 0.25d0, 1.125d0], [3, 1]), refs, params, closest, &
+    distances, status)
+  call check(status == CARREAU_OK .and. all(abs(params(:, 1) - [0.25d0, 0.5d0]) < 1d-12) .and. refs(1) == 1, &
+    'a closest point')
+  call check(abs(distances(1)**2 - 1.3125d0) < 1d-12 .and. abs(closest(3, 1) - 0.125d0) < 1d-12, 'its distance')
+  call carreau_project(session, 2, 7, closest, refs, params, xyz, distances, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'no such face')
   call carreau_geometry_begin(session, surface, interval, side, status)
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_model_add_face(session, 1, 1, status)
@@ -82,6 +95,10 @@ program geometries_fortran_test
   call carreau_mesh_generate(session, status)
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_session_mesh(session, mesh, status)
+  call carreau_mesh_vertex_entities(mesh, dimensions, refs, status)
+  call check(status == CARREAU_OK .and. sum(merge(1, 0, dimensions == 0)) == 8 .and. all(refs > 0), 'corners of two squares')
+  call carreau_mesh_edge_parameters(mesh, params, faces, ics, status)
+  call check(status == CARREAU_OK .and. all(params >= 0 .and. params <= 1) .and. all(ics <= 4), 'parameters of edges')
   call carreau_mesh_quality(mesh, quality, status)
   call check(quality%area > 2.2 .and. quality%area < 2.3, 'a square, and a saddle of 1.28')
 

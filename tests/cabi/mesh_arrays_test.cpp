@@ -58,6 +58,30 @@ TEST_F(Tetrahedron, IsCheckedAndMeasured) {
   EXPECT_GT(count, 0);
 }
 
+TEST_F(Tetrahedron, IsARegionWithAPointInside) {
+  ASSERT_EQ(carreau_mesh_from_arrays(mesh, &arrays), CARREAU_OK) << sentence();
+  std::int64_t count = 0;
+  ASSERT_EQ(carreau_mesh_regions(mesh, 0, &count, nullptr, nullptr), CARREAU_OK) << sentence();
+  EXPECT_EQ(count, 1);
+  std::int32_t solid = 0;
+  std::array<double, 3> inside{};
+  ASSERT_EQ(carreau_mesh_regions(mesh, 1, &count, &solid, inside.data()), CARREAU_OK);
+  EXPECT_EQ(solid, 1);
+  // Sides of the tetrahedron lie in the planes +-x +-y +-z = 1 whose product of signs is negative.
+  for (const std::array<int, 3>& s : {std::array{1, 1, -1}, {1, -1, 1}, {-1, 1, 1}, {-1, -1, -1}}) {
+    const double sum = s[0] * inside[0] + s[1] * inside[1] + s[2] * inside[2];
+    EXPECT_LT(std::abs(sum), 1);
+  }
+  std::array<std::int32_t, 8> sides{};
+  ASSERT_EQ(carreau_mesh_triangle_sides(mesh, 4, sides.data()), CARREAU_OK);
+  EXPECT_EQ(sides[0] + sides[1], 1);
+  for (std::size_t t = 1; t < 4; ++t) EXPECT_EQ(sides[2 * t], sides[0]);
+  EXPECT_EQ(carreau_mesh_triangle_sides(mesh, 3, sides.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_triangle_sides(mesh, 4, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_regions(mesh, -1, &count, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_regions(mesh, 0, nullptr, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+}
+
 TEST_F(Tetrahedron, GoesToFilesAndBack) {
   arrays.edge_count = 2;
   arrays.edges = edges.data(), arrays.edge_refs = edge_refs.data();

@@ -436,6 +436,8 @@ TEST_F(MeshFileTest, EntitiesHaveNamesAndFacesHaveSides) {
   std::array<std::int32_t, 2> sides{};
   ASSERT_EQ(carreau_mesh_face_sides(mesh(), 1, sides.data()), CARREAU_OK);
   EXPECT_EQ(sides, (std::array<std::int32_t, 2>{7, 0}));
+  std::int64_t regions = 0;
+  EXPECT_EQ(carreau_mesh_regions(mesh(), 0, &regions, nullptr, nullptr), CARREAU_ERR_ARGUMENT);  // the bowl is open
   EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 3, 7), "bowl");
   EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 2, 1), "dish");
   EXPECT_STREQ(carreau_mesh_entity_name(mesh(), 1, 1), "rim");

@@ -133,6 +133,12 @@ program model_fortran_test
   call carreau_mesh_vertices(mesh, xyz, status)
   call check(maxval(abs(read_sol('next.sol', size(xyz, 2)) - xyz(1, :))) < 1d-12, 'a linear field')
   call carreau_clear_background(session, status)
+  call carreau_add_attractor(session, reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0], [3, 2]), reshape([1, 2, 2], [3, 1]), 0.05d0, 0.2d0, &
+    0.5d0, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_add_attractor(session, reshape([0d0, 0d0, 0d0], [3, 1]), reshape([1, 1, 2], [3, 1]), 0.05d0, 0.2d0, 0.5d0, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'an index out of range')
+  call carreau_clear_attractors(session, status)
   call carreau_reset_parameter(session, 'hphymax', status)
   call check(status == CARREAU_OK, carreau_last_error(session))
 

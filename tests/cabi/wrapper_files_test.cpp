@@ -138,6 +138,11 @@ TEST_F(WrapperFiles, TakesBackgroundsFromFilesAndArrays) {
   EXPECT_EQ(error_of([&] { session.set_background({.vertices = flat, .triangles = triangles, .sizes = std::span(same).first(2)}); }).status(),
             carreau::Status::argument);
   session.clear_background();
+  const std::int64_t plain = mesh_by([] {});
+  session.add_attractor(std::vector<double>{0, 0, 0}, std::vector<carreau::Triangle>{{0, 0, 0}}, 0.01, 0.3, 0.3);
+  EXPECT_GT(mesh_by([] {}), plain);
+  session.clear_attractors();
+  EXPECT_EQ(mesh_by([] {}), plain);
   const double m = 1 / 0.09;
   session.set_vertex_metrics(std::vector<carreau::Tensor3>(static_cast<std::size_t>(session.mesh().vertex_count()), {m, 0, 0, m, 0, m}));
   session.generate();

@@ -122,6 +122,16 @@ TEST(Wrapper, ArraysAndFilesComeBack) {
   const carreau::Mesh copy(carreau::MeshArrays{.vertices = vertices, .triangles = triangles});
   EXPECT_EQ(copy.vertices(), vertices);
   EXPECT_EQ(copy.triangles(), triangles);
+  EXPECT_THROW((void)copy.regions(), carreau::Error);  // a bowl is open
+  EXPECT_THROW((void)copy.triangle_sides(), carreau::Error);
+  const std::vector<Point3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<std::array<std::int32_t, 3>> sides{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const carreau::Mesh tetrahedron(carreau::MeshArrays{.vertices = corners, .triangles = sides});
+  EXPECT_EQ(tetrahedron.regions().solids, std::vector<std::int32_t>{1});
+  const Point3 inside = tetrahedron.regions().inside.front();
+  EXPECT_LT(inside[0] + inside[1] + inside[2], 1);
+  EXPECT_GT(std::min({inside[0], inside[1], inside[2]}), 0);
+  EXPECT_EQ(tetrahedron.triangle_sides()[3], (std::array<std::int32_t, 2>{1, 0}));
   const std::string path = testing::TempDir() + "wrapper.meshb";
   copy.write(path);
   EXPECT_EQ(carreau::Mesh(path).vertices(), vertices);
@@ -390,6 +400,38 @@ TEST(Wrapper, AddsGeometriesOfTheLibrary) {
   session.set("hphydef", 0.5);
   EXPECT_EQ(session.generate(), carreau::Outcome::complete);
   EXPECT_EQ(session.mesh().faces().size(), 4U);
+}
+
+TEST(Wrapper, EvaluatesAndProjects) {
+  carreau::Session session;
+  const carreau::BezierPatch patch{.m = 1, .n = 1, .controls = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}}}; // z = u v
+  carreau::add_bezier(session, std::span(&patch, 1));
+  const std::array<Point2, 1> middle{{{0.5, 0.25}}};
+  const carreau::Evaluated at = carreau::evaluate_face(session, 1, middle, 2);
+  EXPECT_EQ(at.xyz[0], (Point3{0.5, 0.25, 0.125}));
+  EXPECT_EQ(at.first[1], (Point3{0, 1, 0.5}));
+  EXPECT_EQ(at.second[1], (Point3{0, 0, 1}));
+  EXPECT_EQ(carreau::evaluate_face(session, 1, middle).first.size(), 0U);
+  const std::array<Point3, 2> x{{{0.5 - 0.25, 0.25 - 0.5, 0.125 + 1}, {2, -1, 0}}}; // along the normal, and beyond a corner
+  const carreau::Projected found = carreau::project(session, x);
+  EXPECT_NEAR(found.parameters[0], 0.5, 1e-12);
+  EXPECT_NEAR(found.parameters[1], 0.25, 1e-12);
+  EXPECT_NEAR(found.distances[0], std::sqrt(1.3125), 1e-12);
+  EXPECT_EQ(found.closest[1], (Point3{1, 0, 0}));
+  EXPECT_EQ(error_of([&] { carreau::project(session, x, 1); }).status(), carreau::Status::sequence); // gluing has found no curve yet
+  session.set("hphydef", 0.5);
+  session.generate();
+  const carreau::Projected side = carreau::project(session, x, 1);
+  EXPECT_NEAR(side.distances[1], std::sqrt(2), 1e-12);
+  const carreau::Mesh mesh = session.mesh();
+  const carreau::VertexEntities entities = carreau::vertex_entities(mesh);
+  EXPECT_EQ(std::count(entities.dimensions.begin(), entities.dimensions.end(), 0), 4);
+  EXPECT_EQ(entities.references[0], mesh.vertex_refs()[0]);
+  const carreau::EdgeParameters edges = carreau::edge_parameters(mesh);
+  EXPECT_EQ(edges.t.front()[0], 0);
+  EXPECT_EQ(edges.faces, std::vector<std::int32_t>(edges.t.size(), 1));
+  const std::array<double, 1> t{side.parameters[1]};
+  EXPECT_EQ(carreau::evaluate_curve(session, side.references[1], t, 1).xyz[0], (Point3{1, 0, 0}));
 }
 
 TEST(Wrapper, TakesTrianglesAndPlaneDomains) {

@@ -253,6 +253,10 @@ def test_estimates_and_transfers():
     assert np.allclose(session.transfer(mesh.vertices[:, :2] @ (1, 2)), fine.vertices[:, :2] @ (1, 2))
     assert session.transfer(mesh.vertices).shape == fine.vertices.shape
     session.clear_background()
+    session.add_attractor([[0, 0, 0]], [[0, 0, 0]], 0.01, 0.2, 0.5)
+    fine = session.generate()
+    session.clear_attractors()
+    assert len(fine.triangles) > len(session.generate().triangles)
     session.set_background(mesh.vertices, mesh.triangles, sizes=np.full(len(mesh.vertices), 0.2))
     assert len(session.generate().triangles) < len(mesh.triangles) and session.background.outside == 0
 
@@ -324,6 +328,9 @@ def test_arrays_become_a_mesh():
     mesh = carreau.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], face_ids=[1, 2, 3, 3])
     assert mesh.check(closed=True) == [] and mesh.quality.area == pytest.approx(1.5 + math.sqrt(3) / 2)
     assert [face.triangles for face in mesh.faces] == [1, 1, 2]
+    solids, inside = mesh.regions()
+    assert solids.tolist() == [1] and min(inside[0]) > 0 and sum(inside[0]) < 1
+    assert mesh.triangle_sides.tolist() == [[1, 0]] * 4
     crossing = carreau.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.2, 0.2, -1), (0.3, 0.2, 1), (0.2, 0.3, 1)], [(0, 1, 2), (3, 4, 5)])
     pairs, places = crossing.crossings()
     assert pairs.tolist() == [[0, 1]] and abs(places[0, 2]) < 1e-12

@@ -39,6 +39,57 @@ def test_a_blsurf_env_runs(tmp_path):
     assert len(written.triangles) > 500 and 2 * len(written.vertices) == len(written.triangles)  # Euler's number of a torus is 0
 
 
+def test_points_are_projected_to_the_geometry_of_a_mesh():
+    session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session
+    x = np.random.default_rng(1).uniform(-4, 4, (200, 3))
+    found = session.project(x)
+    assert np.allclose(np.linalg.norm(found.xyz - x, axis=1), found.distances, atol=1e-12)
+    assert set(found.refs) == {1}
+    at = session.evaluate(found.parameters, ref=1, order=2)
+    assert np.allclose(at.xyz, found.xyz, atol=1e-12) and at.second.shape == (200, 3, 3)
+    assert np.abs(np.einsum("nij,nj->ni", at.first, x - at.xyz)).max() < 1e-7  # the closest point lies on a normal
+    curves = session.project(x, dimension=1)
+    assert (curves.distances >= found.distances - 1e-12).all() and curves.parameters.shape == (200, 1)
+    ref = int(curves.refs[0])
+    assert np.allclose(session.evaluate(curves.parameters[:1], ref, dimension=1).xyz, curves.xyz[:1], atol=1e-10)
+    assert session.project(x, dimension=0).parameters.shape == (200, 0)
+    with pytest.raises(carreau.CarreauError, match="77"):
+        session.project(x, ref=77)
+
+
+def test_vertices_know_the_entities_that_they_lie_on():
+    mesh = carreau.mesh(torus, domain=TORUS_BOX, size=0.5)
+    dimensions, refs = mesh.vertex_entities()
+    assert (dimensions == 0).sum() == 1 and (dimensions == 1).sum() == len(mesh.edges) - 2  # two closed seams through one corner
+    assert (refs > 0).all() and ((dimensions == 0) == (mesh.vertex_ids != 0)).all()
+    for dimension in (1, 2):
+        k = dimensions == dimension
+        for ref in set(refs[k].tolist()):
+            on = mesh.vertices[k & (refs == ref)]
+            assert mesh.session.project(on, dimension, ref).distances.max() < 1e-12
+    t, faces, ics = mesh.edge_parameters()
+    for ref in set(mesh.curve_ids.tolist()):
+        k = mesh.curve_ids == ref
+        for end in (0, 1):
+            assert np.allclose(mesh.session.evaluate(t[k, end], ref, dimension=1).xyz, mesh.vertices[mesh.edges[k, end]], atol=1e-12)
+    assert set(faces) == {1} and set(ics) <= {1, 2, 3, 4}
+
+
+@pytest.mark.parametrize("name", ["grid/volcano.txt", "molecule/caffeine.xyzr", "triangles/fading_line.off", "plane/plate.poly"])
+def test_vertices_lie_on_geometries_of_any_kind(source, name):
+    mesh = carreau.mesh(os.path.join(source, "tests/data", name), size="10%")
+    scale = np.ptp(mesh.vertices, axis=0).max()
+    found = mesh.session.project(mesh.vertices)
+    assert found.distances.max() < 1e-12 * scale
+    x = np.random.default_rng(2).uniform(mesh.vertices.min(0) - scale / 3, mesh.vertices.max(0) + scale / 3, (100, 3))
+    far = mesh.session.project(x)
+    nearest = np.linalg.norm(mesh.vertices[None] - x[:, None], axis=2).min(1)
+    assert (far.distances <= nearest + 1e-12 * scale).all()
+    for ref in set(far.refs.tolist()):
+        k = far.refs == ref
+        assert np.allclose(mesh.session.evaluate(far.parameters[k], ref).xyz, far.xyz[k], atol=1e-11 * scale)
+
+
 def test_a_thread_stops_a_run():
     begun = threading.Event()
     session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session

@@ -147,6 +147,15 @@ def test_names_and_sizes_by_number(folder):
     assert longest < 0.2 * 1.5
 
 
+def test_names_layers_and_contacts(folder):
+    file = carreau.CadFile(folder / "press.step")
+    assert [(row.depth, row.kind, row.name, row.layer) for row in file.tree if row.kind in ("assembly", "part")] == [
+        (0, "assembly", "press", ""), (1, "part", "plate", "walls"), (1, "part", "stamp", "tools"), (1, "part", "stamp", "tools")]
+    assert [file.entity_name(1, k) for k in range(1, file.content.edges + 1)].count("rim") == 1
+    assert sum(face.layer == "walls" for face in file.faces) == 6
+    assert [(contact.solids, contact.area) for contact in file.contacts] == [((1, 2), pytest.approx(1)), ((1, 3), pytest.approx(1))]
+
+
 def test_other_objects_than_shapes_are_rejected():
     with pytest.raises(errors.ArgumentError, match="has no exportBrep"):
         shapes.brep_of(object())

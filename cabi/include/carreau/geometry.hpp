@@ -33,6 +33,69 @@ void add_geometry(Session& session, Geometry geometry, Describe&& describe) {
   session.done(carreau_geometry_end(session.get()));
 }
 
+// ---- Places of the model ----
+
+/// Positions and derivatives at places; derivatives above the order are empty.
+struct Evaluated {
+  std::vector<Point3> xyz{};
+  std::vector<Point3> first{};   ///< of a face S_u, S_v in turn; of a curve dx/dt
+  std::vector<Point3> second{};  ///< of a face S_uu, S_uv, S_vv in turn; of a curve the second derivative
+};
+
+/// Evaluates a face at places (u, v), by derivatives up to `order`.
+inline Evaluated evaluate_face(Session& session, int face, std::span<const Point2> uv, int order = 0) {
+  Evaluated out{std::vector<Point3>(uv.size()), std::vector<Point3>(order > 0 ? 2 * uv.size() : 0), std::vector<Point3>(order > 1 ? 3 * uv.size() : 0)};
+  session.done(carreau_evaluate(session.get(), 2, face, detail::count_of(uv.size()), detail::flat(uv), order, detail::flat(out.xyz),
+                                order > 0 ? detail::flat(out.first) : nullptr, order > 1 ? detail::flat(out.second) : nullptr));
+  return out;
+}
+/// Evaluates a curve, by its reference, at parameters t.
+inline Evaluated evaluate_curve(Session& session, int curve, std::span<const double> t, int order = 0) {
+  Evaluated out{std::vector<Point3>(t.size()), std::vector<Point3>(order > 0 ? t.size() : 0), std::vector<Point3>(order > 1 ? t.size() : 0)};
+  session.done(carreau_evaluate(session.get(), 1, curve, detail::count_of(t.size()), t.data(), order, detail::flat(out.xyz),
+                                order > 0 ? detail::flat(out.first) : nullptr, order > 1 ? detail::flat(out.second) : nullptr));
+  return out;
+}
+
+/// Closest points of entities of one dimension.
+struct Projected {
+  std::vector<std::int32_t> references{};
+  std::vector<double> parameters{};  ///< n x dimension
+  std::vector<Point3> closest{};
+  std::vector<double> distances{};
+};
+/// Projects points to faces (dimension 2), curves (1) or points (0); reference 0: to the closest of all.
+inline Projected project(Session& session, std::span<const Point3> xyz, int dimension = 2, int reference = 0) {
+  const std::size_t columns = dimension > 0 ? static_cast<std::size_t>(dimension) : 0;
+  Projected out{std::vector<std::int32_t>(xyz.size()), std::vector<double>(columns * xyz.size()), std::vector<Point3>(xyz.size()),
+                std::vector<double>(xyz.size())};
+  session.done(carreau_project(session.get(), dimension, reference, detail::count_of(xyz.size()), detail::flat(xyz), out.references.data(),
+                               out.parameters.data(), detail::flat(out.closest), out.distances.data()));
+  return out;
+}
+
+/// The entities that vertices of a mesh lie on: points (dimension 0), curves (1) and faces (2).
+struct VertexEntities {
+  std::vector<std::int32_t> dimensions{}, references{};
+};
+inline VertexEntities vertex_entities(const Mesh& mesh) {
+  const auto n = static_cast<std::size_t>(mesh.vertex_count());
+  VertexEntities out{std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
+  mesh.done(carreau_mesh_vertex_entities(mesh.get(), detail::count_of(n), out.dimensions.data(), out.references.data()));
+  return out;
+}
+/// Parameters of the ends of edges on curve ic of a face.
+struct EdgeParameters {
+  std::vector<std::array<double, 2>> t{};
+  std::vector<std::int32_t> faces{}, ics{};
+};
+inline EdgeParameters edge_parameters(const Mesh& mesh) {
+  const auto n = static_cast<std::size_t>(mesh.edge_count());
+  EdgeParameters out{std::vector<std::array<double, 2>>(n), std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
+  mesh.done(carreau_mesh_edge_parameters(mesh.get(), detail::count_of(n), detail::flat(out.t), out.faces.data(), out.ics.data()));
+  return out;
+}
+
 /// Points of a face at places (u, v).
 inline std::vector<Point3> geometry_points(Session& session, int face, std::span<const Point2> uv) {
   std::vector<Point3> out(uv.size());

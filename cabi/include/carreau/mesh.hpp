@@ -52,6 +52,12 @@ struct Intersections {
   std::vector<Point3> places;
 };
 
+/// Regions of space that a mesh bounds.
+struct Regions {
+  std::vector<std::int32_t> solids; ///< 0: a hole
+  std::vector<Point3> inside;
+};
+
 /// An independent mesh, or the mesh of a session, which then lives as long as this object.
 class Mesh {
  public:
@@ -264,6 +270,24 @@ class Mesh {
       out.emplace_back(left.substr(0, end));
       left.remove_prefix(end == std::string_view::npos ? left.size() : end + 1);
     }
+    return out;
+  }
+  /// Regions that the mesh bounds, with a point inside each; solid 0: a hole.
+  [[nodiscard]] Regions regions() const {
+    Regions out;
+    std::int64_t count = 0;
+    done(carreau_mesh_regions(mesh_, 0, &count, nullptr, nullptr));
+    out.solids.resize(static_cast<std::size_t>(count));
+    out.inside.resize(out.solids.size());
+    done(carreau_mesh_regions(mesh_, count, &count, out.solids.data(), detail::flat(out.inside)));
+    return out;
+  }
+  /// Solids on both sides of each triangle: the one that it looks out of, and the other one; 0: none.
+  [[nodiscard]] std::vector<Edge> triangle_sides() const {
+    std::int64_t m = 0;
+    done(carreau_mesh_count(mesh_, nullptr, &m, nullptr, nullptr));
+    std::vector<Edge> out(static_cast<std::size_t>(m));
+    done(carreau_mesh_triangle_sides(mesh_, m, detail::flat(out)));
     return out;
   }
   /// At most `capacity` pairs; the count is of all.

@@ -267,6 +267,12 @@ class Session {
   void set_vertex_metrics(std::span<const Tensor3> metrics) {
     done(carreau_set_vertex_metrics(get(), detail::count_of(metrics.size()), detail::flat(metrics)));
   }
+  /// Sizes near points (a, a, a), edges (a, b, b) and triangles: carreau_add_attractor. vertices: 3 n numbers.
+  void add_attractor(std::span<const double> vertices, std::span<const Triangle> elements, double size, double surrounding, double reach) {
+    done(carreau_add_attractor(get(), detail::count_of(vertices.size() / 3), detail::data_or_null(vertices),
+                               detail::count_of(elements.size()), detail::flat(elements), size, surrounding, reach));
+  }
+  void clear_attractors() { done(carreau_clear_attractors(get())); }
   void clear_background() { done(carreau_clear_background(get())); }
   [[nodiscard]] carreau_background_report background_report() { return filled(carreau_session_background); }
 

@@ -23,6 +23,7 @@ from .cad import CadFile
 from .domains import Curve, arc, box, disc, polygon, ring, segment
 from .errors import (ArgumentError, BusyError, CallbackError, Cancelled, CarreauError, DomainError, FileError, InternalError,
                      LimitError, ModelError, OutOfMemory, PartialError, SequenceError)
+from .gmsh_model import to_gmsh
 from .loops import Annulus, Loop
 from .meshes import Mesh
 from .meshing import adapt, fields, mesh, plane
@@ -38,6 +39,6 @@ __all__ = [
     "FileError", "InternalError", "LimitError", "Loop", "Mesh", "ModelError", "OutOfMemory", "PartialError", "Patch", "PlaneDomain",
     "Remeshed", "SequenceError", "Session", "Surface", "Tool", "adapt", "arc", "areas", "box", "capi", "disc", "domains",
     "errors", "fields", "mesh", "metric", "parameters", "patch", "plane", "polygon", "polygons", "read", "remesh", "ring", "scalar", "segment",
-    "version"]
+    "to_gmsh", "version"]
 
 read = Mesh.read

@@ -19,11 +19,15 @@ class MeshContent(Protocol):
     face_ids: NDArray[np.int32]
     edges: NDArray[np.int32]
     curve_ids: NDArray[np.int32]
+    edge_mids: NDArray[np.int32]
     sizes: Optional[NDArray[np.float64]]
     dimension: int
     faces: list[Face]
     cells: dict[str, tuple[NDArray[np.int32], NDArray[np.int32]]]
 
+    fields: dict[str, NDArray[np.float64]]
+
+    def entity_name(self, dimension: int, ref: int) -> str: ...
     @property
     def normals(self) -> NDArray[np.float64]: ...
     @property

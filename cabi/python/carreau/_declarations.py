@@ -826,7 +826,7 @@ class carreau_cad_content(Structure):
         ("solids", c_int32),
         ("shared_faces", c_int32),
         ("small_features", c_int32),
-        ("reserved", c_int32),
+        ("tree_rows", c_int32),
     ]
 
 
@@ -855,6 +855,32 @@ class carreau_cad_face(Structure):
         ("other_solid", c_int32),
         ("reserved2", c_int32),
         ("other_solid_name", c_char_p),
+        ("layer", c_char_p),
+    ]
+
+
+class carreau_cad_tree_row(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kind", c_char_p),
+        ("depth", c_int32),
+        ("number", c_int32),
+        ("rgb", c_int32),
+        ("faces", c_int32),
+        ("name", c_char_p),
+        ("layer", c_char_p),
+    ]
+
+
+class carreau_cad_contact(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("solids", c_int32 * 2),
+        ("faces", c_int32 * 2),
+        ("pairs", c_int32),
+        ("reserved", c_int32),
+        ("area", c_double),
+        ("place", c_double * 3),
     ]
 
 
@@ -982,6 +1008,8 @@ CARREAU = {
     "carreau_clear_background": (c_int32, [c_void_p]),
     "carreau_mesh_read_metrics": (c_int32, [c_void_p, c_char_p, c_int64, Doubles]),
     "carreau_session_background": (c_int32, [c_void_p, POINTER(carreau_background_report)]),
+    "carreau_add_attractor": (c_int32, [c_void_p, c_int64, Doubles, c_int64, Int32s, c_double, c_double, c_double]),
+    "carreau_clear_attractors": (c_int32, [c_void_p]),
     "carreau_estimate": (c_int32, [c_void_p, POINTER(carreau_estimator), c_int64, Doubles, Doubles, Doubles]),
     "carreau_transfer": (c_int32, [c_void_p, c_int32, c_int64, Doubles, c_int64, Doubles, POINTER(c_int64)]),
     "carreau_set_background_fields": (c_int32, [c_void_p, c_char_p, c_char_p]),
@@ -1025,6 +1053,8 @@ CARREAU = {
     "carreau_mesh_part_quality": (c_int32, [c_void_p, POINTER(carreau_quality)]),
     "carreau_mesh_defects": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_char_p)]),
     "carreau_mesh_intersections": (c_int32, [c_void_p, c_int32, c_int64, POINTER(c_int64), Int32s, Doubles]),
+    "carreau_mesh_regions": (c_int32, [c_void_p, c_int64, POINTER(c_int64), Int32s, Doubles]),
+    "carreau_mesh_triangle_sides": (c_int32, [c_void_p, c_int64, Int32s]),
     "carreau_write_exr": (c_int32, [c_void_p, c_char_p, POINTER(carreau_exr_options)]),
     "carreau_curve_split": (c_int32, [c_void_p, POINTER(carreau_curve), c_int64, Doubles, POINTER(c_int64), POINTER(c_double)]),
     "carreau_metric_sizes": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles, Doubles]),
@@ -1093,6 +1123,10 @@ CARREAU = {
     "carreau_triangles_refine": (c_int32, [c_void_p, c_double, c_int32, c_void_p]),
     "carreau_triangles_distances": (c_int32, [c_void_p, Doubles]),
     "carreau_triangles_bounds": (c_int32, [c_void_p, c_double, Doubles]),
+    "carreau_evaluate": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles, c_int32, Doubles, Doubles, Doubles]),
+    "carreau_project": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles, Int32s, Doubles, Doubles, Doubles]),
+    "carreau_mesh_vertex_entities": (c_int32, [c_void_p, c_int64, Int32s, Int32s]),
+    "carreau_mesh_edge_parameters": (c_int32, [c_void_p, c_int64, Doubles, Int32s, Int32s]),
     "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
     "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_remesh": (c_int32, [c_void_p, POINTER(carreau_remesh_input), POINTER(carreau_remesh_summary)]),
@@ -1118,6 +1152,10 @@ CARREAU_CAD = {
     "carreau_cad_small_feature_at": (c_int32, [c_void_p, c_int64, POINTER(carreau_cad_small_feature)]),
     "carreau_cad_loss": (c_char_p, [c_void_p, c_int64]),
     "carreau_cad_file_face": (c_int32, [c_void_p, c_int32, POINTER(carreau_cad_face)]),
+    "carreau_cad_entity_name": (c_char_p, [c_void_p, c_int32, c_int32]),
+    "carreau_cad_tree_at": (c_int32, [c_void_p, c_int64, POINTER(carreau_cad_tree_row)]),
+    "carreau_cad_count_contacts": (c_int32, [c_void_p, POINTER(c_int64)]),
+    "carreau_cad_contact_at": (c_int32, [c_void_p, c_int64, POINTER(carreau_cad_contact)]),
     "carreau_cad_measure_face": (c_int32, [c_void_p, c_int32, POINTER(carreau_cad_figures)]),
     "carreau_cad_inspect": (c_int32, [c_void_p, c_double, POINTER(carreau_cad_report)]),
     "carreau_cad_surfaces": (c_int32, [c_void_p, c_int64, POINTER(c_char_p), POINTER(c_int32)]),

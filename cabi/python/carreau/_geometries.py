@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import byref, c_int32
-from typing import Any, Callable, Iterable, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -49,6 +49,24 @@ def triangles_options(*, sharp: float = 0, corner: float = 0, given_edges: bool 
                       keep_double_vertices: bool = False) -> Any:
     return struct(c.carreau_triangles_options, sharp_angle=sharp, corner_angle=corner, given_edges_only=int(given_edges),
                   ignore_references=int(ignore_references), keep_double_vertices=int(keep_double_vertices))
+
+
+class Evaluated(NamedTuple):
+    """Positions (n, 3) and derivatives up to the order: of a face (n, 2, 3), S_u and S_v, and (n, 3, 3), S_uu, S_uv, S_vv; of a curve
+    (n, 1, 3) each."""
+
+    xyz: NDArray[np.float64]
+    first: Optional[NDArray[np.float64]]
+    second: Optional[NDArray[np.float64]]
+
+
+class Projected(NamedTuple):
+    """Closest points: references of the entities found (n,), parameters (n, dimension), points (n, 3) and distances (n,)."""
+
+    refs: NDArray[np.int32]
+    parameters: NDArray[np.float64]
+    xyz: NDArray[np.float64]
+    distances: NDArray[np.float64]
 
 
 class Geometries:
@@ -251,6 +269,25 @@ class Geometries:
         for row, share in zip(uv, np.atleast_1d(shares)):
             self._call(lib().geometry_curve, face, ic, float(share), row)
         return uv
+
+    def evaluate(self, parameters: ArrayLike, ref: int, order: int = 0, dimension: int = 2) -> Evaluated:
+        """Evaluates a face (dimension 2) at (u, v), (n, 2), or a curve (1) at t, (n,), by its reference."""
+        places = doubles(np.reshape(np.asarray(parameters, dtype=float), (-1, dimension)), "parameters", None, dimension)
+        n = len(places)
+        xyz = np.empty((n, 3))
+        first = np.empty((n, dimension, 3)) if order > 0 else None
+        second = np.empty((n, 3 if dimension == 2 else 1, 3)) if order > 1 else None
+        self._call(lib().evaluate, dimension, ref, n, places, order, xyz, first, second)
+        return Evaluated(xyz, first, second)
+
+    def project(self, xyz: ArrayLike, dimension: int = 2, ref: int = 0) -> Projected:
+        """The closest point of all faces (dimension 2), curves (1) or points (0) to each of n points (n, 3); of one entity with its
+        reference."""
+        points = doubles(xyz, "xyz", None, 3)
+        n = len(points)
+        found = Projected(np.empty(n, dtype=np.int32), np.empty((n, max(dimension, 0))), np.empty((n, 3)), np.empty(n))
+        self._call(lib().project, dimension, ref, n, points, *found)
+        return found
 
     def clear(self) -> None:
         """Drops all faces and geometries; an earlier mesh stays, and so do the callbacks that it is measured with."""

@@ -330,6 +330,7 @@ class CadContent(NamedTuple):
     solids: int
     shared_faces: int
     small_features: int
+    tree_rows: int
 
 
 class CadSmallFeature(NamedTuple):
@@ -354,6 +355,29 @@ class CadFace(NamedTuple):
     other_solid: int
     reserved2: int
     other_solid_name: str
+    layer: str
+
+
+class CadTreeRow(NamedTuple):
+    """A row of the tree of a file."""
+
+    kind: str
+    depth: int
+    number: int
+    rgb: int
+    faces: int
+    name: str
+    layer: str
+
+
+class CadContact(NamedTuple):
+    """Two solids with faces that lie on each other."""
+
+    solids: tuple[int, int]
+    faces: tuple[int, int]
+    pairs: int
+    area: float
+    place: tuple[float, float, float]
 
 
 class CadFigures(NamedTuple):
@@ -432,6 +456,8 @@ RECORDS: dict[type, Any] = {
     c.carreau_cad_content: CadContent,
     c.carreau_cad_small_feature: CadSmallFeature,
     c.carreau_cad_face: CadFace,
+    c.carreau_cad_tree_row: CadTreeRow,
+    c.carreau_cad_contact: CadContact,
     c.carreau_cad_figures: CadFigures,
     c.carreau_cad_report: CadReport,
     c.carreau_cad_danger: CadDanger,

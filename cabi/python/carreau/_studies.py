@@ -93,6 +93,16 @@ class Studies:
         else:
             self._call(lib().set_vertex_sizes, len(rows), doubles(rows, "sizes", None))
 
+    def add_attractor(self, vertices: ArrayLike, elements: ArrayLike, size: float, surrounding: float, reach: float) -> None:
+        """Adds sizes near points, edges and triangles: `size` on them, growing linearly to `surrounding` at the distance
+        `reach`. vertices (n, 3); elements (m, 3) of indices from 0: an edge is (a, b, b), a point (a, a, a)."""
+        points, corners = doubles(vertices, "vertices", None, 3), int32s(elements, "elements", None, 3)
+        self._call(lib().add_attractor, len(points), points, len(corners), corners, size, surrounding, reach)
+
+    def clear_attractors(self) -> None:
+        """Removes all attractors."""
+        self._call(lib().clear_attractors)
+
     def clear_background(self) -> None:
         """Removes the sizes of the functions above."""
         self._call(lib().clear_background)

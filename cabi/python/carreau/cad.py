@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import weakref
-from ctypes import byref, c_char_p
+from ctypes import byref, c_char_p, c_int64
 from typing import Any, Callable, Sequence
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _declarations as c
 from ._calls import asked, created, file_name, require, require_cad, struct, text_of
 from ._library import cad_lib
-from ._records import CadContent, CadDanger, CadFace, CadFigures, CadReport, CadSmallFeature
+from ._records import CadContact, CadContent, CadDanger, CadFace, CadFigures, CadReport, CadSmallFeature, CadTreeRow
 from ._run import Host, run
 from ._session import SessionBase
 from .errors import ArgumentError
@@ -117,6 +117,24 @@ class CadFile:
         """Numbers, names and colours of the faces, and why one cannot be meshed."""
         return [asked(c.carreau_cad_face, lambda out, k=k: self._call(cad_lib().cad_file_face, k, out))  # type: ignore[misc]
                 for k in range(1, self.content.faces + 1)]
+
+    def entity_name(self, dimension: int, number: int) -> str:
+        """The name of a vertex (dimension 0), an edge (1), a face (2) or a solid (3); "": none."""
+        return text_of(cad_lib().cad_entity_name(self._handle, dimension, number))
+
+    @property
+    def tree(self) -> list[CadTreeRow]:
+        """Assemblies, parts, solids, and entities with a name, a colour or a layer of their own."""
+        return [asked(c.carreau_cad_tree_row, lambda out, k=k: self._call(cad_lib().cad_tree_at, k, out))  # type: ignore[misc]
+                for k in range(self.content.tree_rows)]
+
+    @property
+    def contacts(self) -> list[CadContact]:
+        """Solids whose faces lie on each other, and the common area."""
+        count = c_int64()
+        self._call(cad_lib().cad_count_contacts, byref(count))
+        return [asked(c.carreau_cad_contact, lambda out, k=k: self._call(cad_lib().cad_contact_at, k, out))  # type: ignore[misc]
+                for k in range(count.value)]
 
     def figures(self, face: int) -> CadFigures:
         """Kind, area, perimeter and box of a face."""

@@ -17,6 +17,7 @@ from ._records import CellQuality, Face, Quality
 from ._session import SessionBase
 from .convert import to_meshio, to_pyvista
 from .errors import SequenceError
+from .gmsh_model import to_gmsh
 from .render import html, picture
 
 Reals = NDArray[np.float64]
@@ -35,10 +36,12 @@ class Mesh:
     edges          (k, 2)     vertices, along each curve
     face_ids       (m)        reference of the face of each triangle
     curve_ids      (k)        reference of the curve of each edge
+    edge_mids      (k)        node of each edge; -1: the edge is straight
     vertex_ids     (n)        reference of the corner or imposed point, 0: made by the mesher
     corner_uv      (m, 3, 2)  u v of each corner in its face; None: of a mesh that no session has made
     corner_faces   (m, 3)     the face of corner_uv; None as above
     sizes          (n)        prescribed sizes, model length; None as above
+    fields         of add_field, by name
     dimension      3, or 2: of the plane z = 0
     session        that has made it; None: of a file or of arrays
 
@@ -104,6 +107,7 @@ class Mesh:
         self.face_ids: Ints = self._array(lib().mesh_triangle_refs, m, dtype=np.int32)
         self.edges: Ints = self._array(lib().mesh_edges, k, 2, dtype=np.int32)
         self.curve_ids: Ints = self._array(lib().mesh_edge_refs, k, dtype=np.int32)
+        self.edge_mids: Ints = self._array(lib().mesh_edge_mids, k, dtype=np.int32)
         self.corner_uv: Optional[Reals] = self._array_if_any(lib().mesh_corner_uv, m, 3, 2)
         self.corner_faces: Optional[Ints] = self._array_if_any(lib().mesh_corner_faces, m, 3, dtype=np.int32)
         self.sizes: Optional[Reals] = self._array_if_any(lib().mesh_vertex_sizes, n)
@@ -111,6 +115,7 @@ class Mesh:
         self._require(lib().mesh_dimension(self._handle, byref(dimension)))
         self.dimension = dimension.value
         self.faces: list[Face] = self._faces()
+        self.fields: dict[str, Reals] = {}
         self.cells: dict[str, tuple[Ints, Ints]] = self._cells()
 
     def _array(self, ask: Callable[..., int], rows: int, *columns: int, dtype: Any = np.float64) -> NDArray[Any]:
@@ -179,6 +184,22 @@ class Mesh:
             self._handle, self.session, self._copy = copy._handle, None, copy
         return self._handle
 
+    # ---- the model ----
+
+    def vertex_entities(self) -> tuple[Ints, Ints]:
+        """The dimension of the entity that each vertex lies on (0 points, 1 curves, 2 faces), and its reference; mesh of a session only."""
+        n = len(self.vertices)
+        dimensions, refs = np.empty(n, dtype=np.int32), np.empty(n, dtype=np.int32)
+        self._require(lib().mesh_vertex_entities(self._handle, n, dimensions, refs))
+        return dimensions, refs
+
+    def edge_parameters(self) -> tuple[Reals, Ints, Ints]:
+        """t (k, 2) at the ends of edges on curve number ic (k) of a face (k); mesh of a session only. NaN: not known."""
+        k = len(self.edges)
+        t, faces, ics = np.empty((k, 2)), np.empty(k, dtype=np.int32), np.empty(k, dtype=np.int32)
+        self._require(lib().mesh_edge_parameters(self._handle, k, t, faces, ics))
+        return t, faces, ics
+
     # ---- quality ----
 
     @property
@@ -203,6 +224,22 @@ class Mesh:
         handle, count, text = self._live(), c_int64(), c_char_p()
         self._require(lib().mesh_defects(handle, int(closed), limit, byref(count), byref(text)))
         return [line for line in (text_of(text.value) or "").splitlines() if line]
+
+    def regions(self) -> tuple[Ints, Reals]:
+        """Regions of space that the mesh bounds: numbers (r,) of solids, 0 for a hole, and a point (r, 3) inside each."""
+        handle = self._live()
+        count = counted(lambda out: self._require(lib().mesh_regions(handle, 0, out, None, None)))
+        solids, places = np.empty(count, dtype=np.int32), np.empty((count, 3))
+        if count:
+            self._require(lib().mesh_regions(handle, count, byref(c_int64()), solids, places))
+        return solids, places
+
+    @property
+    def triangle_sides(self) -> Ints:
+        """Solids (m, 2) beside each triangle: the one that it looks out of, and the other one; 0: none."""
+        solids = np.empty((len(self.triangles), 2), dtype=np.int32)
+        self._require(lib().mesh_triangle_sides(self._live(), len(solids), solids))
+        return solids
 
     def crossings(self, threads: int = 0) -> tuple[Ints, Reals]:
         """Pairs of triangles that cross (k, 2), and a place of each (k, 3)."""
@@ -240,15 +277,21 @@ class Mesh:
         self._run = -1  # fields belong to meshes of nobody
         components = rows.size // max(len(rows), 1)
         self._require(lib().mesh_add_field(self._live(), name.encode(), int(len(rows) == len(self.vertices)), components, rows))
+        self.fields[name] = rows.copy()
 
     def to_meshio(self) -> Any:
-        """A meshio.Mesh, which shares the arrays: its cells are the elements, and edges of curves; cell_data["face"] has
-        the references. Raises ImportError without the package meshio."""
+        """A meshio.Mesh, which shares the arrays: its cells are the elements, and edges of curves; cell_data["face"] has the references.
+        Groups are in field_data and cell_data["gmsh:physical"], which meshio writes to .msh; sizes and fields of add_field in point_data or
+        cell_data. Raises ImportError without the package meshio."""
         return to_meshio(self)
 
+    def to_gmsh(self, tolerance: float = 1e-3) -> None:
+        """Puts the mesh into the running Gmsh, whose model has the same CAD file; see carreau.to_gmsh."""
+        to_gmsh(self, tolerance)
+
     def to_pyvista(self) -> Any:
-        """A pyvista.PolyData of the triangles; cell_data["face"] has the references. Raises ImportError without the
-        package pyvista."""
+        """A pyvista.PolyData of the triangles, or a pyvista.UnstructuredGrid of other elements; cell_data["face"] has the references,
+        field_data["face_names"] the names of faces 1, 2, ... Raises ImportError without the package pyvista."""
         return to_pyvista(self)
 
     def picture(self, path: Optional[Path] = None, **options: Any) -> bytes:

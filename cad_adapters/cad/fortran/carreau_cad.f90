@@ -14,7 +14,8 @@ module carreau_cad
   public :: carreau_cad_file, carreau_cad_content, carreau_cad_face, carreau_cad_figures, carreau_cad_report
   public :: carreau_cad_danger, carreau_cad_gaps, carreau_cad_progress_fn
   public :: carreau_cad_open, carreau_cad_create, carreau_cad_close, carreau_cad_last_error, carreau_cad_read
-  public :: carreau_cad_small_feature, carreau_cad_small_feature_at
+  public :: carreau_cad_small_feature, carreau_cad_small_feature_at, carreau_cad_entity_name
+  public :: carreau_cad_tree_row, carreau_cad_tree_at, carreau_cad_contact, carreau_cad_count_contacts, carreau_cad_contact_at
   public :: carreau_cad_set_size, carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
   public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
   public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
@@ -31,14 +32,26 @@ module carreau_cad
     character(len=:), allocatable :: unit
     real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0, match_tolerance = 0
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0, solids = 0, shared_faces = 0, &
-      small_features = 0
+      small_features = 0, tree_rows = 0
     character(len=:), allocatable :: notes, file_unit
   end type carreau_cad_content
 
   type :: carreau_cad_face
     integer(c_int32_t) :: number = 0, rgb = 0, solid = 0, other_solid = 0
-    character(len=:), allocatable :: name, why, solid_name, other_solid_name
+    character(len=:), allocatable :: name, why, solid_name, other_solid_name, layer
   end type carreau_cad_face
+
+  type :: carreau_cad_tree_row
+    character(len=:), allocatable :: kind, name, layer
+    integer(c_int32_t) :: depth = 0, number = 0, rgb = 0, faces = 0
+  end type carreau_cad_tree_row
+
+  type :: carreau_cad_contact
+    integer(c_int32_t), dimension(2) :: solids = 0, faces = 0
+    integer(c_int32_t) :: pairs = 0
+    real(c_double) :: area = 0
+    real(c_double), dimension(3) :: place = 0
+  end type carreau_cad_contact
 
   type :: carreau_cad_figures
     character(len=:), allocatable :: kind
@@ -326,6 +339,7 @@ contains
     content%solids = c%solids
     content%shared_faces = c%shared_faces
     content%small_features = c%small_features
+    content%tree_rows = c%tree_rows
   end subroutine carreau_cad_info
 
   !> index: from 1
@@ -344,6 +358,57 @@ contains
     feature%place = c%place
     feature%removed = c%removed /= 0
   end subroutine carreau_cad_small_feature_at
+
+  !> dimension: 0 to 3; '': it has none, or there is no such entity
+  function carreau_cad_entity_name(file, dimension, number) result(name)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: dimension, number
+    character(len=:), allocatable :: name
+    name = carreau_string(c_cad_entity_name(file%handle, dimension, number))
+  end function carreau_cad_entity_name
+
+  !> index: from 1
+  subroutine carreau_cad_tree_at(file, index, row, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_cad_tree_row), intent(out) :: row
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_tree_row) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_tree_at(file%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    row%kind = carreau_string(c%kind)
+    row%name = carreau_string(c%name)
+    row%layer = carreau_string(c%layer)
+    row%depth = c%depth
+    row%number = c%number
+    row%rgb = c%rgb
+    row%faces = c%faces
+  end subroutine carreau_cad_tree_at
+
+  subroutine carreau_cad_count_contacts(file, count, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_count_contacts(file%handle, count)
+  end subroutine carreau_cad_count_contacts
+
+  !> index: from 1
+  subroutine carreau_cad_contact_at(file, index, contact, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_cad_contact), intent(out) :: contact
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_contact) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_contact_at(file%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    contact%solids = c%solids
+    contact%faces = c%faces
+    contact%pairs = c%pairs
+    contact%area = c%area
+    contact%place = c%place
+  end subroutine carreau_cad_contact_at
 
   !> index: from 1; "" when there is no such
   function carreau_cad_loss(file, index) result(sentence)
@@ -370,6 +435,7 @@ contains
     face%solid_name = carreau_string(c%solid_name)
     face%other_solid = c%other_solid
     face%other_solid_name = carreau_string(c%other_solid_name)
+    face%layer = carreau_string(c%layer)
   end subroutine carreau_cad_file_face
 
   subroutine carreau_cad_measure_face(file, number, figures, status)

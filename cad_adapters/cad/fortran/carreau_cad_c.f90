@@ -29,7 +29,7 @@ module carreau_cad_c
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
     real(c_double) :: match_tolerance = 0
     type(c_ptr) :: notes = c_null_ptr, file_unit = c_null_ptr
-    integer(c_int32_t) :: solids = 0, shared_faces = 0, small_features = 0, reserved = 0
+    integer(c_int32_t) :: solids = 0, shared_faces = 0, small_features = 0, tree_rows = 0
   end type c_cad_content
 
   !> A feature below carreau_cad_options.min_feature.
@@ -49,8 +49,23 @@ module carreau_cad_c
     integer(c_int32_t) :: solid = 0, reserved = 0
     type(c_ptr) :: solid_name = c_null_ptr
     integer(c_int32_t) :: other_solid = 0, reserved2 = 0
-    type(c_ptr) :: other_solid_name = c_null_ptr
+    type(c_ptr) :: other_solid_name = c_null_ptr, layer = c_null_ptr
   end type c_cad_face
+
+  !> A row of the tree of a file.
+  type, bind(c) :: c_cad_tree_row
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: kind = c_null_ptr
+    integer(c_int32_t) :: depth = 0, number = 0, rgb = 0, faces = 0
+    type(c_ptr) :: name = c_null_ptr, layer = c_null_ptr
+  end type c_cad_tree_row
+
+  !> Two solids with faces that lie on each other.
+  type, bind(c) :: c_cad_contact
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: solids(2) = 0, faces(2) = 0, pairs = 0, reserved = 0
+    real(c_double) :: area = 0, place(3) = 0
+  end type c_cad_contact
 
   !> Measures of a face.
   type, bind(c) :: c_cad_figures
@@ -245,6 +260,46 @@ module carreau_cad_c
       type(c_cad_face), intent(inout) :: face
       integer(c_int32_t) :: status
     end function c_cad_file_face
+
+    !> Returns the name of a vertex (dimension 0), an edge (1), a face (2) or a solid (3) by its number; "": it has
+    !! none, or there is no such entity.
+    function c_cad_entity_name(file, dimension, number) result(name) bind(c, name="carreau_cad_entity_name")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int32_t), value :: dimension, number
+      type(c_ptr) :: name
+    end function c_cad_entity_name
+
+    !> Gets a row of the tree: assemblies, parts, solids, and faces, edges and vertices with a name, a colour or a layer
+    !! of their own. index: from 0 to carreau_cad_content.tree_rows - 1.
+    function c_cad_tree_at(file, index, row) result(status) bind(c, name="carreau_cad_tree_at")
+      import :: c_cad_tree_row, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int64_t), value :: index
+      type(c_cad_tree_row), intent(inout) :: row
+      integer(c_int32_t) :: status
+    end function c_cad_tree_at
+
+    !> Finds solids that touch, by faces of both that lie on each other; faces between two solids are no contact.
+    function c_cad_count_contacts(file, count) result(status) bind(c, name="carreau_cad_count_contacts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function c_cad_count_contacts
+
+    !> Gets a contact, by solids. index: from 0.
+    function c_cad_contact_at(file, index, contact) result(status) bind(c, name="carreau_cad_contact_at")
+      import :: c_cad_contact, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      integer(c_int64_t), value :: index
+      type(c_cad_contact), intent(inout) :: contact
+      integer(c_int32_t) :: status
+    end function c_cad_contact_at
 
     !> Measures face `number`.
     function c_cad_measure_face(file, number, figures) result(status) bind(c, name="carreau_cad_measure_face")

@@ -148,7 +148,7 @@ typedef struct carreau_cad_content {
   int32_t solids;
   int32_t shared_faces; /* between two solids */
   int32_t small_features; /* that carreau_cad_options.min_feature found */
-  int32_t reserved;
+  int32_t tree_rows;      /* see carreau_cad_tree_at */
 } carreau_cad_content;
 
 /* Counts the content of a file. */
@@ -185,11 +185,53 @@ typedef struct carreau_cad_face {
   int32_t other_solid;    /* the solid on the other side, into which triangles look; 0: none */
   int32_t reserved2;
   const char* other_solid_name; /* "": none */
+  const char* layer;            /* its own, or the layer of the smallest part that holds it; "": none */
 } carreau_cad_face;
 
 /* Gets the data of face `number`, from 1. */
 CARREAU_CAD_API carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number,
                                                      carreau_cad_face* out_face);
+
+/* Returns the name of a vertex (dimension 0), an edge (1), a face (2) or a solid (3) by its number; "": it has none, or
+ * there is no such entity. STEP and IGES files have names of edges and vertices. The text lives until the file is read
+ * again or closed. */
+CARREAU_CAD_API const char* carreau_cad_entity_name(carreau_cad_file* file, int32_t dimension, int32_t number);
+
+/* A row of the tree of a file. */
+typedef struct carreau_cad_tree_row {
+  size_t struct_size;
+  const char* kind; /* "assembly", "part", "solid", "face", "edge", "vertex" */
+  int32_t depth;    /* 0: outermost; the rows below a row follow it and are deeper */
+  int32_t number;   /* of a solid, face, edge or vertex, from 1; 0: of others */
+  int32_t rgb;      /* its own colour, 0xRRGGBB in sRGB; -1: none */
+  int32_t faces;    /* number of faces of an assembly, part or solid */
+  const char* name;  /* its own; solids have distinct names; "": none */
+  const char* layer; /* its own; "": none */
+} carreau_cad_tree_row;
+
+/* Gets a row of the tree: assemblies, parts, solids, and faces, edges and vertices with a name, a colour or a layer of
+ * their own. index: from 0 to carreau_cad_content.tree_rows - 1. Errors: ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_tree_at(carreau_cad_file* file, int64_t index, carreau_cad_tree_row* out_row);
+
+/* Two solids with faces that lie on each other. */
+typedef struct carreau_cad_contact {
+  size_t struct_size;
+  int32_t solids[2]; /* from 1, ascending */
+  int32_t faces[2];  /* the pair of faces with the largest common area, from 1, in the order of the solids */
+  int32_t pairs;     /* of faces */
+  int32_t reserved;
+  double area;       /* that all pairs have in common */
+  double place[3];   /* a point of the pair in faces */
+} carreau_cad_contact;
+
+/* Finds solids that touch, by faces of both that lie on each other; faces between two solids are no contact. Areas are
+ * exact on planes with straight borders, and where one face covers the other; otherwise their error is about a
+ * hundredth. The first call compares all faces whose boxes meet. */
+CARREAU_CAD_API carreau_status carreau_cad_count_contacts(carreau_cad_file* file, int64_t* out_count);
+
+/* Gets a contact, by solids. index: from 0. Errors: ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_contact_at(carreau_cad_file* file, int64_t index,
+                                                      carreau_cad_contact* out_contact);
 
 /* Measures of a face. */
 typedef struct carreau_cad_figures {
@@ -232,7 +274,7 @@ typedef struct carreau_cad_danger {
   size_t struct_size;
   const char* kind; /* "tiny edge", "sliver face", "gap", "free edge", "kink", ... */
   int32_t face, edge; /* 0: not concerned */
-  double value;       /* a length, a number of faces, or an angle in degrees */
+  double value;       /* a length, a number of faces, an angle in degrees, or the common area of solids */
   int32_t cut;        /* 1: a kink along which the face is cut, so that edges of meshes follow it */
   int32_t reserved;
   const char* sentence;

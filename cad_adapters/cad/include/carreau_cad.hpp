@@ -24,7 +24,12 @@ struct CadFace {
   std::string name, why;
   int rgb = -1;
   int solid = 0, other_solid = 0; ///< from 1; triangles look out of `solid`, into `other_solid`; 0: none
-  std::string solid_name, other_solid_name;
+  std::string solid_name, other_solid_name, layer;
+};
+/// A row of the tree of a file: carreau_cad_tree_row.
+struct CadTreeRow {
+  std::string kind, name, layer;
+  int depth = 0, number = 0, rgb = -1, faces = 0;
 };
 /// The figures of a face: carreau_cad_figures.
 struct CadFigures {
@@ -122,7 +127,30 @@ class CadFile {
   [[nodiscard]] CadFace face(int number) const {
     auto face = detail::sized<carreau_cad_face>();
     done(carreau_cad_file_face(get(), number, &face));
-    return {face.number, face.name, face.why, face.rgb, face.solid, face.other_solid, face.solid_name, face.other_solid_name};
+    return {face.number, face.name, face.why, face.rgb, face.solid, face.other_solid, face.solid_name, face.other_solid_name, face.layer};
+  }
+  /// The name of a vertex (dimension 0), an edge (1), a face (2) or a solid (3); "": none.
+  [[nodiscard]] std::string entity_name(int dimension, int number) const { return carreau_cad_entity_name(get(), dimension, number); }
+  /// Assemblies, parts, solids, and entities with a name, a colour or a layer of their own.
+  [[nodiscard]] std::vector<CadTreeRow> tree() const {
+    std::vector<CadTreeRow> out;
+    for (std::int64_t i = 0; i < info().tree_rows; ++i) {
+      auto row = detail::sized<carreau_cad_tree_row>();
+      done(carreau_cad_tree_at(get(), i, &row));
+      out.push_back({row.kind, row.name, row.layer, row.depth, row.number, row.rgb, row.faces});
+    }
+    return out;
+  }
+  /// Solids whose faces lie on each other, and the common area.
+  [[nodiscard]] std::vector<carreau_cad_contact> contacts() const {
+    std::int64_t n = 0;
+    done(carreau_cad_count_contacts(get(), &n));
+    std::vector<carreau_cad_contact> out;
+    for (std::int64_t i = 0; i < n; ++i) {
+      out.push_back(detail::sized<carreau_cad_contact>());
+      done(carreau_cad_contact_at(get(), i, &out.back()));
+    }
+    return out;
   }
   [[nodiscard]] CadFigures measure_face(int number) const {
     auto found = detail::sized<carreau_cad_figures>();

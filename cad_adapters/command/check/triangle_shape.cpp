@@ -4,16 +4,6 @@
 #include <cmath>
 
 namespace command {
-namespace {
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-}  // namespace
-
 double size_of(const Point& a, const Point& b, const Point& c) {
   const Point n = cross(minus(b, a), minus(c, a));
   return std::sqrt(2 / std::sqrt(3.0)) * std::pow(dot(n, n), 0.25);

@@ -17,6 +17,8 @@
 #include "cli/option_scope.h"
 #include "cli/parse_errors.h"
 #include "inputs/built/plane_input.h"
+#include "mesh/sizes_file.h"
+#include "volume/engines.h"
 
 namespace command {
 namespace {
@@ -72,6 +74,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
       "Exit status: 0 success, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
       "command: carreau help COMMAND. Manual: man carreau");
   add_mesh();
+  add_volume();
   add_plane();
   add_adapt();
   add_refine();
@@ -114,6 +117,36 @@ void CommandLine::add_mesh() {
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Print errors only");
   mesh->add_flag("--verbose", mesh_.verbose, "Print evaluations, times of phases, gluing and other details");
+}
+
+void CommandLine::add_volume() {
+  volume_.volume.is_volume = true;
+  CLI::App* volume = add("volume", "Mesh the surface, and let TetGen, Gmsh or Netgen fill its solids with tetrahedra");
+  volume->add_option("INPUT", solids_, std::string(geometry_files) + several_files)->required()->type_name(kind::file);
+  volume->add_option("--host", volume_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")
+      ->type_name(kind::file);
+  repeated(volume->add_option("-o,--output", volume_.outputs,
+                              "File to write, format by suffix: .msh, .msh2, .inp, .su2, .vtu, .mesh; repeatable"))
+      ->required()
+      ->type_name(kind::file);
+  volume->add_option("--engine", volume_.volume.engine, "Program that fills solids: gmsh, tetgen or netgen; the first one found by default")
+      ->check(CLI::IsMember(engine_names()));
+  volume->add_option("--engine-seconds", volume_.volume.seconds, "End the engine after this time; 3600 s by default, 0 never")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::number)
+      ->capture_default_str();
+  volume->add_option("--engine-memory", volume_.volume.gigabytes, "Memory of the engine, GB; no limit by default")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name(kind::number);
+  add_molecule_options(volume, volume_.molecule);
+  add_grid_options(volume, volume_.grid);
+  add_triangles_options(volume, volume_.triangles);
+  add_cad_options(volume, volume_.cad);
+  add_domain_option(volume, volume_.domain);
+  add_mesh_options(volume, volume_);
+  volume->add_flag("--json", volume_.json, "Print a summary as JSON");
+  volume->add_flag("-q,--quiet", volume_.quiet, "Print errors only");
+  volume->add_flag("--verbose", volume_.verbose, "Print evaluations, times of phases, gluing and other details");
 }
 
 void CommandLine::add_plane() {
@@ -386,7 +419,7 @@ int CommandLine::run(int argc, char** argv) {
       if (error.get_exit_code() == 0) return app_.exit(error), 0;
       throw Failure(sub == nullptr ? std::string(error.what()) : sentence_of(error, *sub, words));
     }
-    for (std::string* repeat : {&mesh_.repeat, &plane_.repeat, &adapt_.repeat, &report_.repeat})
+    for (std::string* repeat : {&mesh_.repeat, &volume_.repeat, &plane_.repeat, &adapt_.repeat, &report_.repeat})
       *repeat = shell_line("carreau", words);
     return run_command();
   } catch (const std::bad_alloc&) {
@@ -399,11 +432,18 @@ int CommandLine::run(int argc, char** argv) {
 }
 
 int CommandLine::run_command() {
+  for (MeshOptions* options : {&mesh_, &plane_, &adapt_, &fields_.mesh}) read_sizes(*options);
   if (app_.got_subcommand("mesh")) {
     mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
     check_scope(*app_.get_subcommand("mesh"), inputs_, mesh_, false);
     choose_surface(*app_.get_subcommand("mesh"), mesh_.molecule, mesh_.quiet);
     return mesh(mesh_);
+  }
+  if (app_.got_subcommand("volume")) {
+    volume_.input = solids_.front(), volume_.more_inputs.assign(solids_.begin() + 1, solids_.end());
+    check_scope(*app_.get_subcommand("volume"), solids_, volume_, false);
+    choose_surface(*app_.get_subcommand("volume"), volume_.molecule, volume_.quiet);
+    return mesh(volume_);
   }
   if (app_.got_subcommand("plane")) return mesh(plane_);
   if (app_.got_subcommand("adapt")) {

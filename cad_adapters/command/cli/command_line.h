@@ -25,6 +25,7 @@ class CommandLine {
  private:
   CLI::App* add(const char* name, const char* description);
   void add_mesh();
+  void add_volume();
   void add_plane();
   void add_adapt();
   void add_refine();
@@ -41,8 +42,8 @@ class CommandLine {
   int help(const std::string& command);
 
   CLI::App app_;
-  MeshOptions mesh_, plane_, adapt_;
-  std::vector<std::string> inputs_;  // of `mesh`
+  MeshOptions mesh_, volume_, plane_, adapt_;
+  std::vector<std::string> inputs_, solids_;  // of `mesh` and `volume`
   RefineOptions refine_;
   InfoOptions info_;
   AreasOptions areas_;

@@ -28,7 +28,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--ellipses", picture},          {"--samples", picture},
     {"--size", "Sizes"},              {"--min", "Sizes"},           {"--max", "Sizes"},
     {"--gradation", "Sizes"},         {"--face-size", "Sizes"},     {"--size-map", "Sizes"},
-    {"--size-on", "Sizes"},
+    {"--size-on", "Sizes"},           {"--near", "Sizes"},          {"--sizes", "Sizes"},
     {"--sol-field", "Sizes"},         {"--curve-edges", "Sizes"},   {"--curve-vertices", "Sizes"},
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
@@ -51,13 +51,14 @@ constexpr GroupOf groups_of_options[] = {
     {"--lengths", "Grids"},           {"--step", "Grids"},          {"--fill", "Grids"},
     {"--join", "Grids"},              {"--join-nodes", "Grids"},    {"--domain", "Formulas and hosts"},
     {"--host", "Formulas and hosts"}, {"--env", "Parameters"},      {"--effort", "Parameters"},   {"--set", "Parameters"},
+    {"--engine", "Solids"},           {"--engine-seconds", "Solids"},  {"--engine-memory", "Solids"},
     {"--threads", "Processes"},       {"--parts", "Processes"},     {"--dump-failed", "Diagnosis"},
     {"--help", "Help"},               {"--help-all", "Help"},
 };
 
 /// The options that the short help prints.
 constexpr const char* most_used[] = {"--output", "--size", "--angle",   "--chord",       "--max", "--gradation", "--face-size",
-                                     "--anisotropic", "--element", "--cross-patch", "--mesh", "--sol", "--formula", "--tolerance", "--threads", "--set"};
+                                     "--anisotropic", "--element", "--cross-patch", "--mesh", "--sol", "--formula", "--tolerance", "--engine", "--threads", "--set"};
 
 constexpr std::size_t short_enough = 18;  // options that the short help prints as a whole
 constexpr std::size_t name_width = 32;

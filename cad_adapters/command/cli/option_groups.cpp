@@ -93,11 +93,17 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--size-on", options.sizes_on,
                            "Size on edges, vertices, faces, solids: edge:3-5=.2, vertex:7=.05, bore*=.3; repeatable"))
       ->type_name("ENTITIES=LENGTH");
+  repeated(app->add_option("--near", options.near,
+                           "Size near entities, growing linearly to the size around: face:3=.1:2 (size and reach); repeatable"))
+      ->type_name("ENTITIES=LENGTH:LENGTH");
+  app->add_option("--sizes", options.sizes.path, "File .json of sizes: size, angle, size-on, near, ... (carreau-mesh(1)); options take precedence")
+      ->check(not_empty)
+      ->type_name(kind::file);
   repeated(app->add_option("--group", options.groups,
                            "Name a group: in=face:3,5-7, rim=edge:4, bolts=bolt*, red=color:#ff0000; repeatable"))
       ->type_name("NAME=ENTITIES");
-  app->add_option("--group-by", options.group_by, "Group faces by part, face or color; by names of faces, else of parts, by default")
-      ->check(CLI::IsMember({"part", "face", "color"}));
+  app->add_option("--group-by", options.group_by, "Group faces by part, face, color, layer or name (of the face, else of its part; the default)")
+      ->check(CLI::IsMember({"part", "face", "color", "layer", "name"}));
   repeated(app->add_option("--curve-edges", options.curve_edges,
                            "Number of edges of a curve: 8, 8,arithmetic:3 or 8,geometric:1.2; repeatable"))
       ->type_name("CURVE=EDGES");

@@ -9,14 +9,14 @@ namespace command {
 
 namespace {
 
-std::vector<std::string> commands_of(const CLI::App& app) {
+std::vector<std::string> names_of_commands(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
   return names;
 }
 
 /// The words in "{a,b,c}" of an option's kind of value.
-std::vector<std::string> choices_of(const std::string& type) {
+std::vector<std::string> known_choices(const std::string& type) {
   const std::size_t open = type.find('{'), close = type.find('}');
   std::vector<std::string> words;
   if (open == std::string::npos || close == std::string::npos) return words;
@@ -32,7 +32,7 @@ std::vector<std::string> choices_of(const std::string& type) {
 /// valid.
 std::string choice_sentence(const std::string& name, const std::string& word, const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  if (const std::vector<std::string> choices = choices_of(type); !choices.empty()) {
+  if (const std::vector<std::string> choices = known_choices(type); !choices.empty()) {
     if (std::find(choices.begin(), choices.end(), word) != choices.end()) return "";
     std::string all;
     for (const std::string& each : choices) all += (all.empty() ? "" : ", ") + each;
@@ -50,12 +50,12 @@ std::string choice_sentence(const std::string& name, const std::string& word, co
 
 std::string command_names(const CLI::App& app) {
   std::string names;
-  for (const std::string& name : commands_of(app)) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : names_of_commands(app)) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
 std::string unknown_command(const std::string& word, const CLI::App& app) {
-  return "There is no command '" + word + "'" + did_you_mean(word, commands_of(app)) + " There are " +
+  return "There is no command '" + word + "'" + did_you_mean(word, names_of_commands(app)) + " There are " +
          command_names(app) + ".";
 }
 

@@ -37,6 +37,46 @@ std::vector<std::pair<std::string, int>> surfaces_of(carreau_cad_file* file, con
   return surfaces;
 }
 
+/// `solid`: the row of the only solid of a part; nullptr: another row.
+std::string words_of(const carreau_cad_tree_row& row, const carreau_cad_tree_row* solid) {
+  std::string words = row.kind;
+  char text[32];
+  const auto add = [&](const char* format, auto value) { std::snprintf(text, sizeof text, format, value), words += text; };
+  if (row.number > 0) add(" %d", static_cast<int>(row.number));
+  if (row.name[0] != '\0') words.append("  ").append(row.name);
+  if (solid != nullptr) {
+    add(", solid %d", static_cast<int>(solid->number));
+    if (std::string(solid->name) != row.name) words.append("  ").append(solid->name);
+  }
+  if (row.faces > 0) add(row.faces == 1 ? "  %d face" : "  %d faces", static_cast<int>(row.faces));
+  if (row.rgb >= 0) add("  #%06x", static_cast<unsigned>(row.rgb));
+  if (row.layer[0] != '\0') words.append("  layer ").append(row.layer);
+  return words;
+}
+
+/// Rows whose holder has more than `limit` rows of their kind are counted.
+void print_tree(carreau_cad_file* file, int limit) {
+  const std::vector<carreau_cad_tree_row> rows = tree_of(file);
+  if (rows.empty()) return;
+  std::puts("tree:");
+  std::map<std::pair<int, std::string>, int> told;  // since the last row that is less deep
+  const auto is_solid = [&](std::size_t k, int depth) { return k < rows.size() && rows[k].depth == depth && rows[k].kind == std::string("solid"); };
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const carreau_cad_tree_row& row = rows[k];
+    std::size_t solids = 0;
+    for (std::size_t j = k + 1; j < rows.size() && rows[j].depth > row.depth; ++j) solids += is_solid(j, row.depth + 1) ? 1 : 0;
+    const bool is_alone = row.kind == std::string("part") && solids == 1 && is_solid(k + 1, row.depth + 1) && rows[k + 1].rgb < 0;
+    std::erase_if(told, [&](const auto& each) { return each.first.first > row.depth; });
+    int& n = told[{row.depth, row.kind}];
+    ++n;
+    const bool is_entity = row.kind == std::string("face") || row.kind == std::string("edge") || row.kind == std::string("vertex");
+    const std::string indent(2 * static_cast<std::size_t>(row.depth) + 2, ' ');
+    if (!is_entity || n <= limit) std::printf("%s%s\n", indent.c_str(), words_of(row, is_alone ? &rows[k + 1] : nullptr).c_str());
+    if (is_alone) ++k;
+    if (is_entity && n == limit + 1) std::printf("%s...\n", indent.c_str());
+  }
+}
+
 void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit) {
   const std::string unit = content_of(file).unit;
   const std::vector<std::string> losses = losses_of(file);
@@ -71,6 +111,23 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
     if (++n <= limit) std::printf("  %s\n", danger.sentence);
     if (n == limit + 1) std::puts("  ...");
   }
+  print_tree(file, limit);
+}
+
+nlohmann::ordered_json tree_json(carreau_cad_file* file) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const carreau_cad_tree_row& row : tree_of(file))
+    list.push_back({{"depth", row.depth}, {"kind", row.kind}, {"number", row.number}, {"name", row.name},
+                    {"rgb", row.rgb}, {"layer", row.layer}, {"faces", row.faces}});
+  return list;
+}
+
+nlohmann::ordered_json contacts_json(carreau_cad_file* file) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const carreau_cad_contact& each : contacts_of(file))
+    list.push_back({{"solids", {each.solids[0], each.solids[1]}}, {"faces", {each.faces[0], each.faces[1]}},
+                    {"face_pairs", each.pairs}, {"area", each.area}, {"place", each.place}});
+  return list;
 }
 
 nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report& r, const InfoOptions& options) {
@@ -110,6 +167,8 @@ nlohmann::ordered_json json_of(carreau_cad_file* file, const carreau_cad_report&
           {"largest_gap", r.largest_gap},
           {"not_read", losses_of(file)},
           {"contacts", contacts},
+          {"common_areas", contacts_json(file)},
+          {"tree", tree_json(file)},
           {"notes", notes_of(file)},
           {"dangers", dangers}};
 }

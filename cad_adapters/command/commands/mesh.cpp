@@ -4,8 +4,11 @@
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "base/json_output.h"
 #include "base/output_files.h"
 #include "base/ranks.h"
 #include "base/signals.h"
@@ -25,6 +28,9 @@
 #include "mesh/mesh_summary.h"
 #include "mesh/progress.h"
 #include "report/report_content.h"
+#include "volume/engines.h"
+#include "volume/fill_solids.h"
+#include "volume/volume_files.h"
 
 namespace command {
 namespace {
@@ -194,7 +200,7 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == ".txt" || is_solution(path) || is_report(path);
+    const bool alone = suffix_of(path) == ".exr" || suffix_of(path) == ".med" || suffix_of(path) == group_table_suffix || suffix_of(path) == ".txt" || is_solution(path) || is_report(path);
     if (part != nullptr)
       ranks->write(run.session, part, path);
     else if (ranks != nullptr && !alone)
@@ -207,6 +213,10 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else if (is_report(path))
       write_text(path, page_of(run));
+    else if (suffix_of(path) == group_table_suffix)
+      write_text(path, group_table(run.mesh));
+    else if (run.volume_text)
+      write_text(path, run.volume_text(suffix_of(path)));
     else if (suffix_of(path) == ".txt")
       write_text(path, pairs_text(run.mesh));
     else
@@ -234,6 +244,17 @@ std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress)
   return open_several(all, options);
 }
 
+/// Medit's files have no names of groups: a table beside each has them, when groups are asked for.
+std::vector<std::string> with_group_tables(const MeshOptions& options, std::vector<std::string> outputs) {
+  if ((options.groups.empty() && options.group_by.empty()) || options.parts) return outputs;
+  for (const std::string& path : std::vector<std::string>(outputs))
+    if (is_one_of(suffix_of(path), {".mesh", ".meshb"})) {
+      const std::string table = path.substr(0, path.size() - suffix_of(path).size()) + group_table_suffix;
+      if (std::find(outputs.begin(), outputs.end(), table) == outputs.end()) outputs.push_back(table);
+    }
+  return outputs;
+}
+
 /// JSON and files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
   for (const auto& [given, name] : {std::pair{options.json, "--json"}, {!options.dump_failed.empty(), "--dump-failed"}})
@@ -243,18 +264,33 @@ void refuse_with_parts(const MeshOptions& options) {
       throw Failure("'" + path + "' is made of the whole mesh: --parts writes .meshb and .pvtu.");
 }
 
+/// The largest size that options allow; 0: any.
+double largest_size(carreau_session* session, const MeshOptions& options) {
+  double size = 0;
+  if (!options.maximum.empty()) require(session, carreau_get_real(session, "hgeomax", &size));
+  return std::max(size, 0.0);
+}
+
+/// The file of the surface that no engine could fill: "part.surface.msh" beside "part.inp".
+std::string kept_surface(const MeshOptions& options) {
+  const std::string& path = options.outputs.front();
+  return path.substr(0, path.size() - suffix_of(path).size()) + ".surface.msh";
+}
+
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
-  options.outputs = adaptation.with_fields(given.outputs);
+  options.outputs = with_group_tables(given, adaptation.with_fields(given.outputs));
   check_words(options);  // reports meaningless words before a long reading
   SizeMap map(options.size_map);
   if (options.plane.field > 0 && map.mesh_file().empty() && options.adapt.sol.empty() && options.plane.sizes.empty())
     throw Failure("--sol-field chooses a field of a file .sol, and no option names one.");
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
-  std::vector<std::string> suffixes = written_meshes;
-  suffixes.insert(suffixes.end(), {".exr", ".html"});
+  const std::string engine = options.volume.is_volume ? found_engine(options.volume.engine) : "";
+  if (!engine.empty() && ranks != nullptr) throw Failure("carreau volume runs in one process.");
+  std::vector<std::string> suffixes = engine.empty() ? mesh_suffixes : volume_suffixes;
+  if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
   if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
@@ -294,6 +330,12 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any && (!failed.empty() || !input->is_wires())) throw Failure(failed.empty() ? "There is no triangle." : failed);
   if (part == nullptr && (!options.quiet || options.json || has_report(options))) run.short_edges = find_short_edges(run.session, run.mesh, run.quality);
+  std::optional<VolumeMesh> volume;
+  if (!engine.empty()) {
+    if (!failed.empty()) throw Failure("No engine can fill the mesh: " + failed);
+    volume = fill_solids(run.mesh, options, engine, largest_size(run.session, options), kept_surface(options), progress);
+    run.volume_text = [&](const std::string& suffix) { return volume_text(*volume, suffix); };
+  }
   run.warnings = progress.warnings();
   if (has_report(options)) measure(run.session);
   const Stopwatch writing;
@@ -309,8 +351,16 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     if (!line.empty()) progress.line(line);
     progress.attention("crossing", part != nullptr ? crossing_lines_of_parts(run) : crossing_lines(run.crossings, *input));  // shown last
   }
+  if (volume)
+    for (const std::string& line : volume_lines(*volume)) progress.line(line);
   run.warnings = progress.warnings();
-  if (options.json) print_json(run);
+  if (options.json && volume) {
+    nlohmann::ordered_json json = summary_json(run, false);
+    json["volume"] = volume_json(*volume);
+    print_json("volume", json);
+  } else if (options.json) {
+    print_json(run);
+  }
   if (failed.empty() && lost.empty()) return all_faces;
   for (const std::string& sentence : {lost, failed})
     if (!sentence.empty()) progress.error(sentence);

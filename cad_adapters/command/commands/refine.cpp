@@ -14,7 +14,7 @@ namespace command {
 
 int refine(const RefineOptions& options) {
   catch_signals();
-  OutputFiles outputs(options.outputs, written_meshes, {options.input});
+  OutputFiles outputs(options.outputs, mesh_suffixes, {options.input});
   require_writers(options.outputs);
   if (!is_triangles(options.input)) throw Failure(unknown_triangles(options.input));
   const MeshHandle mesh =

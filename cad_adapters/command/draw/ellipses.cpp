@@ -12,17 +12,7 @@ constexpr double stroke = 1.3;           ///< pixels
 /// Share of the longer half axis: rings are drawn so much nearer to the eye, or they would go under triangles that
 /// bend towards it. On edges of two sines of 30 degrees of the radius a surface leaves its tangent plane by a quarter.
 constexpr double nearer = 0.25;
-constexpr Colour ink{0.55f, 0.02f, 0.03f};  ///< linear light
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point unit(const Point& a) {
-  const double length = std::sqrt(dot(a, a));
-  return length > 0 ? Point{a[0] / length, a[1] / length, a[2] / length} : Point{0, 0, 1};
-}
+constexpr Colour axis_colour{0.55f, 0.02f, 0.03f};  ///< linear light
 
 /// Normals of vertices by area; 0 where no triangle is. `used`: vertices of triangles and edges.
 std::vector<Point> normals_of(const MeshArrays& mesh, std::vector<char>& used) {
@@ -74,8 +64,8 @@ void add_stroke(const Point& p, const Point& q, std::vector<ScreenTriangle>& tri
   const double x = -(q[1] - p[1]) / length * stroke / 2, y = (q[0] - p[0]) / length * stroke / 2;
   const Point a{p[0] + x, p[1] + y, p[2]}, b{p[0] - x, p[1] - y, p[2]}, c{q[0] - x, q[1] - y, q[2]},
       d{q[0] + x, q[1] + y, q[2]};
-  triangles.push_back({.corners = {a, b, c}, .colour = ink});
-  triangles.push_back({.corners = {a, c, d}, .colour = ink});
+  triangles.push_back({.corners = {a, b, c}, .colour = axis_colour});
+  triangles.push_back({.corners = {a, c, d}, .colour = axis_colour});
 }
 
 }  // namespace

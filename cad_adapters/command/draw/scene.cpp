@@ -17,12 +17,6 @@
 namespace command {
 namespace {
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Two lamps and some light from everywhere; both sides of a triangle are lit. `normal` is a unit vector in the frame
 /// of the camera.
 Colour shaded(Colour colour, Point normal) {

@@ -53,6 +53,7 @@ class MedWriter {
   void begin(const MeshArrays& arrays);
   void gather_surface(const MeshArrays& arrays);
   void gather_edges(const MeshArrays& arrays);
+  std::vector<med_int> node_families(std::size_t n);
   void add(med_geometry_type type, med_int family, const std::int32_t* nodes, std::size_t n);
 
   carreau_mesh* mesh_;
@@ -130,10 +131,29 @@ void MedWriter::gather_edges(const MeshArrays& arrays) {
   std::map<std::int32_t, med_int> families;
   for (std::size_t i = 0; i < n; ++i) {
     const auto [place, is_new] = families.emplace(refs[i], 0);
-    if (is_new) place->second = family(numbered("curve_", refs[i]), "");
+    if (is_new) place->second = family(numbered("curve_", refs[i]), carreau_mesh_entity_name(mesh_, 1, refs[i]));
     const std::int32_t nodes[] = {arrays.edges[i][0], arrays.edges[i][1], mids[i]};
     add(mids[i] < 0 ? MED_SEG2 : MED_SEG3, place->second, nodes, mids[i] < 0 ? 2 : 3);
   }
+}
+
+/// Families of nodes have numbers above 0; empty: no point has a name.
+std::vector<med_int> MedWriter::node_families(std::size_t n) {
+  std::vector<std::int32_t> refs(n);
+  if (carreau_mesh_vertex_refs(mesh_, static_cast<std::int64_t>(n), refs.data()) != CARREAU_OK) return {};
+  std::vector<med_int> families(n, 0);
+  std::map<std::string, med_int> known;
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::string name = refs[v] == 0 ? "" : carreau_mesh_entity_name(mesh_, 0, refs[v]);
+    if (name.empty()) continue;
+    const auto [place, is_new] = known.emplace(name, static_cast<med_int>(known.size() + 1));
+    families[v] = place->second;
+    if (!is_new) continue;
+    std::string group = group_name(name);
+    group.resize(MED_LNAME_SIZE + 1, '\0');
+    check(med_.familyCr(file_, mesh_name, numbered("points_", static_cast<std::int32_t>(place->second)).c_str(), place->second, 1, group.c_str()) >= 0);
+  }
+  return known.empty() ? std::vector<med_int>{} : families;
 }
 
 void MedWriter::run() {
@@ -141,6 +161,9 @@ void MedWriter::run() {
   begin(arrays);
   gather_surface(arrays);
   gather_edges(arrays);
+  if (const std::vector<med_int> families = node_families(arrays.vertices.size()); !families.empty())
+    check(med_.meshEntityFamilyNumberWr(file_, mesh_name, MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE,
+                                        static_cast<med_int>(families.size()), families.data()) >= 0);
   for (const auto& [type, each] : elements_) {
     const auto n = static_cast<med_int>(each.families.size());
     check(med_.meshElementConnectivityWr(file_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type,

@@ -2,6 +2,8 @@
 #include "files/mesh_file.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "base/text_file.h"
 #include "files/med_file.h"
@@ -22,6 +24,31 @@ MeshHandle read_mesh(const std::string& path) {
 void write_mesh(carreau_mesh* mesh, const std::string& path) {
   if (suffix_of(path) == ".med") return write_med(mesh, path);
   require(mesh, carreau_mesh_write(mesh, path.c_str()));
+}
+
+std::string group_table(carreau_mesh* mesh) {
+  std::int64_t vertices = 0, edges = 0;
+  require(mesh, carreau_mesh_count(mesh, &vertices, nullptr, &edges, nullptr));
+  std::vector<std::int32_t> points(static_cast<std::size_t>(vertices)), curves(static_cast<std::size_t>(edges));
+  if (vertices > 0) require(mesh, carreau_mesh_vertex_refs(mesh, vertices, points.data()));
+  if (edges > 0) require(mesh, carreau_mesh_edge_refs(mesh, edges, curves.data()));
+  std::map<std::pair<int, std::int32_t>, std::string> groups;
+  const auto add = [&](int dimension, std::int32_t ref) {
+    if (ref == 0 || groups.contains({dimension, ref})) return;
+    groups[{dimension, ref}] = carreau_mesh_entity_name(mesh, dimension, ref);
+  };
+  for (const std::int32_t ref : points) add(0, ref);
+  for (const std::int32_t ref : curves) add(1, ref);
+  for (const FaceResult& face : faces_of(mesh)) {
+    groups[{2, face.ref}] = face.name;
+    std::int32_t solids[2] = {};
+    require(mesh, carreau_mesh_face_sides(mesh, face.ref, solids));
+    add(3, solids[0]), add(3, solids[1]);
+  }
+  std::string table = "dimension reference group\n";
+  for (const auto& [entity, name] : groups)
+    if (!name.empty()) table += std::to_string(entity.first) + " " + std::to_string(entity.second) + " " + name + "\n";
+  return table;
 }
 
 void require_writers(const std::vector<std::string>& paths) {

@@ -5,6 +5,7 @@
 #include <carreau.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -16,21 +17,38 @@ namespace command {
 
 using Point = std::array<double, 3>;
 
+/// Vectors of the space of a mesh.
+inline Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// A vector of length 1; (0, 0, 1) for the zero vector.
+inline Point unit(const Point& a) {
+  const double length = std::sqrt(dot(a, a));
+  return length > 0 ? Point{a[0] / length, a[1] / length, a[2] / length} : Point{0, 0, 1};
+}
+
 struct FreeMesh {
   void operator()(carreau_mesh* mesh) const noexcept { carreau_mesh_free(mesh); }
 };
 using MeshHandle = std::unique_ptr<carreau_mesh, FreeMesh>;
 
 /// Suffixes of the formats that the library writes, and of the program's own.
-inline const std::vector<std::string> written_meshes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d",
+inline const std::vector<std::string> mesh_suffixes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d",
                                                      ".inp",  ".bdf",   ".unv", ".su2", ".off", ".obj",  ".ply",
-                                                     ".vtk",  ".tri",   ".med"};
+                                                     ".vtk",  ".tri",   ".med", ".smesh", ".poly", ".vol", ".geo"};
 
 /// Reads a file of any format that the library reads, or .med. Throws Failure with the library's sentence.
 MeshHandle read_mesh(const std::string& path);
 
-/// Writes a file of `written_meshes`. Throws Failure with the library's sentence.
+/// Writes a file of `mesh_suffixes`. Throws Failure with the library's sentence.
 void write_mesh(carreau_mesh* mesh, const std::string& path);
+
+/// Suffix of a table of the groups of a mesh: a line "dimension reference name" for each entity in a group.
+inline const std::string group_table_suffix = ".groups";
+/// That table. Throws Failure.
+std::string group_table(carreau_mesh* mesh);
 
 /// Throws Failure when this program cannot write one of the files for lack of a library.
 void require_writers(const std::vector<std::string>& paths);

@@ -33,6 +33,7 @@ void group_faces(const CadInput& input, const std::string& by, Groups& groups) {
   for (const std::int32_t face : input.face_numbers()) {
     const std::string part = input.parts_beside(face)[0].name;
     if (by == "part" && !part.empty()) groups[{2, face}] = part;
+    if (by == "layer" && !input.face_layer(face).empty()) groups[{2, face}] = input.face_layer(face);
     if (by == "color" && input.face_colour(face) >= 0) groups[{2, face}] = colour_name(input.face_colour(face));
     // An unnamed face has the name of a part.
     if (by == "face" && input.face_name(face) == without_number(part)) groups[{2, face}] = "";

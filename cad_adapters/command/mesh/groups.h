@@ -11,8 +11,8 @@
 
 namespace command {
 
-/// Names faces by their solid ("part") or their colour ("color"). "face" removes the names of parts, so that each face
-/// without a name is a group. "": a face has its name, or the name of its part.
+/// Names faces by their solid ("part"), their colour ("color") or their layer ("layer"). "face" removes the names of
+/// parts, so that each face without a name is a group. "name" and "": a face has its name, or the name of its part.
 /// Then names the entities that each rule "group=selector" selects (selection.h). A face around a solid that a rule
 /// selects gets the group's name, too, unless a rule selects the face itself. The session has the geometry of `input`.
 /// Returns sentences about entities that two rules select: the last rule counts. Throws Failure.

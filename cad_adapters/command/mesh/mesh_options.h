@@ -2,6 +2,7 @@
 // The options of `carreau mesh`, as the command line has them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +12,26 @@
 
 namespace command {
 
+/// A file of --sizes, and the number of the first rules of each list that it holds.
+struct SizesFile {
+  std::string path;  ///< empty: none
+  std::size_t faces = 0, entities = 0, near = 0;
+};
+
+/// The engine that fills solids, of `carreau volume`.
+struct VolumeChoice {
+  bool is_volume = false;
+  std::string engine;                  ///< empty: the first one on the machine
+  double seconds = 3600, gigabytes = 0;  ///< its limits; 0: none
+};
+
 struct MeshOptions : InputChoice {
   std::string input;
   std::vector<std::string> more_inputs;  ///< of `carreau mesh`: files beside it
   std::string repeat;       ///< shell_line() of all of this, for reports
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
+  VolumeChoice volume;      ///< of `carreau volume`
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -30,6 +45,8 @@ struct MeshOptions : InputChoice {
   std::optional<int> effort;                  ///< level of the parameter of that name
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> sizes_on;          ///< "entities=length", the entities by selection.h
+  std::vector<std::string> near;              ///< "entities=size:reach", the entities by selection.h
+  SizesFile sizes;
   std::vector<std::string> groups;            ///< "name=selector" (selection.h)
   std::string group_by;                       ///< part, face or color; empty: faces keep their names
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"

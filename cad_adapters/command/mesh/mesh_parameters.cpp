@@ -15,8 +15,10 @@
 #include "base/text_file.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
+#include "mesh/near.h"
 #include "mesh/periodic_faces.h"
 #include "mesh/selection.h"
+#include "mesh/sizes_file.h"
 
 namespace command {
 namespace {
@@ -69,13 +71,20 @@ bool is_set(carreau_session* session, const char* name) {
   return carreau_get_real(session, name, &value) == CARREAU_OK;
 }
 
+/// The size where no option gives one: attractors go beside sizes by curvature.
+double usual_size(carreau_session* session, const MeshOptions& options, double diagonal) {
+  std::int32_t by_curvature = 0;
+  require(session, carreau_get_integer(session, "hgeo_flag", &by_curvature));
+  return options.near.empty() || by_curvature == 0 ? 0.02 * diagonal : real(session, "hgeomax");
+}
+
 void set_physical_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths,
                         const CadInput& input) {
   const double diagonal = input.diagonal();
   const bool rules = !options.face_sizes.empty() || !options.sizes_on.empty();
   const bool by_face = (rules && input.answers_face_sizes()) || input.has_sizes();
   set(session, "hphy_flag", by_face ? 2 : 1);
-  if (lengths.size || !is_set(session, "hphydef")) set(session, "hphydef", lengths.size.value_or(0.02 * diagonal));
+  if (lengths.size || !is_set(session, "hphydef")) set(session, "hphydef", lengths.size.value_or(usual_size(session, options, diagonal)));
   double size = 0;
   require(session, carreau_get_real(session, "hphydef", &size));
   // The bounds of the library are for sizes that a formula gives, not for typed sizes.
@@ -134,13 +143,13 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
   const bool usual = has_usual_sizes(options) && !input.has_sizes();
   if (usual) set_usual_sizes(session, options, lengths, input.diagonal());
   const bool by_curvature = options.angle > 0 || lengths.chord;
+  if (by_curvature) set_geometric_sizes(session, options, lengths, input.diagonal());
   const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.sizes_on.empty() || !options.size_map.empty() || input.has_sizes() ||
-                           options.adapt.is_adapt;
+                           options.adapt.is_adapt || !options.near.empty();
   if (sizes_typed || (options.env.empty() && !by_curvature && !usual))
     set_physical_sizes(session, options, lengths, input);
   else if (options.env.empty() && !usual)
     set(session, "hphy_flag", 0);  // the curvature alone governs
-  if (by_curvature) set_geometric_sizes(session, options, lengths, input.diagonal());
   if (options.anisotropy > 0) {
     std::int32_t by_geometry = 0;
     require(session, carreau_get_integer(session, "hgeo_flag", &by_geometry));
@@ -204,27 +213,30 @@ std::vector<std::int32_t> faces_of_rule(const CadInput& input, const std::string
 }
 
 void set_face_sizes(const MeshOptions& options, CadInput& input) {
-  for (const std::string& each : options.face_sizes) {
-    const auto [face, text] = parse_assignment(each, "--face-size");
-    const double size = parse_length(text, "--face-size").of(input.diagonal());
+  for (std::size_t i = 0; i < options.face_sizes.size(); ++i) {
+    const std::string option = name_of_rule(options.sizes, "--face-size", i < options.sizes.faces);
+    const auto [face, text] = parse_assignment(options.face_sizes[i], option);
+    const double size = parse_length(text, option).of(input.diagonal());
     if (input.set_face_size(face, size)) continue;
     bool any = false;
     for (const std::int32_t number : faces_of_rule(input, face))
       any = input.set_face_size(std::to_string(number), size) || any;
     if (!any)
-      throw Failure("--face-size: there is no face '" + face + "'" + did_you_mean(face, words_for_faces(input)) +
+      throw Failure(option + ": there is no face '" + face + "'" + did_you_mean(face, words_for_faces(input)) +
                     " Faces are listed by: carreau info --faces");
   }
 }
 
 void set_sizes_on(const MeshOptions& options, CadInput& input) {
-  for (const std::string& each : options.sizes_on) {
-    const auto [entities, text] = parse_assignment(each, "--size-on");
-    const double size = parse_length(text, "--size-on").of(input.diagonal());
-    const Selection selection = select(input, entities, "--size-on");
+  for (std::size_t i = 0; i < options.sizes_on.size(); ++i) {
+    const std::string& each = options.sizes_on[i];
+    const std::string option = name_of_rule(options.sizes, "--size-on", i < options.sizes.entities);
+    const auto [entities, text] = parse_assignment(each, option);
+    const double size = parse_length(text, option).of(input.diagonal());
+    const Selection selection = select(input, entities, option);
     for (const std::int32_t ref : selection.refs)
       if (!input.set_size(selection.dimension, ref, size))
-        throw Failure("--size-on '" + each + "': number " + std::to_string(ref) + " does not exist, or this input takes sizes on faces alone.");
+        throw Failure(option + " '" + each + "': number " + std::to_string(ref) + " does not exist, or this input takes sizes on faces alone.");
   }
 }
 
@@ -256,6 +268,7 @@ void check_words(const MeshOptions& options) {
   for (const std::string& each : options.face_sizes)
     parse_length(parse_assignment(each, "--face-size").second, "--face-size");
   for (const std::string& each : options.sizes_on) parse_length(parse_assignment(each, "--size-on").second, "--size-on");
+  for (const std::string& each : options.near) (void)parse_near(each, "--near");
   check_curve_edges(options);
   check_periodic(options);
   if (options.settings.empty()) return;
@@ -282,6 +295,9 @@ std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double 
   for (const std::string& each : options.face_sizes)
     compare("--face-size " + each,
             parse_length(parse_assignment(each, "--face-size").second, "--face-size").of(diagonal));
+  for (const std::string& each : options.sizes_on)
+    compare("--size-on " + each, parse_length(parse_assignment(each, "--size-on").second, "--size-on").of(diagonal));
+  for (const std::string& each : options.near) compare("--near " + each, parse_length(parse_near(each, "--near").size, "--near").of(diagonal));
   return sentences;
 }
 
@@ -361,6 +377,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   if (options.independent) require(session, carreau_set_text(session, "patches", "independent"));
   if (options.sharp_angle) set(session, "sharp_angle", *options.sharp_angle);
   set_sizes(session, options, lengths_of(options, diagonal), input);
+  add_attractors(session, options, input);
   set_estimator(session, options, diagonal);
   if (!options.element.empty()) require(session, carreau_set_text(session, "element", options.element.c_str()));
   for (const std::string& setting : options.settings) set_by_name(session, setting, diagonal);

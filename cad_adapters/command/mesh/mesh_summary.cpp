@@ -154,6 +154,30 @@ nlohmann::ordered_json interfaces_json(const CadInput& input, const std::vector<
   return list;
 }
 
+std::string name_of(const CadInput::Part& part) { return part.name.empty() ? "solid " + std::to_string(part.number) : part.name; }
+
+/// Solids that touch without a common face.
+std::string contacts_line(const MeshRun& run) {
+  const std::vector<CadInput::Contact> contacts = run.input.contacts();
+  if (contacts.empty()) return "";
+  double area = 0;
+  for (const CadInput::Contact& each : contacts) area += each.area;
+  const auto largest = std::max_element(contacts.begin(), contacts.end(), [](const auto& p, const auto& q) { return p.area < q.area; });
+  return text("touching   %lld %s of solids, common area %.6g", whole(static_cast<std::int64_t>(contacts.size())), contacts.size() == 1 ? "pair" : "pairs", area) +
+         (contacts.size() > 1 ? ", largest " + text("%.6g", largest->area) : "") + " (" + name_of(largest->parts[0]) + " and " +
+         name_of(largest->parts[1]) + "); --imprint gives them common faces";
+}
+
+nlohmann::ordered_json contacts_json(const CadInput& input) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const CadInput::Contact& each : input.contacts())
+    list.push_back({{"solids", {each.parts[0].number, each.parts[1].number}},
+                    {"names", {each.parts[0].name, each.parts[1].name}},
+                    {"area", each.area},
+                    {"face_pairs", each.faces}});
+  return list;
+}
+
 /// Parameters that are implied.
 std::string gradation_line(const MeshRun& run) {
   if (!(run.options.anisotropy > 0) || run.options.gradation) return "";
@@ -272,6 +296,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   for (std::string& line : gluing_lines(run.input, interfaces)) lines.push_back(std::move(line));
   if (std::string line = gradation_line(run); !line.empty()) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
+  if (std::string line = contacts_line(run); !line.empty()) lines.push_back(std::move(line));
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,
                        r.seconds_total, static_cast<int>(threads), threads == 1 ? "thread" : "threads",
@@ -308,6 +333,7 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                                     {"faces", faces},
                                     {"intersections", crossings_json(run.crossings)},
                                     {"crossing_parts", part_crossings_json(run.crossings, run.input)},
+                                    {"contacts", contacts_json(run.input)},
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
                                     {"interfaces", interfaces_json(run.input, interfaces_of(run.session))},

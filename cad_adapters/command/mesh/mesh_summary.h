@@ -4,6 +4,7 @@
 
 #include <carreau.h>
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct MeshRun {
   ShortEdges short_edges = {};
   Crossings crossings = {};
   carreau_quality quality = {};
+  std::function<std::string(const std::string& suffix)> volume_text = {};  ///< content of files of tetrahedra; empty: files have the mesh
 };
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.

@@ -71,6 +71,7 @@ class Selector {
     if (colon != std::string::npos) {
       const std::string rest = text_.substr(colon + 1);
       if (kind == "color" || kind == "colour") return by_colour(rest);
+      if (kind == "layer") return by_layer(rest);
       for (std::size_t dimension = 0; dimension < kinds.size(); ++dimension)
         if (kind == kinds[dimension]) return of_kind(static_cast<int>(dimension), rest);
     }
@@ -99,6 +100,26 @@ class Selector {
     return {.dimension = 3, .refs = {numbers.begin(), numbers.end()}};
   }
 
+  [[nodiscard]] Selection small_named(int dimension, const std::string& pattern) const {
+    Selection found{.dimension = dimension, .refs = {}};
+    for (const CadInput::Named& each : input_.named(dimension))
+      if (each.name == pattern || fits(each.name, pattern)) found.refs.push_back(each.number);
+    return found;
+  }
+  [[nodiscard]] Selection named(int dimension, const std::string& pattern) const {
+    return dimension < 2 ? small_named(dimension, pattern) : dimension == 2 ? faces_named(pattern) : solids_named(pattern);
+  }
+
+  Selection by_layer(const std::string& pattern) const {
+    Selection found = faces_where([&](std::int32_t face) { return input_.face_layer(face) == pattern || fits(input_.face_layer(face), pattern); });
+    std::set<std::string> layers;
+    for (const std::int32_t face : input_.face_numbers()) layers.insert(input_.face_layer(face));
+    layers.erase("");
+    if (layers.empty()) fail("the file has no layers.");
+    if (found.refs.empty()) fail("no face is on this layer" + did_you_mean(pattern, {layers.begin(), layers.end()}));
+    return found;
+  }
+
   Selection by_colour(const std::string& text) const {
     const std::optional<std::int32_t> rgb = colour_in(text);
     if (!rgb) fail("a colour is written #rrggbb, as in color:#ff0000.");
@@ -109,8 +130,7 @@ class Selector {
 
   Selection of_kind(int dimension, const std::string& text) const {
     if (const std::optional<std::vector<std::int32_t>> refs = numbers_in(text)) return known(dimension, *refs);
-    Selection found = dimension == 2 ? faces_named(text) : dimension == 3 ? solids_named(text) : Selection{};
-    if (dimension < 2) fail("an edge or a vertex is named by its number, as in edge:3 or edge:3-5,8.");
+    Selection found = named(dimension, text);
     if (found.refs.empty()) fail("there is no such " + std::string(kinds[static_cast<std::size_t>(dimension)]) + suggestion(text));
     return found;
   }
@@ -130,10 +150,9 @@ class Selector {
 
   Selection by_word() const {
     if (const std::optional<std::vector<std::int32_t>> refs = numbers_in(text_)) return known(2, *refs);
-    Selection found = faces_named(text_);
-    if (found.refs.empty()) found = solids_named(text_);
-    if (found.refs.empty()) fail("no face and no solid has this name" + suggestion(text_));
-    return found;
+    for (const int dimension : {2, 3, 1, 0})
+      if (Selection found = named(dimension, text_); !found.refs.empty()) return found;
+    fail("no face, solid, edge or vertex has this name" + suggestion(text_));
   }
 
   [[nodiscard]] std::string suggestion(const std::string& word) const {
@@ -142,6 +161,8 @@ class Selector {
       names.insert(input_.face_name(face));
       for (const CadInput::Part& part : input_.parts_beside(face)) names.insert(part.name);
     }
+    for (const int dimension : {0, 1})
+      for (const CadInput::Named& each : input_.named(dimension)) names.insert(each.name);
     names.erase("");
     return did_you_mean(word, {names.begin(), names.end()}) + " `carreau info --faces` lists all.";
   }

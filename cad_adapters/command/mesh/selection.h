@@ -16,9 +16,10 @@ struct Selection {
   std::vector<std::int32_t> refs;  ///< ascending
 };
 
-/// Finds "face:12-19,21", "edge:3", "vertex:7", "solid:2", "color:#ff0000" (faces), or a word, which may hold * and ?:
-/// faces of that name or number, else solids of that name. A word behind "face:" or "solid:" may be a name, too. Throws
-/// Failure, which begins with `option`, when nothing fits; it suggests near names.
+/// Finds "face:12-19,21", "edge:3", "vertex:7", "solid:2", "color:#ff0000" and "layer:walls" (faces), or a word, which may
+/// hold * and ?: faces of that name or number, else solids, edges or vertices of that name. A word behind "face:",
+/// "solid:", "edge:" or "vertex:" may be a name, too. Throws Failure, which begins with `option`, when nothing fits; it
+/// suggests near names.
 Selection select(const CadInput& input, const std::string& text, const std::string& option);
 
 }  // namespace command

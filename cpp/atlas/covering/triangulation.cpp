@@ -9,7 +9,7 @@
 namespace carreau::atlas {
 namespace {
 
-std::string name(std::int32_t v) { return std::to_string(v + 1); }
+std::string name_of(std::int32_t v) { return std::to_string(v + 1); }
 
 void require_numbers(const Triangulation& s) {
   constexpr double largest_coordinate = 1e100;
@@ -21,10 +21,10 @@ void require_numbers(const Triangulation& s) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t v = s.triangles[t][k];
       if (v < 0 || static_cast<std::size_t>(v) >= s.vertices.size())
-        throw InvalidArgument("triangle " + std::to_string(t + 1) + " has a vertex " + name(v) +
+        throw InvalidArgument("triangle " + std::to_string(t + 1) + " has a vertex " + name_of(v) +
                               " that the triangulation does not have");
       if (v == s.triangles[t][(k + 1) % 3])
-        throw InvalidArgument("triangle " + std::to_string(t + 1) + " has vertex " + name(v) + " twice");
+        throw InvalidArgument("triangle " + std::to_string(t + 1) + " has vertex " + name_of(v) + " twice");
     }
 }
 
@@ -40,20 +40,20 @@ Fans::Fans(const Triangulation& surface) : fans_(surface.vertices.size()) {
       next[static_cast<std::size_t>(t[k])].push_back({t[(k + 1) % 3], t[(k + 2) % 3]});
   for (std::size_t v = 0; v < next.size(); ++v) {
     auto& pairs = next[v];
-    const std::string here = name(static_cast<std::int32_t>(v));
+    const std::string here = name_of(static_cast<std::int32_t>(v));
     if (pairs.empty()) throw InvalidArgument("no triangle of the triangulation has vertex " + here);
     std::sort(pairs.begin(), pairs.end());
     for (std::size_t i = 0; i + 1 < pairs.size(); ++i)
       if (pairs[i][0] == pairs[i + 1][0])
         throw InvalidArgument(
-            "the edge of vertices " + here + " and " + name(pairs[i][0]) +
+            "the edge of vertices " + here + " and " + name_of(pairs[i][0]) +
             " has several triangles on one side: they are turned differently, or more than two share it");
     auto& fan = fans_[v];
     for (std::int32_t at = pairs[0][0]; fan.empty() || at != pairs[0][0];) {
       fan.push_back(at);
       const auto found = std::lower_bound(pairs.begin(), pairs.end(), std::array<std::int32_t, 2>{at, 0});
       if (found == pairs.end() || (*found)[0] != at || fan.size() > pairs.size())
-        throw InvalidArgument("the triangulation has a border at the edge of vertices " + here + " and " + name(at) +
+        throw InvalidArgument("the triangulation has a border at the edge of vertices " + here + " and " + name_of(at) +
                               "; an atlas needs a closed surface");
       at = (*found)[1];
     }

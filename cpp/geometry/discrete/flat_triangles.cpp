@@ -16,8 +16,6 @@ namespace {
 using Corners = std::array<std::int32_t, 3>;
 using Edge = std::array<std::int32_t, 2>;
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
-Edge edge_of(std::int32_t v, std::int32_t w) noexcept { return v < w ? Edge{v, w} : Edge{w, v}; }
 bool has_double_corner(const Corners& t) noexcept { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 class FlatDropper {

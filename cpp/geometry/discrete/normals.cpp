@@ -12,7 +12,6 @@ namespace carreau::discrete {
 
 namespace {
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 Vec3 unit(const Vec3& v) noexcept {
   const double length = norm(v);

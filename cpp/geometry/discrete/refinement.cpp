@@ -12,7 +12,6 @@ namespace carreau::discrete {
 
 namespace {
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 std::uint64_t key_of(std::int32_t v, std::int32_t w) noexcept {
   const Edge e = edge_of(v, w);
   return static_cast<std::uint64_t>(e[0]) << 32 | static_cast<std::uint64_t>(e[1]);

@@ -16,7 +16,6 @@ namespace carreau::discrete {
 
 namespace {
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 void check_angle(const char* name, double angle) {
   constexpr double half_turn = 180;

@@ -13,7 +13,6 @@ namespace carreau::discrete {
 
 namespace {
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 class Joiner {
  public:

@@ -31,7 +31,6 @@ struct Known {
   friend auto operator<=>(const Known&, const Known&) = default;
 };
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -13,6 +13,7 @@ namespace carreau::discrete {
 
 /// An edge: the smaller vertex first.
 using Edge = std::array<std::int32_t, 2>;
+inline std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 inline Edge edge_of(std::int32_t v, std::int32_t w) noexcept { return v < w ? Edge{v, w} : Edge{w, v}; }
 
 /// Defects that were found and repaired.

@@ -8,7 +8,6 @@ namespace carreau::discrete {
 
 namespace {
 
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Edges around a vertex in one region, counterclockwise about the normal.
 struct Fan {

@@ -15,9 +15,9 @@ using Key = std::pair<int, int>;
 /// The faces that an edge bounds.
 using Signature = std::vector<int>;
 
-class Finder {
+class BorderFinder {
  public:
-  Finder(std::vector<Block>& blocks, const std::vector<Cells>& cells, double tolerance)
+  BorderFinder(std::vector<Block>& blocks, const std::vector<Cells>& cells, double tolerance)
       : blocks_(blocks), cells_(cells), tolerance_(tolerance) {}
 
   Borders run() {
@@ -192,7 +192,7 @@ class Finder {
 }  // namespace
 
 Borders find_borders(std::vector<Block>& blocks, const std::vector<Cells>& cells, double tolerance) {
-  return Finder(blocks, cells, tolerance).run();
+  return BorderFinder(blocks, cells, tolerance).run();
 }
 
 }  // namespace carreau::grid

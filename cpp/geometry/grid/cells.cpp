@@ -37,9 +37,9 @@ Shape shape_of(const Block& block, int i, int j) {
 }
 
 /// Labels and borders of the cells of one block.
-class Finder {
+class CellFinder {
  public:
-  explicit Finder(const Block& block) : block_(block), label_(block.nodes.size(), -1) {}
+  explicit CellFinder(const Block& block) : block_(block), label_(block.nodes.size(), -1) {}
 
   Cells run() {
     for (int j = 0; j + 1 < block_.rows; ++j)
@@ -143,6 +143,6 @@ BorderEdge::NodeAt BorderEdge::end() const { return corner(*this, side + 1); }
 BorderEdge::NodeAt BorderEdge::inner_start() const { return corner(*this, side + 3); }
 BorderEdge::NodeAt BorderEdge::inner_end() const { return corner(*this, side + 2); }
 
-Cells find_cells(const Block& block) { return Finder(block).run(); }
+Cells find_cells(const Block& block) { return CellFinder(block).run(); }
 
 }  // namespace carreau::grid

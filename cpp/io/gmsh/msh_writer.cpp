@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-constexpr int line_type = 1, line_of_order_2_type = 8, point_type = 15;
+constexpr int written_line = 1, written_line_of_order_2 = 8, written_point = 15;
 
 /// The format's type of a kind of elements; nodes have the order of the format already.
 int type_of(CellKind kind) noexcept {
@@ -202,8 +202,8 @@ class MshText {
   }
 
   [[nodiscard]] int type_of(int dim, std::size_t member) const {
-    if (dim == 0) return point_type;
-    if (dim == 1) return mesh_.edge_mids.empty() ? line_type : line_of_order_2_type;
+    if (dim == 0) return written_point;
+    if (dim == 1) return mesh_.edge_mids.empty() ? written_line : written_line_of_order_2;
     return carreau::type_of(cells_[member].kind);
   }
 

@@ -31,7 +31,7 @@ std::string described(const Item& item) {
   return text;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
 
 bool looks_like_integer(std::string_view word) {
   if (!word.empty() && (word[0] == '+' || word[0] == '-')) word.remove_prefix(1);
@@ -80,7 +80,7 @@ void PardomReader::skip_blanks() {
     if (text_[pos_] == ',') {
       // In list-directed Fortran input a missing value would be left as it was; here it has no meaning.
       if (++commas > 1 || !any_word_) fail("a value is missing before a comma", next_line_);
-    } else if (!is_blank(text_[pos_])) {
+    } else if (!is_space(text_[pos_])) {
       return;
     }
     if (text_[pos_] == '\n') ++next_line_;
@@ -91,7 +91,7 @@ void PardomReader::skip_blanks() {
 std::string_view PardomReader::word() {
   skip_blanks();
   const std::size_t begin = pos_;
-  while (pos_ < text_.size() && !is_blank(text_[pos_]) && text_[pos_] != ',' && text_[pos_] != '!') ++pos_;
+  while (pos_ < text_.size() && !is_space(text_[pos_]) && text_[pos_] != ',' && text_[pos_] != '!') ++pos_;
   if (pos_ > begin) {
     line_ = next_line_;
     any_word_ = true;

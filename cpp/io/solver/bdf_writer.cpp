@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bulk data of Nastran (MSC Nastran quick reference guide): GRID, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL for edges. Faces
 // are properties; names are sets of the case control section.
+#include <array>
 #include <map>
 #include <set>
 
@@ -14,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 32, small_field = 8, large_field = 16, largest_number = 99'999'999;
+constexpr std::size_t max_property_name = 32, small_field = 8, large_field = 16, largest_number = 99'999'999;
 
 const char* card_of(CellKind kind) noexcept {
   switch (kind) {
@@ -82,28 +83,43 @@ std::vector<std::size_t> properties_of(const ElementSets& sets) {
   return properties;
 }
 
-/// Faces are numbered through: their elements are ranges.
+/// A set of ranges of numbers.
+void add_set(std::size_t number, const std::string& name, const std::vector<std::array<std::size_t, 2>>& ranges, std::string& text) {
+  text += "$ set " + std::to_string(number) + ": " + name + "\nSET " + std::to_string(number) + " = ";
+  const char* between = "";
+  for (const auto& [first, count] : ranges) {
+    text += between + std::to_string(first);
+    if (count > 1) text += " THRU " + std::to_string(first + count - 1);
+    between = ",\n  ";
+  }
+  text += '\n';
+}
+
+/// Faces and curves are numbered through: their elements are ranges. Sets of grids are marked by their names.
 void add_sets(const ElementSets& sets, const std::vector<std::size_t>& properties, std::string& text) {
   for (std::size_t i = 0; i < sets.faces.size(); ++i)
     text += "$ property " + std::to_string(properties[i]) + ": " + sets.faces[i].name + "\n";
-  for (std::size_t i = 0; i < sets.names.size(); ++i) {
-    const std::string number = std::to_string(i + 1);
-    text += "$ set " + number + ": " + sets.names[i].name + "\nSET " + number + " = ";
-    const char* between = "";
-    for (const std::size_t f : sets.names[i].sets) {
-      const FaceSet& face = sets.faces[f];
-      text += between + std::to_string(face.first);
-      if (face.cells.size() > 1) text += " THRU " + std::to_string(face.first + face.cells.size() - 1);
-      between = ",\n  ";
+  std::size_t number = 0;
+  const auto add = [&](const std::vector<NamedSets>& names, const auto& all, const auto& count_of) {
+    for (const NamedSets& each : names) {
+      std::vector<std::array<std::size_t, 2>> ranges;
+      for (const std::size_t k : each.sets) ranges.push_back({all[k].first, count_of(all[k])});
+      add_set(++number, each.name, ranges, text);
     }
-    text += '\n';
+  };
+  add(sets.names, sets.faces, [](const FaceSet& face) { return face.cells.size(); });
+  add(sets.curve_names, sets.curves, [](const CurveSet& curve) { return curve.edges.size(); });
+  for (const NamedVertices& each : sets.point_names) {
+    std::vector<std::array<std::size_t, 2>> ranges;
+    for (const std::size_t v : each.vertices) ranges.push_back({v + 1, 1});
+    add_set(++number, each.name + " (grids)", ranges, text);
   }
 }
 
 }  // namespace
 
 std::string bdf_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_property_name);
   if (std::max(sets.elements, mesh.vertices.size()) > largest_number)
     throw InvalidArgument("the mesh has more nodes or elements than the eight digits of .bdf can number");
   const std::vector<std::size_t> properties = properties_of(sets);

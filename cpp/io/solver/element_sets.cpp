@@ -88,6 +88,19 @@ std::vector<NamedSets> named(const std::vector<Set>& sets, const std::map<std::i
   return found;
 }
 
+std::vector<NamedVertices> named_vertices(const FlatMesh& mesh, Names& names) {
+  std::vector<NamedVertices> found;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t v = 0; v < mesh.vertices.size() && !mesh.names.points.empty(); ++v) {
+    const auto name = mesh.names.points.find(ref_of(mesh.vertex_refs, v));
+    if (name == mesh.names.points.end() || name->second.empty()) continue;
+    const auto [at, fresh] = place.emplace(name->second, found.size());
+    if (fresh) found.push_back({names.clean(name->second), {}});
+    found[at->second].vertices.push_back(v);
+  }
+  return found;
+}
+
 }  // namespace
 
 ElementSets sets_of(const FlatMesh& mesh, std::size_t longest) {
@@ -109,6 +122,7 @@ ElementSets sets_of(const FlatMesh& mesh, std::size_t longest) {
   sets.names = named(sets.faces, given, names);
   const std::map<std::int32_t, std::string> of_curves(mesh.names.curves.begin(), mesh.names.curves.end());
   sets.curve_names = named(sets.curves, of_curves, names);
+  sets.point_names = named_vertices(mesh, names);
   return sets;
 }
 

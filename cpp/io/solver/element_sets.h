@@ -33,11 +33,18 @@ struct NamedSets {
   std::vector<std::size_t> sets;  ///< indices of face sets, or curve sets, ascending
 };
 
+/// Corners and imposed points to which the file or the host has given one name.
+struct NamedVertices {
+  std::string name;                   ///< as in NamedSets
+  std::vector<std::size_t> vertices;  ///< indices, ascending
+};
+
 struct ElementSets {
   std::vector<FaceSet> faces;    ///< ascending references
   std::vector<CurveSet> curves;  ///< ascending references
   std::vector<NamedSets> names;        ///< of faces
   std::vector<NamedSets> curve_names;
+  std::vector<NamedVertices> point_names;
   std::size_t elements = 0;  ///< of faces and curves
 };
 

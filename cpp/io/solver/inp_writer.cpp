@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Input of Abaqus and CalculiX (Abaqus keywords reference; G. Dhondt, CalculiX CrunchiX user's manual): nodes, shells, sets.
+#include <set>
+
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"
 #include "io/solver/narrow_numbers.h"
@@ -8,7 +10,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 80, number_width = 20, a_line = 16;
+constexpr std::size_t max_set_name = 80, number_width = 20, a_line = 16;
 
 /// Shells of three to eight nodes, which have the order of the format, with the names of CalculiX: S6 is STRI65 in
 /// Abaqus.
@@ -65,11 +67,15 @@ void add_face(const FaceSet& face, std::string& text) {
   }
 }
 
-void add_curve(const CurveSet& curve, std::string& text) {
-  text.append("*NSET, NSET=").append(curve.name).append("\n");
+/// The nodes of curves, each once: CalculiX adds up the forces of a node as often as a set lists it.
+void add_node_set(const std::string& name, const std::vector<const CurveSet*>& curves, std::string& text) {
+  text.append("*NSET, NSET=").append(name).append("\n");
   List list(text);
-  for (const auto& edge : curve.edges)
-    for (const std::int32_t v : edge) list.add(std::to_string(v + 1));
+  std::set<std::int32_t> listed;
+  for (const CurveSet* curve : curves)
+    for (const auto& edge : curve->edges)
+      for (const std::int32_t v : edge)
+        if (listed.insert(v).second) list.add(std::to_string(v + 1));
   list.end();
 }
 
@@ -91,7 +97,7 @@ void add_periodic(const FlatMesh& mesh, std::string& text) {
 }  // namespace
 
 std::string inp_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_set_name);
   std::string text = "*HEADING\nmesh by Carreau\n";
   add_nodes(mesh, text);
   for (const FaceSet& face : sets.faces) add_face(face, text);
@@ -106,11 +112,16 @@ std::string inp_text(const FlatMesh& mesh) {
   std::vector<std::size_t> all(sets.faces.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   add_set("all_faces", all);
-  for (const CurveSet& curve : sets.curves) add_curve(curve, text);
+  for (const CurveSet& curve : sets.curves) add_node_set(curve.name, {&curve}, text);
   for (const NamedSets& each : sets.curve_names) {
+    std::vector<const CurveSet*> curves;
+    for (const std::size_t i : each.sets) curves.push_back(&sets.curves[i]);
+    add_node_set(each.name, curves, text);
+  }
+  for (const NamedVertices& each : sets.point_names) {
     text.append("*NSET, NSET=").append(each.name).append("\n");
     List list(text);
-    for (const std::size_t i : each.sets) list.add(sets.curves[i].name);
+    for (const std::size_t v : each.vertices) list.add(std::to_string(v + 1));
     list.end();
   }
   add_periodic(mesh, text);

@@ -11,8 +11,8 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 80;
-constexpr int line_type = 3, triangle_type = 5, quad_type = 9;
+constexpr std::size_t max_marker_name = 80;
+constexpr int written_line = 3, written_triangle = 5, written_quad = 9;
 
 void add_element(int type, const std::int32_t* nodes, int count, std::string& text) {
   text += std::to_string(type);
@@ -21,7 +21,7 @@ void add_element(int type, const std::int32_t* nodes, int count, std::string& te
 
 void add_cell(const Cell& cell, std::string& text) {
   const int corners = corner_count(cell.kind);
-  add_element(corners == 4 ? quad_type : triangle_type, cell.nodes.data(), corners, text);
+  add_element(corners == 4 ? written_quad : written_triangle, cell.nodes.data(), corners, text);
 }
 
 void add_plane_elements(const ElementSets& sets, std::string& text) {
@@ -82,7 +82,7 @@ void add_curve_markers(const ElementSets& sets, std::string& text) {
     for (const std::size_t i : marker.sets) count += sets.curves[i].edges.size();
     begin_marker(marker.name, count, text);
     for (const std::size_t i : marker.sets)
-      for (const auto& edge : sets.curves[i].edges) add_element(line_type, edge.data(), 2, text), text += '\n';
+      for (const auto& edge : sets.curves[i].edges) add_element(written_line, edge.data(), 2, text), text += '\n';
   }
 }
 
@@ -90,7 +90,7 @@ void add_curve_markers(const ElementSets& sets, std::string& text) {
 
 std::string su2_text(const FlatMesh& mesh) {
   refuse_second_order(mesh, ".su2");
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_marker_name);
   bool flat = true;
   for (const Vec3& p : mesh.vertices) flat = flat && (mesh.dimension == 2 || p.z() == 0);
   std::string text = flat ? "NDIME= 2\n" : "NDIME= 3\n";

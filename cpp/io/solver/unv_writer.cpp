@@ -10,8 +10,8 @@ namespace carreau {
 
 namespace {
 
-constexpr std::size_t longest_name = 40;
-constexpr int beam = 21, beam_of_order_2 = 24, colour = 7, element_code = 8;
+constexpr std::size_t max_group_name = 40;
+constexpr int beam = 21, beam_of_order_2 = 24, colour = 7, node_code = 7, element_code = 8;
 
 /// Descriptor of a thin shell.
 int descriptor_of(CellKind kind) noexcept {
@@ -107,14 +107,14 @@ struct Range {
 };
 
 /// Two elements a line.
-void add_group(std::size_t number, const std::string& name, const std::vector<Range>& ranges, std::string& text) {
+void add_group(std::size_t number, const std::string& name, const std::vector<Range>& ranges, std::string& text, int code = element_code) {
   std::size_t count = 0, done = 0;
   for (const Range& range : ranges) count += range.count;
   add_line({number, 0, 0, 0, 0, 0, 0, count}, text);
   text += name + "\n";
   for (const Range& range : ranges)
     for (std::size_t k = 0; k < range.count; ++k) {
-      for (const std::size_t n : {std::size_t(element_code), range.first + k, std::size_t(0), std::size_t(0)}) add_integer(n, text);
+      for (const std::size_t n : {std::size_t(code), range.first + k, std::size_t(0), std::size_t(0)}) add_integer(n, text);
       if (++done % 2 == 0 || done == count) text += '\n';
     }
 }
@@ -134,13 +134,18 @@ void add_groups(const ElementSets& sets, std::string& text) {
     for (const std::size_t i : each.sets) ranges.push_back({sets.curves[i].first, sets.curves[i].edges.size()});
     add_group(++number, each.name, ranges, text);
   }
+  for (const NamedVertices& each : sets.point_names) {
+    std::vector<Range> ranges;
+    for (const std::size_t v : each.vertices) ranges.push_back({v + 1, 1});
+    add_group(++number, each.name, ranges, text, node_code);
+  }
   end(text);
 }
 
 }  // namespace
 
 std::string unv_text(const FlatMesh& mesh) {
-  const ElementSets sets = sets_of(mesh, longest_name);
+  const ElementSets sets = sets_of(mesh, max_group_name);
   std::string text;
   add_vertices(mesh, text);
   add_elements(sets, text);

@@ -9,7 +9,7 @@
 
 #include "mesh/surface_mesh.h"
 #include "support/vec.h"
-#include "surface/independent/bounds/pole.h"
+#include "surface/remesh/bounds/pole.h"
 
 namespace carreau {
 

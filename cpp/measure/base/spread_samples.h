@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "surface/independent/base/charts.h"
-#include "surface/independent/bounds/spread_triangle.h"
+#include "surface/remesh/base/charts.h"
+#include "surface/remesh/bounds/spread_triangle.h"
 
 namespace carreau {
 

@@ -10,7 +10,7 @@
 #include "measure/base/mesh_edges.h"
 #include "mesh/surface_mesh.h"
 #include "support/incidence.h"
-#include "surface/independent/bounds/triangle_bound.h"
+#include "surface/remesh/bounds/triangle_bound.h"
 
 namespace carreau {
 

@@ -50,6 +50,6 @@ class Inspector {
 /// Elements of meshes that keep the borders of their patches; invalid ones are divided.
 [[nodiscard]] std::unique_ptr<Inspector> make_element_inspector();
 /// Frees the mesh of the borders of its patches and makes its elements; invalid and crossing ones are divided.
-[[nodiscard]] std::unique_ptr<Inspector> make_free_mesh_inspector();
+[[nodiscard]] std::unique_ptr<Inspector> make_cross_patch_inspector();
 
 }  // namespace carreau

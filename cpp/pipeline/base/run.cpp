@@ -5,7 +5,7 @@
 
 #include "gradation/gradation.h"
 #include "support/ranks/team.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 #if defined(__unix__)
 #include <unistd.h>

@@ -2,6 +2,7 @@
 // A run over a composite surface: the data that its steps share. Private to pipeline/.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -23,6 +24,10 @@
 #include "surface/supports.h"
 
 namespace carreau {
+
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// CompositeRun::keeper.
 inline constexpr int no_process = -1, all_have = 0;

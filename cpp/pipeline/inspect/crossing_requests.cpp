@@ -12,7 +12,7 @@
 #include "pipeline/inspect/face_gap.h"
 #include "pipeline/inspect/face_triangle.h"
 #include "pipeline/parts/part_crossings.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
 

@@ -9,9 +9,10 @@
 #include "pipeline/base/inspector.h"
 #include "pipeline/base/run.h"
 #include "support/format.h"
-#include "surface/elements/quadratic.h"
-#include "surface/elements/thresholds.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/second_order/quadratic.h"
+#include "surface/elements/base/invalid_report.h"
+#include "surface/elements/base/thresholds.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
 
@@ -65,16 +66,8 @@ std::vector<std::pair<std::int32_t, int>> segments_of(const CompositeRun& run, c
 }
 
 void report_invalid(CompositeRun& run, const QuadraticReport& report) {
-  for (const InvalidElements& invalid : report.invalid) {
-    FaceMesh& face = run.result.mesh.faces[invalid.face];
-    const std::string what =
-        Where{.face = face.shown_ref(), .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
-        (invalid.count == 1 ? " element has" : " elements have") +
-        " a Jacobian that is not positive everywhere";
-    face.status = FaceStatus::mended;
-    face.why += (face.why.empty() ? "" : "; ") + what;
-    run.report(Level::warning, what);
-  }
+  for (const InvalidElements& invalid : report.invalid)
+    run.report(Level::warning, mark_invalid(run.result.mesh.faces[invalid.face], invalid.uv, invalid.count));
 }
 
 class ElementInspector final : public Inspector {

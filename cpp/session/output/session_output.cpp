@@ -34,7 +34,7 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   CheckedCad whole_cad(*meshed.cad);
   PartCad cad(whole_cad, parts_of(meshed.model));
   const double diag = s.result.report.diag;
-  set_parameter_boxes(meshed.model, meshed.supports, cad);
+  set_parameter_domains(meshed.model, meshed.supports, cad);
   // Measures without messages: the user requested pictures, not a report.
   std::optional<MeshEvaluation> measured;
   const auto evaluation_here = [&]() -> const MeshEvaluation& {
@@ -68,7 +68,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   try {
     background = background_of_run(parameters, s.model.plane, s.background);
     supports = build_supports(s.model, cad, parameters.real("angle_smo"), threads_of(s.parameters), s.monitor);
-    set_parameter_boxes(s.model, *supports, cad);
+    set_parameter_domains(s.model, *supports, cad);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {

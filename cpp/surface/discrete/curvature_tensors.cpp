@@ -7,7 +7,7 @@
 
 #include "metric/metric2_algebra.h"
 #include "model/union_find.h"
-#include "surface/independent/base/tangent_metrics.h"
+#include "surface/remesh/base/tangent_metrics.h"
 
 namespace carreau {
 

@@ -6,9 +6,10 @@
 #include <numbers>
 
 #include "surface/discrete/start_mesh.h"
-#include "surface/free_elements/free_elements.h"
-#include "surface/projected/projected_mesh.h"
-#include "surface/quads/quadrilaterals.h"
+#include "surface/elements/cross_patch/cross_patch_elements.h"
+#include "surface/remesh/strategies.h"
+#include "surface/remesh/planes/projected_mesh.h"
+#include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
 
@@ -82,7 +83,7 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
-  const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
+  const std::string why = remesh_from_planes(frame, least_mean_shape, cad, options, start.result, monitor);
   if (!why.empty()) monitor.message(Level::detail, "local instead of parametric remeshing: " + why);
   return why.empty();
 }
@@ -94,10 +95,10 @@ void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions&
   RemeshingFrame frame = start_frame(surface, start.refined, result.mesh, start.wanted, options, cad, monitor);
   const auto atlas = frame.charts;
   if (options.element != Element::p1)
-    frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) {
-      make_free_elements(before, frame, options, cad, made, monitor);
+    frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& made) {
+      make_cross_patch_elements(before, frame, options, cad, made, monitor);
     };
-  const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
+  const std::string why = remesh_by_strategies(frame, cad, options, result, monitor);
   if (why.empty()) return;
   monitor.message(Level::warning, "no remeshing, the triangles are only divided by the sizes: " + why);
   if (frame.elements)

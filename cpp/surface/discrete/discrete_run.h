@@ -8,7 +8,7 @@
 
 namespace carreau {
 
-/// Refines the triangles to the prescribed sizes, then remeshes them on the exact surface (surface/independent). Faces
+/// Refines the triangles to the prescribed sizes, then remeshes them on the exact surface (surface/remesh). Faces
 /// are the faces of the model. Curves are the sharp lines, with the ranks of lines as references; corners have theirs.
 /// `cad` evaluates the surface. Throws Cancelled, LimitError, and the exceptions of sources of sizes.
 CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& surface, Cad& cad,

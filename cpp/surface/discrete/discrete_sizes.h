@@ -9,7 +9,7 @@
 #include "geometry/discrete/refinement.h"
 #include "gradation/metric_grading.h"
 #include "surface/discrete/curvature_tensors.h"
-#include "surface/independent/base/tangent_metrics.h"
+#include "surface/remesh/base/tangent_metrics.h"
 #include "surface/options.h"
 
 namespace carreau {

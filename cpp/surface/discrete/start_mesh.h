@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "surface/discrete/discrete_sizes.h"
-#include "surface/independent/independent.h"
+#include "surface/remesh/frame.h"
 #include "surface/result.h"
 
 namespace carreau {

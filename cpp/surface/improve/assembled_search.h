@@ -8,6 +8,7 @@
 
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
+#include "mesh/trial.h"
 #include "size/size_rules.h"
 #include "surface/result.h"
 
@@ -42,12 +43,12 @@ class AssembledSearch {
   bool swap_if_better(const EditableMesh::Quad& quad, const Judgement& before, double good, const Judge& judge,
                       Judgement& after) {
     const Vec3 mean = mesh_.mean_normal(quad.places());
-    const std::size_t edits = mesh_.edits();
+    Trial trial(mesh_);
     if (!mesh_.swap(quad)) return false;
     after = judge();
-    if (after.improves(before, good) && agree(quad.places(), mean)) return true;
-    mesh_.undo(edits);
-    return false;
+    if (!after.improves(before, good) || !agree(quad.places(), mean)) return false;
+    trial.accept();
+    return true;
   }
 
   /// Notes a vertex whose size must be evaluated again.
@@ -78,13 +79,13 @@ class AssembledSearch {
       const Vec2 uv = home + offset;
       if (budget_.is_spent() || !mesh_.can_move(v, uv)) return;  // so it stays inside the domain
       const SurfaceJet jet = ask(v.face, uv);
-      const std::size_t edits = mesh_.edits();
+      Trial trial(mesh_);
       mesh_.move(v, uv, jet.s);
       criterion.learn(*this, v, jet);
       const Judgement now = judge();
       if (accepts(now, before) && now.better_than(best) && agree(fan, mean))
         best = now, found = {uv, jet.s, criterion.known(mesh_, v)};
-      mesh_.undo(edits);
+      (void)trial.undo();
       criterion.set_known(mesh_, v, known);
     });
     return found;

@@ -100,13 +100,12 @@ class Evening {
     for_edges_near(v, [&](const Quad& q) {
       const Judgement before = criterion_.judge_quad(mesh_, q, false, range_);
       if (!(before.excess > 0)) return;
-      const std::size_t edits = mesh_.edits();
+      const Trial trial(mesh_);
       Judgement after;
       const bool better = search_.swap_if_better(
           q, before, Criterion::good, [&] { return criterion_.judge_quad(mesh_, q, true, range_); }, after);
       if (!better) return;
       if (!found || after.better_than(best)) found = q, best = after;
-      mesh_.undo(edits);
     });
     return found && mesh_.swap(*found);
   }
@@ -124,7 +123,7 @@ class Evening {
     constexpr LengthRange range{.shortest = thresholds::length_ratio::shortest_divided};
     const Judgement before = criterion_.judge(mesh_, mesh_.corners(q), range);
     const Vec3 mean = mesh_.mean_normal(q.places());
-    const std::size_t edits = mesh_.edits();
+    Trial trial(mesh_);
     const SurfaceJet jet = search_.ask(q.face, middle);
     const Vertex v = divide(q, middle, jet.s);
     criterion_.learn(search_, v, jet);
@@ -134,7 +133,7 @@ class Evening {
     const std::int32_t m = mesh_.global(v);
     after = criterion_.judge_around(mesh_, m, range);
     const bool better = after.improves(before, Criterion::good) && search_.agree(mesh_.fan(m), mean);
-    mesh_.undo(edits);
+    (void)trial.undo();
     criterion_.remove_last();
     return better ? std::optional(found) : std::nullopt;
   }

@@ -10,6 +10,7 @@
 #include "cad/fundamental_forms.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
+#include "mesh/trial.h"
 #include "surface/improve/thresholds.h"
 
 namespace carreau {
@@ -174,16 +175,17 @@ class Smoothing {
     ask_normals(v);
     agreement_before_.clear();
     for (const Place p : star(v)) agreement_before_.push_back(agreement(p));
-    const std::size_t edits = editable_.edits();
     for (const double share : shares) {
       const Vec2 uv = home + share * step;
       if (!editable_.can_move({0, v}, uv)) continue;
       const SurfaceJet there = jet_at(uv);
+      Trial trial(editable_);
       editable_.move({0, v}, uv, there.s);
       known_[v].normal = normal_of(there);
       const bool better = worst_around(v) > worst + least_gain && (worst < poor || sum_around(v) > sum);
-      if (better && agrees(v)) return true;
-      editable_.undo(edits);
+      if (!better || !agrees(v)) continue;
+      trial.accept();
+      return true;
     }
     known_[v].normal = normal;
     return false;

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <vector>
 
 #include "cad/difference_cad.h"
+#include "cad/parameter_domain.h"
 #include "cad/stencil.h"
 #include "surfaces.h"
 
@@ -58,6 +63,10 @@ TEST(DifferenceStep, KeepsTheLongestStencilInside) {
 struct Source : FaceCad {
   std::function<bool(Vec2)> inside = [](Vec2) { return true; };
   std::vector<Vec2> asked;
+  std::function<Vec2(int, double)> curve_of;  ///< empty: `along`
+  CurveJet curve(int face, int ic, unsigned want, double t) override {
+    return curve_of ? CurveJet{curve_of(ic, t), {}, {}} : FaceCad::curve(face, ic, want, t);
+  }
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
     EXPECT_EQ(want & ~gives, 0U);
     FaceCad::surface(face, want, uv, out);
@@ -198,6 +207,78 @@ TEST(DifferenceCad, FindsDerivativesOfCurvesInsideTheirInterval) {
       EXPECT_LE(norm(jet.ctt - along(t).ctt), (gives & want_first) != 0 ? 1e-7 : 1e-5) << t;
     }
   }
+}
+
+/// A curve of the plane by samples: C(t) for t in [a, b].
+BoundaryCurve sampled(int ic, double a, double b, int samples, const std::function<Vec2(double)>& c) {
+  BoundaryCurve curve{.ic = ic, .t = {}, .uv = {}};
+  for (int i = 0; i <= samples; ++i) {
+    curve.t.push_back(i == samples ? b : a + (b - a) * i / samples);
+    curve.uv.push_back(c(curve.t.back()));
+  }
+  return curve;
+}
+
+constexpr double pi = std::numbers::pi;
+Vec2 on_circle(double r, double t) { return {r * std::cos(t), r * std::sin(t)}; }
+
+TEST(ParameterDomain, IsBoundedByItsCurvesAndNotByTheirChords) {
+  // A ring whose arcs have eight samples each: chords miss the circles by a fiftieth.
+  const ParameterDomain::Curve curve = [](int ic, double t) { return on_circle(ic == 1 ? 1 : 0.5, t); };
+  const auto at = [&](int ic) { return [&curve, ic](double t) { return curve(ic, t); }; };
+  const ParameterDomain ring({sampled(1, 0, 2 * pi, 16, at(1)), sampled(2, -pi, pi, 16, at(2))});
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 0.37 * i;
+    for (const double d : {1e-12, 1e-6, 1e-3, 0.01, 0.1}) {
+      EXPECT_TRUE(ring.contains(on_circle(1 - d, t), curve)) << i << " " << d;
+      EXPECT_FALSE(ring.contains(on_circle(1 + d, t), curve)) << i << " " << d;
+      EXPECT_TRUE(ring.contains(on_circle(0.5 + d, t), curve)) << i << " " << d;
+      EXPECT_FALSE(ring.contains(on_circle(0.5 - d, t), curve)) << i << " " << d;
+    }
+    EXPECT_TRUE(ring.contains(on_circle(1, t), curve)) << i;
+  }
+  EXPECT_FALSE(ring.may_cross({0.7, 0.1}, {0.71, 0.11}));
+  EXPECT_TRUE(ring.may_cross({0.99, -0.1}, {1.01, 0.1}));
+}
+
+TEST(DifferenceCad, NeverLeavesADomainWhoseBoundaryIsKnown) {
+  struct Shape {
+    const char* name;
+    std::function<bool(Vec2)> contains;
+    std::function<Vec2(int, double)> curve;
+    std::vector<BoundaryCurve> boundary;
+  };
+  const auto disc = [](int, double t) { return on_circle(0.9, t); };
+  const auto ring = [](int ic, double t) { return on_circle(ic == 1 ? 0.9 : 0.3, t); };
+  // Corners of 16 degrees at its ends.
+  const auto lens = [](int ic, double t) -> Vec2 { return {t, (ic == 1 ? -1 : 1) * 0.1 * (0.64 - t * t) / 0.64}; };
+  const auto of = [](const auto& curve, int ic, double a, double b, int n) {
+    return sampled(ic, a, b, n, [&](double t) -> Vec2 { return curve(ic, t); });
+  };
+  const double outer = 0.81 * (1 + 1e-13), inner = 0.09 * (1 - 1e-13);
+  const std::vector<Shape> shapes{
+      {"disc", [=](Vec2 p) { return dot(p, p) <= outer; }, disc, {of(disc, 1, 0, 2 * pi, 400)}},
+      {"ring", [=](Vec2 p) { return dot(p, p) <= outer && dot(p, p) >= inner; }, ring, {of(ring, 1, 0, 2 * pi, 400), of(ring, 2, 0, 2 * pi, 400)}},
+      {"lens", [](Vec2 p) { return std::abs(p.y()) <= 0.1 * (0.64 - p.x() * p.x()) / 0.64 + 1e-15; }, lens, {of(lens, 1, -0.8, 0.8, 50), of(lens, 2, -0.8, 0.8, 50)}}};
+  for (const unsigned gives : {unsigned{want_position}, want_position | want_first})
+    for (const Shape& shape : shapes) {
+      auto host = std::make_unique<Source>();
+      host->jet = exact;
+      host->gives = gives;
+      Source* source = host.get();
+      host->curve_of = shape.curve;
+      DifferenceCad cad(std::move(host), gives, gives);
+      cad.set_parameter_box(1, {-0.9, -0.9}, {0.9, 0.9});
+      cad.set_boundary(1, shape.boundary);
+      for (const BoundaryCurve& curve : shape.boundary)
+        for (int i = 0; i <= 60; ++i) {
+          const Vec2 p = shape.curve(curve.ic, curve.t.front() + (curve.t.back() - curve.t.front()) * i / 60);
+          const SurfaceJet jet = surface_at(cad, 1, everything, p);
+          expect_first(jet, p, 1e-6);
+          expect_second(jet, p, 1e-2);
+        }
+      for (const Vec2& p : source->asked) ASSERT_TRUE(shape.contains(p)) << shape.name << ": " << p.x() << " " << p.y();
+    }
 }
 
 TEST(DifferenceCad, RejectsInvalidBoxes) {

@@ -49,7 +49,7 @@ TEST(MeshFiles, TheSuffixGivesTheFormat) {
     EXPECT_EQ(sentence_of<InvalidArgument>([&] { mesh_format_of(path); }),
               "'" + path +
                   "' does not have a suffix of mesh files: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, "
-                  ".unv, .su2, .off, .obj, .ply, .vtk, .tri");
+                  ".unv, .su2, .off, .obj, .ply, .vtk, .tri, .smesh, .poly, .vol, .geo");
 }
 
 TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRejectedAndTheOldFileStays) {

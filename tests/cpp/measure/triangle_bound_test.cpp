@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds of single triangles against closed forms and dense samples.
-#include "surface/independent/bounds/triangle_bound.h"
+#include "surface/remesh/bounds/triangle_bound.h"
 
 #include <gtest/gtest.h>
 

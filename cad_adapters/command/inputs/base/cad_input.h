@@ -71,6 +71,21 @@ class CadInput {
   [[nodiscard]] virtual std::array<Part, 2> parts_beside(std::int32_t face) const { return {part_of_face(face), Part{}}; }
   /// 0xRRGGBB; -1: none.
   [[nodiscard]] virtual std::int32_t face_colour(std::int32_t) const { return -1; }
+  /// "": none.
+  [[nodiscard]] virtual std::string face_layer(std::int32_t) const { return ""; }
+  /// Vertices (dimension 0) or edges (1) that have a name.
+  struct Named {
+    std::int32_t number = 0;
+    std::string name;
+  };
+  [[nodiscard]] virtual std::vector<Named> named(int /*dimension*/) const { return {}; }
+  /// Two parts whose faces lie on each other.
+  struct Contact {
+    std::array<Part, 2> parts;
+    double area = 0;   ///< that they have in common
+    int faces = 0;     ///< pairs of faces
+  };
+  [[nodiscard]] virtual std::vector<Contact> contacts() const { return {}; }
   /// "solid", "file": the kind of those parts.
   [[nodiscard]] virtual const char* part_word() const { return "solid"; }
   /// References of the curves of a face, as far as they are known.

@@ -30,6 +30,10 @@ std::vector<std::string> losses_of(carreau_cad_file* file);
 std::vector<std::string> notes_of(carreau_cad_file* file);
 /// The features that --min-feature found: a line each.
 std::vector<std::string> small_features_of(carreau_cad_file* file);
+/// Solids whose faces lie on each other.
+std::vector<carreau_cad_contact> contacts_of(carreau_cad_file* file);
+/// Assemblies, parts, solids, and entities with a name, a colour or a layer of their own.
+std::vector<carreau_cad_tree_row> tree_of(carreau_cad_file* file);
 /// Looks for dangers; they are in the order of the report.
 carreau_cad_report inspect(carreau_cad_file* file);
 std::vector<carreau_cad_danger> dangers_of(carreau_cad_file* file, const carreau_cad_report& report);

@@ -100,6 +100,27 @@ std::vector<std::string> small_features_of(carreau_cad_file* file) {
   return lines;
 }
 
+std::vector<carreau_cad_contact> contacts_of(carreau_cad_file* file) {
+  std::int64_t count = 0;
+  require(file, cad_library().count_contacts(file, &count));
+  std::vector<carreau_cad_contact> contacts(static_cast<std::size_t>(count));
+  for (std::int64_t k = 0; k < count; ++k) {
+    carreau_cad_contact& contact = contacts[static_cast<std::size_t>(k)];
+    contact.struct_size = sizeof contact;
+    require(file, cad_library().contact_at(file, k, &contact));
+  }
+  return contacts;
+}
+
+std::vector<carreau_cad_tree_row> tree_of(carreau_cad_file* file) {
+  std::vector<carreau_cad_tree_row> rows(static_cast<std::size_t>(content_of(file).tree_rows));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].struct_size = sizeof rows[k];
+    require(file, cad_library().tree_at(file, static_cast<std::int64_t>(k), &rows[k]));
+  }
+  return rows;
+}
+
 carreau_cad_report inspect(carreau_cad_file* file) {
   carreau_cad_report report{};
   report.struct_size = sizeof report;
@@ -170,6 +191,27 @@ class CadFileInput final : public CadInput {
     carreau_cad_face face{};
     face.struct_size = sizeof face;
     return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.rgb : -1;
+  }
+  [[nodiscard]] std::string face_layer(std::int32_t number) const override {
+    carreau_cad_face face{};
+    face.struct_size = sizeof face;
+    return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.layer : "";
+  }
+  [[nodiscard]] std::vector<Named> named(int dimension) const override {
+    std::vector<Named> all;
+    const std::int32_t count = dimension == 0 ? content_.vertices : content_.edges;
+    for (std::int32_t number = 1; number <= count; ++number)
+      if (std::string name = cad_library().entity_name(file_.get(), dimension, number); !name.empty()) all.push_back({number, std::move(name)});
+    return all;
+  }
+  [[nodiscard]] std::vector<Contact> contacts() const override {
+    std::vector<Contact> all;
+    for (const carreau_cad_contact& each : contacts_of(file_.get())) {
+      Contact& contact = all.emplace_back(Contact{.parts = {}, .area = each.area, .faces = each.pairs});
+      for (std::size_t k = 0; k < 2; ++k)
+        contact.parts[k] = {each.solids[k], cad_library().entity_name(file_.get(), 3, each.solids[k])};
+    }
+    return all;
   }
   [[nodiscard]] std::int32_t whole_face(std::int32_t face) const override {
     return cad_library().whole_face(file_.get(), face);

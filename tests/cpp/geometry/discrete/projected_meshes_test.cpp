@@ -20,16 +20,16 @@
 #include "mesh/quality.h"
 #include "session/session.h"
 #include "surface/discrete/start_mesh.h"
-#include "surface/projected/borders.h"
-#include "surface/projected/chart_plane.h"
-#include "surface/projected/find_charts.h"
-#include "surface/projected/thresholds.h"
+#include "surface/remesh/planes/borders.h"
+#include "surface/remesh/planes/chart_plane.h"
+#include "surface/remesh/planes/find_charts.h"
+#include "surface/remesh/planes/thresholds.h"
 #include "surfaces.h"
 
 namespace carreau::discrete {
 namespace {
 
-using namespace carreau::thresholds::projected;
+using namespace carreau::thresholds::planes;
 
 /// Records the messages of a run, and whether its remeshing was parametric.
 class Listener final : public Monitor {

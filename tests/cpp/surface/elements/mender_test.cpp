@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/elements/mender.h"
+#include "surface/elements/base/mender.h"
 
 namespace carreau {
 namespace {

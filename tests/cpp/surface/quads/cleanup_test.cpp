@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "surface/quads/cleanup.h"
-#include "surface/quads/quad_shape.h"
+#include "surface/elements/quads/passes.h"
 
 namespace carreau {
 namespace {
@@ -44,7 +43,9 @@ TEST(QuadCleanup, LeavesALatticeAlone) {
   QuadPatch patch = squares();
   const std::vector<MixedCell> before = patch.cells;
   Monitor monitor;
-  clean_up(patch, FaceCharts(space), no_edge, monitor);
+  const FaceCharts charts(space);
+  PlaneQuads quads(patch, charts);
+  clean_up(quads, no_edge, monitor);
   EXPECT_EQ(patch.cells, before);
 }
 
@@ -57,7 +58,9 @@ TEST(QuadCleanup, RemovesAVertexOfTwoCells) {
   *at = {6, 7, 12, 25};
   patch.cells.push_back({6, 25, 12, 11});
   Monitor monitor;
-  clean_up(patch, FaceCharts(space), no_edge, monitor);
+  const FaceCharts charts(space);
+  PlaneQuads quads(patch, charts);
+  clean_up(quads, no_edge, monitor);
   EXPECT_EQ(patch.cells.size(), 16U);
   EXPECT_EQ(degrees(patch)[25], 0);
   EXPECT_NEAR(area(patch), 16, 1e-12);
@@ -72,7 +75,9 @@ TEST(QuadCleanup, TurnsAnEdgeBack) {
   patch.uv[7].y() -= 0.2, patch.uv[12].y() += 0.2;
   patch.cells.push_back({8, 13, 12, 11}), patch.cells.push_back({11, 6, 7, 8});
   Monitor monitor;
-  clean_up(patch, FaceCharts(space), no_edge, monitor);
+  const FaceCharts charts(space);
+  PlaneQuads quads(patch, charts);
+  clean_up(quads, no_edge, monitor);
   const std::vector<int> degree = degrees(patch);
   for (std::size_t v = 0; v < degree.size(); ++v)
     if (patch.fixed[v] == 0) {
@@ -92,7 +97,9 @@ TEST(QuadCleanup, DrawsTogetherTwoVerticesOfThreeCells) {
   patch.cells.push_back({11, 12, 13, 25});
   for (const MixedCell& c : patch.cells) ASSERT_TRUE(is_convex(patch, c));
   Monitor monitor;
-  clean_up(patch, FaceCharts(space), no_edge, monitor);
+  const FaceCharts charts(space);
+  PlaneQuads quads(patch, charts);
+  clean_up(quads, no_edge, monitor);
   EXPECT_EQ(patch.cells.size(), 16U);
   const std::vector<int> degree = degrees(patch);
   EXPECT_EQ(degree[12] + degree[25], 4);

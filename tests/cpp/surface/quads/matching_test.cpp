@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "surface/quads/matching.h"
+#include "surface/elements/quads/matching.h"
 
 namespace carreau {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesh/surface_mesh.h"
-#include "surface/quads/quad_shape.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace carreau {
 namespace {

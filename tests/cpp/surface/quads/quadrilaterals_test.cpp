@@ -11,7 +11,7 @@
 #include "common/analytic_cad.h"
 #include "session/session.h"
 #include "session_of_size.h"
-#include "surface/quads/quad_shape.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace carreau {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing finds lattices again, and turns nothing over.
-#include "surface/quads/smoothing.h"
+#include "surface/elements/quads/passes.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "surface/quads/quad_shape.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace carreau {
 namespace {
@@ -34,7 +34,9 @@ TEST(QuadSmoothing, MovesALatticeBackToItsPlaces) {
     const ControlSpace space = ControlSpace::constant({a * a, 0, 1});
     QuadPatch patch = lattice(8, a, 0.3);
     Monitor monitor;
-    smooth_quads(patch, FaceCharts(space), {.passes = 200}, monitor);
+    const FaceCharts charts(space);
+    PlaneQuads quads(patch, charts);
+    smooth_quads(quads, {.passes = 200}, monitor);
     const QuadPatch regular = lattice(8, a, 0);
     for (std::size_t v = 0; v < patch.uv.size(); ++v) EXPECT_LT(norm(patch.uv[v] - regular.uv[v]), 1e-6) << v;
   }
@@ -48,7 +50,8 @@ TEST(QuadSmoothing, LeavesAllCellsConvexAndTheBorderWhereItIs) {
   for (const MixedCell& cell : patch.cells) ASSERT_TRUE(is_convex(patch, cell));
   Monitor monitor;
   for (const double share : {1., 1.9}) {
-    smooth_quads(patch, charts, {.passes = 3, .share = share}, monitor);
+    PlaneQuads quads(patch, charts);
+    smooth_quads(quads, {.passes = 3, .share = share}, monitor);
     for (const MixedCell& cell : patch.cells) EXPECT_TRUE(is_convex(patch, cell));
   }
   for (std::size_t v = 0; v < patch.uv.size(); ++v)
@@ -66,7 +69,9 @@ TEST(QuadSmoothing, TurnsNothingOverWhereCellsPress) {
     for (const double share : {1., 1.9})
       for (const int passes : {1, 2, 3, 5, 8, 17}) {
         QuadPatch patch = lattice(16, 1, 0.24);
-        smooth_quads(patch, FaceCharts(space), {.passes = passes, .share = share, .pull = 0.8, .unit = unit}, monitor);
+        const FaceCharts charts(space);
+        PlaneQuads quads(patch, charts);
+        smooth_quads(quads, {.passes = passes, .share = share, .pull = 0.8, .unit = unit}, monitor);
         for (const MixedCell& cell : patch.cells) ASSERT_TRUE(is_convex(patch, cell)) << unit << ' ' << passes;
       }
 }
@@ -83,7 +88,8 @@ TEST(QuadSmoothing, RaisesTheWorstCells) {
   const double before = worst();
   ASSERT_LT(before, 0.6);
   Monitor monitor;
-  improve_worst_quads(patch, charts, 0.6, monitor);
+  PlaneQuads quads(patch, charts);
+  improve_worst_quads(quads, 0.6, monitor);
   EXPECT_GE(worst(), 0.6);
 }
 

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes of FreeCAD's shapes by the program carreau."""

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pieces of faces and of curves that are nearly quadratic, in trees of boxes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cad/cad.h"
+#include "curve/support.h"
+#include "model/model.h"
+#include "projection/restricted_step.h"
+#include "projection/trimmed_domain.h"
+#include "support/box_tree.h"
+#include "support/monitor.h"
+
+namespace carreau::projection {
+
+/// A piece of a face, as the biquadratic interpolation of nine places.
+struct SurfaceLeaf {
+  Region region;           ///< of (u, v)
+  std::array<Vec3, 9> at;  ///< at low, the middle and high of u (first) and v
+  double error = 0;        ///< distance of the surface from the interpolation
+  double size = 0;         ///< diameter in space
+  double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
+  bool cut = false;        ///< the boundary of the domain crosses it
+};
+
+/// The piece of a curve over an edge of its support.
+struct CurveLeaf {
+  int face = 0, curve = 0;  ///< index in the model, and in the face
+  double t0 = 0, t1 = 0;
+  double a = 0, b = 0;  ///< interval of the whole curve
+  Vec3 from, to;
+  double error = 0;  ///< distance of the curve from the edge
+};
+
+/// The nearest of the nine places, those inside of a triangle alone, and the square of its distance.
+struct NearestSample {
+  std::size_t rank = 0;
+  double square = 0;
+};
+NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x);
+
+/// A place of a leaf that is nearest to a point, on the interpolation.
+struct LeafPlace {
+  Vec2 parameters;  ///< (u, v), or t and 0
+  double distance = 0;
+};
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from);
+LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x);
+
+/// The pieces of a face with its boundary, or of a curve: the things of `tree` are the leaves, then the curves.
+struct Pieces {
+  std::vector<SurfaceLeaf> leaves;
+  std::vector<CurveLeaf> curves;
+  std::vector<BoxTree::Box> boxes;  // of the leaves, then of the curves
+  BoxTree tree;
+  BoxTree::Box box;
+  Region region;                        ///< of a face; of triangles each leaf has its own
+  std::optional<TrimmedDomain> domain;  ///< of a face whose domain is not a box
+  bool triangles = false;
+
+  /// Makes the tree of the boxes.
+  void plant();
+};
+
+/// Evaluates places of a face. Places outside of the domain where the host fails are NaN.
+using EvaluateFace = std::function<void(std::span<const Vec2>, std::span<SurfaceJet>)>;
+
+/// The pieces of face `face` (index) of the model. Throws the exceptions of `evaluate`, and Cancelled.
+Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<CurveSupport>& supports, const EvaluateFace& evaluate, Monitor& monitor);
+/// The pieces of a face of triangles, whose regions are given.
+Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& evaluate, Monitor& monitor);
+Pieces pieces_of_curve(int face, int curve, const CurveSupport& support);
+
+}  // namespace carreau::projection

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "projection/projector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "cad/checked_cad.h"
+#include "cad/part_cad.h"
+#include "geometry/discrete/discrete_cad.h"
+#include "geometry/discrete/refinement.h"
+#include "projection/point_search.h"
+#include "projection/thresholds.h"
+#include "support/error.h"
+#include "support/infinity.h"
+#include "support/pieces.h"
+#include "support/stepped_tasks.h"
+#include "surface/supports.h"
+
+namespace carreau {
+
+using namespace projection;
+
+namespace {
+
+constexpr unsigned everything = want_position | want_first | want_second;
+constexpr double support_angle = 2;  // degrees: edges of supports are leaves of curves
+
+PartCad::Parts curve_parts_of(const Model& model) {
+  PartCad::Parts parts;
+  for (const Face& face : model.faces)
+    for (std::size_t c = 0; c < face.curves.size(); ++c)
+      if (const FaceCurve& curve = face.curves[c]; curve.part_of != 0) parts[{face.ref, static_cast<int>(c) + 1}] = {curve.part_of, curve.part_a, curve.part_b};
+  return parts;
+}
+
+/// Along a curve of a face, as a surface that does not depend on v.
+SurfaceJet along(const SurfaceJet& s, const CurveJet& c) {
+  const double u = c.ct.x(), v = c.ct.y();
+  SurfaceJet jet;
+  jet.s = s.s;
+  jet.su = u * s.su + v * s.sv;
+  jet.suu = (u * u) * s.suu + (2 * u * v) * s.suv + (v * v) * s.svv + c.ctt.x() * s.su + c.ctt.y() * s.sv;
+  return jet;
+}
+
+std::string kind_of(int dimension) { return dimension == 2 ? "face" : dimension == 1 ? "curve" : "point"; }
+
+[[noreturn]] void report_unknown(int dimension, int ref) {
+  throw InvalidArgument("the model has no " + kind_of(dimension) + " with the reference " + std::to_string(ref));
+}
+
+}  // namespace
+
+struct Projector::State {
+  State(std::shared_ptr<Cad> source, std::shared_ptr<const discrete::DiscreteCad> of_triangles, const Model& of)
+      : host(std::move(source)), triangles(std::move(of_triangles)), model(of), checked(*host), cad(checked, curve_parts_of(of)) {
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+      const Face& face = model.faces[f];
+      if (!face.left_out.empty()) continue;
+      if (!face.is_wire()) faces.emplace(face.ref, f);
+      for (std::size_t c = 0; c < face.curves.size(); ++c) curves.emplace(face.curves[c].ref, CurvePlace{f, c});
+    }
+  }
+
+  struct CurvePlace {
+    std::size_t face = 0, curve = 0;  // indices
+  };
+
+  [[nodiscard]] bool bound() const { return !cad.reentrant(); }
+  [[nodiscard]] std::size_t face_of(int ref) const {
+    const auto found = faces.find(ref);
+    if (found == faces.end()) report_unknown(2, ref);
+    return found->second;
+  }
+
+  void evaluate_face(std::size_t f, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
+    const Face& face = model.faces[f];
+    if (!face.discrete) return cad.surface(face.ref, want, uv, out);
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+      const std::int32_t triangle = triangles->patch_of(uv[k]);
+      if (triangle < 0) throw InvalidArgument(Where{.face = face.ref, .uv = uv[k]}, "no triangle has this place");
+      out[k] = triangles->discrete().at(triangle, uv[k] - triangles->corner_of_tile(triangle), want);
+    }
+  }
+
+  /// Beyond the domain of a face its host may fail.
+  void evaluate_about(std::size_t f, const TrimmedDomain* domain, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
+    if (domain == nullptr) return evaluate_face(f, want, uv, out);
+    try {
+      return evaluate_face(f, want, uv, out);
+    } catch (const CallbackError&) {  // one of them fails
+    }
+    for (std::size_t k = 0; k < uv.size(); ++k) try {
+        evaluate_face(f, want, uv.subspan(k, 1), out.subspan(k, 1));
+      } catch (const CallbackError&) {
+        if (domain->contains(uv[k], cad)) throw;
+        out[k].s = {std::nan(""), std::nan(""), std::nan("")};
+      }
+  }
+
+  void prepare(int threads, Monitor& monitor);
+  void collect_points();
+  void search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curves, Monitor& monitor);
+  void nearest_points(std::optional<int> ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) const;
+
+  std::shared_ptr<Cad> host;
+  std::shared_ptr<const discrete::DiscreteCad> triangles;
+  Model model;
+  CheckedCad checked;
+  PartCad cad;
+  std::map<int, std::size_t> faces;
+  std::map<int, CurvePlace> curves;  // the first use decides
+
+  bool prepared = false;
+  ModelSupports supports;
+  double diagonal = 0;
+  std::vector<Pieces> of_faces;                 // by index
+  std::vector<Pieces> of_curves;                // by rank in curve_refs
+  std::vector<int> curve_refs;                  // ascending
+  Entities all_faces, all_curves;               // pieces by index in model.faces, and by rank
+  std::vector<std::pair<int, Vec3>> points;     // ascending references
+  BoxTree point_tree;
+};
+
+namespace {
+
+Entities entities_of(const std::vector<Pieces>& pieces) {
+  Entities entities;
+  std::vector<BoxTree::Box> boxes;
+  std::vector<Vec3> centres;
+  const BoxTree::Box far{{1e300, 1e300, 1e300}, {1e300, 1e300, 1e300}};  // an entity without pieces
+  for (const Pieces& each : pieces) {
+    entities.pieces.push_back(&each);
+    boxes.push_back(each.tree.empty() ? far : each.box);
+    centres.push_back((boxes.back().low + boxes.back().high) / 2);
+  }
+  entities.tree = BoxTree(boxes, centres);
+  return entities;
+}
+
+}  // namespace
+
+void Projector::State::prepare(int threads, Monitor& monitor) {
+  if (prepared) return;
+  Model with_curves = model;
+  for (Face& face : with_curves.faces)
+    if (!face.left_out.empty() || face.discrete) face.curves.clear();
+  supports = build_supports(with_curves, cad, support_angle, threads, monitor);
+  for (const auto& [ref, f] : faces) {
+    if (model.faces[f].discrete) continue;
+    const auto [low, high] = box_of_boundary(model.faces[f], supports.of_face[f]);
+    if (low.x() < high.x() && low.y() < high.y()) cad.set_parameter_box(ref, low, high);
+  }
+  std::vector<std::vector<Region>> regions(model.faces.size());
+  if (triangles) {
+    const std::vector<std::int32_t> refs = discrete::face_refs(triangles->discrete());
+    for (std::size_t t = 0; t < refs.size(); ++t) {
+      const auto face = faces.find(refs[t]);
+      if (face == faces.end() || !model.faces[face->second].discrete) continue;
+      const Vec2 corner = triangles->corner_of_tile(static_cast<std::int32_t>(t));
+      regions[face->second].push_back({corner, corner + Vec2(1, 1), true});
+    }
+  }
+  of_faces.assign(model.faces.size(), {});
+  const auto make = [&](std::size_t f, Monitor& here) {
+    const Face& face = model.faces[f];
+    if (!face.left_out.empty() || face.is_wire()) return;
+    if (face.discrete) {
+      of_faces[f] = pieces_of_triangles(regions[f], [&](std::span<const Vec2> uv, std::span<SurfaceJet> jets) { evaluate_face(f, want_position, uv, jets); }, here);
+      return;
+    }
+    const auto [low, high] = box_of_boundary(face, supports.of_face[f]);
+    std::optional<TrimmedDomain> domain;  // answers where the host fails
+    if (low.x() < high.x() && low.y() < high.y() && !is_box(face, supports.of_face[f], low, high)) domain.emplace(face, supports.of_face[f]);
+    of_faces[f] = pieces_of_face(model, f, supports.of_face[f],
+                                 [&](std::span<const Vec2> uv, std::span<SurfaceJet> jets) {
+                                   evaluate_about(f, domain ? &*domain : nullptr, want_position, uv, jets);
+                                 },
+                                 here);
+  };
+  run_each(model.faces.size(), bound(), threads, make, monitor);
+  for (const auto& [ref, place] : curves) {
+    curve_refs.push_back(ref);
+    of_curves.push_back(pieces_of_curve(static_cast<int>(place.face), static_cast<int>(place.curve), supports.of_face[place.face][place.curve]));
+  }
+  collect_points();
+  BoxTree::Box box;
+  for (const auto* list : {&of_faces, &of_curves})
+    for (const Pieces& each : *list)
+      if (!each.tree.empty()) box.add(each.box);
+  diagonal = box.low.x() <= box.high.x() ? norm(box.high - box.low) : 0;
+  all_faces = entities_of(of_faces), all_curves = entities_of(of_curves);
+  prepared = true;
+}
+
+void Projector::State::collect_points() {
+  std::map<int, Vec3> known;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    const Face& face = model.faces[f];
+    for (std::size_t c = 0; c < supports.of_face[f].size(); ++c) {
+      known.emplace(face.curves[c].end1, supports.of_face[f][c].xyz.front());
+      known.emplace(face.curves[c].end2, supports.of_face[f][c].xyz.back());
+    }
+    if (face.left_out.empty() && !face.discrete)
+      for (const FacePoint& point : face.points) known.emplace(point.ref, surface_at(cad, face.ref, want_position, point.uv).s);
+  }
+  points.assign(known.begin(), known.end());
+  std::vector<BoxTree::Box> boxes;
+  std::vector<Vec3> centres;
+  for (const auto& [ref, at] : points) {
+    boxes.emplace_back().add(at);
+    centres.push_back(at);
+  }
+  point_tree = BoxTree(boxes, centres);
+}
+
+void Projector::State::nearest_points(std::optional<int> ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) const {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    std::int32_t best = -1;
+    double least = infinity;
+    const auto look = [&](std::int32_t p) {
+      const Vec3 r = points[static_cast<std::size_t>(p)].second - x[i];
+      if (const double d = dot(r, r); d < least || (d == least && p < best)) least = d, best = p;
+    };
+    if (ref) {
+      const auto found = std::lower_bound(points.begin(), points.end(), *ref, [](const auto& point, int r) { return point.first < r; });
+      if (found == points.end() || found->first != *ref) report_unknown(0, *ref);
+      look(static_cast<std::int32_t>(found - points.begin()));
+    } else {
+      if (points.empty()) throw InvalidArgument("the model has no point");
+      point_tree.nearest_first([&](std::int32_t n) { return point_tree.node(static_cast<std::size_t>(n)).box.squared_distance(x[i]); },
+                               [&](double bound) { return bound <= least; },
+                               [&](const BoxTree::Node& leaf) {
+                                 for (const std::int32_t p : point_tree.things(leaf)) look(p);
+                               });
+    }
+    out[i] = {points[static_cast<std::size_t>(best)].first, {}, points[static_cast<std::size_t>(best)].second, std::sqrt(least)};
+  }
+}
+
+// All searches go on together: their places go to the host face by face.
+void Projector::State::search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curve,
+                              Monitor& monitor) {
+  std::vector<PointSearch> searches;
+  searches.reserve(x.size());
+  for (const Vec3& each : x) searches.emplace_back(entities, only, each, diagonal);
+  struct Asked {
+    PlaceRequest place;
+    std::size_t search = 0;
+    CurveJet curve;
+  };
+  std::vector<Asked> asked;
+  std::vector<std::size_t> going(x.size());
+  std::iota(going.begin(), going.end(), std::size_t{0});
+  std::vector<Vec2> uv;
+  std::vector<SurfaceJet> jets;
+  while (true) {
+    monitor.checkpoint();
+    going.erase(std::remove_if(going.begin(), going.end(), [&](std::size_t i) { return !searches[i].goes_on(); }), going.end());
+    if (going.empty()) break;
+    asked.clear();
+    for (const std::size_t i : going) asked.push_back({searches[i].request(), i, {}});
+    std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) { return a.place.face < b.place.face; });
+    for (std::size_t first = 0, end = 0; first < asked.size(); first = end) {
+      const auto face = static_cast<std::size_t>(asked[first].place.face);
+      uv.clear();
+      for (end = first; end < asked.size() && asked[end].place.face == asked[first].place.face; ++end) {
+        Asked& each = asked[end];
+        if (each.place.curve >= 0) each.curve = cad.curve(model.faces[face].ref, each.place.curve + 1, everything, each.place.parameters.x());
+        uv.push_back(each.place.curve >= 0 ? each.curve.c : each.place.parameters);
+      }
+      jets.resize(uv.size());
+      const auto& domain = of_faces[face].domain;
+      evaluate_about(face, domain ? &*domain : nullptr, everything, uv, jets);
+      for (std::size_t k = first; k < end; ++k) {
+        const Asked& each = asked[k];
+        const SurfaceJet& jet = jets[k - first];
+        searches[each.search].take(each.place.curve >= 0 ? along(jet, each.curve) : jet, each.curve, cad);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const PointSearch::Found& best = searches[i].best();
+    if (best.entity < 0) throw InvalidArgument("no point of the model was found for point " + std::to_string(i));
+    const auto entity = static_cast<std::size_t>(best.entity);
+    out[i] = {of_curve ? curve_refs[entity] : model.faces[entity].ref, of_curve ? best.place.parameters : best.uv, best.xyz, std::sqrt(best.square)};
+  }
+}
+
+Projector::Projector(std::shared_ptr<Cad> cad, std::shared_ptr<const discrete::DiscreteCad> triangles, const Model& model)
+    : state_(std::make_unique<State>(std::move(cad), std::move(triangles), model)) {}
+Projector::~Projector() = default;
+
+void Projector::evaluate(int dimension, int ref, unsigned want, std::span<const Vec2> parameters, std::span<SurfaceJet> out, int threads,
+                         Monitor& monitor) {
+  State& s = *state_;
+  constexpr std::size_t at_once = 4096;
+  const std::size_t tasks = (parameters.size() + at_once - 1) / at_once;
+  const auto part = [&](auto span, std::size_t k) { return span.subspan(k * at_once, std::min(at_once, span.size() - k * at_once)); };
+  if (dimension == 2) {
+    const std::size_t f = s.face_of(ref);
+    return run_each(tasks, s.bound(), threads,
+                    [&](std::size_t k, Monitor& here) {
+                      here.checkpoint();
+                      s.evaluate_face(f, want, part(parameters, k), part(out, k));
+                    },
+                    monitor);
+  }
+  const auto found = s.curves.find(ref);
+  if (found == s.curves.end()) report_unknown(1, ref);
+  const auto [f, c] = found->second;
+  const int face = s.model.faces[f].ref, ic = static_cast<int>(c) + 1;
+  const unsigned of_surface = (want & want_second) != 0 ? everything : want;
+  run_each(tasks, s.bound(), threads,
+           [&](std::size_t k, Monitor& here) {
+             here.checkpoint();
+             const std::span<const Vec2> t = part(parameters, k);
+             const std::span<SurfaceJet> jets = part(out, k);
+             std::vector<CurveJet> curve;
+             std::vector<Vec2> uv;
+             for (const Vec2& each : t) curve.push_back(s.cad.curve(face, ic, want | want_position, each.x())), uv.push_back(curve.back().c);
+             s.cad.surface(face, of_surface, uv, jets);
+             for (std::size_t i = 0; i < jets.size(); ++i) jets[i] = along(jets[i], curve[i]);
+           },
+           monitor);
+}
+
+void Projector::project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out, int threads, Monitor& monitor) {
+  State& s = *state_;
+  std::int32_t only = -1;
+  if (dimension == 2 && ref != 0) only = static_cast<std::int32_t>(s.face_of(ref));
+  if (dimension == 2 && s.faces.empty()) throw InvalidArgument("the model has no face with an area");
+  if (dimension == 1 && ref != 0 && !s.curves.contains(ref)) report_unknown(1, ref);
+  if (dimension == 1 && s.curves.empty()) throw InvalidArgument("the model has no curve");
+  s.prepare(threads, monitor);
+  if (dimension == 0) return s.nearest_points(ref != 0 ? std::optional<int>(ref) : std::nullopt, x, out);
+  if (dimension == 1 && ref != 0)
+    only = static_cast<std::int32_t>(std::lower_bound(s.curve_refs.begin(), s.curve_refs.end(), ref) - s.curve_refs.begin());
+  const Entities& entities = dimension == 2 ? s.all_faces : s.all_curves;
+  constexpr std::size_t each = thresholds::projection::points_of_task;
+  run_each((x.size() + each - 1) / each, s.bound(), threads,
+           [&](std::size_t k, Monitor& here) {
+             const std::size_t first = k * each, n = std::min(each, x.size() - first);
+             s.search(entities, only, x.subspan(first, n), out.subspan(first, n), dimension == 1, here);
+           },
+           monitor);
+}
+
+}  // namespace carreau

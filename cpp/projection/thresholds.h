@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this room, with their meaning, unit, reason and support.
+#pragma once
+
+#include <cstddef>
+
+namespace carreau::thresholds::projection {
+
+// In brackets: the tests of the threshold, in tests/cpp/projection.
+
+// Leaves of a face (face_leaves)
+/// Number. Each direction of a face is cut in so many cells at first. An odd number does not follow the periods of a surface.
+inline constexpr int first_cells = 3;
+/// Radians. The lines u and v of a leaf turn by at most this angle, so that the squared distance has one minimum over the leaf for points
+/// that are nearer than its radius of curvature. [Projector.FoldedPatchHasTwoMinimaAndTheNearerOneWins]
+inline constexpr double turn_of_leaf = 0.5;
+/// Share of the diameter of a leaf. The surface differs from the interpolation by at most this at the other samples. Newton's method needs
+/// two or three evaluations from there.
+inline constexpr double error_of_leaf = 0.005;
+/// Factor. The surface between the samples may differ by so much more than at them.
+inline constexpr double error_margin = 3;
+/// Share of the diagonal of a face. Smaller cells become leaves whatever their shape: at kinks and singular points.
+inline constexpr double smallest_leaf = 1e-3;
+/// Number of cells of a face; more are not cut. A bound of memory.
+inline constexpr std::size_t most_cells = 40'000;
+
+// Newton's method (descent, restricted_step)
+/// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
+/// then of third order, below rounding. [Projector.Sphere]
+inline constexpr double last_step = 1e-7;
+/// Share of that step: the term of second order is at most so large. [Projector.ConeAndItsApex]
+inline constexpr double bend_of_last_step = 1e-4;
+/// Share of the diagonal. Steps that are shorter end the descent where the Hessian is nearly singular. [Projector.TorusFromItsAxis]
+inline constexpr double shortest_step = 1e-14;
+/// Number of evaluations of one descent. [Projector.TorusFromItsAxis]
+inline constexpr int most_steps = 60;
+/// Share of the diagonal. A side of a region that is shorter is a point. [Projector.Sphere, Projector.ConeAndItsApex]
+inline constexpr double length_of_pole = 1e-9;
+/// Number of times that a descent turns at such a point.
+inline constexpr int most_turns = 4;
+/// Ratio of the eigenvalues of the Hessian in the first fundamental form. Below it the Hessian counts as singular.
+inline constexpr double regular_hessian = 1e-3;
+/// Ratio of the eigenvalues. Smaller ones, and negative ones, are replaced.
+inline constexpr double smallest_eigenvalue = 1e-6;
+
+// Domains (trimmed_domain)
+/// Share of the extents of a domain. Boundaries that lie so near the sides of their box are the box.
+inline constexpr double side_of_box = 1e-9;
+/// Share of a chord. Curves leave the chords of their supports by less; nearer places are decided by the curve itself.
+/// [Projector.TrimmedPlane]
+inline constexpr double beside_chord = 0.05;
+
+/// Number of points that one task of a thread projects. Their evaluations go to the host together.
+inline constexpr std::size_t points_of_task = 1024;
+
+}  // namespace carreau::thresholds::projection

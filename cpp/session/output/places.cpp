@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "projection/projector.h"
+#include "session/options.h"
+#include "session/state.h"
+#include "support/error.h"
+
+namespace carreau {
+
+Projector& Session::projector(int dimension) {
+  State& s = *state_;
+  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
+  if (s.model.faces.empty()) throw InvalidArgument("the model has no face");
+  const auto lacks_reference = [](const Face& face) {
+    return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& curve) { return curve.ref <= 0; });
+  };
+  if (dimension < 2 && std::any_of(s.model.faces.begin(), s.model.faces.end(), lacks_reference))
+    throw InvalidArgument("curves and points of the model have no references yet: a mesh gives them");
+  if (!s.projector) s.projector = std::make_unique<Projector>(s.cad, s.triangles, s.model);
+  return *s.projector;
+}
+
+void Session::evaluate_places(int dimension, int ref, unsigned want, std::span<const Vec2> parameters, std::span<SurfaceJet> out) {
+  projector(dimension).evaluate(dimension, ref, want, parameters, out, threads_of(state_->parameters), state_->monitor);
+}
+
+void Session::project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) {
+  projector(dimension).project(dimension, ref, x, out, threads_of(state_->parameters), state_->monitor);
+}
+
+std::vector<MeshEntity> Session::node_entities() const {
+  return entities_of_nodes(mesh(), [this](std::size_t face, std::int32_t node) { return uv_face(face, node); });
+}
+
+std::vector<CurveParameters> Session::curve_parameters() const {
+  std::vector<CurveParameters> all = state_->result.curve_parameters;
+  all.resize(mesh().curves.size());
+  for (CurveParameters& on : all)
+    for (const Face& face : state_->meshed.model.faces)
+      if (face.ref == on.face && on.ic > 0 && static_cast<std::size_t>(on.ic) <= face.curves.size()) on.ic = host_rank(face, static_cast<std::size_t>(on.ic) - 1);
+  return all;
+}
+
+}  // namespace carreau

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/elements/quads/quadrilaterals.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "support/stepped_tasks.h"
+#include "surface/carry/carry_faces.h"
+#include "surface/elements/quads/face_quads.h"
+#include "surface/elements/quads/halving.h"
+#include "surface/elements/quads/passes.h"
+#include "surface/elements/quads/space_search.h"
+#include "surface/elements/quads/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::quads;
+
+void halve(std::vector<double>& sizes) {
+  for (double& h : sizes) h /= 2;
+}
+
+class Quadrilaterals {
+ public:
+  explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
+
+  QuadraticReport run() {
+    for (std::size_t f = 0; f < work_.result.mesh.faces.size(); ++f)
+      if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
+    for_each([&](FaceQuads& quads, Monitor& monitor) {
+      quads = face_quads(work_, quads.face);
+      if (is_slave(quads)) return;
+      pair(quads, monitor);
+    });
+    find_slaves();
+    if (has_quads_only(work_.options.element)) cut();
+    const bool bound = !asks_from_threads(work_.options, work_.cad());
+    for_each(
+        [&](FaceQuads& quads, Monitor& monitor) {
+          if (is_slave(quads)) return;
+          lift(work_, space(quads), quads, monitor);
+          if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
+          if (!has_quads_only(work_.options.element)) split_poor(
+                quads.patch.cells, work_.isotropic() ? least_jacobian : 0, [&](std::int32_t v) -> const Vec3& { return quads.xyz[v]; },
+                [](const MixedCell&) { return true; });
+        },
+        bound);
+    for (SlaveQuads& quads : slaves_) {
+      copy_cells(quads);
+      place_cells(work_, quads);
+    }
+    QuadraticReport report;
+    report.finer.resize(work_.result.mesh.faces.size());
+    for (const FaceQuads& quads : faces_) report_turned(quads, report);
+    std::sort(report.coarse.begin(), report.coarse.end());
+    report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
+    put_back(faces_, work_.result);
+    for (const SlaveQuads& quads : slaves_) carry_back(quads, work_.result.mesh);
+    return report;
+  }
+
+ private:
+  [[nodiscard]] bool is_slave(const FaceQuads& quads) const {
+    return work_.periodic != nullptr && work_.periodic->pair_of_slave[quads.face] >= 0;
+  }
+
+  void find_slaves() {
+    if (work_.periodic == nullptr) return;
+    const auto find = [&](int face) {
+      const auto found = std::find_if(faces_.begin(), faces_.end(), [face](const FaceQuads& quads) { return quads.face == static_cast<std::size_t>(face); });
+      return found != faces_.end() ? &*found : nullptr;
+    };
+    const std::vector<FaceMesh>& faces = work_.result.mesh.faces;
+    for (const FacePair& pair : work_.periodic->pairs) {
+      SlaveQuads quads{&pair, find(pair.master), find(pair.slave), {}};
+      if (quads.master == nullptr || quads.slave == nullptr) continue;
+      quads.image = local_images(faces[pair.master], faces[pair.slave], pair.flipped);
+      slaves_.push_back(std::move(quads));
+    }
+  }
+
+  template <typename Use>
+  void for_each(const Use& use, bool bound = false) {
+    run_each(
+        faces_.size(), bound, work_.options.threads, [&](std::size_t k, Monitor& monitor) { use(faces_[k], monitor); },
+        work_.monitor);
+  }
+
+  [[nodiscard]] const ControlSpace* space(const FaceQuads& quads) const {
+    const std::optional<ControlSpace>& space = work_.result.spaces[quads.face];
+    return space ? &*space : nullptr;
+  }
+
+  void pair(FaceQuads& quads, Monitor& monitor) const {
+    const PairRules rules = pair_rules(
+        work_.options, work_.isotropic(), [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
+        [&](std::int32_t v) { return quads.xyz[v]; });
+    PlaneQuads plain(quads.patch);
+    turn_ears(plain, rules.is_imposed);
+    if (space(quads) == nullptr) {
+      pair_triangles(plain, rules, monitor);
+      return;
+    }
+    const FaceCharts charts(*space(quads));
+    PlaneQuads in_metric(quads.patch, charts);
+    pair_triangles(in_metric, rules, monitor);
+    improve_quads(in_metric, rules.is_imposed, monitor);
+  }
+
+  void cut() {
+    const std::vector<std::vector<std::int32_t>> middles = halve_curves(work_, faces_);
+    halve(work_.result.vertex_size);
+    for (std::vector<double>& sizes : work_.result.curve_size) halve(sizes);
+    halve_sizes(work_.result, work_.curves);
+    std::vector<std::vector<int>> corners;
+    for (SlaveQuads& quads : slaves_) {
+      corners.emplace_back();
+      for (const MixedCell& cell : quads.master->patch.cells) corners.back().push_back(corners_of(cell));
+      copy_cells(quads);
+    }
+    for_each([&](FaceQuads& quads, Monitor&) { halve_cells(work_, middles, quads); });
+    for (std::size_t i = 0; i < slaves_.size(); ++i) match_halves(corners[i], slaves_[i]);
+    for_each([&](FaceQuads& quads, Monitor& monitor) {
+      if (is_slave(quads)) return;
+      if (space(quads) == nullptr) return;
+      const FaceCharts charts(*space(quads));
+      PlaneQuads in_metric(quads.patch, charts);
+      smooth_all(in_metric, monitor);
+    });
+  }
+
+  static bool is_turned(const FaceQuads& quads, const MixedCell& c) {
+    if (corners_of(c) == 3) return false;
+    const auto at = [&](int k) -> const Vec3& { return quads.xyz[c[k]]; };
+    return !is_convex(quads.patch, c) || is_turned_over({at(0), at(1), at(2), at(3)});
+  }
+
+  // Requests the present lengths, which are half of the lengths before the cut.
+  static void report_turned(const FaceQuads& quads, QuadraticReport& report) {
+    InvalidElements invalid{quads.face, 0, {}};
+    for (const MixedCell& c : quads.patch.cells) {
+      if (!is_turned(quads, c)) continue;
+      if (++invalid.count == 1)
+        invalid.uv = 0.25 * (quads.patch.uv[c[0]] + quads.patch.uv[c[1]] + quads.patch.uv[c[2]] + quads.patch.uv[c[3]]);
+      double longest = 0;
+      for (int k = 0; k < 4; ++k) longest = std::max(longest, norm(quads.xyz[c[(k + 1) % 4]] - quads.xyz[c[k]]));
+      for (int k = 0; k < 4; ++k) report.finer[quads.face].push_back({quads.xyz[c[k]], quads.xyz[c[(k + 1) % 4]], longest});
+      for (std::size_t s = 0; s < quads.middles.size(); ++s)
+        if (std::find(c.begin(), c.end(), quads.middles[s]) != c.end())
+          report.coarse.push_back({quads.sides[s].curve, 2 * quads.sides[s].segment});
+    }
+    if (invalid.count > 0) report.invalid.push_back(invalid);
+  }
+
+  const ElementWork& work_;
+  std::vector<FaceQuads> faces_;
+  std::vector<SlaveQuads> slaves_;
+};
+
+}  // namespace
+
+void halve_sizes(CompositeResult& result, std::vector<DiscreteCurve>& curves) {
+  for (FaceInterfaces& face : result.interfaces) halve(face.physical);
+  for (DiscreteCurve& curve : curves) halve(curve.size), halve(curve.physical);
+  for (std::optional<ControlSpace>& space : result.spaces)
+    if (space) space->scale_lengths(2);
+}
+
+QuadraticReport make_quadrilaterals(const ElementWork& work) { return Quadrilaterals(work).run(); }
+
+}  // namespace carreau

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this room, with their units, their reasons and the tests that support them.
+#pragma once
+
+#include <cstddef>
+
+namespace carreau::thresholds::bounds {
+
+// In brackets: the tests that rest on it, all of tests/cpp/measure.
+
+/// Share of the way from a corner to the place. Closest points are so near to the exact ones along the surface. A distance that is a
+/// hundredth of the way is right to a part in 20 000. [CrossPatchElements.MeasuresAreOfTheElements]
+inline constexpr double near_foot = 1e-4;
+
+// Bounds of A0 and A1 (triangle_bound, deviation_bounds)
+/// Factor on the largest observed second difference. Bounds assume that second derivatives along the sides differ from a constant by no
+/// more over a part of a triangle. Heights of parts count a sixteenth of the height of the triangle, so once costs a tenth.
+/// [TriangleBound.SphereInClosedForm]
+inline constexpr double variation = 1;
+/// Least share of a triangle's bend that its quarters have: a difference of zero does not bound derivatives.
+inline constexpr double least_of_parent = 0.5;
+/// Share of the largest observed deviation by which a bound may exceed it before the triangle is cut. The bound of a sphere exceeds it by
+/// less.
+inline constexpr double bound_gap = 0.2;
+/// The share if the bound is beyond the tolerance: finer bounds must decide.
+inline constexpr double bound_gap_beyond = 0.05;
+/// The share if only the bound is beyond the tolerance, and the observed deviation is within.
+inline constexpr double bound_gap_undecided = 0.005;
+/// Shares of the tolerances: bounds that exceed the observed deviation by less are near enough.
+/// [DeviationBounds.NarrowBumpIsFound]
+inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
+/// Times that a part of a triangle is cut into four, and number of parts of a triangle: after that bounds stay.
+inline constexpr int most_cuts = 10, most_parts = 150;
+/// Number of parts of a triangle that is known to be beyond a tolerance, if the caller needs no more than that.
+inline constexpr int most_parts_beyond = 16;
+/// Ratio of these to the parts that are cut when an edit is only tested. [time only]
+inline constexpr int roughly_parts = 4;
+/// Share of the largest |Su x Sv| of a triangle: where it is less the surface is singular.
+inline constexpr double singular_normal = 1e-9;
+/// Share of the longest side: smaller distances beyond a side are rounding.
+inline constexpr double beyond_side = 1e-12;
+
+}  // namespace carreau::thresholds::bounds

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/remesh/certify/edit_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "surface/remesh/bounds/pole.h"
+#include "surface/remesh/bounds/spread_places.h"
+#include "surface/remesh/bounds/thresholds.h"
+#include "surface/remesh/certify/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::bounds;
+using thresholds::certify::within;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A triangle in (u, v): its sides are parabolas over their chords, by the derivatives at their ends, or straight ways to a pole.
+class ChartMap {
+ public:
+  ChartMap(const std::array<SurfacePlace, 3>& corner, const std::array<bool, 3>& on_line) : corner_(corner) {
+    int regular = 0;
+    for (int i = 0; i < 3; ++i) corner[i].regular ? ++regular : pole_ = i;
+    if (regular < 2) pole_ = -1;
+    if (pole_ >= 0) arrive();
+    const Vec2 ab = uv(1) - uv(0), ac = uv(2) - uv(0);
+    const double area = cross(ab, ac);
+    for (int i = 0; i < 3 && regular == 3; ++i)
+      if (!on_line[i]) bulge_[i] = bulge(corner[i], corner[(i + 1) % 3], ab, ac, area);
+  }
+
+  [[nodiscard]] Vec2 at(const PlaceInTriangle& place) const {
+    const std::array<double, 3> w{1 - place.x() - place.y(), place.x(), place.y()};
+    if (pole_ < 0) {
+      Vec2 p = w[0] * uv(0) + w[1] * uv(1) + w[2] * uv(2);
+      for (int i = 0; i < 3; ++i) p += 4 * w[i] * w[(i + 1) % 3] * bulge_[i];
+      return p;
+    }
+    const int j = (pole_ + 1) % 3, k = (pole_ + 2) % 3;
+    const double rest = w[j] + w[k], share = rest > 0 ? w[k] / rest : 0.5;
+    return w[pole_] * lerp(arrival_[0], arrival_[1], share) + w[j] * uv(j) + w[k] * uv(k);
+  }
+
+ private:
+  [[nodiscard]] const Vec2& uv(int i) const { return corner_[i].foot.uv; }
+
+  void arrive() {
+    const SurfacePlace& pole = corner_[pole_];
+    std::array<Vec2, 2> box{uv(pole_), uv(pole_)};
+    for (const SurfacePlace& p : corner_)
+      for (int i = 0; i < 2; ++i) box[0][i] = std::min(box[0][i], p.foot.uv[i]), box[1][i] = std::max(box[1][i], p.foot.uv[i]);
+    for (int k = 0; k < 2; ++k) {
+      const SurfacePlace& from = corner_[(pole_ + 1 + k) % 3];
+      arrival_[k] = arrival_at_pole(pole.foot.uv, {pole.su, pole.sv}, from.foot.uv, {from.su, from.sv}, pole.xyz - from.xyz, box);
+    }
+  }
+
+  // The offset of the middle of the image from the middle of the chord; weights change by a quarter at most.
+  static Vec2 bulge(const SurfacePlace& p, const SurfacePlace& q, const Vec2& ab, const Vec2& ac, double area) {
+    const Vec2 way = q.foot.uv - p.foot.uv;
+    const Vec3 su = 0.5 * (p.su + q.su), sv = 0.5 * (p.sv + q.sv);
+    const Vec3 off = ((way.x() * (q.su - p.su)) + (way.y() * (q.sv - p.sv))) / 8;
+    const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), x = dot(su, off), y = dot(sv, off), det = e * g - f * f;
+    const Vec2 bulge{(g * x - f * y) / det, (e * y - f * x) / det};
+    const double b = cross(bulge, ac) / area, d = cross(ab, bulge) / area, most = std::max({std::abs(b), std::abs(d), std::abs(b + d)});
+    const double part = most > 0.25 ? 0.25 / most : 1;
+    return is_finite(bulge) && std::isfinite(most) ? Vec2(part * bulge) : Vec2(0, 0);
+  }
+
+  const std::array<SurfacePlace, 3>& corner_;
+  int pole_ = -1;
+  std::array<Vec2, 3> bulge_{Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)};
+  std::array<Vec2, 2> arrival_;
+};
+
+}  // namespace
+
+double EditBounds::deviation_tolerance(const Corners& corners) const {
+  const SurfaceTolerances& asked = mesh_.tolerances();
+  if (asked.deviation > 0) return within * asked.deviation;
+  double sum = 0;
+  for (const std::int32_t v : corners.vertex) sum += mesh_.size(v);
+  return within * asked.share_of_size * sum / 3;
+}
+
+// The slope of the mesh around it is at most twice the slope at its own corners.
+BoundedTriangle EditBounds::flat(const Corners& corners) const {
+  BoundedTriangle made({corners.place[0].xyz, corners.place[1].xyz, corners.place[2].xyz});
+  if (made.is_flat()) return made;
+  double least = 1, area = norm(cross(made.p[1] - made.p[0], made.p[2] - made.p[0]));
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t v = corners.vertex[i], w = corners.vertex[(i + 1) % 3];
+    made.open_side[i] = !mesh_.is_free(v) && !mesh_.is_free(w);
+    made.open_corner[i] = !mesh_.is_free(v);
+    if (corners.place[i].regular) least = std::min(least, std::abs(dot(corners.place[i].normal, made.normal)));
+  }
+  const double leaning = 2 * std::acos(std::min(least, 1.0));
+  made.slope = leaning < std::numbers::pi / 3 ? std::tan(leaning) : infinity;
+  made.reach = area / made.longest / 2;
+  const SurfaceTolerances& asked = mesh_.tolerances();
+  made.deviation_tolerance = deviation_tolerance(corners);
+  made.deviation_floor = near_deviation * made.deviation_tolerance;
+  made.angle_tolerance = within * asked.angle_deg * degree;
+  made.decides = true;
+  made.angle_floor = near_angle * made.angle_tolerance;
+  return made;
+}
+
+TriangleBound EditBounds::bound_in_chart(const Corners& corners, std::int32_t face, const BoundedTriangle& flat) {
+  const ChartMap map(corners.place, flat.open_side);
+  std::vector<Vec2> uv;
+  std::vector<SurfaceJet> jets;
+  std::vector<BoundPlace> seen;
+  const auto see = [&](std::span<const PlaceInTriangle> places) {
+    uv.clear();
+    for (const PlaceInTriangle& p : places) uv.push_back(map.at(p));
+    evaluations_ += static_cast<std::int64_t>(uv.size());
+    jets.resize(uv.size());
+    cad_.surface(mesh_.charts().reference(face), want_position | want_first, uv, jets);
+    seen.clear();
+    for (const SurfaceJet& jet : jets) seen.push_back({jet.s, cross(jet.su, jet.sv)});
+  };
+  see(TriangleBound::lattice());
+  constexpr std::array<std::size_t, 3> corner_ranks{0, 4, 14};
+  for (std::size_t i = 0; i < 3; ++i)
+    seen[corner_ranks[i]] = {corners.place[i].xyz, cross(corners.place[i].su, corners.place[i].sv)};
+  TriangleBound bound(flat, std::span<const BoundPlace, TriangleBound::lattice_size>(seen.data(), TriangleBound::lattice_size));
+  while (!bound.wanted().empty()) {
+    see(bound.wanted());
+    bound.take(seen);
+  }
+  return bound;
+}
+
+TriangleBound EditBounds::bound_over_several(const Corners& corners, const BoundedTriangle& flat) {
+  SpreadTriangle triangle(mesh_.charts(), cad_, flat.p, corners.place, false);
+  for (int i = 0; i < 3; ++i)
+    if (!corners.place[i].regular) {
+      const auto ends = mesh_.places(corners.vertex[i]);
+      triangle.set_pole({ends.begin(), ends.end()});
+    }
+  const SpreadPlaces places(triangle, flat);
+  evaluations_ += TriangleBound::lattice_size;
+  TriangleBound bound(flat, places.lattice());
+  std::vector<BoundPlace> seen;
+  while (!bound.wanted().empty()) {
+    seen.clear();
+    for (const PlaceInTriangle& p : bound.wanted()) seen.push_back(places.at(p));
+    evaluations_ += static_cast<std::int64_t>(seen.size());
+    bound.take(seen);
+  }
+  return bound;
+}
+
+double EditBounds::share(const EditableMesh::Triangle& t, bool roughly) {
+  const PlacedCell cell = placer_({t[0], t[1], t[2], -1});
+  Corners corners;
+  for (int i = 0; i < 3; ++i) {
+    corners.vertex[i] = cell.corners[i].vertex;
+    corners.place[i] = mesh_.places(cell.corners[i].vertex)[cell.corners[i].place];
+    corners.place[i].xyz = mesh_.position(cell.corners[i].vertex);
+  }
+  // Spread ones run as the atlas does.
+  if (cell.spread && cell.corners[1].vertex != t[1] && cell.corners[0].vertex == t[0]) {
+    std::swap(corners.vertex[1], corners.vertex[2]);
+    std::swap(corners.place[1], corners.place[2]);
+  }
+  BoundedTriangle flat = this->flat(corners);
+  flat.roughly = roughly;
+  const double turned = 180 / mesh_.tolerances().angle_deg;
+  if (flat.is_flat()) return turned;
+  const TriangleBound bound = cell.spread ? bound_over_several(corners, flat) : bound_in_chart(corners, cell.face, flat);
+  return std::max(bound.deviation() / flat.deviation_tolerance, bound.angle() / flat.angle_tolerance);
+}
+
+}  // namespace carreau
