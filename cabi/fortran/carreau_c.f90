@@ -1166,7 +1166,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_periodic_count
 
-    !> Gets the pairs: corners first, curves, faces.
+    !> Gets the pairs: corners first, then curves, then faces.
     function c_mesh_periodic(mesh, capacity, node_capacity, dimensions, refs, transforms, counts, &
       nodes) result(status) bind(c, name="carreau_mesh_periodic")
       import :: c_double, c_int32_t, c_int64_t, c_ptr

@@ -973,9 +973,10 @@ CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, 
 
 /* Counts the pairs of entities that periodicities carry onto each other, and their pairs of nodes. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_mesh_periodic_count(carreau_mesh* mesh, int64_t* out_pairs, int64_t* out_nodes);
-/* Gets the pairs: corners first, curves, faces. Each pair has the dimension (0, 1, 2), the references {slave, master}, the map of the master onto
- * the slave (3 x 4, row by row) and the number of its pairs of nodes; then all nodes {slave, master} (indices from 0), ascending in each pair. Nodes of second order are among
- * them. Arrays may be NULL and have room for the counts above. Errors: ARGUMENT (room too small). */
+/* Gets the pairs: corners first, then curves, then faces. Each pair has its dimension (0, 1, 2), its references {slave, master}, the map of the
+ * master onto the slave (3 x 4, row by row) and the number of its pairs of nodes. The nodes {slave, master} (indices from 0) of all pairs
+ * follow each other, ascending in each pair, with nodes of second order. Arrays may be NULL and have room for the counts above. Errors: ARGUMENT
+ * (room too small). */
 CARREAU_API carreau_status carreau_mesh_periodic(carreau_mesh* mesh, int64_t capacity, int64_t node_capacity, int32_t out_dimensions[],
                                                  int32_t out_refs[], double out_transforms[], int64_t out_counts[], int32_t out_nodes[]);
 

@@ -16,18 +16,18 @@ namespace {
 using namespace thresholds::periodic;
 
 // Not symmetric, so that a reversed curve differs.
-constexpr std::array<double, 4> inside{0.17, 0.38, 0.56, 0.81};
+constexpr std::array<double, 4> compared_at{0.17, 0.38, 0.56, 0.81};
 
 bool fits(const CurveModel& model, const CurveShape& from, const CurveImage& image, const Isometry& map, double gap) {
   const double length = std::max(from.length, 0.);
   const auto target = [&](double r) { return map(support_point(model, from.curve, r)); };
   const auto fraction = [&](double r) { return from.closed ? wrapped(image.at(r)) : image.at(r); };
   // The polylines first: they cost no call.
-  for (const double r : inside)
+  for (const double r : compared_at)
     if (norm(target(r) - support_point(model, image.curve, fraction(r))) > polyline_gap * length + gap) return false;
   const Curve& curve = model.curve(from.curve);
   const CurveUse& use = curve.uses.front();
-  for (const double r : inside) {
+  for (const double r : compared_at) {
     const double t = parameter_at(model, use, r);
     const Vec2 uv = model.cad.curve(model.face_ref(use), use.curve + 1, want_position, t).c;
     const Vec3 p = map(surface_at(model.cad, model.face_ref(use), want_position, uv).s);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <set>
 #include <utility>
@@ -33,6 +35,12 @@ struct FaceShape {
 
 std::string text_of(const Vec3& p) {
   return "(" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) + ")";
+}
+
+std::string format_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", x);
+  return text;
 }
 
 class Matcher {
@@ -138,8 +146,10 @@ class Matcher {
       for (const int c : face.curves)
         for (const Vec3& p : model_.support(model_.curve(c).uses.front()).xyz)
           low = std::min(low, dot(p, along)), high = std::max(high, dot(p, along));
+    // Files give lengths with noise: an extent of 1.0000000000002 is 1.
+    const double rounded = std::strtod(format_digits(high - low).c_str(), nullptr);
     Isometry map;
-    map.shift = (high - low) * along;
+    map.shift = rounded * along;
     for (int i = 0; i < 3; ++i)
       if (along[i] == 0) map.shift[i] = 0;
     if (add_pairs(map) > 0) return;
@@ -285,7 +295,7 @@ class Matcher {
     return is_left ? left : right;
   }
 
-  // Applies the even-odd rule.
+  // Uses the even-odd rule.
   [[nodiscard]] bool is_inside(int face, const Vec2& p) const {
     bool inside = false;
     for (std::size_t c = 0; c < model_.model.faces[face].curves.size(); ++c) {

@@ -157,11 +157,32 @@ int prescribed_member(const CurveClass& all, const CurveModel& model, const std:
   return found;
 }
 
+// Fractions of lengths are known by tables: vertices of the root where closed members begin go to the images of these beginnings.
+void meet_beginnings(const CurveClass& all, const CurveModel& model, DiscreteCurve& root) {
+  const auto owner = static_cast<std::size_t>(root.owner);
+  const CurveUse& use = model.curve(root.curve).uses[owner];
+  const CurveSupport& support = model.support(use);
+  const std::vector<double>& known = root.t_of_use[owner];
+  std::vector<double> t(known.begin() + 1, known.end() - 1);
+  bool any = false;
+  for (const CurveMember& member : all.members) {
+    const double at = wrapped(member.image.back(0));
+    for (std::size_t k = 1; at > 0 && k + 1 < root.r.size(); ++k) {
+      if (std::abs(root.r[k] - at) > same_fraction) continue;
+      const Vec3 begin = model.topology.points[static_cast<std::size_t>(model.curve(member.image.curve).end1)].position;
+      t[k - 1] = find_closest(model, use, t[k - 1], support.t.front(), support.t.back(), member.map.inverse()(begin)).t;
+      any = true;
+    }
+  }
+  if (any) place_vertices_at(root, std::vector<double>(root.r.begin() + 1, root.r.end() - 1), t, model);
+}
+
 void carry_from(const CurveClass& all, std::size_t source, const CurveModel& model, double exact, std::vector<DiscreteCurve>& curves) {
   const CurveMember& from = all.members[source];
   const int root = all.members.front().image.curve;
   const CurveImage to_root = inverse(root, from.image);
   const Isometry back = from.map.inverse();
+  if (source == 0 && is_closed(model, root)) meet_beginnings(all, model, curves[root]);
   for (std::size_t i = 0; i < all.members.size(); ++i) {
     if (i == source) continue;
     const CurveMember& to = all.members[i];

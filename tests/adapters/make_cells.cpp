@@ -5,6 +5,7 @@
 //                    pipe with a hole in it
 //   fcc.step         the unit cube without spheres of radius .3 around its corners and the middles of its faces
 //   inclusions.step  the unit cube without forty spheres, of which six faces cut some; mismatch.step: the cube without one at one face
+//   shifted.step     the cube without half a sphere at each of two faces: the circles on both begin at different places
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -93,6 +94,14 @@ TopoDS_Shape pipe_sector(double degrees) {
   return cut(BRepPrimAPI_MakeCylinder(1., 1., angle).Shape(), bore);
 }
 
+// Both hemispheres are halves of one sphere, with seams at different places.
+void make_shifted(const std::string& path) {
+  TopTools_ListOfShape spheres;
+  spheres.Append(BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(0, 0.5, 0.5), gp_Dir(1, 0, 0), gp_Dir(0, 0, 1)), 0.3).Shape());
+  spheres.Append(BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(1, 0.5, 0.5), gp_Dir(1, 0, 0), gp_Dir(0, 0.6, 0.8)), 0.3).Shape());
+  write(cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), spheres), path);
+}
+
 void make(const std::string& folder) {
   write(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), folder + "/cube.step");
   write(BRepPrimAPI_MakeCylinder(1., 1., std::numbers::pi / 3).Shape(), folder + "/sector.step");
@@ -105,6 +114,7 @@ void make(const std::string& folder) {
   TopTools_ListOfShape one;
   one.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0, 0.5, 0.5), 0.2).Shape());
   write(cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), one), folder + "/mismatch.step");
+  make_shifted(folder + "/shifted.step");
 }
 
 }  // namespace

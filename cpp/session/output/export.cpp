@@ -240,7 +240,7 @@ void add_shapes(FlatMesh& flat) {
   for (MeshField* field : {&shape, &scaled, &least}) flat.fields.push_back(std::move(*field));
 }
 
-// For each vertex the first vertex (from 0) of its class, whose values it has.
+// A field that gives each vertex the first vertex (from 0) of its periodic class.
 void add_periodic(FlatMesh& flat) {
   if (flat.periodic.empty()) return;
   MeshField master{.name = "periodic_master", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};

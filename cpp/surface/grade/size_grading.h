@@ -25,8 +25,8 @@ struct GradedModel {
 /// Grades the sizes of a model with the ratio options.gradation > 1. The graph is a separate mesh of twice the
 /// prescribed sizes, with prescribed sizes at its vertices and distances along its edges. If the graded sizes are much
 /// smaller than its edges, the graph is made again with them. Faces whose domains cannot be made are left out.
-/// Evaluates the host about as often as a mesh of a quarter of the vertices would, curves once. Sizes grow across periodic curves. Throws the exceptions
-/// of the host, LimitError, Cancelled.
+/// Evaluates the host about as often as a mesh of a quarter of the vertices would, curves once. Sizes grow across periodic
+/// curves. Throws the exceptions of the host, LimitError, Cancelled.
 GradedModel grade_model(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, double diag,
                         Monitor& monitor, const PeriodicModel& periodic = {});
 

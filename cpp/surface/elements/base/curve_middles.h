@@ -29,8 +29,8 @@ class EdgeMiddles {
   explicit EdgeMiddles(const ElementWork& work) : work_(work) { piece_.sizes = {{0, 1}, {1, 1}, {1, 1}}; }
 
   /// The point at half the metric length of edge k of result.mesh.curves[curve], `shift` of the edge further, in every
-  /// use; on periodic curves the image of this point of the first curve of the class. Empty if the curve is one point of space, or if its vertices differ from work.curves[curve] (a narrow face
-  /// has vanished there).
+  /// use; on periodic curves the image of this point of the first curve of the class. Empty if the curve is one point of
+  /// space, or if its vertices differ from work.curves[curve] (a narrow face has vanished there).
   [[nodiscard]] std::optional<CurveMiddle> at(std::size_t curve, std::size_t k, double shift = 0);
 
  private:

@@ -283,7 +283,7 @@ void place_cells(const ElementWork& work, SlaveQuads& quads) {
     vertices.target[w] = quads.pair->map(master.xyz[v]);
     slave.size[w] = master.size[v] >= 0 ? master.size[v] : work.result.vertex_size[master.vertex[v]];
   }
-  // Vertices that the master has left are not fitted.
+  // Vertices that no cell has are passed over.
   std::vector<char> used(n, 0);
   for (const std::int32_t w : quads.image)
     if (w >= 0) used[w] = 1;
