@@ -34,7 +34,7 @@ module carreau
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_divide_curve, carreau_model_divide_curve_at
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
-  public :: carreau_model_add_periodicity, carreau_model_add_period, carreau_mesh_periodic
+  public :: carreau_model_add_periodicity, carreau_model_add_period, carreau_mesh_periodic_count, carreau_mesh_periodic
   public :: carreau_model_name_entities, carreau_model_set_face_sides, carreau_mesh_face_sides, carreau_mesh_entity_name
   public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
@@ -1689,6 +1689,15 @@ contains
     status = c_mesh_face_sides(mesh%handle, face_ref, solids)
   end subroutine carreau_mesh_face_sides
 
+  subroutine carreau_mesh_periodic_count(mesh, pairs, nodes, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(out) :: pairs, nodes
+    integer(c_int32_t), intent(out) :: status
+    pairs = 0
+    nodes = 0
+    status = c_mesh_periodic_count(mesh%handle, pairs, nodes)
+  end subroutine carreau_mesh_periodic_count
+
   !> dimensions(pairs), refs(2, pairs): slave, master; transforms(4, 3, pairs); counts(pairs); nodes(2, all), from 1.
   subroutine carreau_mesh_periodic(mesh, dimensions, refs, transforms, counts, nodes, status)
     type(carreau_mesh), intent(in) :: mesh
@@ -2104,10 +2113,12 @@ contains
     real(c_double), intent(in) :: vertices(:, :), size_on, surrounding, reach
     integer(c_int32_t), intent(in) :: elements(:, :)
     integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: from_zero(size(elements, 1), size(elements, 2))
     status = CARREAU_ERR_ARGUMENT
     if (size(vertices, 1) /= 3 .or. size(elements, 1) /= 3) return
+    from_zero = elements - 1_c_int32_t
     status = c_add_attractor(session%handle, size(vertices, 2, kind=c_int64_t), vertices, size(elements, 2, kind=c_int64_t), &
-      elements - 1, size_on, surrounding, reach)
+      from_zero, size_on, surrounding, reach)
   end subroutine carreau_add_attractor
 
   subroutine carreau_clear_attractors(session, status)

@@ -675,7 +675,7 @@ CARREAU_API carreau_status carreau_add_attractor(carreau_session* session, int64
                                                  int64_t element_count, const int32_t elements[], double size,
                                                  double surrounding, double reach);
 
-/* Removes all attractors. */
+/* Removes all attractors. Errors: BUSY. */
 CARREAU_API carreau_status carreau_clear_attractors(carreau_session* session);
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */

@@ -102,8 +102,9 @@ bool DifferenceCad::are_inside(int face, std::span<const Vec2> points, Vec2 cent
   const auto domain = domains_.find(face);
   if (domain == domains_.end()) return true;
   const auto curve = [&](int ic, double t) -> Vec2 { return source_->curve(face, ic, want_position, t).c; };
-  return std::all_of(points.begin(), points.end(),
-                     [&](const Vec2& p) { return p == centre || domain->second.contains(p, curve); });
+  const bool all_inside = std::all_of(points.begin(), points.end(), [&](const Vec2& p) { return p == centre || domain->second.contains(p, curve); });
+  // A centre between a curve of the boundary and its chord is outside itself: no place beside it is better.
+  return all_inside || !domain->second.contains(centre, curve);
 }
 
 bool DifferenceCad::is_beside_boundary(int face, Vec2 uv, DifferenceStep u, DifferenceStep v) const {

@@ -53,7 +53,7 @@ program model_fortran_test
   integer(c_int32_t), allocatable :: dimensions(:), pairs(:, :), nodes(:, :)
   integer(c_int64_t), allocatable :: counts(:)
   real(c_double), allocatable :: transforms(:, :, :)
-  integer(c_int64_t) :: faces, n_curves, points, n, m, k, f, outside
+  integer(c_int64_t) :: pair_count, node_count, faces, n_curves, points, n, m, k, f, outside
   real(c_double), allocatable :: uv(:, :), xyz(:, :), metrics(:, :)
   integer(c_int32_t) :: status, dimension, i
   real(c_double) :: hphydef
@@ -169,6 +169,8 @@ program model_fortran_test
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_mesh_vertices(mesh, xyz, status)
   call carreau_mesh_periodic(mesh, dimensions, pairs, transforms, counts, nodes, status)
+  call carreau_mesh_periodic_count(mesh, pair_count, node_count, status)
+  call check(pair_count == size(counts) .and. node_count == size(nodes, 2), 'numbers of pairs and of their nodes')
   call check(all(pairs(:, size(counts)) == [2, 1]) .and. dimensions(size(counts)) == 2, 'a pair of faces')
   k = sum(counts(:size(counts) - 1))
   call check(all(abs(xyz(1, nodes(1, k + 1:)) - xyz(1, nodes(2, k + 1:)) - 1) < 1d-12), 'images of vertices')

@@ -290,7 +290,8 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   const std::string engine = options.volume.is_volume ? found_engine(options.volume.engine) : "";
   if (!engine.empty() && ranks != nullptr) throw Failure("carreau volume runs in one process.");
   std::vector<std::string> suffixes = engine.empty() ? mesh_suffixes : volume_suffixes;
-  if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html", group_table_suffix});
+  if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html"});
+  suffixes.emplace_back(group_table_suffix);
   if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
