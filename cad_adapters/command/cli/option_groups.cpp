@@ -94,9 +94,9 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                            "Size on edges, vertices, faces, solids: edge:3-5=.2, vertex:7=.05, bore*=.3; repeatable"))
       ->type_name("ENTITIES=LENGTH");
   repeated(app->add_option("--near", options.near,
-                           "Size near entities that grows linearly to the size around: face:3=.1:2 (size:reach); repeatable"))
+                           "Size near entities, growing linearly to the size around: face:3=.1:2 (size:reach); repeatable"))
       ->type_name("ENTITIES=LENGTH:LENGTH");
-  app->add_option("--sizes", options.sizes.path, "File .json of sizes: size, angle, size-on, near, ... (carreau-mesh(1)); options take precedence")
+  app->add_option("--sizes", options.sizes.path, "File .json of sizes: size, angle, size-on, near, ... (carreau-mesh(1)); options override it")
       ->check(not_empty)
       ->type_name(kind::file);
   repeated(app->add_option("--group", options.groups,
