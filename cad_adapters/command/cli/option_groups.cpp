@@ -111,7 +111,7 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                            "All vertices inside a curve, by their parameters; repeatable"))
       ->type_name("CURVE=T,...");
   repeated(app->add_option("--periodic", options.periodic,
-                           "Equal meshes on faces: x, y, z, A,B,C, rotate:POINT:AXIS:DEGREES, mirror:POINT:NORMAL, 7=3; repeatable"))
+                           "Equal faces: x, y, z, A,B,C, rotate:POINT:AXIS:DEGREES, mirror:POINT:NORMAL, 7=3; repeatable"))
       ->type_name("MAP");
   app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
