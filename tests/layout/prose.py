@@ -9,7 +9,7 @@ import os
 import re
 import sys
 
-FOLDERS = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs", "cmake")
+FOLDERS = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs", "cmake", "packaging")
 COMMENTED = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs")
 OPENING = re.compile(r"(What|Who|Whoever|Of|Where|By|Nor)\b")
 FACTOR = 1.5
