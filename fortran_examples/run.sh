@@ -17,7 +17,7 @@ else
 fi
 echo "Step 1 of 3: configure $build"
 configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_FORTRAN=ON "$@"
-echo "Step 2 of 3: compile the library, the host and the command; the first time this takes about $((11 / $(processors) + 1)) minutes on $(processors) processors"
+echo "Step 2 of 3: compile the library, the host and the command; the first time this takes about $((9 / $(processors) + 1)) minutes on $(processors) processors"
 cmake --build "$build" -j "$(processors)" --target blsurf_teapot carreau_command
 
 mkdir -p "$out"
