@@ -20,8 +20,6 @@ constexpr double first_step = 1e-5;
 constexpr double second_step = 2e-4;
 // Points whose stencils are evaluated in one batch.
 constexpr std::size_t chunk = 512;
-// Steps from the centre to the last point of the longest stencil.
-constexpr double longest_stencil = 3;
 // Directions of formulas beside a boundary: their bisectors, and half the angle between both, in radians. Corners of a
 // domain are seldom sharper than the last one.
 constexpr int bisectors = 16;
@@ -95,23 +93,12 @@ void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
 }
 
 void DifferenceCad::set_boundary(int face, std::vector<BoundaryCurve> boundary) {
-  domains_[face] = ParameterDomain(std::move(boundary));
+  domains_.insert_or_assign(face, ParameterDomain(std::move(boundary)));
 }
 
-bool DifferenceCad::are_inside(int face, std::span<const Vec2> points, Vec2 centre) {
+bool DifferenceCad::admits(int face, Vec2 uv, std::span<const Vec2> points) const {
   const auto domain = domains_.find(face);
-  if (domain == domains_.end()) return true;
-  const auto curve = [&](int ic, double t) -> Vec2 { return source_->curve(face, ic, want_position, t).c; };
-  const bool all_inside = std::all_of(points.begin(), points.end(), [&](const Vec2& p) { return p == centre || domain->second.contains(p, curve); });
-  // A centre between a curve of the boundary and its chord is outside itself: no place beside it is better.
-  return all_inside || !domain->second.contains(centre, curve);
-}
-
-bool DifferenceCad::is_beside_boundary(int face, Vec2 uv, DifferenceStep u, DifferenceStep v) const {
-  const auto domain = domains_.find(face);
-  if (domain == domains_.end()) return false;
-  const Vec2 reach{longest_stencil * u.step, longest_stencil * v.step};
-  return domain->second.may_cross(uv - reach, uv + reach);
+  return domain == domains_.end() || domain->second.admits(uv, points);
 }
 
 DifferenceCad::Box DifferenceCad::box_at(int face, const Vec2& uv) const {
@@ -148,7 +135,7 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
     steps.emplace_back(u, v);
     const std::size_t first = points.size();
     append_points(second_from_position, p, u, v, points);
-    beside.push_back(is_beside_boundary(face, p, u, v) && !are_inside(face, std::span(points).subspan(first), p) ? 1 : 0);
+    beside.push_back(admits(face, p, std::span(points).subspan(first)) ? 0 : 1);
     if (beside.back() != 0) points.resize(first);
   }
   std::vector<SurfaceJet> values(points.size());
@@ -170,10 +157,10 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
 }
 
 bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v,
-                                       SurfaceJet& out) {
+                                       bool anywhere, SurfaceJet& out) {
   std::vector<Vec2> points;
   append_points(task.missing == want_second && task.from == want_position, uv, u, v, points);
-  if (!are_inside(face, points, uv)) return false;
+  if (!anywhere && !admits(face, uv, points)) return false;
   std::vector<SurfaceJet> values(points.size());
   try {
     source_->surface(face, task.from, points, values);
@@ -201,9 +188,13 @@ bool DifferenceCad::add_along_directions(int face, const Task& task, Vec2 uv, Di
           for (int i = 0; i < along.count; ++i) points.push_back(uv + along.offset[i] * w);
         for (int i = 0; second_from_position && i < mixed.count; ++i)
           for (int j = 0; j < mixed.count; ++j) points.push_back(uv + mixed.offset[i] * w1 + mixed.offset[j] * w2);
-        if (!are_inside(face, points, uv)) continue;
+        if (!admits(face, uv, points)) continue;
         std::vector<SurfaceJet> values(points.size());
-        source_->surface(face, task.from, points, values);
+        try {
+          source_->surface(face, task.from, points, values);
+        } catch (const CallbackError&) {
+          return false;
+        }
         const double det = w1.x() * w2.y() - w1.y() * w2.x();
         // Gradient of f from its differences along w1 and w2.
         const auto gradient = [&](const Vec3& d1, const Vec3& d2) {
@@ -247,16 +238,21 @@ void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJe
     return side == Side::central ? std::vector{Side::central, Side::forward, Side::backward} : std::vector{side};
   };
   const std::vector<Side> sides_u = sides(u.side), sides_v = sides(v.side);
-  for (const Side side_u : sides_u)
-    for (const Side side_v : sides_v) {
-      u.side = side_u, v.side = side_v;
-      if (add_differences_at(face, task, uv, u, v, out)) return;
-    }
-  if (add_along_directions(face, task, uv, u, v, out)) return;
+  // No step may be proved to stay inside: cusps, strips narrower than a hundredth of their length.
+  const bool is_bounded = domains_.find(face) != domains_.end();
+  for (const bool anywhere : {false, true}) {
+    for (const Side side_u : sides_u)
+      for (const Side side_v : sides_v) {
+        u.side = side_u, v.side = side_v;
+        if (add_differences_at(face, task, uv, u, v, anywhere, out)) return;
+      }
+    if (!is_bounded) break;
+    if (!anywhere && add_along_directions(face, task, uv, u, v, out)) return;
+  }
   throw CallbackError(
       Where{.face = face, .uv = uv},
       std::string(task.missing == want_first ? "first" : "second") +
-          " derivatives are not given, and no finite differences inside the domain replace them here");
+          " derivatives are not given, and the finite differences that replace them are not finite here");
 }
 
 CurveJet DifferenceCad::curve(int face, int ic, unsigned want, double t) {

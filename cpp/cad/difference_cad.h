@@ -17,8 +17,8 @@ namespace carreau {
 /// derivatives come from positions (relative error near 1e-10 for smooth functions). Second ones come from first ones
 /// when they are given (1e-10), else from positions (1e-7). On curves the points stay in [a, b]. On surfaces they stay
 /// in the face's box when it is known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
-/// They stay in the closed domain when its boundary is known (set_boundary): beside the boundary one-sided formulas are
-/// used, along directions that lead inside if those of u and v do not. Without a boundary, one-sided formulas replace
+/// They stay in the closed domain if its boundary is known (set_boundary): beside it formulas are one-sided, along
+/// directions that lead inside if the directions of u and v do not. Otherwise, and in cusps, one-sided formulas replace
 /// values that are not finite or fail. If all formulas fail, the error is a CallbackError at (u, v).
 class DifferenceCad : public Cad {
  public:
@@ -53,13 +53,11 @@ class DifferenceCad : public Cad {
   };
   [[nodiscard]] Box box_at(int face, const Vec2& uv) const;
   void add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out);
-  bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
+  bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, bool anywhere, SurfaceJet& out);
   void add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out);
   bool add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
-  /// True if all points lie in the closed domain; always if its boundary is not known.
-  [[nodiscard]] bool are_inside(int face, std::span<const Vec2> points, Vec2 centre);
-  /// True if the boundary may pass within the reach of the steps from uv.
-  [[nodiscard]] bool is_beside_boundary(int face, Vec2 uv, DifferenceStep u, DifferenceStep v) const;
+  /// True if steps from uv to the points provably stay in the domain; always if its boundary is not known.
+  [[nodiscard]] bool admits(int face, Vec2 uv, std::span<const Vec2> points) const;
 
   std::unique_ptr<Cad> source_;
   unsigned surface_gives_, curve_gives_;

@@ -3,131 +3,116 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
+#include <utility>
+
+#include "predicates/polygon_locator.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
 
-/// Largest distance of a curve from its chord, in lengths of the chord: samples keep angles of a few degrees.
-constexpr double bulge = 0.25;
-/// Share of the largest coordinate; positions on the boundary are rounded.
-constexpr double rounding = 1e-14;
-/// Share of the largest coordinate. Ends of curves that are closer become one point, so that no ray passes between them.
-constexpr double joint = 1e-7;
-constexpr int bisections = 60;
+/// Degrees. Supports keep an angle of one degree between a curve and its chord (RT-0232 sec. 3.3); steps keep three.
+constexpr double least_angle = 3;
+/// Degrees between successive chords; a larger angle is a corner, and a smaller one is added to the angle above.
+constexpr double largest_bend = 15;
+/// Share of a chord: an arc that makes one degree with its chord leaves it by .0044, a bend adds a quarter of its angle.
+constexpr double least_margin = 0.01;
 
-Vec3 in_plane(Vec2 p) { return {p.x(), p.y(), 0}; }
 double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(cross2(a, b)), dot(a, b)); }
 
-/// A box around the curve of a chord.
-BoxTree::Box box_around(const Vec2& a, const Vec2& b) {
-  const double margin = bulge * norm(b - a);
+BoxTree::Box box_around(const Vec2& a, const Vec2& b, double margin) {
   BoxTree::Box box;
-  box.add(in_plane(a)), box.add(in_plane(b));
+  box.add({a.x(), a.y(), 0}), box.add({b.x(), b.y(), 0});
   box.low -= Vec3{margin, margin, 0}, box.high += Vec3{margin, margin, 0};
   return box;
 }
 
-void join_ends(std::vector<BoundaryCurve>& boundary, double gap) {
-  std::vector<Vec2> known;
-  for (BoundaryCurve& curve : boundary)
-    for (Vec2* end : {&curve.uv.front(), &curve.uv.back()}) {
-      const auto same = std::find_if(known.begin(), known.end(), [&](const Vec2& p) { return norm(p - *end) <= gap; });
-      if (same == known.end())
-        known.push_back(*end);
-      else
-        *end = *same;
-    }
+std::pair<Vec2, Vec2> box_of(std::span<const BoundaryCurve> boundary) {
+  Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+  for (const BoundaryCurve& curve : boundary)
+    for (const Vec2& p : curve.uv) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return {low, high};
 }
 
 }  // namespace
 
+void join_ends(std::vector<BoundaryCurve>& boundary) {
+  const auto [low, high] = box_of(boundary);
+  const Vec2 size = high - low;
+  std::vector<Vec2*> ends;
+  for (BoundaryCurve& curve : boundary) ends.push_back(&curve.uv.front()), ends.push_back(&curve.uv.back());
+  std::vector<char> joined(ends.size(), 0);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (joined[i] != 0) continue;
+    std::size_t nearest = i;
+    double least = infinity;
+    for (std::size_t j = i + 1; j < ends.size(); ++j)
+      if (const double d = norm((*ends[j] - *ends[i]).cwiseQuotient(size)); joined[j] == 0 && d < least) least = d, nearest = j;
+    *ends[nearest] = *ends[i];
+    joined[i] = joined[nearest] = 1;
+  }
+}
+
 ParameterDomain::ParameterDomain(std::vector<BoundaryCurve> boundary) {
-  double largest = 0;
+  join_ends(boundary);
+  const auto [low, high] = box_of(boundary);
+  low_ = low, size_ = high - low;
+  std::vector<Vec2> vertices;
+  std::vector<std::pair<int, int>> chords;
   for (const BoundaryCurve& curve : boundary)
-    for (const Vec2& p : curve.uv) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  tolerance_ = rounding * largest;
-  join_ends(boundary, joint * largest);
+    for (std::size_t i = 0; i < curve.uv.size(); ++i) {
+      vertices.push_back(scaled(curve.uv[i]));
+      if (i > 0) chords.emplace_back(static_cast<int>(vertices.size()) - 2, static_cast<int>(vertices.size()) - 1);
+    }
+  const PolygonLocator polygon(vertices, chords);
+  constexpr double degree = std::numbers::pi / 180;
+  const auto chord = [&](std::size_t e) -> Vec2 { return vertices[chords[e].second] - vertices[chords[e].first]; };
   std::vector<BoxTree::Box> boxes;
   std::vector<Vec3> centres;
-  for (const BoundaryCurve& curve : boundary)
-    for (std::size_t i = 0; i + 1 < curve.t.size(); ++i) {
-      const Edge edge{curve.ic, curve.t[i], curve.t[i + 1], curve.uv[i], curve.uv[i + 1]};
-      edges_.push_back(edge);
-      boxes.push_back(box_around(edge.a, edge.b));
-      centres.push_back(in_plane(0.5 * (edge.a + edge.b)));
-    }
+  for (std::size_t e = 0; e < chords.size(); ++e) {
+    const Vec2 along = chord(e);
+    const double length = norm(along);
+    if (!(length > 0)) continue;
+    double bend = 0;
+    for (const std::size_t other : {e - 1, e + 1})
+      if (other < chords.size() && (chords[other].second == chords[e].first || chords[other].first == chords[e].second))
+        if (const double angle = angle_between(along, chord(other)); angle < largest_bend * degree) bend = std::max(bend, angle);
+    const double side = polygon.inside_left_of(static_cast<int>(e)) ? 1 : -1;
+    const Vec2 inward{-side * along.y() / length, side * along.x() / length};
+    edges_.push_back({.a = vertices[chords[e].first], .b = vertices[chords[e].second], .inward = inward,
+                      .margin = (least_margin + bend / 4) * length, .slack = std::sin(least_angle * degree + bend)});
+    const Edge& edge = edges_.back();
+    boxes.push_back(box_around(edge.a, edge.b, edge.margin));
+    centres.push_back({(edge.a.x() + edge.b.x()) / 2, (edge.a.y() + edge.b.y()) / 2, 0});
+  }
   tree_ = BoxTree(boxes, centres);
 }
 
-bool ParameterDomain::may_cross(Vec2 low, Vec2 high) const {
-  BoxTree::Box box;
-  box.add(in_plane(low)), box.add(in_plane(high));
-  bool found = false;
-  tree_.all_that_meet([&](const BoxTree::Box& b) { return !found && !b.is_apart(box); },
+bool ParameterDomain::admits(const Vec2& from, std::span<const Vec2> to) const {
+  const Vec2 p = scaled(from);
+  BoxTree::Box reach = box_around(p, p, 0);
+  for (const Vec2& uv : to) {
+    const Vec2 q = scaled(uv);
+    reach.add({q.x(), q.y(), 0});
+  }
+  bool admitted = true;
+  tree_.all_that_meet([&](const BoxTree::Box& box) { return admitted && !box.is_apart(reach); },
                       [&](const BoxTree::Node& leaf) {
                         for (const std::int32_t k : tree_.things(leaf)) {
                           const Edge& edge = edges_[static_cast<std::size_t>(k)];
-                          found = found || !box_around(edge.a, edge.b).is_apart(box);
+                          if (box_around(edge.a, edge.b, edge.margin).is_apart(reach)) continue;
+                          for (const Vec2& uv : to) {
+                            const Vec2 q = scaled(uv), step = q - p;
+                            admitted = admitted && (dot(step, edge.inward) >= edge.slack * norm(step) || dot(q - edge.a, edge.inward) >= edge.margin);
+                          }
                         }
                       });
-  return found;
-}
-
-// In the frame of the chord the curve is y = f(x): the abscissa of p determines t.
-ParameterDomain::Side ParameterDomain::side_of(const Edge& edge, Vec2 p, const Curve& curve) const {
-  const Vec2 chord = edge.b - edge.a;
-  const double length = norm(chord);
-  if (!(length > 0)) return norm(p - edge.a) <= tolerance_ ? Side::on : Side::same;
-  const Vec2 along = (1 / length) * chord;
-  const double x = dot(p - edge.a, along), y = cross2(along, p - edge.a);
-  if (x < -tolerance_ || x > length + tolerance_ || std::abs(y) > bulge * length + tolerance_) return Side::same;
-  if (norm(p - edge.a) <= tolerance_ || norm(p - edge.b) <= tolerance_) return Side::on;
-  double low = edge.t0, high = edge.t1, x_low = 0, x_high = length;
-  Vec2 at = edge.a;
-  for (int i = 0; i < bisections; ++i) {
-    // False position, alternating with bisection.
-    const double share = i % 2 == 0 && x_high > x_low ? std::clamp((x - x_low) / (x_high - x_low), 0.0, 1.0) : 0.5;
-    const double t = low + share * (high - low);
-    at = curve(edge.ic, t);
-    const double x_at = dot(at - edge.a, along);
-    if (std::abs(x_at - x) <= tolerance_ || !(high > low)) break;
-    if (x_at < x)
-      low = t, x_low = x_at;
-    else
-      high = t, x_high = x_at;
-  }
-  const double f = cross2(along, at - edge.a);
-  if (std::abs(y - f) <= tolerance_) return Side::on;
-  // The side of a point on its chord as the ray below sees it.
-  const double y_seen = y != 0 ? y : chord.y() > 0 ? -0.5 * tolerance_ : chord.y() < 0 ? 0.5 * tolerance_ : chord.x() > 0 ? 0.5 * tolerance_ : -0.5 * tolerance_;
-  return (f > 0 && y_seen > 0 && y_seen < f) || (f < 0 && y_seen < 0 && y_seen > f) ? Side::other : Side::same;
-}
-
-bool ParameterDomain::contains(Vec2 p, const Curve& curve) const {
-  bool inside = false, on = false;
-  BoxTree::Box here;
-  here.add(in_plane(p));
-  // A ray in the direction of u, just above the height of p, meets the chords.
-  const auto meets = [&](const BoxTree::Box& b) {
-    return b.low.y() <= p.y() + tolerance_ && p.y() - tolerance_ <= b.high.y() && p.x() - tolerance_ <= b.high.x();
-  };
-  tree_.all_that_meet(meets, [&](const BoxTree::Node& leaf) {
-    for (const std::int32_t k : tree_.things(leaf)) {
-      const Edge& edge = edges_[static_cast<std::size_t>(k)];
-      const Vec2& a = edge.a;
-      const Vec2& b = edge.b;
-      if ((a.y() > p.y()) != (b.y() > p.y())) {
-        const double side = cross2(b - a, p - a);
-        if (b.y() > a.y() ? side > 0 : side < 0) inside = !inside;
-      }
-      const Side side = side_of(edge, p, curve);
-      on = on || side == Side::on;
-      if (side == Side::other) inside = !inside;
-    }
-  });
-  return on || inside;
+  return admitted;
 }
 
 }  // namespace carreau

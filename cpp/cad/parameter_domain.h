@@ -1,45 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameter domain of a face, bounded by curves of the host.
+// Steps that stay in the parameter domain of a face.
 #pragma once
 
-#include <cstddef>
-#include <functional>
+#include <span>
 #include <vector>
 
 #include "cad/cad.h"
 #include "support/box_tree.h"
-#include "support/vec.h"
 
 namespace carreau {
 
-/// Decides whether points lie in the closed domain. The polygon of the samples decides for most points; close to an edge
-/// the curve itself decides: a point between the curve and its chord changes sides. Searches are safe from several threads.
+/// Gives the ends of curves that are nearest to each other, in shares of the extents of all, one point: the chords form loops then.
+void join_ends(std::vector<BoundaryCurve>& boundary);
+
+/// Proves by the samples of the boundary, without the host, that steps lead into the domain. Searches are safe from
+/// several threads.
 class ParameterDomain {
  public:
-  /// A point of curve ic at t.
-  using Curve = std::function<Vec2(int ic, double t)>;
-
-  ParameterDomain() = default;
+  /// `boundary`: all curves around the face, whose chords enclose it by the even-odd rule.
   explicit ParameterDomain(std::vector<BoundaryCurve> boundary);
 
-  [[nodiscard]] bool empty() const noexcept { return edges_.empty(); }
-  /// True if the boundary may pass through the box [low, high]; never false if it does.
-  [[nodiscard]] bool may_cross(Vec2 low, Vec2 high) const;
-  /// True if p is in the closed domain, with a tolerance of 1e-14 of its largest coordinate.
-  [[nodiscard]] bool contains(Vec2 p, const Curve& curve) const;
+  /// True if the steps from a point of the closed domain to all points of `to` stay inside: each of them keeps three degrees
+  /// from every edge of the boundary nearby, or stays on the inner side of its curve. False does not prove the contrary.
+  [[nodiscard]] bool admits(const Vec2& from, std::span<const Vec2> to) const;
 
  private:
+  /// In shares of the extents of the boundary.
   struct Edge {
-    int ic = 0;
-    double t0 = 0, t1 = 0;
-    Vec2 a, b;
+    Vec2 a, b, inward;  ///< `inward`: unit normal
+    double margin = 0;  ///< the curve is no farther from its chord
+    double slack = 0;   ///< sine of the least angle between a step and the chord
   };
-  enum class Side { same, other, on };
-  [[nodiscard]] Side side_of(const Edge& edge, Vec2 p, const Curve& curve) const;
+  [[nodiscard]] Vec2 scaled(const Vec2& uv) const { return (uv - low_).cwiseQuotient(size_); }
 
+  Vec2 low_, size_;
   std::vector<Edge> edges_;
   BoxTree tree_;
-  double tolerance_ = 0;
 };
 
 }  // namespace carreau

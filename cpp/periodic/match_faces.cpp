@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "periodic/closest.h"
 #include "periodic/find_map.h"
 #include "periodic/thresholds.h"
+#include "predicates/polygon_locator.h"
 #include "support/error.h"
 #include "support/format.h"
 #include "support/infinity.h"
@@ -229,7 +231,7 @@ class Matcher {
 
   // ---- one pair ----
 
-  [[nodiscard]] std::optional<FacePair> pair_of(int master, int slave, const Isometry& map) const {
+  [[nodiscard]] std::optional<FacePair> pair_of(int master, int slave, const Isometry& map) {
     const FaceShape &from = faces_[master], &to = faces_[slave];
     if (from.curves.size() != to.curves.size()) return {};
     FacePair pair{master, slave, map};
@@ -251,7 +253,7 @@ class Matcher {
   }
 
   // Two faces may have one boundary, like both halves of a sphere: places beside it decide. True if no place can.
-  [[nodiscard]] bool has_image_inside(const FacePair& pair) const {
+  [[nodiscard]] bool has_image_inside(const FacePair& pair) {
     for (const auto& [curve, image] : pair.curves) {
       const CurveUse *from = only_use(curve, pair.master), *to = only_use(image.curve, pair.slave);
       if (from == nullptr || to == nullptr || model_.curve(curve).degenerate) continue;
@@ -279,7 +281,7 @@ class Matcher {
   }
 
   // A place of the face a little way from the curve; empty: none, or both sides are inside.
-  [[nodiscard]] std::optional<Vec2> place_beside(const CurveUse& use) const {
+  [[nodiscard]] std::optional<Vec2> place_beside(const CurveUse& use) {
     const CurveSupport& support = model_.support(use);
     double length = 0;
     for (std::size_t i = 1; i < support.uv.size(); ++i) length += norm(support.uv[i] - support.uv[i - 1]);
@@ -295,21 +297,23 @@ class Matcher {
     return is_left ? left : right;
   }
 
-  // Uses the even-odd rule.
-  [[nodiscard]] bool is_inside(int face, const Vec2& p) const {
-    bool inside = false;
+  [[nodiscard]] bool is_inside(int face, const Vec2& p) {
+    const auto known = polygons_.find(face);
+    if (known != polygons_.end()) return known->second.contains(p);
+    std::vector<Vec2> vertices;
+    std::vector<std::pair<int, int>> edges;
     for (std::size_t c = 0; c < model_.model.faces[face].curves.size(); ++c) {
       if (model_.model.faces[face].curves[c].type != CurveType::boundary) continue;
       const std::vector<Vec2>& uv = model_.supports[static_cast<std::size_t>(face)][c].uv;
-      for (std::size_t i = 1; i < uv.size(); ++i) {
-        const Vec2 a = uv[i - 1], b = uv[i];
-        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+      for (std::size_t i = 0; i < uv.size(); ++i) {
+        vertices.push_back(uv[i]);
+        if (i > 0) edges.emplace_back(static_cast<int>(vertices.size()) - 2, static_cast<int>(vertices.size()) - 1);
       }
     }
-    return inside;
+    return polygons_.emplace(face, PolygonLocator(vertices, edges)).first->second.contains(p);
   }
 
-  // How far the image of a face's boundary misses the other boundary, and where.
+  // Describes the largest distance between the image of a face's boundary and the other boundary, with its place.
   [[nodiscard]] std::string why_not(int master, int slave, const Isometry& map) const {
     double worst = 0;
     Vec3 where(0, 0, 0);
@@ -353,6 +357,7 @@ class Matcher {
   std::vector<CurveShape> shapes_;
   std::vector<FaceShape> faces_;
   std::vector<FacePair> pairs_;
+  std::map<int, PolygonLocator> polygons_;  // of boundaries, by face
   std::vector<std::string> remarks_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cad/parameter_domain.h"
 #include "projection/thresholds.h"
 #include "support/infinity.h"
 
@@ -19,21 +20,6 @@ double length_of(const std::vector<Vec3>& points) {
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
   return length;
-}
-
-/// For each end its vertex: pairs of nearest ends become one.
-std::vector<int> joined_ends(const std::vector<Vec3>& ends) {
-  std::vector<int> vertex(ends.size(), -1);
-  int next = 0;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (vertex[i] >= 0) continue;
-    std::size_t nearest = i;
-    double least = infinity;
-    for (std::size_t j = i + 1; j < ends.size(); ++j)
-      if (vertex[j] < 0 && norm(ends[j] - ends[i]) < least) least = norm(ends[j] - ends[i]), nearest = j;
-    vertex[i] = vertex[nearest] = next++;
-  }
-  return vertex;
 }
 
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -65,34 +51,29 @@ bool is_box(const Face& face, const std::vector<CurveSupport>& supports, const V
   return true;
 }
 
+std::vector<BoundaryCurve> boundary_of(const Face& face, const std::vector<CurveSupport>& supports) {
+  std::vector<BoundaryCurve> boundary;
+  for (std::size_t c = 0; c < supports.size(); ++c)
+    if (bounds_face(face, c)) boundary.push_back({static_cast<int>(c) + 1, supports[c].t, supports[c].uv});
+  return boundary;
+}
+
 TrimmedDomain::TrimmedDomain(const Face& face, const std::vector<CurveSupport>& supports) : ref_(face.ref) {
   const auto [low, high] = box_of_boundary(face, supports);
   low_ = low, size_ = high - low;
-  std::vector<Vec3> ends;
-  for (std::size_t c = 0; c < supports.size(); ++c)
-    if (bounds_face(face, c)) ends.push_back(scaled(supports[c].uv.front())), ends.push_back(scaled(supports[c].uv.back()));
-  const std::vector<int> vertex = joined_ends(ends);
-  vertices_.resize(ends.size() / 2 + ends.size() % 2);
-  std::size_t k = 0;
-  for (std::size_t c = 0; c < supports.size(); ++c) {
-    if (!bounds_face(face, c)) continue;
-    const CurveSupport& support = supports[c];
+  std::vector<BoundaryCurve> boundary = boundary_of(face, supports);
+  join_ends(boundary);
+  for (const BoundaryCurve& curve : boundary) {
     std::vector<Vec3> in_square;
-    for (const Vec2& p : support.uv) in_square.push_back(scaled(p));
+    for (const Vec2& p : curve.uv) in_square.push_back(scaled(p));
     const double whole = length_of(in_square);
-    const int first = vertex[2 * k], last = vertex[2 * k + 1];
-    vertices_[static_cast<std::size_t>(first)] = support.uv.front(), vertices_[static_cast<std::size_t>(last)] = support.uv.back();
-    int before = first;
-    for (std::size_t i = 1; i < support.uv.size(); ++i) {
-      const bool ends_here = i + 1 == support.uv.size();
-      const int here = ends_here ? last : static_cast<int>(vertices_.size());
-      if (!ends_here) vertices_.push_back(support.uv[i]);
-      edges_.emplace_back(before, here);
-      pieces_.push_back({static_cast<int>(c), support.t[i - 1], support.t[i], support.t.front(), support.t.back(),
+    for (std::size_t i = 0; i < curve.uv.size(); ++i) {
+      vertices_.push_back(curve.uv[i]);
+      if (i == 0) continue;
+      edges_.emplace_back(static_cast<int>(vertices_.size()) - 2, static_cast<int>(vertices_.size()) - 1);
+      pieces_.push_back({curve.ic, curve.t[i - 1], curve.t[i], curve.t.front(), curve.t.back(),
                          limit::beside_chord * norm(in_square[i] - in_square[i - 1]) + 1e-5 * whole});
-      before = here;
     }
-    ++k;
   }
   polygon_.emplace(vertices_, edges_);
   std::vector<BoxTree::Box> boxes(edges_.size());
@@ -143,7 +124,7 @@ bool TrimmedDomain::contains(const Vec2& uv, Cad& cad) const {
   if (edge < 0) return of_polygon;
   // The closest point of the curve, in units of the square.
   const Piece& piece = pieces_[static_cast<std::size_t>(edge)];
-  const auto curve_at = [&](double t) { return cad.curve(ref_, piece.curve + 1, want_position | want_first | want_second, t); };
+  const auto curve_at = [&](double t) { return cad.curve(ref_, piece.ic, want_position | want_first | want_second, t); };
   const auto unit = [&](const Vec2& d) -> Vec2 { return {d.x() / size_.x(), d.y() / size_.y()}; };
   double t = (piece.t0 + piece.t1) / 2;
   CurveJet jet = curve_at(t);

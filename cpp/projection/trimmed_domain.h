@@ -22,12 +22,12 @@ class TrimmedDomain {
   enum class Side { outside, inside, crossing };
   /// The side of a box; `crossing` if the boundary comes near it.
   [[nodiscard]] Side side_of(const Vec2& low, const Vec2& high) const;
-  /// Whether the place lies in the domain or on its boundary.
+  /// True if the place lies in the domain or on its boundary.
   [[nodiscard]] bool contains(const Vec2& uv, Cad& cad) const;
 
  private:
   struct Piece {
-    int curve = 0;  // index in the face
+    int ic = 0;
     double t0 = 0, t1 = 0, a = 0, b = 0;
     double margin = 0;  // share of the extents
   };
@@ -44,9 +44,11 @@ class TrimmedDomain {
   BoxTree tree_;  // of the edges, scaled to the unit square
 };
 
+/// The curves around a face.
+std::vector<BoundaryCurve> boundary_of(const Face& face, const std::vector<CurveSupport>& supports);
 /// The box of the boundary curves in the parameter plane; low > high if there are none.
 std::pair<Vec2, Vec2> box_of_boundary(const Face& face, const std::vector<CurveSupport>& supports);
-/// Whether the boundary is the box.
+/// True if the boundary is the box.
 bool is_box(const Face& face, const std::vector<CurveSupport>& supports, const Vec2& low, const Vec2& high);
 
 }  // namespace carreau::projection

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/meshed.h"
 
+#include <algorithm>
+
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
 #include "geometry/discrete/discrete_cad.h"
@@ -8,6 +10,7 @@
 #include "measure/composite_evaluation.h"
 #include "measure/discrete_evaluation.h"
 #include "model/geometries.h"
+#include "projection/trimmed_domain.h"
 #include "session/gluing.h"
 #include "support/infinity.h"
 #include "support/part_monitor.h"
@@ -31,15 +34,9 @@ MeshEvaluation measure_triangles(const Meshed& meshed, const CompositeOptions& o
   return delivered;
 }
 
-/// The curves around a face; none if the host failed on one of them.
-std::vector<BoundaryCurve> boundary_of(const Face& face, const std::vector<CurveSupport>& supports) {
-  std::vector<BoundaryCurve> boundary;
-  for (std::size_t c = 0; c < supports.size(); ++c) {
-    if (face.curves[c].type != CurveType::boundary) continue;
-    if (supports[c].t.size() < 2) return {};
-    boundary.push_back({static_cast<int>(c) + 1, supports[c].t, supports[c].uv});
-  }
-  return face.is_wire() || supports.size() != face.curves.size() ? std::vector<BoundaryCurve>{} : boundary;
+/// True if the host gave all curves of the face.
+bool are_complete(const Face& face, const std::vector<CurveSupport>& supports) {
+  return supports.size() == face.curves.size() && std::all_of(supports.begin(), supports.end(), [](const CurveSupport& s) { return s.t.size() > 1; });
 }
 
 }  // namespace
@@ -55,8 +52,10 @@ void set_parameter_domains(const Model& model, const ModelSupports& supports, Ca
     if (!(low.x() < high.x() && low.y() < high.y())) continue;
     cad.set_parameter_box(model.faces[f].ref, low, high);
     if ((cad.surface_gives() & (want_first | want_second)) == (want_first | want_second)) continue;
-    if (std::vector<BoundaryCurve> boundary = boundary_of(model.faces[f], supports.of_face[f]); !boundary.empty())
-      cad.set_boundary(model.faces[f].ref, std::move(boundary));
+    const Face& face = model.faces[f];
+    // Rectangles: the box is the domain.
+    if (face.is_wire() || !are_complete(face, supports.of_face[f]) || projection::is_box(face, supports.of_face[f], low, high)) continue;
+    cad.set_boundary(face.ref, projection::boundary_of(face, supports.of_face[f]));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "cad/difference_cad.h"
@@ -222,23 +223,26 @@ BoundaryCurve sampled(int ic, double a, double b, int samples, const std::functi
 constexpr double pi = std::numbers::pi;
 Vec2 on_circle(double r, double t) { return {r * std::cos(t), r * std::sin(t)}; }
 
-TEST(ParameterDomain, IsBoundedByItsCurvesAndNotByTheirChords) {
-  // A ring whose arcs have eight samples each: chords miss the circles by a fiftieth.
-  const ParameterDomain::Curve curve = [](int ic, double t) { return on_circle(ic == 1 ? 1 : 0.5, t); };
-  const auto at = [&](int ic) { return [&curve, ic](double t) { return curve(ic, t); }; };
-  const ParameterDomain ring({sampled(1, 0, 2 * pi, 16, at(1)), sampled(2, -pi, pi, 16, at(2))});
-  for (int i = 0; i < 2000; ++i) {
+TEST(ParameterDomain, AdmitsStepsThatStayInside) {
+  const auto circle = [](double r) { return [r](double t) { return on_circle(r, t); }; };
+  const std::vector<BoundaryCurve> boundary{sampled(1, 0, 2 * pi, 200, circle(1)), sampled(2, 0, 2 * pi, 200, circle(0.5))};
+  const ParameterDomain ring(boundary);
+  for (int i = 0; i < 1000; ++i) {
     const double t = 0.37 * i;
-    for (const double d : {1e-12, 1e-6, 1e-3, 0.01, 0.1}) {
-      EXPECT_TRUE(ring.contains(on_circle(1 - d, t), curve)) << i << " " << d;
-      EXPECT_FALSE(ring.contains(on_circle(1 + d, t), curve)) << i << " " << d;
-      EXPECT_TRUE(ring.contains(on_circle(0.5 + d, t), curve)) << i << " " << d;
-      EXPECT_FALSE(ring.contains(on_circle(0.5 - d, t), curve)) << i << " " << d;
-    }
-    EXPECT_TRUE(ring.contains(on_circle(1, t), curve)) << i;
+    for (const auto& [r, inward] : {std::pair{1.0, -1.0}, {0.5, 1.0}})
+      for (const double step : {1e-9, 1e-5, 1e-3}) {
+        const Vec2 p = on_circle(r, t);
+        for (int k = 0; k < 24; ++k) {
+          const Vec2 q = p + step * Vec2{std::cos(k * pi / 12), std::sin(k * pi / 12)};
+          EXPECT_TRUE(!ring.admits(p, {&q, 1}) || (norm(q) < 1 && norm(q) > 0.5)) << i << " " << step << " " << k;
+        }
+        const Vec2 inside = on_circle(r + inward * step, t), outside = on_circle(r - inward * step, t);
+        EXPECT_TRUE(ring.admits(p, {&inside, 1})) << i << " " << step;
+        EXPECT_FALSE(ring.admits(p, {&outside, 1})) << i << " " << step;
+      }
   }
-  EXPECT_FALSE(ring.may_cross({0.7, 0.1}, {0.71, 0.11}));
-  EXPECT_TRUE(ring.may_cross({0.99, -0.1}, {1.01, 0.1}));
+  const Vec2 beside{0.76, 0.01};
+  EXPECT_TRUE(ring.admits({0.75, 0}, {&beside, 1}));
 }
 
 TEST(DifferenceCad, NeverLeavesADomainWhoseBoundaryIsKnown) {
