@@ -122,7 +122,7 @@ class Matcher {
     return points;
   }
 
-  [[nodiscard]] Isometry map_between(int master, int slave) const {
+  [[nodiscard]] Isometry map_between(int master, int slave) {
     const auto accepted = [&](const Isometry& map) { return pair_of(master, slave, map).has_value(); };
     const std::vector<Vec3> from = corners_of(master), to = corners_of(slave);
     if (const std::optional<Isometry> map = find_map(from, to, gap_, accepted)) return *map;
