@@ -51,7 +51,7 @@ def own_wheel(build, folder):
 
 
 def bundle(libraries):
-    """Copies what the libraries of a folder need beside them. Returns original paths by name."""
+    """Copies the libraries that the libraries of a folder need. Returns original paths by name."""
     added = {}
     for library in glob.glob(os.path.join(libraries, "*.so*")):  # as long as nothing needs them
         subprocess.run(["strip", "--strip-unneeded", library], check=True)

@@ -401,8 +401,8 @@ CARREAU_API carreau_status carreau_evaluate(carreau_session* session, int32_t di
                                             double out_second[]);
 
 /* Finds the closest point of an entity to each of n points of space, n x 3; a reference of 0 means all entities of that dimension. The
- * result is the closest point of all, not only of a neighbourhood, and lies within a domain or on its boundary. The same call always gives
- * the same of several closest points. References (n) name the entities found, parameters are n x dimension, and distances are lengths of the model.
+ * result is the closest point of all, not only of a neighbourhood, and lies within a domain or on its boundary. Among several closest
+ * points the choice is always the same. References (n) name the entities found, parameters are n x dimension, and distances are lengths of the model.
  * Each result may be NULL.
  *
  * The first call cuts each face into pieces that are nearly quadratic, by 25 evaluations a piece. They serve further calls until the

@@ -54,7 +54,7 @@ class BrepHost {
   [[nodiscard]] const std::string& face_name(int number) const;
   /// 0xRRGGBB, -1: none. Numbers from 1.
   [[nodiscard]] int face_colour(int number) const;
-  /// Own layer of a face, or that of the smallest part that holds it; "": none.
+  /// Layer of a face, or of the smallest part that holds it; "": none.
   [[nodiscard]] const std::string& face_layer(int number) const;
   /// Names of vertices (dimension 0) and edges (1) that have one, by number.
   [[nodiscard]] const std::map<int, std::string>& names(int dimension) const;

@@ -18,6 +18,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/format_point.h"
 #include "support/infinity.h"
 
 namespace carreau {
@@ -34,10 +35,6 @@ struct FaceShape {
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   bool usable = false;
 };
-
-std::string text_of(const Vec3& p) {
-  return "(" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) + ")";
-}
 
 std::string format_digits(double x) {
   char text[32];
@@ -156,7 +153,7 @@ class Matcher {
       if (along[i] == 0) map.shift[i] = 0;
     if (add_pairs(map) > 0) return;
     throw InvalidModel("the model is not periodic along (" + format_number(direction.x()) + ", " + format_number(direction.y()) + ", " +
-                       format_number(direction.z()) + "): the translation by its extent, " + text_of(map.shift) +
+                       format_number(direction.z()) + "): the translation by its extent, " + format_point(map.shift) +
                        ", carries no face onto another one; " + nearest_miss(map));
   }
 
@@ -331,7 +328,7 @@ class Matcher {
     look(slave, master, map.inverse(), false);
     const std::string names = "the image of face " + std::to_string(ref(master)) + " and face " + std::to_string(ref(slave));
     if (worst > gap_)
-      return names + " do not match: their boundaries are " + format_number(worst) + " apart at " + text_of(where);
+      return names + " do not match: their boundaries are " + format_number(worst) + " apart at " + format_point(where);
     double corner = 0;
     Vec3 at(0, 0, 0);
     const auto look_at_corners = [&](const std::vector<Vec3>& from, const std::vector<Vec3>& to, const Isometry& by, bool there) {
@@ -344,7 +341,7 @@ class Matcher {
     look_at_corners(corners_of(master), corners_of(slave), map, true);
     look_at_corners(corners_of(slave), corners_of(master), map.inverse(), false);
     if (corner > gap_)
-      return names + " do not match: their boundaries are one, but a corner at " + text_of(at) + " has no partner within " +
+      return names + " do not match: their boundaries are one, but a corner at " + format_point(at) + " has no partner within " +
              format_number(corner);
     if (faces_[master].curves.size() == faces_[slave].curves.size())
       return names + " do not match: they have one boundary, and lie on different sides of it or curve differently";

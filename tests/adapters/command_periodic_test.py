@@ -83,7 +83,7 @@ class Mesh:
         return {n: find(n) for n in self.points}
 
     def same_cells(self, slave, master, nodes):
-        """Elements of a slave are those of its master by the pairs of nodes."""
+        """The pairs of nodes carry the elements of a master onto the elements of its slave."""
         to_slave = {m: s for s, m in nodes}
         images = sorted(tuple(sorted(to_slave[n] for n in cell)) for cell in self.cells[master])
         return images == sorted(tuple(sorted(cell)) for cell in self.cells[slave])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """prose.py ROOT [--rates]: checks the English of comments and pages.
 
-1. No sentence opens with What, Who, Whoever, Of, Where, By or Nor.
+1. No sentence opens with What, Who, Whoever, Of, Where, Whether, By or Nor.
 2. Comments of each group of folders, pages and manual pages use the patterns of PATTERNS at most 1.5 times as often, for 1000 words, as the model
    code bases do (pmp-library and geometry-central). --rates prints the rates.
 3. Pages are short: BUDGETS."""
@@ -11,7 +11,7 @@ import sys
 
 FOLDERS = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs", "cmake", "packaging")
 COMMENTED = ("cpp", "cabi", "cad_adapters", "tests", "fortran_examples", "docs")
-OPENING = re.compile(r"(What|Who|Whoever|Of|Where|By|Nor)\b")
+OPENING = re.compile(r"(What|Who|Whoever|Of|Where|Whether|By|Nor)\b")
 FACTOR = 1.5
 # Name, pattern in a sentence, occurrences in the models for 1000 words.
 PATTERNS = [

@@ -243,7 +243,7 @@ struct Part {
   std::vector<std::int32_t> triangle_owners, layer, corners, vertex_owners;
 };
 
-// Every triangle and vertex has one owner, who is the same for all; rows form a distributed vector.
+// Every triangle and vertex has one owner, on which all ranks agree; rows form a distributed vector.
 void check_owners(const Part& part, std::int64_t n, std::int64_t m) {
   const std::vector<std::int64_t> own(part.triangles.begin(), part.triangles.begin() + part.own_triangles);
   std::map<std::int64_t, int> times;

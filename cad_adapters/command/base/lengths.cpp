@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "base/failure.h"
 
@@ -18,6 +19,12 @@ Length parse_length(const std::string& text, const std::string& option) {
     throw Failure(option + " '" + text +
                   "' is not a length: a number above 0, or a share of the model's diagonal such as 1%.");
   return length;
+}
+
+std::string number_text(double x, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
+  return text;
 }
 
 std::pair<std::string, std::string> parse_assignment(const std::string& text, const std::string& option) {

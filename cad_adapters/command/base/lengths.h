@@ -20,6 +20,9 @@ struct Length {
 /// '%'.
 Length parse_length(const std::string& text, const std::string& option);
 
+/// A number with so many significant digits.
+std::string number_text(double x, int digits = 6);
+
 /// "left=right" at the last '='. Throws Failure when '=' is missing, or a side is empty.
 std::pair<std::string, std::string> parse_assignment(const std::string& text, const std::string& option);
 

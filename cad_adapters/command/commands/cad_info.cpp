@@ -5,18 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_output.h"
+#include "base/lengths.h"
 #include "commands/commands.h"
 #include "inputs/cad/cad_file.h"
 #include "inputs/cad/cad_library.h"
 
 namespace command {
 namespace {
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
 
 std::string name_of(carreau_cad_file* file, std::int32_t number_of_face) {
   carreau_cad_face face{};
@@ -86,15 +81,15 @@ void print_report(carreau_cad_file* file, const carreau_cad_report& r, int limit
   std::printf("unit        %s%s\n", unit.empty() ? "none" : unit.c_str(),
               file_unit.empty() || file_unit == unit ? "" : (" (the file has " + file_unit + ")").c_str());
   if (content_of(file).shared_faces > 0) std::printf("shared faces %d\n", content_of(file).shared_faces);
-  std::printf("diagonal    %s\narea        %s\nvolume      %s\n", number(r.diagonal).c_str(), number(r.area).c_str(),
-              number(r.volume).c_str());
+  std::printf("diagonal    %s\narea        %s\nvolume      %s\n", number_text(r.diagonal).c_str(), number_text(r.area).c_str(),
+              number_text(r.volume).c_str());
   std::string kinds;
   for (const auto& [name, n] : surfaces_of(file, r)) kinds += (kinds.empty() ? "" : ", ") + std::to_string(n) + " " + name;
   std::printf("surfaces    %s\n", kinds.c_str());
   std::printf("seams       %d\npoles       %d\nclosed edges %d\ninner wires %d\ninternal    %d\n", r.seams, r.poles,
               r.closed_edges, r.inner_wires, r.internal_edges);
-  std::printf("shortest edge %s\nlargest tolerance %s\nlargest gap %s\n", number(r.shortest_edge).c_str(),
-              number(r.largest_tolerance).c_str(), number(r.largest_gap).c_str());
+  std::printf("shortest edge %s\nlargest tolerance %s\nlargest gap %s\n", number_text(r.shortest_edge).c_str(),
+              number_text(r.largest_tolerance).c_str(), number_text(r.largest_gap).c_str());
   std::map<std::string, int> count;
   const std::vector<carreau_cad_danger> dangers = dangers_of(file, r);
   for (const carreau_cad_danger& danger : dangers) ++count[danger.kind];

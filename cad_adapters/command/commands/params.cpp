@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_output.h"
+#include "base/lengths.h"
 #include "base/parameters.h"
 #include "base/suggestions.h"
 #include "commands/commands.h"
@@ -13,15 +14,9 @@
 namespace command {
 namespace {
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
-
 std::string default_of(const carreau_parameter& p) {
   if (p.type == CARREAU_TEXT) return '"' + std::string(p.default_text) + '"';
-  return number(p.default_number) + (p.diag_relative != 0 ? " diag" : "");
+  return number_text(p.default_number) + (p.diag_relative != 0 ? " diag" : "");
 }
 
 /// Bounds that every number respects are not worth printing.
@@ -31,8 +26,8 @@ std::string range_of(const carreau_parameter& p) {
   if (any) return "";
   const bool no_maximum = p.type == CARREAU_INTEGER ? p.maximum >= INT32_MAX : std::isinf(p.maximum);
   if (no_maximum && p.minimum > 0 && p.minimum < 1e-300) return "> 0";
-  if (no_maximum) return ">= " + number(p.minimum);
-  return number(p.minimum) + " to " + number(p.maximum);
+  if (no_maximum) return ">= " + number_text(p.minimum);
+  return number_text(p.minimum) + " to " + number_text(p.maximum);
 }
 
 nlohmann::ordered_json json_of(const carreau_parameter& p) {

@@ -6,11 +6,11 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 
 #include "base/failure.h"
+#include "base/lengths.h"
 #include "base/output_files.h"
 #include "files/session_handle.h"
 
@@ -19,12 +19,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& folder, const char* why) {
   throw Failure("--dump-failed: the folder '" + folder + "' cannot be used: " + why + ".");
-}
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
 }
 
 /// The curves of a face in its parameter plane as a mesh of Medit of dimension 2, sampled; "": nothing is known.
@@ -43,7 +37,7 @@ std::string domain_text(const CadInput& input, std::int32_t face) {
       double u = 0, v = 0;
       const bool known = input.on_curve(part, rank, static_cast<double>(i) / samples, u, v);
       if (known) {
-        vertices += number(u) + " " + number(v) + " 0\n";
+        vertices += number_text(u, 17) + " " + number_text(v, 17) + " 0\n";
         ++n;
         if (before) edges += std::to_string(n - 1) + " " + std::to_string(n) + " " + std::to_string(ref) + "\n", ++m;
       }

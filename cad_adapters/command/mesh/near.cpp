@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <set>
 #include <utility>
@@ -40,12 +39,6 @@ struct Elements {
     return static_cast<std::int32_t>(xyz.size() / 3 - 1);
   }
 };
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
 
 double distance_from_chord(const Point& p, const Point& a, const Point& b) {
   double along = 0, length = 0, away = 0;
@@ -206,7 +199,7 @@ void add_attractors(carreau_session* session, const MeshOptions& options, CadInp
     const NearRule rule = parse_near(options.near[i], option);
     const double size = parse_length(rule.size, option).of(diagonal), reach = parse_length(rule.reach, option).of(diagonal);
     if (size > surrounding)
-      throw Failure(label + ": the size " + number(size) + " is above the size " + number(surrounding) + " of the surroundings.");
+      throw Failure(label + ": the size " + number_text(size) + " is above the size " + number_text(surrounding) + " of the surroundings.");
     const Selection selection = select(input, rule.entities, option);
     // An error of the distance is this times as large as the error of the size.
     const double slope = (surrounding - size) / reach;

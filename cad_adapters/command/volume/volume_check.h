@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verifies what an engine returned, and makes elements of order 2.
+// Verifies the result of an engine, and makes elements of order 2.
 #pragma once
 
 #include "volume/volume_mesh.h"

@@ -170,7 +170,7 @@ class VolumeText {
     text_ += sets;
     const auto triangles = by_key(volume_.surface.refs);
     const auto sides = sides_of_elements();
-    // Each face is a set of its own beside its group.
+    // Each face is a set, beside the set of its group.
     std::vector<Group> groups = groups_of(keys_of(triangles), {}, "face_");
     for (const Group& group : faces_)
       if (group.members.size() > 1 || group.name != groups_of({group.members.front()}, {}, "face_").front().name) groups.push_back(group);

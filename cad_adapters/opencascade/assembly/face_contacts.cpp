@@ -139,7 +139,7 @@ class ContactAreas {
   }
   [[nodiscard]] bool are_near(double a, double b) const { return std::abs(a - b) <= tolerance_; }
 
-  /// Whether the surfaces coincide; surfaces of different kinds may.
+  /// True if the surfaces may coincide: surfaces of different kinds may.
   bool may_coincide(int f, int g) {
     const BRepAdaptor_Surface &p = surface(f), &q = surface(g);
     const GeomAbs_SurfaceType kind = p.GetType();
@@ -243,7 +243,7 @@ class ContactAreas {
     return faces_(f).Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal;
   }
 
-  /// Whether a point lies on a face, and the outside there.
+  /// The place of a point on a face, and the outside there.
   bool lies_on(const gp_Pnt& p, int f, gp_Vec& normal) {
     Looked& looked = at(f);
     if (looked.projection.IsNull()) looked.projection = new ShapeAnalysis_Surface(BRep_Tool::Surface(face(f)));

@@ -312,7 +312,7 @@ class MshText {
     text_ += "$EndElements\n";
   }
 
-  /// An entity that a map carries another one onto; parts of one face are one entity.
+  /// The image of an entity under a map; parts of one face are one entity.
   struct Link {
     int master = 0;
     Isometry map;

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <set>
 #include <string>
 
 #include "mesh/triangle_search.h"
+#include "model/union_find.h"
 #include "support/error.h"
-#include "support/format.h"
+#include "support/format_point.h"
 
 namespace carreau {
 
@@ -20,31 +20,6 @@ constexpr std::size_t max_rays = 64;     // triangles that a point inside is sou
 constexpr std::size_t enough_points = 4;  // the farthest from the boundary of these is taken
 constexpr double winding_tolerance = 1e-6;
 constexpr double nearest_crossing = 1e-9;  // of the diagonal: nearer triangles touch the ray's start
-
-std::string text_of(const Vec3& p) {
-  std::string text = "(";
-  for (int k = 0; k < 3; ++k) append_number(text, p[k]), text += k < 2 ? ", " : ")";
-  return text;
-}
-
-/// Sides of triangles: 2 t is the back of triangle t, 2 t + 1 its front, where its normal points.
-class Sides {
- public:
-  explicit Sides(std::size_t triangles) : parent_(2 * triangles) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  [[nodiscard]] std::size_t shell(std::size_t side) {
-    while (parent_[side] != side) side = parent_[side] = parent_[parent_[side]];
-    return side;
-  }
-  /// The first side of a shell stands for it.
-  void unite(std::size_t a, std::size_t b) {
-    a = shell(a), b = shell(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// A triangle at an edge a < b.
 struct Wing {
@@ -56,7 +31,7 @@ struct Wing {
 
 class RegionFinder {
  public:
-  explicit RegionFinder(const FlatMesh& mesh) : mesh_(mesh), sides_(mesh.triangles.size()), search_(mesh.vertices, mesh.triangles) {
+  explicit RegionFinder(const FlatMesh& mesh) : mesh_(mesh), sides_(2 * mesh.triangles.size()), search_(mesh.vertices, mesh.triangles) {
     low_ = high_ = mesh.vertices.empty() ? Vec3() : mesh.vertices.front();
     for (const Vec3& p : mesh.vertices) low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
     diagonal_ = norm(high_ - low_);
@@ -101,7 +76,7 @@ class RegionFinder {
       if (edge.size() > 2) sort_around(edge);
       for (std::size_t i = 0; i < edge.size(); ++i) {
         const Wing &wing = edge[i], &next = edge[(i + 1) % edge.size()];
-        sides_.unite(2 * wing.triangle + (wing.forward ? 1 : 0), 2 * next.triangle + (next.forward ? 0 : 1));
+        sides_.merge(2 * wing.triangle + (wing.forward ? 1 : 0), 2 * next.triangle + (next.forward ? 0 : 1));
       }
     }
   }
@@ -123,7 +98,7 @@ class RegionFinder {
   void gather_shells() {
     const Vec3 middle = .5 * (low_ + high_);
     for (std::size_t side = 0; side < 2 * mesh_.triangles.size(); ++side) {
-      Shell& shell = shells_[sides_.shell(side)];
+      Shell& shell = shells_[sides_.find(side)];
       shell.sides.push_back(side);
       const auto [a, b, c] = corners(side / 2);
       const double volume = dot(a - middle, cross(b - middle, c - middle)) / 6;
@@ -158,12 +133,12 @@ class RegionFinder {
       if (number == 0) continue;
       for (const std::size_t first : cavities) solid[first] = solid_around(first, solid);
       for (std::size_t t = 0; t < found_.sides.size(); ++t)
-        found_.sides[t] = {solid[sides_.shell(2 * t)], solid[sides_.shell(2 * t + 1)]};
+        found_.sides[t] = {solid[sides_.find(2 * t)], solid[sides_.find(2 * t + 1)]};
       return;
     }
   }
 
-  /// The region that a cavity lies in: of the outer boundaries around it, the one of the least volume.
+  /// The region around a cavity: the outer boundary of least volume around it.
   int solid_around(std::size_t cavity, const std::vector<int>& solid) const {
     const auto [a, b, c] = corners(cavity / 2);
     const Vec3 place = (a + b + c) / 3;
@@ -197,7 +172,7 @@ class RegionFinder {
       if (is_all_outside()) throw InvalidArgument("the surface bounds no solid: all its triangles are sheets");
       return;
     }
-    const auto at = [&](std::int32_t v) { return text_of(mesh_.vertices[static_cast<std::size_t>(v)]); };
+    const auto at = [&](std::int32_t v) { return format_point(mesh_.vertices[static_cast<std::size_t>(v)]); };
     const std::string place = "the edge from " + at(first->a) + " to " + at(first->b) + " of face " +
                               std::to_string(mesh_.triangle_refs.empty() ? 0 : mesh_.triangle_refs[first->triangle]);
     if (open > 0)
@@ -249,7 +224,7 @@ class RegionFinder {
     }
     if (points == 0) {
       const auto [a, b, c] = corners(shell.sides.front() / 2);
-      throw InvalidArgument("no point inside the region beside the triangle at " + text_of((a + b + c) / 3) + " can be found: it is too thin");
+      throw InvalidArgument("no point inside the region beside the triangle at " + format_point((a + b + c) / 3) + " can be found: it is too thin");
     }
     return best;
   }
@@ -289,7 +264,7 @@ class RegionFinder {
   }
 
   const FlatMesh& mesh_;
-  Sides sides_;
+  UnionFind sides_;  // of triangles: 2 t is the back of triangle t, 2 t + 1 its front, where its normal points; a set is a shell
   TriangleSearch search_;
   Vec3 low_, high_;
   double diagonal_ = 0;

@@ -10,6 +10,7 @@
 #include "periodic/thresholds.h"
 #include "predicates/predicates.h"
 #include "support/format.h"
+#include "support/format_point.h"
 #include "surface/carry/image_vertices.h"
 
 namespace carreau {
@@ -20,10 +21,6 @@ using thresholds::periodic::exact_images;
 
 Vec3 surface_point(const CurveModel& model, int face, const Vec2& uv) {
   return surface_at(model.cad, model.model.faces[face].ref, want_position, uv).s;
-}
-
-std::string text_of(const Vec3& p) {
-  return "(" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) + ")";
 }
 
 // Half of the longest side as the size at all sides.
@@ -74,7 +71,7 @@ CarriedPatch carry_patch(const CurveModel& model, const std::vector<DiscreteCurv
       place_images(vertices, image.plane.triangles, exact_images * gap, image.plane.vertices, image.xyz);
   if (missed.distance > gap) {
     carried.failure = "the image of the mesh of face " + std::to_string(model.model.faces[pair.master].ref) + " is " +
-                      format_number(missed.distance) + " away from the surface at " + text_of(image.xyz[missed.vertex]);
+                      format_number(missed.distance) + " away from the surface at " + format_point(image.xyz[missed.vertex]);
     return carried;
   }
   std::size_t turned = 0;
@@ -89,7 +86,7 @@ CarriedPatch carry_patch(const CurveModel& model, const std::vector<DiscreteCurv
   if (turned > 0)
     carried.failure = std::to_string(turned) + (turned == 1 ? " triangle" : " triangles") + " of the image of the mesh of face " +
                       std::to_string(model.model.faces[pair.master].ref) + (turned == 1 ? " is" : " are") +
-                      " turned over in (u, v), the first one at " + text_of(where);
+                      " turned over in (u, v), the first one at " + format_point(where);
   return carried;
 }
 

@@ -27,7 +27,7 @@ inline std::size_t image_triangle(const FaceMesh& from, std::size_t t, bool flip
 
 /// Moves the image of each vertex to the closest point of the slave's surface, from guesses by the boundary or from
 /// neighbours, and checks that no triangle is turned over in (u, v).
-/// `curves` are those of both domains. `gap`: how far (model length) images may miss the surface.
+/// `curves` bound both domains. `gap`: how far (model length) images may miss the surface.
 CarriedPatch carry_patch(const CurveModel& model, const std::vector<DiscreteCurve>& curves, const FacePair& pair,
                          const FaceDomain& master, const FaceDomain& slave, const PatchMesh& mesh, double gap);
 

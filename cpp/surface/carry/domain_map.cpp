@@ -98,7 +98,7 @@ class Mapper {
       const DiscreteCurve &from = curves_[edge.curve], &to = curves_[image.curve];
       const bool closed = is_closed(edge.curve);
       const Directed d = directed(edge, master_, pair_.master);
-      // A degenerate curve has no direction of its own in space: its places in (u, v) say it.
+      // A degenerate curve has no direction in space: its places in (u, v) decide.
       const bool degenerate = model_.curve(edge.curve).degenerate;
       int segment = edge.segment;
       bool along = d.along;

@@ -19,7 +19,7 @@ namespace {
 using testing::AnalyticCad;
 constexpr double pi = std::numbers::pi;
 
-/// The faces of a geometry, each curve with a reference of its own.
+/// The faces of a geometry; each curve has a different reference.
 Model model_of(const AnalyticCad& cad) {
   Model model = testing::unglued(cad);
   int ref = 0;

@@ -29,7 +29,7 @@ def path():
 
 
 class Run:
-    """A run of carreau in a folder of its own. `words` follow the name of the program."""
+    """A run of carreau in a new folder. `words` follow the name of the program."""
 
     def __init__(self, words, folder):
         # Libraries and Python modules that FreeCAD brings are for FreeCAD alone.

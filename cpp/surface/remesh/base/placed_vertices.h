@@ -29,7 +29,7 @@ class PlacedVertices {
   [[nodiscard]] const SurfacePlace& place_towards(std::int32_t v, const Vec3& normal) const {
     return is_free(v) ? place_[v] : kept_place_towards(v, normal);
   }
-  /// Whether sizes differ by direction.
+  /// True if sizes differ by direction.
   [[nodiscard]] bool by_direction() const noexcept { return by_direction_; }
   [[nodiscard]] double size(std::int32_t v) const { return size_[v]; }
   [[nodiscard]] WantedSize wanted(std::int32_t v) const { return {size_[v], by_direction_ ? metric_[v] : Metric3{}}; }

@@ -35,7 +35,7 @@ struct BorderInput {
   std::span<const WorkedLine> worked;  ///< by line
   std::span<const double> size;        ///< by vertex of the previous mesh
   std::span<const char> exact;         ///< by chart: see ProjectedCharts
-  std::span<const char> kept;          ///< by vertex of the mesh of before: of a chart that stays as it is
+  std::span<const char> kept;          ///< for each vertex of the previous mesh: its chart stays as it is
   SurfaceTolerances tolerance;
   Cad& cad;
 };
