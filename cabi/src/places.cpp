@@ -16,9 +16,9 @@ using namespace carreau::abi;
 
 namespace {
 
-void prepare_places(carreau_session& session, std::int32_t dimension, std::int32_t least_dimension, std::int64_t n) {
-  if (dimension < least_dimension || dimension > 2)
-    throw InvalidArgument("the dimension is " + std::to_string(dimension) + "; it must be " + (least_dimension == 0 ? "0, " : "") + "1 or 2");
+void prepare_places(carreau_session& session, std::int32_t dimension, std::int32_t min_dimension, std::int64_t n) {
+  if (dimension < min_dimension || dimension > 2)
+    throw InvalidArgument("the dimension is " + std::to_string(dimension) + "; it must be " + (min_dimension == 0 ? "0, " : "") + "1 or 2");
   if (n < 0) throw InvalidArgument("the number of places is " + std::to_string(n));
   session.monitor.begin_run();
   if (!session.has_cad) throw StatusError(CARREAU_ERR_SEQUENCE, "no geometry is registered: call carreau_set_cad or carreau_set_cad_m first");

@@ -136,18 +136,18 @@ bool EntityCheck::carries_faces(int number) const {
 
 std::string EntityCheck::passed_over() const {
   if (model_.IsNull()) return "";
-  constexpr int most_listed = 5;
+  constexpr int max_listed = 5;
   std::map<int, std::string> faces;
   std::string list;
   int count = 0;
   for (const auto& [number, why] : errors_beside_faces(faces)) {
     if (carries_faces(number)) continue;
-    if (++count <= most_listed) list += (count > 1 ? ", " : "") + label(model_->Value(number));
+    if (++count <= max_listed) list += (count > 1 ? ", " : "") + label(model_->Value(number));
   }
   if (count == 0) return "";
   return std::to_string(count) +
          (count == 1 ? " entity that carries no face was" : " entities that carry no face were") +
-         " not read: " + list + (count > most_listed ? ", ..." : "");
+         " not read: " + list + (count > max_listed ? ", ..." : "");
 }
 
 std::vector<std::string> EntityCheck::losses() const {

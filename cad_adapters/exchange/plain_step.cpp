@@ -31,9 +31,9 @@ constexpr const char* unnumbered = "#0";
 constexpr const char* no_name = "''";
 
 constexpr std::streamoff largest_file = 1 << 30;  // bytes: OpenCASCADE counts records and arguments by int
-constexpr std::ptrdiff_t most_digits = 9;         // of numbers that int holds
+constexpr std::ptrdiff_t max_digits = 9;         // of numbers that int holds
 constexpr int deepest = 64;                       // lists in lists
-constexpr int most_mending_rounds = 3;            // each reads all records again
+constexpr int max_mending_rounds = 3;            // each reads all records again
 
 enum : unsigned char { blank = 1, digit = 2, capital = 4, letter = 8 };
 
@@ -311,7 +311,7 @@ const char* PlainStep::read_ident() {
   if (*at_ != '#') return nullptr;
   const char* const last = skip_all(digit, at_ + 1);
   const std::ptrdiff_t digits = last - at_ - 1;
-  return digits > 0 && digits <= most_digits ? keep(at_, last) : nullptr;
+  return digits > 0 && digits <= max_digits ? keep(at_, last) : nullptr;
 }
 
 Handle(StepData_StepReaderData) PlainStep::data(Resource_FormatType page) const {
@@ -456,7 +456,7 @@ bool PlainStepLibrary::read_plain(Standard_CString path, Handle(Interface_Interf
   Handle(StepData_StepModel) read = model_of(plain, step);
   // A reader stops at the first unreadable attribute: each repair reveals the next one.
   std::set<std::string> all;
-  for (int round = 0; mended != nullptr && round < most_mending_rounds; ++round) {
+  for (int round = 0; mended != nullptr && round < max_mending_rounds; ++round) {
     const std::set<std::string> now = plain.mend_attributes(errors_of(*read));
     if (now.empty()) break;
     all.insert(now.begin(), now.end());
@@ -473,13 +473,13 @@ Standard_Integer PlainStepLibrary::ReadFile(Standard_CString path, Handle(Interf
 }
 
 std::string PlainStepLibrary::note() const {
-  constexpr std::size_t most_listed = 5;
+  constexpr std::size_t max_listed = 5;
   if (mended_.empty()) return "";
   std::string list;
-  for (std::size_t i = 0; i < mended_.size() && i < most_listed; ++i) list += (i > 0 ? ", " : "") + mended_[i];
+  for (std::size_t i = 0; i < mended_.size() && i < max_listed; ++i) list += (i > 0 ? ", " : "") + mended_[i];
   return "the names or counts of attributes of " + std::to_string(mended_.size()) +
          (mended_.size() == 1 ? " entity are wrong and were repaired: " : " entities are wrong and were repaired: ") + list +
-         (mended_.size() > most_listed ? ", ..." : "");
+         (mended_.size() > max_listed ? ", ..." : "");
 }
 
 }  // namespace carreau_occ

@@ -70,7 +70,7 @@ class FaceBox {
   }
 
  private:
-  static constexpr int least_cells = 24, most_cells = 200, points_on_edge = 32, halvings = 16;
+  static constexpr int min_cells = 24, max_cells = 200, points_on_edge = 32, halvings = 16;
   static constexpr int max_moves = 1'000;  // real faces need up to 30
   struct Extreme {
     double value = -std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ class FaceBox {
   };
 
   // A spline may have a hill in each of its intervals.
-  static int cells_of(int intervals) { return std::clamp(4 * intervals, least_cells, most_cells); }
+  static int cells_of(int intervals) { return std::clamp(4 * intervals, min_cells, max_cells); }
   // Finding the faces outside costs more than their places.
   bool is_inside(gp_Pnt2d uv) {
     if (!inside_) {

@@ -12,7 +12,7 @@
 namespace carreau_occ {
 namespace {
 
-constexpr double least_angle = 2;  // degrees
+constexpr double min_angle = 2;  // degrees
 constexpr int places = 9;
 constexpr double beside = 1e-7;  // of the interval on either side
 
@@ -62,7 +62,7 @@ void look_for(const BRepAdaptor_Surface& surface, bool of_u, std::vector<Kink>& 
     const double before = ends(i) - beside * (ends(i) - ends(i - 1)),
                  after = ends(i) + beside * (ends(i + 1) - ends(i));
     const Bend bend = bend_at(surface, of_u, before, after, from, to);
-    if (bend.angle > least_angle) kinks.push_back({of_u, ends(i), bend.angle, bend.torn});
+    if (bend.angle > min_angle) kinks.push_back({of_u, ends(i), bend.angle, bend.torn});
   }
 }
 
@@ -88,7 +88,7 @@ ClosingKink closing_kink_of(const TopoDS_Face& face) {
     const double from = of_u ? kink.low_v : kink.low_u, to = of_u ? kink.high_v : kink.high_u;
     const double before = high - beside * period, after = low + beside * period;
     const Bend bend = bend_at(surface, of_u, before, after, from, to);
-    return bend.angle > least_angle;
+    return bend.angle > min_angle;
   };
   kink.of_u = surface.IsUPeriodic() && bends(true, kink.low_u, kink.high_u, surface.UPeriod());
   kink.of_v = surface.IsVPeriodic() && bends(false, kink.low_v, kink.high_v, surface.VPeriod());

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double closing_share = 0.01;       // of a period: as near as ends of a loop are to it
 constexpr int samples_of_curve = 24;         // chords that stand for a curve where lines must not cross it
-constexpr std::size_t most_candidates = 24;  // vertices of a loop at which seams may end
+constexpr std::size_t max_candidates = 24;  // vertices of a loop at which seams may end
 constexpr double end_share = 1e-6;           // of a seam, at its ends, where it meets its loops
 
 using Loop = std::vector<EdgeImage>;
@@ -161,7 +161,7 @@ class SeamMaker {
     std::vector<Polyline> obstacles{polyline_of(rounds_[0].edges), polyline_of(rounds_[1].edges)};
     for (const std::size_t w : others_) obstacles.push_back(polyline_of(wires_[w]));
     std::vector<std::pair<double, Place>> candidates;
-    const auto stride = [](const Loop& loop) { return 1 + loop.size() / most_candidates; };
+    const auto stride = [](const Loop& loop) { return 1 + loop.size() / max_candidates; };
     const Loop &from = rounds_[0].edges, &to = rounds_[1].edges;
     for (std::size_t i = 0; i < from.size(); i += stride(from))
       for (std::size_t j = 0; j < to.size(); j += stride(to)) {

@@ -33,7 +33,7 @@ constexpr int edge_points = 9;
 /// Points of a solid that are classified against another solid.
 constexpr std::size_t points_of_pair = 24;
 /// Classifications in all: about two seconds.
-constexpr int most_classifications = 10'000;
+constexpr int max_classifications = 10'000;
 /// Share of the diagonal within which surfaces are at one place.
 constexpr double contact_tolerance = 1e-6;
 
@@ -51,7 +51,7 @@ class ContactFinder {
 
   SolidContacts run() {
     for (const auto& pair : pairs_of_boxes()) {
-      if (classifications_ >= most_classifications) {
+      if (classifications_ >= max_classifications) {
         ++found_.untested;
         continue;
       }

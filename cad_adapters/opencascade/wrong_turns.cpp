@@ -14,7 +14,7 @@ namespace {
 
 // Share of the squared perimeter, which is 4 pi times the area of a circle. The area between two arcs is uncertain by
 // 4e-4 of it.
-constexpr double least_area = 1e-3;
+constexpr double min_area = 1e-3;
 // Share of the perimeter.
 constexpr double largest_gap = 1e-3;
 
@@ -23,7 +23,7 @@ double turned_area_of(const std::vector<EdgeImage>& loop) {
   const LoopArea found = area_of(loop);
   const double perimeter = found.perimeter;
   const bool in_doubt =
-      found.gap > largest_gap * perimeter || std::abs(found.area) < least_area * perimeter * perimeter;
+      found.gap > largest_gap * perimeter || std::abs(found.area) < min_area * perimeter * perimeter;
   return in_doubt ? 0 : found.area;
 }
 

@@ -19,7 +19,7 @@ std::span<const Vec3> nodes_of(const Cell& cell, const std::array<Vec3, 8>& x) {
   return {x.data(), static_cast<std::size_t>(node_count(cell.kind))};
 }
 
-double least_coordinate(CellKind kind, double s, double t) {
+double min_coordinate(CellKind kind, double s, double t) {
   return corner_count(kind) == 3 ? std::min({s, t, 1 - s - t}) : std::min({s, t, 1 - s, 1 - t});
 }
 
@@ -82,7 +82,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
   const double third = 1.0 / 3, start = corner_count(cell.kind) == 3 ? third : 0.5;
   Place place{c, start, start, 0};
   double step = infinity;
-  for (int k = 0; k < most_newton_steps; ++k) {
+  for (int k = 0; k < max_newton_steps; ++k) {
     const double s = place.s, t = place.t;
     const auto at = [&](double ds, double dt) { return point_of_cell(cell.kind, x, s + ds, t + dt); };
     const Vec3 by_s = at(0.5, 0) - at(-0.5, 0), by_t = at(0, 0.5) - at(0, -0.5), d = p - at(0, 0);
@@ -95,7 +95,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
     if (step < newton_rounding) break;
   }
   // Far from p the element may fold on the way; then Newton's method stops at a point that is not p.
-  place.inside = step < newton_arrived ? least_coordinate(cell.kind, place.s, place.t) : -infinity;
+  place.inside = step < newton_arrived ? min_coordinate(cell.kind, place.s, place.t) : -infinity;
   return place;
 }
 
@@ -110,8 +110,8 @@ void CurvedElements::interpolate(std::int32_t triangle, const Vec3& p, bool in_s
   }
   const Cell& cell = cells_[best.cell];
   // Beside the mesh the polynomial holds slightly beyond a curved border; farther away the nearest value is used.
-  double s = std::clamp(best.s, -most_beside, 1 + most_beside), t = std::clamp(best.t, -most_beside, 1 + most_beside);
-  if (const double beyond = s + t - 1 - most_beside; corner_count(cell.kind) == 3 && beyond > 0)
+  double s = std::clamp(best.s, -max_beside, 1 + max_beside), t = std::clamp(best.t, -max_beside, 1 + max_beside);
+  if (const double beyond = s + t - 1 - max_beside; corner_count(cell.kind) == 3 && beyond > 0)
     s -= beyond / 2, t -= beyond / 2;
   std::array<Vec3, 8> unit;
   const auto n = static_cast<std::size_t>(node_count(cell.kind));

@@ -30,7 +30,7 @@ struct Equations {
 std::optional<Coefficients> solve(Equations& equations) {
   const Eigen::HouseholderQR<Eigen::Ref<decltype(Equations::left)>> qr(equations.left);
   const Coefficients diagonal = qr.matrixQR().diagonal().cwiseAbs();
-  if (!(diagonal.minCoeff() > least_pivot * diagonal.maxCoeff())) return {};
+  if (!(diagonal.minCoeff() > min_pivot * diagonal.maxCoeff())) return {};
   return qr.solve(equations.right);
 }
 
@@ -76,7 +76,7 @@ class Fitter {
     around_.assign(1, v);
     mark_[static_cast<std::size_t>(v)] = v;
     std::size_t from = 0;
-    for (int ring = 1; ring <= most_rings; ++ring) {
+    for (int ring = 1; ring <= max_rings; ++ring) {
       const std::size_t to = around_.size();
       for (; from < to; ++from)
         for (const std::int32_t w : neighbours_.of(around_[from]))

@@ -12,9 +12,9 @@ namespace carreau::thresholds::adapt {
 // Recovery of derivatives
 /// Ratio of the smallest to the largest diagonal entry of the triangular factor, below which a fit is not determined.
 /// [Recovery.NamesThePlaceOfTooFewNeighbours]
-inline constexpr double least_pivot = 0.02;
+inline constexpr double min_pivot = 0.02;
 /// Rings of neighbours that a fit may take. [Recovery.IsExactOnQuadraticsUpToTheBorder]
-inline constexpr int most_rings = 3;
+inline constexpr int max_rings = 3;
 
 // Functions of the host (differences)
 /// Share of the diagonal. Largest step of differences. [EstimateFunction.IsExactForQuadratics]
@@ -25,8 +25,8 @@ inline constexpr double blind = 2;
 
 // Pieces of work that threads and processes share [time only]
 /// Rows at a time of `n`: few enough that each of 64 takers has some, and enough that handing them out costs nothing.
-inline constexpr std::size_t least_at_once = 256, most_at_once = 16384;
-inline constexpr std::size_t at_once(std::size_t n) noexcept { return std::clamp(n / 64, least_at_once, most_at_once); }
+inline constexpr std::size_t min_at_once = 256, max_at_once = 16384;
+inline constexpr std::size_t at_once(std::size_t n) noexcept { return std::clamp(n / 64, min_at_once, max_at_once); }
 /// One point of so many is evaluated by each process, so that different functions are found: 1.6 % more calls.
 inline constexpr std::size_t points_of_one_compared = 64;
 /// Vertices between two looks for a stop.
@@ -41,13 +41,13 @@ inline constexpr double as_near = 4;
 inline constexpr double place_rounding = 1e-14;
 /// Places in curved elements: steps of Newton's method at most, coordinates of the reference below which they end.
 /// [CurvedTransfer.IsExactForQuadraticsInAPlane]
-inline constexpr int most_newton_steps = 20;
+inline constexpr int max_newton_steps = 20;
 inline constexpr double newton_rounding = 1e-14;
 /// Coordinates: if the last step is larger, the method has not converged. On surfaces steps shrink by a factor each,
 /// not quadratically. [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
 inline constexpr double newton_arrived = 1e-3;
 /// Coordinates of the reference. Distance beside its element up to which a field's polynomial is taken: the sagitta of
 /// a curved border. An edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
-inline constexpr double most_beside = 0.2;
+inline constexpr double max_beside = 0.2;
 
 }  // namespace carreau::thresholds::adapt

@@ -90,7 +90,7 @@ class PartMaker {
 double steepness(const Part& p, std::size_t k) { return (p.angle[k + 1] - p.angle[k]) / (p.phi[k + 1] - p.phi[k]); }
 
 /// The least distance from the pivot at a joint, over all strata.
-double least_distance(const Part& p, std::size_t edge, double at, bool first) {
+double min_distance(const Part& p, std::size_t edge, double at, bool first) {
   const double b = p.ratio_angle.empty() ? 1 : (first ? p.ratio.front() : p.ratio.back());
   return radius_on(p.line[edge], at) * std::min(1.0, b);
 }
@@ -125,8 +125,8 @@ void make_smooth(std::vector<Part>& parts) {
     for (std::size_t k = 1; k + 1 < p.angle.size(); ++k) p.slope[k] = std::min(steepness(p, k - 1), steepness(p, k));
     // One lambda a joint is enough for C1 (Atlas eq. 5.10), and distorts less than one for all.
     const std::size_t last = p.line.size() - 1;
-    p.last_speed = next.first_speed = std::min(steepness(p, last) * least_distance(p, last, p.total(), false),
-                                               steepness(next, 0) * least_distance(next, 0, 0, true));
+    p.last_speed = next.first_speed = std::min(steepness(p, last) * min_distance(p, last, p.total(), false),
+                                               steepness(next, 0) * min_distance(next, 0, 0, true));
   }
 }
 

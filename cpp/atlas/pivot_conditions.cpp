@@ -14,8 +14,8 @@ namespace {
 /// Returns whether the edge from a to b, relative to the pivot, is visible under an angle, and not along itself.
 bool well_seen(const Vec2& a, const Vec2& b, const Vec2& edge) {
   const double twice_area = std::abs(cross(a, edge));
-  return std::abs(std::atan2(cross(a, b), dot(a, b))) > thresholds::least_angle &&
-         twice_area > thresholds::least_slope * norm(edge) * std::max(norm(a), norm(b));
+  return std::abs(std::atan2(cross(a, b), dot(a, b))) > thresholds::min_angle &&
+         twice_area > thresholds::min_slope * norm(edge) * std::max(norm(a), norm(b));
 }
 
 class Conditions {
@@ -64,7 +64,7 @@ class Conditions {
       const Vec2 b = e == from + edges ? Vec2(place(k + 1) - place(k)) : Vec2(vertex(e + 1) - place(k));
       if (!well_seen(vertex(e) - place(k), vertex(e + 1) - place(k), vertex(e + 1) - vertex(e))) wrong_[k] = 1;
       const double seen = std::abs(std::atan2(cross(a, b), dot(a, b)));
-      if (!(seen > thresholds::least_angle)) wrong_[k] = 1;
+      if (!(seen > thresholds::min_angle)) wrong_[k] = 1;
       angle += seen;
     }
     if (!(angle < 2 * std::numbers::pi)) wrong_[k] = 1;

@@ -40,11 +40,11 @@ inline constexpr double on_border = 1e-9;
 
 /// Radians: a pivot must see each edge of its part under a larger angle. Exact conditions may hold where rounding
 /// leaves no angle; at 1e-6 angles keep nine digits.
-inline constexpr double least_angle = 1e-6;
+inline constexpr double min_angle = 1e-6;
 
 /// Sine of the angle between an edge and the ray to it: below, distances along the ray are too inaccurate. This rejects
 /// pivots that are barycentres of slivers.
-inline constexpr double least_slope = 1e-5;
+inline constexpr double min_slope = 1e-5;
 
 /// Radians: knots of the outer border that are nearer to one another are one.
 inline constexpr double same_angle = 1e-9;

@@ -16,11 +16,11 @@ namespace carreau {
 namespace {
 
 /// Degrees. Supports keep an angle of one degree between a curve and its chord (RT-0232 sec. 3.3); steps keep three.
-constexpr double least_angle = 3;
+constexpr double min_angle = 3;
 /// Degrees between successive chords; a larger angle is a corner, and a smaller one is added to the angle above.
 constexpr double largest_bend = 15;
 /// Share of a chord: an arc that makes one degree with its chord leaves it by .0044, a bend adds a quarter of its angle.
-constexpr double least_margin = 0.01;
+constexpr double min_margin = 0.01;
 
 double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(cross2(a, b)), dot(a, b)); }
@@ -85,7 +85,7 @@ ParameterDomain::ParameterDomain(std::vector<BoundaryCurve> boundary) {
     const double side = polygon.inside_left_of(static_cast<int>(e)) ? 1 : -1;
     const Vec2 inward{-side * along.y() / length, side * along.x() / length};
     edges_.push_back({.a = vertices[chords[e].first], .b = vertices[chords[e].second], .inward = inward,
-                      .margin = (least_margin + bend / 4) * length, .slack = std::sin(least_angle * degree + bend)});
+                      .margin = (min_margin + bend / 4) * length, .slack = std::sin(min_angle * degree + bend)});
     const Edge& edge = edges_.back();
     boxes.push_back(box_around(edge.a, edge.b, edge.margin));
     centres.push_back({(edge.a.x() + edge.b.x()) / 2, (edge.a.y() + edge.b.y()) / 2, 0});

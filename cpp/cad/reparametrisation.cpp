@@ -14,7 +14,7 @@ namespace carreau {
 namespace {
 
 // Steps of Newton's method or bisection for an inverse: 2^-60 of a piece.
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 constexpr std::size_t batch = 256;
 
 /// Slope between two pieces: the harmonic mean of their slopes, with more weight for the shorter piece.
@@ -106,7 +106,7 @@ double MonotoneMap::inverse(double u) const noexcept {
   if (u == u_[k]) return x_[k];
   double low = x_[k], high = x_[k + 1];
   double x = low + (high - low) * ((u - u_[k]) / (u_[k + 1] - u_[k]));
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Jet at = jet_in(k, x);
     if (at.u == u) break;
     (at.u < u ? low : high) = x;

@@ -32,8 +32,8 @@ Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
     return std::sqrt(across * across + 4 * m.b * m.b);
   };
   const double trace = root.a + root.c, s = spread(root);
-  if (0.5 * (trace + s) < (1 - eigenvalue_rounding) * most_extrapolation * above &&
-      0.5 * (trace - s) > eigenvalue_rounding * trace + below / most_extrapolation)
+  if (0.5 * (trace + s) < (1 - eigenvalue_rounding) * max_extrapolation * above &&
+      0.5 * (trace - s) > eigenvalue_rounding * trace + below / max_extrapolation)
     return root;
   double low = infinity, high = 0;
   for (const auto& sample : near) {
@@ -41,7 +41,7 @@ Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
     low = std::min(low, accurate_determinant(sample.root) / major);
     high = std::max(high, major);
   }
-  return clamp_eigenvalues(root, low / most_extrapolation, most_extrapolation * high);
+  return clamp_eigenvalues(root, low / max_extrapolation, max_extrapolation * high);
 }
 
 }  // namespace

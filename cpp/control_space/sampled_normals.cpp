@@ -37,7 +37,7 @@ class SampledNormals::Fit {
   [[nodiscard]] bool is_sound() const noexcept {
     if (count_ < enough_normals) return false;
     const Moments m = moments();
-    return m.xx * m.yy - m.xy * m.xy > least_spread * (m.xx + m.yy) * (m.xx + m.yy);
+    return m.xx * m.yy - m.xy * m.xy > min_spread * (m.xx + m.yy) * (m.xx + m.yy);
   }
   [[nodiscard]] Vec3 linear() const noexcept {
     const Moments m = moments();
@@ -70,10 +70,10 @@ class SampledNormals::Fit {
 void SampledNormals::add(Vec2 uv, Vec3 normal) {
   const double length = norm(normal);
   if (!(length > 0) || !std::isfinite(length)) return;
-  if (samples_.size() >= most_normals && differ_) return;
+  if (samples_.size() >= max_normals && differ_) return;
   const Vec3 unit = (1 / length) * normal;
   if (!samples_.empty() && !differ_) differ_ = norm(cross(samples_.front().normal, unit)) > flat_angle;
-  if (samples_.size() < most_normals) samples_.push_back({uv, unit});
+  if (samples_.size() < max_normals) samples_.push_back({uv, unit});
 }
 
 void SampledNormals::index(const ControlSpace& space) {
@@ -126,7 +126,7 @@ Vec3 SampledNormals::at(const Vec2& uv) const noexcept {
     Fit fit(metric, reach);
     gather(uv, metric, reach, fit);
     if (fit.is_sound()) return fit.linear();
-    if (k == most_growths) return fit.mean();
+    if (k == max_growths) return fit.mean();
   }
 }
 

@@ -34,7 +34,7 @@ ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const Su
       options_(options),
       monitor_(monitor),
       vertex_sampled_(domain.vertices.size(), 0) {
-  options_.max_samples = std::max(options_.max_samples, least_of_max_samples);
+  options_.max_samples = std::max(options_.max_samples, min_of_max_samples);
 }
 
 void ControlSpaceSampling::run() {
@@ -73,7 +73,7 @@ void ControlSpaceSampling::look_at_probe_points() {
   if (samples_left() < static_cast<double>(uv.size())) return;
   std::vector<Metric2> roots = ask(uv);
   for (Metric2& root : roots) root = root_of(root);
-  for (int round = 0; round < most_looks && !uv.empty(); ++round) {
+  for (int round = 0; round < max_looks && !uv.empty(); ++round) {
     std::vector<std::int32_t> cells;
     for (std::size_t k = 0; k < uv.size(); ++k) {
       const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv[k]));
@@ -95,11 +95,11 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
   cells = std::min(cells, static_cast<double>(options_.max_samples) / (2 * samples_per_cell));
   vertices_per_cell_ = vertices_ / cells;
   // Powers of four are left to the tree, so that large cells remain possible where the mesh is coarse.
-  double coarsest = std::max(cells / s.share, least_cells);
+  double coarsest = std::max(cells / s.share, min_cells);
   const auto shorter_side = [&](double count) { return std::sqrt(count * std::min(s.aspect, 1 / s.aspect)); };
-  while (coarsest >= 4 * least_cells && shorter_side(coarsest / 4) >= least_side) coarsest /= 4;
+  while (coarsest >= 4 * min_cells && shorter_side(coarsest / 4) >= min_side) coarsest /= 4;
   const auto side = [](double count) {
-    return static_cast<int>(std::clamp(std::round(count), double{least_side}, double{most_side}));
+    return static_cast<int>(std::clamp(std::round(count), double{min_side}, double{max_side}));
   };
   // The side that is rounded most comes first, so that the product remains.
   int columns, rows;
@@ -110,8 +110,8 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
     columns = side(std::sqrt(coarsest * s.aspect));
     rows = side(coarsest / columns);
   }
-  std::int32_t step = most_step;
-  while (step > most_units / std::max(columns, rows)) step /= 2;
+  std::int32_t step = max_step;
+  while (step > max_units / std::max(columns, rows)) step /= 2;
   lattice_.emplace(s.low, s.high, columns, rows, step, locator_);
   border_.emplace(*lattice_);
   tree_.emplace(domain_, locator_, *lattice_);
@@ -304,13 +304,13 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
-  if (width <= least_width) return infinity;
+  if (width <= min_width) return infinity;
   return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : allowed_half);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
   const double width2 = vertices * area_per_vertex;
-  if (width2 <= least_width * least_width) return infinity;
+  if (width2 <= min_width * min_width) return infinity;
   return options_.tolerance * std::max(1.0, plain_width * plain_width / width2);
 }
 
@@ -354,8 +354,8 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     list.resize(count);
   };
   double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(crowd.size());
-  const double most = on_surface_ ? most_graded_samples_per_vertex : most_samples_per_vertex;
-  cut(must, most_spare_samples + most * vertices_ - spent, usual_cost);
+  const double most = on_surface_ ? max_graded_samples_per_vertex : max_samples_per_vertex;
+  cut(must, max_spare_samples + most * vertices_ - spent, usual_cost);
   spent += usual_cost * static_cast<double>(must.size());
   cut(may, samples_for_smooth_fields() - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());

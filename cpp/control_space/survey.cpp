@@ -84,7 +84,7 @@ double floor_from(std::vector<double> shortest, double longest) {
   double usual = shortest[shortest.size() / 2];
   if (!(usual > 0)) usual = shortest.back();
   if (!(usual > 0)) usual = longest > 0 ? longest : 1;
-  const double length = std::min(least_box_length, least_share_of_usual * usual);
+  const double length = std::min(min_box_length, min_share_of_usual * usual);
   return length * length;
 }
 
@@ -102,7 +102,7 @@ double change(Metric2 p, Metric2 q, double floor) {
 // Change of the field along u over change along v, from metrics on the regular inner grid.
 double ratio_of_changes(std::span<const Metric2> m, double floor) {
   constexpr int n = inner_points;
-  double u = least_change, v = least_change;
+  double u = min_change, v = min_change;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i + 1 < n; ++i) {
       u += change(m[n * j + i], m[n * j + i + 1], floor);
@@ -118,8 +118,8 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
   Survey s;
   find_box(domain, s);
   std::vector<Vec2> uv;
-  const std::size_t stride = std::max<std::size_t>(1, domain.edges.size() / most_border_points);
-  for (std::size_t e = 0; e < domain.edges.size() && uv.size() < most_border_points; e += stride) {
+  const std::size_t stride = std::max<std::size_t>(1, domain.edges.size() / max_border_points);
+  for (std::size_t e = 0; e < domain.edges.size() && uv.size() < max_border_points; e += stride) {
     const int v = domain.edges[e].first;
     if (std::find(s.vertices.begin(), s.vertices.end(), v) != s.vertices.end()) continue;
     s.vertices.push_back(v);
@@ -148,7 +148,7 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
   if (!square && inner.size() == inner_points * inner_points) {
     // Cells as long as the field allows, but not too far from the shape that exploration needs.
     const double ratio = ratio_of_changes(std::span(s.metrics).subspan(s.vertices.size()), s.floor);
-    s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);
+    s.aspect *= std::clamp(ratio / s.aspect, 1 / max_stretch, max_stretch);
   }
   const double points = share_points * share_points;
   if (!std::isfinite(s.vertices_in_box) || !(s.aspect > 0) || !std::isfinite(s.aspect))

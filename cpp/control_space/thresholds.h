@@ -12,7 +12,7 @@ namespace carreau::thresholds::control_space {
 
 // The first look at the field (survey)
 /// Points. Asked on the boundary. [SmoothFields.AreReproducedFromFewSamples]
-inline constexpr std::size_t most_border_points = 8;
+inline constexpr std::size_t max_border_points = 8;
 /// Points. Samples inside, along each side of the box. [as above]
 inline constexpr int inner_points = 3;
 /// Points. Along each side of the box, to find the domain's share of it; no sample is taken. [Limits.AThinSliver...]
@@ -21,14 +21,14 @@ inline constexpr int share_points = 16;
 inline constexpr double same_height = 1e-9;
 /// Ratio. How far the cells may differ from squares of the metric where the field varies more in one direction.
 /// [Limits. AspectRatiosUpToAMillionAreKept]
-inline constexpr double most_stretch = 6;
+inline constexpr double max_stretch = 6;
 /// Relative change. Fields that vary less have no usable direction. [ControlSpace.ConstantGivesBackTheMetric]
-inline constexpr double least_change = 1e-3;
+inline constexpr double min_change = 1e-3;
 /// Edges. Least length of the whole box in any direction: metrics are clamped where the parametrisation is degenerate
 /// (HDR sec. 4.5.4), [Limits.DegenerateSidesAreClamped]
-inline constexpr double least_box_length = 1e-2;
+inline constexpr double min_box_length = 1e-2;
 /// Share of the usual length. or this, if that is less. [Limits.AWideBoxMuchShorterThanAnEdgeKeepsItsMetric]
-inline constexpr double least_share_of_usual = 1e-3;
+inline constexpr double min_share_of_usual = 1e-3;
 
 // The tree (tree, sampling)
 /// Share of a cell's size. Cells are so much wider when they are compared with an edge: rounding must not lose one.
@@ -41,21 +41,21 @@ inline constexpr double usual_vertices_per_cell = 10;
 /// Vertices. beyond which the number of cells grows with the square root only.
 inline constexpr double many_vertices = 10'000;
 /// Cells. Least number in the first grid.
-inline constexpr double least_cells = 25;
+inline constexpr double min_cells = 25;
 /// Samples. Cost of a cell of a uniform grid: a node, its centre, its share of the border.
 inline constexpr double samples_per_cell = 2.4;
 /// Cells. Number along a side of the first grid.
-inline constexpr int least_side = 3, most_side = 1024;
+inline constexpr int min_side = 3, max_side = 1024;
 /// Units of the finest grid. Length of a side, and of a cell: places are whole numbers. [range of integers]
-inline constexpr std::int32_t most_units = 1 << 29, most_step = 1 << 20;
+inline constexpr std::int32_t max_units = 1 << 29, max_step = 1 << 20;
 /// Vertices desired in a cell. A cell that holds so many times more is split without a test.
 inline constexpr double crowded = 1.6;
 /// Samples. Least value of max_samples. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed]
-inline constexpr std::size_t least_of_max_samples = 1000;
+inline constexpr std::size_t min_of_max_samples = 1000;
 /// Edges. Cells at probe points are split while they are wider. [surface: SteepPlaces]
 inline constexpr double probe_width = 0.5;
 /// Rounds. Number of such splits; each halves a cell. [time only]
-inline constexpr int most_looks = 24;
+inline constexpr int max_looks = 24;
 
 // Errors (sampling)
 /// Edges. Lengths of a cell below do not matter. [ControlSpace.ErrorsFollowTheTolerance, as all below]
@@ -64,7 +64,7 @@ inline constexpr double negligible_length = 0.03;
 /// edge, than the least width.
 inline constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1;
 /// Edges. Smaller cells serve no purpose. [ControlSpace.SharpSizesAreFollowedDownToTheEdgesOfTheMesh]
-inline constexpr double least_width = 0.25;
+inline constexpr double min_width = 0.25;
 /// Edges. In cells at least so wide, errors above the tolerance are refined at any cost. Below, the tolerated error
 /// grows with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
 inline constexpr double plain_width = 2.5;
@@ -92,10 +92,10 @@ inline constexpr double vertices_that_count = 1500;
 /// Share. and this of the others. [surface: Calls.AreAtMostFiveAVertexWhenGeometric]
 inline constexpr double share_of_others = 1.0 / 12;
 /// Samples, and samples a vertex. Limits where the tolerance is violated.
-inline constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
+inline constexpr double max_spare_samples = 800, max_samples_per_vertex = 4;
 /// Samples a vertex. Gradation leaves more kinks, and bounds each of them. [surface: GradedModel.
 /// ControlSpacesObeyTheGradation]
-inline constexpr double most_graded_samples_per_vertex = 6;
+inline constexpr double max_graded_samples_per_vertex = 6;
 
 // Along borders (border, quadratic_fit)
 /// Samples. Wanted before a quadratic is fitted, which has six coefficients. [QuadraticFit]
@@ -110,7 +110,7 @@ inline constexpr double reach_in_sizes = 2.2;
 /// Share of the reach, and squared reaches. and share from which the weights prefer near samples.
 inline constexpr double near_share = 0.5, softness = 0.04;
 /// Ratio. Eigenvalues of the fit over eigenvalues of its samples,
-inline constexpr double most_extrapolation = 2;
+inline constexpr double max_extrapolation = 2;
 /// Share. but for rounding.
 inline constexpr double eigenvalue_rounding = 1e-6;
 /// Shares of the sum of weights. Regularisation of slopes and curvatures: has no effect if the samples determine the
@@ -126,7 +126,7 @@ inline constexpr double directed_rounding = 1e-4;
 
 // Normals at samples (sampled_normals)
 /// Samples. More do not extend the reach. [SampledNormals.ConvergeAtSecondOrder, as all below]
-inline constexpr std::size_t most_normals = 16'384;
+inline constexpr std::size_t max_normals = 16'384;
 /// Sine. Largest angle between normals of a plane, from rounding. [SampledNormals.DoNotDifferOnAPlane]
 inline constexpr double flat_angle = 1e-6;
 /// Samples. Number in a bucket of the grid. [time only]
@@ -136,7 +136,7 @@ inline constexpr double first_reach = 1;
 /// Ratio. Ratio from one reach to the next, if the samples are too few or on a line,
 inline constexpr double reach_growth = 1.5;
 /// Times. so often.
-inline constexpr int most_growths = 8;
+inline constexpr int max_growths = 8;
 /// Samples. Enough for a fit.
 inline constexpr int enough_normals = 6;
 /// Fourth power of reaches. Added to the fourth power of a distance, by which weights are divided: a sample at the
@@ -144,12 +144,12 @@ inline constexpr int enough_normals = 6;
 inline constexpr double nearest_normal = 1e-12;
 /// Determinant of their second moments over the square of the trace: samples along a line do not determine the
 /// direction across.
-inline constexpr double least_spread = 1e-3;
+inline constexpr double min_spread = 1e-3;
 
 // Polynomials (writer)
 /// Share. Inner Bernstein coefficients have eigenvalues of at least this share of the eigenvalues beside them: if all
 /// coefficients are definite, the polynomial is. [ControlSpace.IsDefiniteEverywhereInTheBox...]
-inline constexpr double least_inner_share = 0.1;
+inline constexpr double min_inner_share = 0.1;
 /// Steps. Number of steps in which a side or a cell is straightened. [as above]
 inline constexpr int straightening_steps = 8;
 /// Entries of the table for each leaf, at most. [Limits.SmallMeshesTakeLittleMemory]
@@ -162,7 +162,7 @@ inline constexpr int cut_leaf_points = 4;
 inline constexpr double crowd = 4;
 /// Share of the vertices. A mesh whose edges are twice as long as prescribed has a quarter; if sizes change much within
 /// an edge good meshes have half of them.
-inline constexpr double least_share = 0.25;
+inline constexpr double min_share = 0.25;
 /// Triangles. Number in a unit mesh. [Euler]
 inline constexpr double triangles_per_vertex = 2;
 

@@ -82,7 +82,7 @@ class ControlSpace::UndersampledSearch {
   }
   /// `first`: of its places.
   Content judged(Content content, std::size_t first) {
-    if (content.has_undersampled_region || content.vertices < crowd || content.held >= least_share * content.vertices)
+    if (content.has_undersampled_region || content.vertices < crowd || content.held >= min_share * content.vertices)
       return content;
     std::vector<Place> places(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
     std::stable_sort(places.begin(), places.end(),

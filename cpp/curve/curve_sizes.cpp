@@ -29,9 +29,9 @@ constexpr double beside_curve = 0.01, steep_spacing = 0.002;
 /// Two samples of sizes from curvature may lie on two inflections. An interval is halved if the curve turns by more
 /// than this between them, down to a share of the curve at kinks. It is also halved if its mean radius requires so many
 /// times the edges of the samples.
-constexpr double most_turning = 90 * std::numbers::pi / 180;
-constexpr double most_missed = 2;
-constexpr double least_bent = 1. / 256;
+constexpr double max_turning = 90 * std::numbers::pi / 180;
+constexpr double max_missed = 2;
+constexpr double min_bent = 1. / 256;
 
 struct Sample {
   double r = 0;
@@ -157,16 +157,16 @@ class Turning {
     std::copy(angle_.begin() + 1, angle_.end(), angle_.begin());  // with the corner that begins a segment, as before
   }
   [[nodiscard]] bool too_bent(const Sample& left, const Sample& right) const {
-    return known_ && right.r - left.r > least_bent && up_to(right.r) - up_to(left.r) > most_turning;
+    return known_ && right.r - left.r > min_bent && up_to(right.r) - up_to(left.r) > max_turning;
   }
   /// `d`: the length between both.
   [[nodiscard]] bool misses_bend(const Sample& left, const Sample& right, double d, const SizeRules& rules,
                                  double lss) const {
-    if (!known_ || right.r - left.r <= least_bent) return false;
+    if (!known_ || right.r - left.r <= min_bent) return false;
     const double turned = direction_at(right.r) - direction_at(left.r);
     if (!(turned > 0)) return false;
     const double asked = d / rules.clamped_geometric(d / turned);
-    return asked > shortest_interval * lss && asked > most_missed * normalised_length(rules.law(), left.h, right.h, d);
+    return asked > shortest_interval * lss && asked > max_missed * normalised_length(rules.law(), left.h, right.h, d);
   }
 
  private:

@@ -12,7 +12,7 @@ namespace carreau {
 namespace {
 
 /// Fewest segments of a curve that returns to its start: two would lie on each other.
-constexpr int least_closed = 3;
+constexpr int min_closed = 3;
 
 Vec3 corner(const CurveModel& model, int point) {
   return model.topology.points[static_cast<std::size_t>(point)].position;
@@ -142,7 +142,7 @@ void fill_sizes(DiscreteCurve& d, const Curve& curve, SizeRules& rules, bool ask
 std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double length) {
   std::vector<double> s;
   for (const double r : d.sizes.r) s.push_back(r * length);
-  std::vector<double> cuts = split_by_sizes(s, d.sizes.h, d.sizes.law, curve.end1 == curve.end2 ? least_closed : 1);
+  std::vector<double> cuts = split_by_sizes(s, d.sizes.h, d.sizes.law, curve.end1 == curve.end2 ? min_closed : 1);
   for (double& cut : cuts) cut /= length;
   cuts.front() = 0;
   cuts.back() = 1;

@@ -14,9 +14,9 @@ namespace {
 /// Points of the rule: exact to degree 9; between two samples of a support a curve turns by about a degree.
 constexpr int points = 5;
 /// Halvings of an interval: at a kink the rest is below 1e-3 of it.
-constexpr int most_halvings = 10;
+constexpr int max_halvings = 10;
 /// Newton's steps; a step that would leave the bracket is replaced by halving.
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 // Halves that differ by less are equal: rounding, and the remaining error of finite differences.
 constexpr double exact_tolerance = 1e-14, difference_tolerance = 1e-8;
 /// Share of the length below which an error is rounding.
@@ -55,7 +55,7 @@ double ExactArc::integral(double a, double b, double whole, int depth) const {
   return integral(a, middle, left, depth - 1) + integral(middle, b, right, depth - 1);
 }
 
-double ExactArc::length_between(double a, double b) const { return integral(a, b, once(a, b), most_halvings); }
+double ExactArc::length_between(double a, double b) const { return integral(a, b, once(a, b), max_halvings); }
 
 double ExactArc::t_at(double s) const {
   if (!(s > 0)) return t_.front();
@@ -63,7 +63,7 @@ double ExactArc::t_at(double s) const {
   const auto k = static_cast<std::size_t>(std::upper_bound(arc_.begin(), arc_.end(), s) - arc_.begin()) - 1;
   const double wanted = s - arc_[k];
   double low = t_[k], high = t_[k + 1], t = std::lerp(low, high, wanted / (arc_[k + 1] - arc_[k]));
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const double missing = wanted - length_between(t_[k], t);
     if (std::abs(missing) <= rounding * length()) break;
     (missing > 0 ? low : high) = t;

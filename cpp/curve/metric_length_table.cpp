@@ -13,14 +13,14 @@
 namespace carreau {
 namespace {
 
-constexpr double most_edges = 20e6;
+constexpr double max_edges = 20e6;
 /// Largest change of a trapezoid by halving, unit edges. An edge of unit length has some four trapezoids, whose errors
 /// are a third of it: its error is at most 0.3 %.
 constexpr double trapezoid_tolerance = 0.002;
 
 void check_count(double l) {
-  if (l <= most_edges) return;
-  throw LimitError("the metrics along a curve require more than " + format_number(most_edges) + " edges");
+  if (l <= max_edges) return;
+  throw LimitError("the metrics along a curve require more than " + format_number(max_edges) + " edges");
 }
 
 void check_breaks(std::span<const double> breaks, double lss) {

@@ -25,12 +25,12 @@ constexpr double rounding_floor = 1e-12;
 constexpr int initial_edges = 8;
 /// Into how many parts one pass may cut an edge. The first pass only learns the curve, and the second goes straight to
 /// the number that a smooth curve needs. Edges that still need cutting then are not smooth, and are cut with care.
-constexpr int most_parts = 32;
-int most_parts_in(int pass) noexcept { return pass == 1 ? most_parts : 4; }
+constexpr int max_parts = 32;
+int max_parts_in(int pass) noexcept { return pass == 1 ? max_parts : 4; }
 /// Parts are planned a little too short, the more so the more there are, because long chords underrate a curvature. One
 /// part too many costs one sample, a second cut doubles them all.
 double with_margin(double parts) noexcept { return parts * (1.08 + 0.01 * parts); }
-constexpr int most_passes = 60;
+constexpr int max_passes = 60;
 /// Edges are never narrower than this fraction of [a, b].
 constexpr double narrowest_edge = 1e-13;
 
@@ -63,12 +63,12 @@ Excess excess_of(V v, V chord, const Tolerance& tolerance) noexcept {
   Excess worst;
   const auto judge = [&](double deviation, double least) {
     const double allowed = std::max(tolerance.relative * c, least);
-    const double ratio = allowed > 0 ? deviation / allowed : (deviation > 0 ? most_parts : 0.);
+    const double ratio = allowed > 0 ? deviation / allowed : (deviation > 0 ? max_parts : 0.);
     if (ratio > worst.ratio) worst.ratio = ratio;
     if (!(ratio > 1)) return;
     // deviation / chord is proportional to the width of the edge, the deviation alone to its square
     const double parts = std::ceil(with_margin(least < tolerance.relative * c ? ratio : std::sqrt(ratio)));
-    worst.parts = std::max(worst.parts, std::max(2, static_cast<int>(std::min(parts, double{most_parts}))));
+    worst.parts = std::max(worst.parts, std::max(2, static_cast<int>(std::min(parts, double{max_parts}))));
   };
   judge(across, tolerance.across);
   judge(along, tolerance.along);
@@ -106,7 +106,7 @@ class Builder {
     const Interval interval = checked_interval();
     start(interval);
     bool limited = true;  // or all deviations are known to be small enough
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < max_passes; ++pass) {
       const std::vector<double> added = wanted(pass, limited);
       if (added.empty()) break;
       insert(added);
@@ -240,7 +240,7 @@ class Builder {
     Bends bends;
     for (std::size_t i = 0; i + 1 < support_.t.size(); ++i) {
       const Excess excess = edge_excess(i, plane, space, bends);
-      const int parts = std::min(excess.parts, most_parts_in(pass));
+      const int parts = std::min(excess.parts, max_parts_in(pass));
       limited = limited || excess.ratio > 1;
       if (excess.ratio <= 1 || !divisible(i, parts)) continue;
       for (int k = 1; k < parts; ++k) {

@@ -19,7 +19,7 @@ const SurfaceJet nothing{no_point, no_point, no_point, no_point, no_point, no_po
 constexpr std::size_t batch = 1024;
 // A host that fails everywhere, by an exception at each point, would take seconds. After so many failures at single
 // points, one of so many points is evaluated.
-constexpr std::size_t most_in_vain = 1024, stride_in_vain = 31;
+constexpr std::size_t max_in_vain = 1024, stride_in_vain = 31;
 // Below this difference of the sizes the direction is determined by rounding errors.
 constexpr double isotropic = 1e-6;
 
@@ -123,7 +123,7 @@ void FieldSampler::sample(std::span<const Vec2> uv, std::span<SurfaceJet> jets, 
     const bool told = evaluate(want_, points, there);
     answered_ = answered_ || told;
     if (told && (prescribed_ == nullptr || prescribe(points, there, here))) return;
-    if (!answered_ && in_vain_ >= most_in_vain && sample_some(points, there, here)) return;
+    if (!answered_ && in_vain_ >= max_in_vain && sample_some(points, there, here)) return;
     for (std::size_t k = 0; k < n; ++k)
       if (sample_one(points[k], there[k], here[k]))
         answered_ = true;

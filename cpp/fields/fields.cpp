@@ -23,7 +23,7 @@ namespace {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 const Vec3 nowhere{nan, nan, nan};
-constexpr int most_pixels_a_side = 65536;  // as in io/exr.cpp
+constexpr int max_pixels_a_side = 65536;  // as in io/exr.cpp
 
 // Channels in the order of this table; a file has them by name.
 struct Channel {
@@ -429,9 +429,9 @@ std::string field_file_of_face(const std::string& path, int ref) {
 
 void check_field_options(const FieldOptions& options) {
   const auto check = [](const char* name, int pixels) {
-    if (pixels < 1 || pixels > most_pixels_a_side)
+    if (pixels < 1 || pixels > max_pixels_a_side)
       throw InvalidArgument(std::string("the ") + name + " of an image is " + std::to_string(pixels) +
-                            " pixels; it must be from 1 to " + std::to_string(most_pixels_a_side));
+                            " pixels; it must be from 1 to " + std::to_string(max_pixels_a_side));
   };
   if (options.width == 0 && options.height == 0) {
     check("longer side", options.longest);

@@ -51,7 +51,7 @@ bool PlaceFans::carry(int from, int to, Vec3& v) const noexcept {
   const Vec3 inside = inward_[from] - dot(inward_[from], n) * n, into = inward_[to];
   for (const double side : {1., -1.}) {
     const Vec3 k = side * m;
-    if (dot(n, k) < least_unfolded || dot(roll(inside, n, k), into) >= 0) continue;
+    if (dot(n, k) < min_unfolded || dot(roll(inside, n, k), into) >= 0) continue;
     v = roll(v, n, k);
     return true;
   }

@@ -22,7 +22,7 @@ inline constexpr double same_wave = 0.7;
 inline constexpr double smooth_corner = 0.9;
 /// Cosine. Tangent planes that are turned farther, by 177 degrees, have no rolling between them.
 /// [Gradation.ConeAcrossACreaseWhateverTheSidesOfTheFaces]
-inline constexpr double least_unfolded = -0.999;
+inline constexpr double min_unfolded = -0.999;
 
 // Metrics (metric_grading)
 /// Ratio. Paths run along edges and from the middles of edges, every 30 degrees. So they are up to 1 / cos(15 degrees)

@@ -19,7 +19,7 @@ namespace carreau {
 namespace {
 
 // Chunks of 2^31 bytes and more are beyond the format; this leaves room for some hundred channels of 32 rows.
-constexpr int most_pixels_a_side = 65536;
+constexpr int max_pixels_a_side = 65536;
 
 // The state for the library's callbacks.
 struct Sink {
@@ -69,9 +69,9 @@ exr_pixel_type_t stored_type(ExrType type) {
 
 void check_part(const ExrPart& part) {
   const std::string name = "the part '" + part.name + "' of an EXR file ";
-  if (part.width < 1 || part.height < 1 || part.width > most_pixels_a_side || part.height > most_pixels_a_side)
+  if (part.width < 1 || part.height < 1 || part.width > max_pixels_a_side || part.height > max_pixels_a_side)
     throw InvalidArgument(name + "would be " + std::to_string(part.width) + " x " + std::to_string(part.height) +
-                          " pixels; each number must be from 1 to " + std::to_string(most_pixels_a_side));
+                          " pixels; each number must be from 1 to " + std::to_string(max_pixels_a_side));
   if (part.channels.empty()) throw InvalidArgument(name + "has no channel");
   std::set<std::string> names;
   for (const ExrChannel& channel : part.channels)

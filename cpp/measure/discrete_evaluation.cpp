@@ -47,13 +47,13 @@ class PatchAtlas {
     std::int32_t best = of_[index(first_[index(p)])];
     double most = -infinity;
     for (std::int32_t k = first_[index(p)]; k < first_[index(p) + 1]; ++k)
-      if (const double inside = least_weight(of_[index(k)], uv); inside > most) most = inside, best = of_[index(k)];
+      if (const double inside = min_weight(of_[index(k)], uv); inside > most) most = inside, best = of_[index(k)];
     return {best, uv};
   }
   [[nodiscard]] Vec2 middle(std::int32_t t) const {
     return (charts_.uv(t, 0) + charts_.uv(t, 1) + charts_.uv(t, 2)) / 3;
   }
-  [[nodiscard]] double least_weight(std::int32_t t, const Vec2& p) const {
+  [[nodiscard]] double min_weight(std::int32_t t, const Vec2& p) const {
     return std::ranges::min(charts_.weights(t, p));
   }
 

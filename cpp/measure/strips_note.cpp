@@ -13,10 +13,10 @@ namespace carreau {
 namespace {
 
 /// Q2. Triangles of a strip have less than this in the mean when their edges are six widths long.
-constexpr double least_mean_quality = 0.4;
+constexpr double min_mean_quality = 0.4;
 /// Share of the vertices of a layer.
-constexpr double most_inside = 0.05;
-constexpr std::size_t most_named = 5;
+constexpr double max_inside = 0.05;
+constexpr std::size_t max_named = 5;
 
 Vec3 place_of(const SurfaceMesh& mesh, const FaceMesh& face, std::int32_t vertex) {
   return mesh.vertices[face.vertex[vertex]];
@@ -45,7 +45,7 @@ double width_of_layer(const SurfaceMesh& mesh, const FaceMesh& face) {
     perimeter += norm(place_of(mesh, face, edge.second) - place_of(mesh, face, edge.first));
   }
   const auto inside = static_cast<double>(std::count(on_boundary.begin(), on_boundary.end(), 0));
-  const bool is_layer = inside <= most_inside * static_cast<double>(on_boundary.size());
+  const bool is_layer = inside <= max_inside * static_cast<double>(on_boundary.size());
   return is_layer && perimeter > 0 ? 2 * area / perimeter : 0;
 }
 
@@ -57,16 +57,16 @@ std::string describe_strips(const SurfaceMesh& mesh) {
   for (const FaceMesh& face : mesh.faces) {
     if (face.triangles.empty() || !face.uv_face.empty()) continue;
     const double quality = mean_quality(mesh, face);
-    if (quality >= least_mean_quality) continue;
+    if (quality >= min_mean_quality) continue;
     const double width = width_of_layer(mesh, face);
     if (!(width > 0)) continue;
-    if (++count > most_named) continue;
+    if (++count > max_named) continue;
     named += (count > 1 ? ", face " : "face ") + std::to_string(face.shown_ref()) + " (" + short_number(width) +
              " wide, mean Q2 " + short_number(quality) + ")";
   }
   if (count == 0) return {};
   return (count == 1 ? "a strip is so narrow that its" : std::to_string(count) + " strips are so narrow that their") +
-         " triangles have no good shape: " + named + (count > most_named ? ", ..." : "") +
+         " triangles have no good shape: " + named + (count > max_named ? ", ..." : "") +
          "; smaller sizes, or narrow_faces = 'collapse' with a larger narrow_ratio, avoid that";
 }
 

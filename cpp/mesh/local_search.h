@@ -93,12 +93,12 @@ void for_placements(const UnitCircle& circle, const Use& use) {
 }
 
 /// Steps of one search, halved ones included. A place that is so far off is no neighbour.
-inline constexpr int most_steps_of_compass = 100;
+inline constexpr int max_steps_of_compass = 100;
 
 /// Returns the place of the plane with the largest `value(place, best so far)` found from the origin, whose value is
 /// `start`. Searches by steps in eight directions: moves to the best, or halves the step when no direction is better,
 /// down to `last`. Places that are no better than the best so far may have any value that is not larger. For functions
-/// without a derivative, such as the worst of some shapes. Ends after `most_steps_of_compass`, too: a turned triangle
+/// without a derivative, such as the worst of some shapes. Ends after `max_steps_of_compass`, too: a turned triangle
 /// improves without end on the way to infinity.
 template <typename Value>
 Vec2 search_along_compass(double start, double first, double last, const Value& value) {
@@ -108,7 +108,7 @@ Vec2 search_along_compass(double start, double first, double last, const Value& 
   Vec2 place{0, 0};
   double best = start;
   int steps = 0;
-  for (double step = first; step > last && steps < most_steps_of_compass; ++steps) {
+  for (double step = first; step > last && steps < max_steps_of_compass; ++steps) {
     Vec2 next = place;
     for (const auto& [x, y] : directions) {
       const Vec2 there = place + step * Vec2{x, y};

@@ -23,7 +23,7 @@ struct PlaneEdge {
   int curve = -1;    ///< index of the curve that it comes from (for messages and refinement)
   int segment = -1;  ///< rank of the edge on that curve
   /// For a degenerate edge: the least number of triangles that this domain must contribute around the point of space.
-  int least_fan = 1;
+  int min_fan = 1;
   /// The least number for which all these triangles are at least half as wide as high.
   int wide_fan = 1;
 };

@@ -83,7 +83,7 @@ std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i);
 constexpr std::size_t chunk = 1024;
 /// Most pieces that a triangle is cut into, and pieces more for each triangle of the other mesh near it: some 5 k
 /// pieces lie beside k triangles.
-constexpr std::size_t most_pieces = 4096, pieces_of_each = 64;
+constexpr std::size_t max_pieces = 4096, pieces_of_each = 64;
 /// A piece is halved if it is longer than the triangle beside it by this factor: cuts beside a small one would leave
 /// slivers.
 constexpr double halved_from = 3;
@@ -258,7 +258,7 @@ class DistanceBounder {
     for (const std::int32_t v : from_.triangles[triangle]) todo.back().push_back(at_vertex_[index(v)]);
     const Vec3 across = cross(todo[0][1].p - todo[0][0].p, todo[0][2].p - todo[0][0].p);
     const Vec3 normal = norm(across) > 0 ? Vec3(across / norm(across)) : Vec3(Vec3::Zero());
-    std::size_t most = most_pieces, count = 0;
+    std::size_t most = max_pieces, count = 0;
     while (!todo.empty()) {
       const Piece piece = std::move(todo.back());
       todo.pop_back();
@@ -268,7 +268,7 @@ class DistanceBounder {
       const double enough = std::max(enough_, goal(found.lower));
       double upper = upper_of(piece, middle);
       if (upper > enough) upper = std::min(upper, height_over(piece, normal, middle, enough));
-      if (++count == most && most == most_pieces) most += pieces_of_each * beside(triangle);
+      if (++count == most && most == max_pieces) most += pieces_of_each * beside(triangle);
       if (count % 256 == 0) of_task.checkpoint();
       if (upper <= enough || count >= most)
         found.upper = std::max(found.upper, upper);

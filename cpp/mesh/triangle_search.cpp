@@ -28,7 +28,7 @@ double surface_of(const SearchBox& box) noexcept {
 
 /// Boxes of a triangle at most, and the surface of a box in areas of its triangle from which on there are several. A
 /// triangle of good shape has about six at most [time only].
-constexpr int most_boxes = 16;
+constexpr int max_boxes = 16;
 constexpr double large_box = 12;
 
 /// Slices of equal length along the longest side.
@@ -36,7 +36,7 @@ int slices_of(const std::array<Vec3, 3>& c, const SearchBox& box) noexcept {
   const double area = 0.5 * norm(cross(c[1] - c[0], c[2] - c[0]));
   const double ratio = surface_of(box) / large_box;
   if (!(ratio > area)) return 1;
-  return ratio < most_boxes * area ? static_cast<int>(std::ceil(ratio / area)) : most_boxes;
+  return ratio < max_boxes * area ? static_cast<int>(std::ceil(ratio / area)) : max_boxes;
 }
 
 // Boxes of the slices; widened, since their corners are rounded.

@@ -44,13 +44,13 @@ class Chart {
   /// The point at y, by Newton's method from a point nearby, which is returned if the chart folds.
   [[nodiscard]] Vec2 point(const Vec2& y, const Vec2& near) const noexcept {
     constexpr int steps = 4;           // from within a unit length: 1e-8 after three
-    constexpr double least_det = 0.1;  // of the derivative: 1 at the origin, 0 on the fold
+    constexpr double min_det = 0.1;  // of the derivative: 1 at the origin, 0 on the fold
     Vec2 e = near - origin_;
     for (int k = 0; k < steps; ++k) {
       const Vec2 d = y - at_offset(e), w = offset(d);
       const double a = 1 + 2 * (u_.a * e.x() + u_.b * e.y()), b = 2 * (u_.b * e.x() + u_.c * e.y()),
                    c = 2 * (v_.a * e.x() + v_.b * e.y()), f = 1 + 2 * (v_.b * e.x() + v_.c * e.y()), det = a * f - b * c;
-      if (!(det > least_det)) return near;
+      if (!(det > min_det)) return near;
       e = e + (1 / det) * Vec2{f * w.x() - b * w.y(), a * w.y() - c * w.x()};
     }
     return origin_ + e;

@@ -49,16 +49,16 @@ class LargestInside {
 
   Matrix<D> solve() {
     p_ = 0.5 * Matrix<D>::Identity();
-    for (double weight = 1; weight > least_weight; weight *= 0.2) {
-      for (int step = 0; step < most_steps && newton(weight) > enough; ++step) {
+    for (double weight = 1; weight > min_weight; weight *= 0.2) {
+      for (int step = 0; step < max_steps && newton(weight) > enough; ++step) {
       }
     }
     return p_;
   }
 
  private:
-  static constexpr double least_weight = 1e-10, enough = 1e-6;
-  static constexpr int most_steps = 50, most_halvings = 40;
+  static constexpr double min_weight = 1e-10, enough = 1e-6;
+  static constexpr int max_steps = 50, max_halvings = 40;
   static constexpr int size = D * (D + 1) / 2;
 
   /// The function to be least; infinity outside.
@@ -96,7 +96,7 @@ class LargestInside {
     for (int i = 0; i < size; ++i) way += step(i) * directions[i];
     const double here = value(p_, weight);
     double share = 1;
-    for (int halving = 0; halving < most_halvings; ++halving, share *= 0.5) {
+    for (int halving = 0; halving < max_halvings; ++halving, share *= 0.5) {
       const Matrix<D> next = p_ + share * way;
       if (!(value(next, weight) < here)) continue;
       p_ = next;

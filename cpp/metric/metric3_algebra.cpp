@@ -13,7 +13,7 @@ namespace carreau {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_sweeps = 40;
+constexpr int max_sweeps = 40;
 
 /// Lower triangular L, L L^T = M; not sound when M is not positive definite in double precision.
 struct Factor3 {
@@ -38,7 +38,7 @@ using Columns = std::array<Vec3, 3>;
 /// One-sided Jacobi (Hestenes): rotates the columns until they are orthogonal, longest first. The result is U S of A =
 /// U S V^T, each singular value with a small relative error.
 void orthogonalise(Columns& a) noexcept {
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     bool turned = false;
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t j = i + 1; j < 3; ++j) {

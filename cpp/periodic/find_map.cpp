@@ -89,7 +89,7 @@ std::optional<Isometry> find_map(const std::vector<Vec3>& from, const std::vecto
   Isometry translation;
   translation.shift = mean_of(to) - mean_of(from);
   if (accepted(translation)) return translation;
-  if (from.size() > most_corners || to.size() != from.size()) return {};
+  if (from.size() > max_corners || to.size() != from.size()) return {};
   for (const Isometry& map : candidates(from, to, gap))
     if (accepted(map)) return map;
   return {};

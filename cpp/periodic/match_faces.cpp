@@ -44,7 +44,7 @@ std::string format_digits(double x) {
 
 class Matcher {
  public:
-  Matcher(const CurveModel& model, double diag) : model_(model), gap_(most_gap * diag) {
+  Matcher(const CurveModel& model, double diag) : model_(model), gap_(max_gap * diag) {
     for (int c = 0; c < std::ssize(model.topology.curves); ++c) shapes_.push_back(shape_of(model, c));
     for (std::size_t f = 0; f < model.model.faces.size(); ++f) faces_.push_back(face_shape(f));
   }

@@ -112,7 +112,7 @@ void SlaveSizes::for_images(int face, std::span<const Vec2> uv, unsigned want, c
     model_.cad.surface(other, want | want_position | want_first, places, images);
     for (std::size_t i = 0; i < uv.size(); ++i) {
       const double reach = norm(jets[i].su) + norm(jets[i].sv);
-      if (points[i].distance <= most_gap * reach) use(i, jets[i], slave.pair, places[i], images[i]);
+      if (points[i].distance <= max_gap * reach) use(i, jets[i], slave.pair, places[i], images[i]);
     }
   }
 }
@@ -137,7 +137,7 @@ void SlaveSizes::intersect(const SizeRules& rules, int face, std::span<const Vec
     // Derivatives of the image's parameters: least squares of R S_u in its tangent plane.
     const double a = dot(image.su, image.su), b = dot(image.su, image.sv), c = dot(image.sv, image.sv);
     const double determinant = a * c - b * b;
-    if (!(determinant > least_independence * a * c)) return;
+    if (!(determinant > min_independence * a * c)) return;
     const auto carried = [&](const Vec3& tangent) {
       const double p = dot(image.su, tangent), q = dot(image.sv, tangent);
       return Vec2((c * p - b * q) / determinant, (a * q - b * p) / determinant);

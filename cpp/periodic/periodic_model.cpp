@@ -240,7 +240,7 @@ class Classes {
 PeriodicModel find_periodic(const CurveModel& model, double diag) {
   if (model.model.periodicities.empty()) return {};
   std::vector<std::string> remarks;
-  PeriodicModel periodic = Classes(model, match_faces(model, diag, remarks), most_gap * diag).run();
+  PeriodicModel periodic = Classes(model, match_faces(model, diag, remarks), max_gap * diag).run();
   periodic.remarks = std::move(remarks);
   return periodic;
 }

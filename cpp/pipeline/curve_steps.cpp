@@ -45,7 +45,7 @@ void keep_to_curves(CompositeRun& run) {
       const EdgeAccuracy found = edge_accuracy(run.cad, run.curve_model.face_ref(use), use.curve + 1, t[k], t[k + 1], ends);
       return found.angle_deg > limits.edge_angle_deg || found.deviation > limits.deviation;
     };
-    for (int round = 0; round < most_curve_halvings; ++round) {
+    for (int round = 0; round < max_curve_halvings; ++round) {
       bool any = false;
       for (int k = curve.segments() - 1; k >= 0; --k) {
         const bool off = is_off(k);

@@ -17,7 +17,7 @@ namespace carreau {
 namespace {
 
 // Rounds in which chords that faces share are divided on both faces of a pair.
-constexpr int most_chord_rounds = 4;
+constexpr int max_chord_rounds = 4;
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
@@ -116,7 +116,7 @@ void separate_shared_chords(CompositeRun& run) {
     separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads, team, run.monitor);
   };
   if (run.periodic.empty()) return separate();
-  for (int round = 0; round < most_chord_rounds; ++round) {
+  for (int round = 0; round < max_chord_rounds; ++round) {
     std::vector<Triangles> before(run.patches.size());
     for (std::size_t f = 0; f < before.size(); ++f)
       if (run.periodic.is_periodic[f] != 0 && run.patches[f]) before[f] = run.patches[f]->plane.triangles;

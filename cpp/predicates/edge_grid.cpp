@@ -63,10 +63,10 @@ EdgeGrid::EdgeGrid(std::span<const Vec2> vertices, Edges edges) {
   const double n = static_cast<double>(std::max<std::size_t>(edges.size(), 1));
   const double cells = 4 * n, longest = 16;
   const auto limit = [&](double span) { return std::max(1.0, span > 0 ? longest / span : cells); };
-  const double most_x = limit(edges.empty() ? 0 : mean_span(sorted_x, vertices, edges, 0));
-  const double most_y = limit(edges.empty() ? 0 : mean_span(sorted_y, vertices, edges, 1));
-  const double nx = std::clamp(std::sqrt(cells), std::min(cells / most_y, most_x), most_x);
-  const double ny = std::clamp(cells / nx, 1.0, most_y);
+  const double max_x = limit(edges.empty() ? 0 : mean_span(sorted_x, vertices, edges, 0));
+  const double max_y = limit(edges.empty() ? 0 : mean_span(sorted_y, vertices, edges, 1));
+  const double nx = std::clamp(std::sqrt(cells), std::min(cells / max_y, max_x), max_x);
+  const double ny = std::clamp(cells / nx, 1.0, max_y);
   xs_ = quantile_lines(sorted_x, static_cast<std::size_t>(std::max(1.0, nx)));
   ys_ = quantile_lines(sorted_y, static_cast<std::size_t>(ny));
 

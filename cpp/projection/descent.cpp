@@ -12,7 +12,7 @@ namespace carreau::projection {
 namespace {
 
 namespace limit = thresholds::projection;
-constexpr int most_halvings = 20;
+constexpr int max_halvings = 20;
 constexpr double halved = 0.35;
 
 }  // namespace
@@ -26,7 +26,7 @@ void Descent::finish(const Vec2& step) {
 // A side of the region is one point of space: the derivative along it vanishes, and the surface leaves it in different directions. Turns to
 // the place of the side where the distance falls most, by the derivative of these directions along the side, and leaves it there.
 bool Descent::turn_at_pole(const Vec3& r) {
-  if (turns_ >= limit::most_turns) return false;
+  if (turns_ >= limit::max_turns) return false;
   for (int along = 0; along < 2; ++along) {
     const int across = 1 - along;
     const bool at_low = at_[across] <= region_.low[across];
@@ -67,7 +67,7 @@ bool Descent::take(const SurfaceJet& jet) {
   if (!is_finite(jet.s) && !found_) return false;
   const bool worse = found_ && !(square <= square_ * (1 + 1e-13)) && move_ > 1e-9 * size_;
   if (worse || !is_finite(jet.s)) {
-    if (++halvings_ > most_halvings || steps_ >= limit::most_steps) return finish({0, 0}), false;
+    if (++halvings_ > max_halvings || steps_ >= limit::max_steps) return finish({0, 0}), false;
     step_ *= halved, move_ *= halved;
     trial_ = at_ + step_;
     return true;
@@ -86,7 +86,7 @@ bool Descent::take(const SurfaceJet& jet) {
   const bool still = move_ <= limit::shortest_step * diagonal_ || (move_ <= 1e-10 * diagonal_ && move_ >= 0.5 * move_before) ||
                      (!step.full && step.gain <= 1e-17 * square_ && step.gain <= 1e-28 * diagonal_ * diagonal_);
   if (still && turn_at_pole(r)) return true;
-  if (last || still || steps_ >= limit::most_steps) return finish((last || still) && straight ? step_ : Vec2(0, 0)), false;
+  if (last || still || steps_ >= limit::max_steps) return finish((last || still) && straight ? step_ : Vec2(0, 0)), false;
   trial_ = step.to;
   return true;
 }

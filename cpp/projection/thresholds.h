@@ -22,7 +22,7 @@ inline constexpr double error_margin = 3;
 /// Share of the diagonal of a face. Smaller cells become leaves whatever their shape: at kinks and singular points.
 inline constexpr double smallest_leaf = 1e-3;
 /// Number of cells of a face; more are not cut. A bound of memory.
-inline constexpr std::size_t most_cells = 40'000;
+inline constexpr std::size_t max_cells = 40'000;
 
 // Newton's method (descent, restricted_step)
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
@@ -33,11 +33,11 @@ inline constexpr double bend_of_last_step = 1e-4;
 /// Share of the diagonal. Steps that are shorter end the descent where the Hessian is nearly singular. [Projector.TorusFromItsAxis]
 inline constexpr double shortest_step = 1e-14;
 /// Number of evaluations of one descent. [Projector.TorusFromItsAxis]
-inline constexpr int most_steps = 60;
+inline constexpr int max_steps = 60;
 /// Share of the diagonal. A side of a region that is shorter is a point. [Projector.Sphere, Projector.ConeAndItsApex]
 inline constexpr double length_of_pole = 1e-9;
 /// Number of times that a descent turns at such a point.
-inline constexpr int most_turns = 4;
+inline constexpr int max_turns = 4;
 /// Ratio of the eigenvalues of the Hessian in the first fundamental form. Below it the Hessian counts as singular.
 inline constexpr double regular_hessian = 1e-3;
 /// Ratio of the eigenvalues. Smaller ones, and negative ones, are replaced.

@@ -15,7 +15,7 @@ namespace carreau {
 namespace {
 
 // A cut makes new ends, which can lie on further curves.
-constexpr int most_rounds = 4;
+constexpr int max_rounds = 4;
 
 /// Cuts curves once at ends of others that lie on them; returns false if there was nothing to cut.
 bool cut_once(Model& model, ModelSupports& supports, Cad& host, const Gluing& options, Monitor& monitor) {
@@ -97,7 +97,7 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
     for (const Face& face : m.faces) n += face.curves.size();
     return n;
   };
-  for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
+  for (int round = 0; round < max_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
   }
   report = {};
   Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open, options.eps_face);

@@ -41,7 +41,7 @@ std::array<Vec3, 3> corners_of(const Attractor& a, const Row& element) {
 /// Divisions of the sides of an element into pieces of at most `spacing`.
 int divisions(const std::array<Vec3, 3>& c, double spacing) {
   const double longest = std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
-  return static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, static_cast<double>(most_attractor_places)));
+  return static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, static_cast<double>(max_attractor_places)));
 }
 
 /// Number of places of an element with so many divisions.
@@ -53,7 +53,7 @@ double place_count(const Row& element, int n) {
 /// The largest number of places below the bound, with a spacing that doubles.
 double spacing_of(const Attractor& a) {
   double spacing = 0.5 * a.reach;
-  if (a.elements.size() > most_attractor_places) return infinity;
+  if (a.elements.size() > max_attractor_places) return infinity;
   for (;; spacing *= 2) {
     double count = 0;
     bool undivided = true;
@@ -62,7 +62,7 @@ double spacing_of(const Attractor& a) {
       undivided = undivided && n == 1;
       count += place_count(element, n);
     }
-    if (count <= static_cast<double>(most_attractor_places) || undivided) return spacing;
+    if (count <= static_cast<double>(max_attractor_places) || undivided) return spacing;
   }
 }
 
@@ -70,7 +70,7 @@ void add_places(const Attractor& a, std::vector<SteepPlace>& places) {
   if (a.surrounding <= steep_ratio * a.size) return;
   const double spacing = spacing_of(a);
   if (!std::isfinite(spacing)) {  // the corners of some elements
-    const std::size_t step = a.elements.size() / most_attractor_places + 1;
+    const std::size_t step = a.elements.size() / max_attractor_places + 1;
     for (std::size_t i = 0; i < a.elements.size(); i += step) places.push_back({corners_of(a, a.elements[i])[0], 0.5 * a.reach});
     return;
   }

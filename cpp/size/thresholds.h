@@ -29,7 +29,7 @@ inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor 
 inline constexpr double outside_share = 0.125;
 /// Number of places at which an attractor is looked for between samples of faces: each costs some lookups a face.
 /// [Attractors.PlacesCoverTheElements]
-inline constexpr std::size_t most_attractor_places = 2000;
+inline constexpr std::size_t max_attractor_places = 2000;
 /// Ratio of sizes, from one vertex to the next, above which a place is steep.
 /// [BackgroundField.SteepPlacesAreWhereTheFieldJumps]
 inline constexpr double steep_ratio = 1.5;

@@ -22,7 +22,7 @@ class Helpers {
   void send(std::function<void()> work);
 
   /// Number of threads that may work at a time in this process.
-  static std::size_t most_threads() noexcept;
+  static std::size_t max_threads() noexcept;
 
  private:
   struct State;

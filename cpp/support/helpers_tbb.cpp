@@ -41,7 +41,7 @@ void Helpers::send(std::function<void()> work) {
   });
 }
 
-std::size_t Helpers::most_threads() noexcept {
+std::size_t Helpers::max_threads() noexcept {
   return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 }
 

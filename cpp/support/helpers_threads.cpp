@@ -64,7 +64,7 @@ void Helpers::send(std::function<void()> work) {
   s.changed.notify_all();
 }
 
-std::size_t Helpers::most_threads() noexcept {
+std::size_t Helpers::max_threads() noexcept {
   return 256;  // more would cost memory and gain nothing
 }
 

@@ -287,7 +287,7 @@ class Range final : public SteppedTask {
 
 void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor) {
   // Asked for more than it has, oneTBB would print a warning.
-  const std::size_t most = Helpers::most_threads();
+  const std::size_t most = Helpers::max_threads();
   const int threads =
       static_cast<int>(std::min({static_cast<std::size_t>(std::max(run.threads, 1)), most, tasks.size()}));
   if (threads <= 1) {

@@ -59,7 +59,7 @@ class Remeshing {
 
   /// Overlapping elements are removed as damaged ones are; the elements that they bare may overlap, too.
   void remove_overlaps() {
-    for (int round = 0; round < thresholds::variable::most_overlap_rounds; ++round) {
+    for (int round = 0; round < thresholds::variable::max_overlap_rounds; ++round) {
       const std::vector<std::int32_t> found = crossing_triangles(eroded_);
       if (found.empty()) return;
       damage_.resize(in_.piece.triangles.size(), 0);
@@ -95,7 +95,7 @@ class Remeshing {
     }
   }
   bool add_rough_place(const Vec2& p) {
-    if (rough_.size() >= thresholds::variable::most_rough_places) return false;
+    if (rough_.size() >= thresholds::variable::max_rough_places) return false;
     const bool known = std::any_of(rough_.begin(), rough_.end(), [&](const Vec2& q) { return p == q; });
     if (!known) rough_.push_back(p);
     return !known;

@@ -58,7 +58,7 @@ std::shared_ptr<testing::AnalyticCad> cad_of(const std::string& name) {
 using Settings = std::span<char* const>;
 
 int run(const std::string& name, double size, int repeat, const char* out, Settings settings) {
-  double best = 1e300, least_wall = 1e300, least_cpu = 1e300, least_plane = 1e300;
+  double best = 1e300, min_wall = 1e300, min_cpu = 1e300, min_plane = 1e300;
   for (int i = 0; i < repeat; ++i) {
     const auto cad = cad_of(name);
     if (!cad) return std::fprintf(stderr, "unknown case %s\n", name.c_str()), 2;
@@ -79,8 +79,8 @@ int run(const std::string& name, double size, int repeat, const char* out, Setti
     const CompositeReport& r = session.report();
     const double meshing = r.seconds_sampling + r.seconds_plane + r.seconds_lift;
     best = std::min(best, meshing * cpu / wall);
-    least_wall = std::min(least_wall, wall), least_cpu = std::min(least_cpu, cpu);
-    least_plane = std::min(least_plane, r.seconds_plane);
+    min_wall = std::min(min_wall, wall), min_cpu = std::min(min_cpu, cpu);
+    min_plane = std::min(min_plane, r.seconds_plane);
     if (i + 1 < repeat) continue;
     const FlatMesh mesh = session.exported();
     const QualitySummary q = summarise_quality(mesh);
@@ -102,8 +102,8 @@ int run(const std::string& name, double size, int repeat, const char* out, Setti
         name.c_str(), size, q.triangles, best, static_cast<double>(q.triangles) / best, q.q2.mean, q.q2.p1, q.q2.min,
         q.degree6, mean / static_cast<double>(edges), static_cast<double>(in_range) / static_cast<double>(edges),
         q.area, static_cast<double>(r.calls.surface()) / static_cast<double>(q.vertices),
-        find_defects(session.mesh()).size(), r.seconds_curves, r.seconds_sampling, least_plane, r.seconds_lift,
-        least_wall, least_cpu);
+        find_defects(session.mesh()).size(), r.seconds_curves, r.seconds_sampling, min_plane, r.seconds_lift,
+        min_wall, min_cpu);
     std::fflush(stdout);
     if (out != nullptr) session.write(out);
   }

@@ -13,7 +13,7 @@
 namespace carreau {
 
 /// Larger domains take too long for a fuzzer.
-constexpr int most_built = 16;
+constexpr int max_built = 16;
 constexpr double coarse = 0.5;  ///< share of an edge; where arcs conflict polylines are a thousand times finer
 
 /// Any domain becomes a geometry whose curves begin and end at their points, or an InvalidModel.
@@ -49,7 +49,7 @@ int fuzz_plane(const std::uint8_t* data, std::size_t size, Read&& read) {
   }
   for (const PlaneSide& side : input.sides)
     FUZZ_CHECK(side.curve >= 0 && side.curve < static_cast<int>(input.curves.size()));
-  if (input.arrange && n <= most_built) {
+  if (input.arrange && n <= max_built) {
     try {
       arrange_segments(input);
     } catch (const InvalidModel& error) {
@@ -63,7 +63,7 @@ int fuzz_plane(const std::uint8_t* data, std::size_t size, Read&& read) {
     return all;
   };
   const std::size_t before = segments();
-  if (n <= most_built) build(input);
+  if (n <= max_built) build(input);
   smooth_polygons(input, usual_corner_angle);
   FUZZ_CHECK(segments() == before);  // chains lose none
   return 0;

@@ -11,7 +11,7 @@
 namespace command {
 namespace {
 
-constexpr std::int64_t most_pairs = 1'000'000;
+constexpr std::int64_t max_pairs = 1'000'000;
 
 std::string sentence(const FaceCrossing& crossing) {
   char text[240];
@@ -42,7 +42,7 @@ Crossings crossings_of(carreau_mesh* mesh, const std::vector<std::int32_t>& refs
     return std::min(room, crossings.pairs);
   };
   std::int64_t n = ask(usual);
-  if (n < crossings.pairs) n = ask(std::min(crossings.pairs, most_pairs));
+  if (n < crossings.pairs) n = ask(std::min(crossings.pairs, max_pairs));
   std::vector<std::int32_t> crossing(triangles.begin(), triangles.begin() + 2 * static_cast<std::ptrdiff_t>(n));
   std::sort(crossing.begin(), crossing.end());
   crossings.triangles = std::unique(crossing.begin(), crossing.end()) - crossing.begin();

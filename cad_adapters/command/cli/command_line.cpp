@@ -30,7 +30,7 @@ constexpr const char* geometry_files =
     "CAD file (.step, .iges, .brep), patches (.bpt), .pardom, molecule (.xyzr, .xyz, .pdb, .cif), grid (.fmt, .asc, .cyl, ...), "
     "triangles (.stl, .off, .obj, .ply, .mesh, .vtu, .msh, ...), or a formula: 'z = ...' in x, y; 'x = ...; y = ...; z = ...' in u, v";
 constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
-constexpr int most_listed = 1'000'000;
+constexpr int max_listed = 1'000'000;
 constexpr int unusable = 2;  // exit code
 
 void parse_picture_size(const std::string& text, PictureOptions& options) {
@@ -234,7 +234,7 @@ void CommandLine::add_info() {
   info->add_option("--host", info_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")
       ->type_name(kind::file);
   info->add_option("--limit", info_.limit, "Most sentences of each kind; 10 by default")
-      ->check(CLI::Range(1, most_listed))
+      ->check(CLI::Range(1, max_listed))
       ->type_name(kind::number)
       ->capture_default_str();
   info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
@@ -287,11 +287,11 @@ void CommandLine::add_check() {
   check->add_flag("--allow-crossings", check_.allow_crossings, "Do not count crossing triangles as defects");
   check->add_flag_callback("--no-crossings", [] {}, "The default")->group("");  // earlier scripts have it
   check->add_option("--limit", check_.limit, "Most defects to list; 20 by default")
-      ->check(CLI::Range(1, most_listed))
+      ->check(CLI::Range(1, max_listed))
       ->type_name(kind::number)
       ->capture_default_str();
   check->add_option("--worst", check_.worst, "Number of worst triangles to list; 3 by default")
-      ->check(CLI::Range(0, most_listed))
+      ->check(CLI::Range(0, max_listed))
       ->type_name(kind::number)
       ->capture_default_str();
   check->add_flag("--faces", check_.faces, "Print a line for each face");

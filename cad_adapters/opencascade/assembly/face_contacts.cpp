@@ -47,9 +47,9 @@ constexpr double same_direction = 1e-6;
 /// Points in each direction of a curved face, first and when a part of them lies on the other face.
 constexpr int few_points = 8, many_points = 40;
 /// Points of curved faces in all, about a second; then few points are enough.
-constexpr int most_points = 200'000;
+constexpr int max_points = 200'000;
 /// Projections onto free-form surfaces in all, about a second; more faces are not compared.
-constexpr int most_projections = 20'000;
+constexpr int max_projections = 20'000;
 /// Pieces of a circle in a plane: its polygon lacks 1e-4 of its area.
 constexpr double pieces_of_circle = 256;
 
@@ -278,10 +278,10 @@ class ContactAreas {
   }
 
   double common_area_of_points(int f, int g, gp_Pnt& place) {
-    if (projections_ >= most_projections && (surface(f).GetType() > GeomAbs_Torus || surface(g).GetType() > GeomAbs_Torus)) return 0;
+    if (projections_ >= max_projections && (surface(f).GetType() > GeomAbs_Torus || surface(g).GetType() > GeomAbs_Torus)) return 0;
     if (area(g) < area(f)) std::swap(f, g);
     double share = share_on(f, g, few_points, place);
-    if (share > 0 && share < 1 && points_ < most_points && projections_ < most_projections) share = share_on(f, g, many_points, place);
+    if (share > 0 && share < 1 && points_ < max_points && projections_ < max_projections) share = share_on(f, g, many_points, place);
     return share * area(f);
   }
 

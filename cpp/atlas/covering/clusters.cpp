@@ -155,7 +155,7 @@ Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hop
 namespace {
 
 /// The least distance between both borders along rays from the centre to their vertices, as a share of the ray.
-double least_width(const Polygon& inner, const Polygon& outer, const Vec2& centre) {
+double min_width(const Polygon& inner, const Polygon& outer, const Vec2& centre) {
   const auto nearest = [&](const Polygon& border, const Vec2& ray) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < border.size(); ++i) {
@@ -184,10 +184,10 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
   if (!defect.sentence.empty()) return {thresholds::no_disc, defect.sentence};
   const Frame frame = frame_of(surface, fans, members);
   const std::string cluster = "the cluster with vertex " + std::to_string(members.front() + 1);
-  if (frame.least_cosine < thresholds::steepest_cosine)
-    return {thresholds::steep + thresholds::steepest_cosine - frame.least_cosine,
+  if (frame.min_cosine < thresholds::steepest_cosine)
+    return {thresholds::steep + thresholds::steepest_cosine - frame.min_cosine,
             cluster + " is far from its plane: the normal at vertex " + std::to_string(frame.steepest + 1) +
-                " makes an angle of cosine " + short_number(frame.least_cosine) + " with the normal of the plane"};
+                " makes an angle of cosine " + short_number(frame.min_cosine) + " with the normal of the plane"};
   const auto projected = [&](const std::vector<std::int32_t>& border) {
     Polygon p;
     for (const std::int32_t v : border) p.push_back(frame.project(surface.vertices[static_cast<std::size_t>(v)]));
@@ -199,7 +199,7 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
     // Not a defect, but a shape that distorts its chart: the sentence is empty.
     const StarCentre star = star_centre(inner);
     if (!star.found) return {thresholds::no_star, ""};
-    const double room = std::min({star.room, room_around(outer, star.place), least_width(inner, outer, star.place)});
+    const double room = std::min({star.room, room_around(outer, star.place), min_width(inner, outer, star.place)});
     return {thresholds::no_star * std::clamp(1 - room / thresholds::star_room, 0.0, 1.0), ""};
   } catch (const DomainError& error) {
     return {thresholds::folded, cluster + " does not project to its plane: " + error.what()};

@@ -46,7 +46,7 @@ Frame frame_of(const Triangulation& surface, const Fans& fans, const std::vector
     n = moved / norm(moved);
   }
   const std::size_t worst = steepest(best);
-  frame.normal = best, frame.least_cosine = dot(normals[worst], best), frame.steepest = at[worst];
+  frame.normal = best, frame.min_cosine = dot(normals[worst], best), frame.steepest = at[worst];
   int axis = 0;
   best.cwiseAbs().minCoeff(&axis);
   Vec3 along(0, 0, 0);

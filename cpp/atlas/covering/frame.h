@@ -11,7 +11,7 @@ struct Frame {
   Vec3 origin{0, 0, 0}, u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
   /// The smallest cosine between the normal and the normal of a triangle of the region; below 0 the region folds in
   /// projection.
-  double least_cosine = 0;
+  double min_cosine = 0;
   std::int32_t steepest = 0;  ///< a vertex of that triangle
 
   [[nodiscard]] Vec2 project(const Vec3& p) const { return {dot(u, p - origin), dot(v, p - origin)}; }

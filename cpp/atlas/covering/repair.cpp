@@ -91,8 +91,8 @@ class Repair {
     const double before = sum(clusters);
     for (const std::int32_t v : list) move(v, to);
     judge(clusters);
-    constexpr double least_gain = 1e-3;
-    if (sum(clusters) < before - least_gain) return true;
+    constexpr double min_gain = 1e-3;
+    if (sum(clusters) < before - min_gain) return true;
     for (std::size_t i = 0; i < list.size(); ++i) move(list[i], from[i]);
     judge(clusters);
     return false;

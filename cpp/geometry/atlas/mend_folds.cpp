@@ -110,7 +110,7 @@ class FoldMender {
         continue;
       }
       double& anchor = anchor_[rank_[i]];
-      anchor = std::max(anchor * thresholds::loosening, thresholds::least_anchor);
+      anchor = std::max(anchor * thresholds::loosening, thresholds::min_anchor);
       if (anchor > thresholds::giving_way) continue;
       for (const Corner& corner : covering_.charts()[i].corners)
         for (const std::int32_t j : covering_.triples()[static_cast<std::size_t>(corner.triple)].chart)
@@ -192,13 +192,13 @@ class FoldMender {
   /// The energy after a step that is short enough, or the previous energy if no step is.
   double step_down(const std::vector<MendRow>& pulling, double& damping, double now) {
     const Blocks right = downhill(pulling);
-    for (; damping < thresholds::most_damping; damping *= 4) {
+    for (; damping < thresholds::max_damping; damping *= 4) {
       std::vector<double> weight = anchor_;
       for (double& w : weight) w += damping;
       const Blocks step = solve_step(gram_, weight, pulling, right);
       move(step, 1);
       if (const double then = energy(); then < now) {
-        damping = std::max(damping / 4, thresholds::least_damping);
+        damping = std::max(damping / 4, thresholds::min_damping);
         return then;
       }
       move(step, -1);

@@ -21,12 +21,12 @@ class Step {
   }
 
   [[nodiscard]] Blocks solve(const Blocks& right) const {
-    constexpr int most_steps = 200;
+    constexpr int max_steps = 200;
     constexpr double enough = 1e-8;  // of the square of the residual
     Blocks x(right.size(), Block::Zero()), residual = right, z = conditioned(residual), p = z;
     double now = product(residual, z);
     const double last = enough * now;
-    for (int k = 0; k < most_steps && now > last; ++k) {
+    for (int k = 0; k < max_steps && now > last; ++k) {
       const Blocks image = apply(p);
       const double share = now / product(p, image);
       for (std::size_t r = 0; r < x.size(); ++r) x[r] += share * p[r], residual[r] -= share * image[r];

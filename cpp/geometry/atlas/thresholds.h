@@ -16,7 +16,7 @@ inline constexpr double wanted_jacobian = 0.4;
 inline constexpr double watched_jacobian = 0.7;
 
 /// Weight of distances from the initial positions: at first, factor of each round, and minimum.
-inline constexpr double first_anchor = 1, loosening = 0.3, least_anchor = 1e-4;
+inline constexpr double first_anchor = 1, loosening = 0.3, min_anchor = 1e-4;
 /// Below this weight, neighbours move as well; before, charts at the fold alone, so that the repair stays local.
 inline constexpr double giving_way = 0.1;
 /// Mean square of values per coefficient that the vertices of a chart do not determine.
@@ -24,7 +24,7 @@ inline constexpr double undetermined = 1e-3;
 /// Rounds, and steps in each. Joint.off and spot need one round, the bunny three.
 inline constexpr int mend_rounds = 24, mend_steps = 30;
 /// Damping of steps (Levenberg and Marquardt), in the unit of anchors.
-inline constexpr double first_damping = 1, least_damping = 1e-6, most_damping = 1e8;
+inline constexpr double first_damping = 1, min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.
 inline constexpr double notable_gain = 0.999;
 

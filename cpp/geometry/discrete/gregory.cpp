@@ -176,7 +176,7 @@ void keep_near(GregoryTriangle& patch) noexcept {
   const Vec3 &a = patch.border[0], &b = patch.border[4], &c = patch.border[8];
   const Vec3 normal = cross(b - a, c - a);
   const double area2 = norm(normal), longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  const double most_in_plane = area2 > 0 ? thresholds::max_inner_shift * area2 / longest : most;
+  const double max_in_plane = area2 > 0 ? thresholds::max_inner_shift * area2 / longest : most;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     const Vec3 flat = 0.5 * patch.border[4 * i] + 0.25 * patch.border[4 * j] + 0.25 * patch.border[4 * k];
@@ -185,7 +185,7 @@ void keep_near(GregoryTriangle& patch) noexcept {
       if (const double far = norm(off); far > most) off *= most / far, *point = flat + off;
       if (!(area2 > 0)) continue;
       const Vec3 up = dot(off, normal) / (area2 * area2) * normal, in_plane = off - up;
-      if (const double far = norm(in_plane); far > most_in_plane) *point = flat + up + (most_in_plane / far) * in_plane;
+      if (const double far = norm(in_plane); far > max_in_plane) *point = flat + up + (max_in_plane / far) * in_plane;
     }
   }
 }

@@ -86,12 +86,12 @@ class LineFinder {
     std::vector<char> kept(mesh_.vertices.size(), 1);
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
       if (found_.sharp[e] != 0)
-        count[sets.find(index(mesh_.edges[e][0]))] += certain_[e] != 0 ? thresholds::least_edges : 1;
+        count[sets.find(index(mesh_.edges[e][0]))] += certain_[e] != 0 ? thresholds::min_edges : 1;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(kept.size()); ++v)
       if (degree(v) == 1) kept[sets.find(index(v))] = 0;
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
       const std::size_t set = sets.find(index(mesh_.edges[e][0]));
-      if (found_.sharp[e] == 0 || kept[set] != 0 || count[set] >= thresholds::least_edges) continue;
+      if (found_.sharp[e] == 0 || kept[set] != 0 || count[set] >= thresholds::min_edges) continue;
       found_.sharp[e] = 0, ++found_.dropped;
     }
   }
@@ -101,10 +101,10 @@ class LineFinder {
     double largest = 0;
     for (const std::int32_t e : at_vertex_.of(v))
       if (!is_sharp(e)) largest = std::max(largest, bends_[index(e)]);
-    const double least = std::max(thresholds::share_of_largest * largest, thresholds::least_angle);
+    const double least = std::max(thresholds::share_of_largest * largest, thresholds::min_angle);
     const Vec3 came = direction(last, v);
     std::int32_t best = -1;
-    double straightest = thresholds::least_straightness;
+    double straightest = thresholds::min_straightness;
     for (const std::int32_t e : at_vertex_.of(v)) {
       if (is_sharp(e) || bends_[index(e)] < least) continue;
       if (const double straight = -dot(came, direction(e, v)); straight > straightest) straightest = straight, best = e;
@@ -136,7 +136,7 @@ class LineFinder {
       for (const std::int32_t e : at_vertex_.of(v))
         if (is_sharp(e)) last = e;
       if (certain_[index(last)] != 0) continue;
-      const std::size_t most = thresholds::most_prolongation * line_to(v, last).size();
+      const std::size_t most = thresholds::max_prolongation * line_to(v, last).size();
       std::vector<std::int32_t> more;
       std::int32_t end = v;
       bool reached = false;
@@ -170,7 +170,7 @@ class LineFinder {
       // If the angle was found, flatter edges that fade out belong to a tessellation.
       const bool clear = options_.sharp_angle ||
                          std::ranges::any_of(line, [&](std::int32_t e) { return bends_[index(e)] > thresholds::usual_sharp; });
-      if (certain || (clear && static_cast<int>(line.size()) >= thresholds::least_faded)) continue;
+      if (certain || (clear && static_cast<int>(line.size()) >= thresholds::min_faded)) continue;
       for (const std::int32_t e : line) found_.sharp[index(e)] = 0;
       found_.dropped += static_cast<std::int64_t>(line.size());
     }

@@ -37,16 +37,16 @@ inline constexpr int max_sides_beside_chamfer = 8;
 
 // Sharp lines
 /// Degrees: a line does not go on over an edge that is flatter (HDR sec. 4.9.1 has none; rounding and noise are).
-inline constexpr double least_angle = 5;
+inline constexpr double min_angle = 5;
 /// Share of the largest angle at the end of a line that a candidate has at least.
 inline constexpr double share_of_largest = 0.5;
 /// Cosine of the turn of a line that goes on: it does not turn back.
-inline constexpr double least_straightness = 0.5;
+inline constexpr double min_straightness = 0.5;
 /// Edges by which a line is prolonged at most, as a multiple of its own edges: a longer gap separates two lines.
-inline constexpr int most_prolongation = 2;
+inline constexpr int max_prolongation = 2;
 /// Connected edges of lines with a free end, and edges of a line that fades out: fewer are noise. With the paper's
 /// limit of one edge, bunny.off has lines; a crease of a part without junctions is longer.
-inline constexpr int least_edges = 8, least_faded = 8;
+inline constexpr int min_edges = 8, min_faded = 8;
 
 // Normals and tangents
 /// Sine of the angle between the normals of a triangle and of its vertex: a triangle that leans less (5 degrees) does

@@ -77,7 +77,7 @@ class Filler {
   /// Sweeps of Gauss and Seidel.
   void relax(Monitor& monitor) {
     double first = 0;
-    for (int sweep = 0; sweep < thresholds::most_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < thresholds::max_sweeps; ++sweep) {
       monitor.checkpoint();
       double largest = 0;
       for (const At& at : inner_) {

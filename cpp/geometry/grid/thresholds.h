@@ -20,8 +20,8 @@ inline constexpr double closed_turn = std::numbers::pi / 4;
 /// Holes are filled when no node moves by more than this share of the first sweep's largest move. [Holes.*]
 inline constexpr double still_share = 1e-9;
 /// ... or after so many sweeps: of a hole of 50 x 50 nodes 1e-3 is left. [Holes.*]
-inline constexpr int most_sweeps = 2000;
+inline constexpr int max_sweeps = 2000;
 /// Parameter length of a row of cells without extent, as a share of the mean one: parameters must ascend. [Lengths.*]
-inline constexpr double least_interval = 1e-3;
+inline constexpr double min_interval = 1e-3;
 
 }  // namespace carreau::grid::thresholds

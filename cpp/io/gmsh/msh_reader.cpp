@@ -232,8 +232,8 @@ std::size_t MshReader::check_type(std::int32_t type, const char* at) const {
 
 /// The vertices of an element, behind all its other numbers.
 void MshReader::element(std::int32_t type, std::int32_t ref, std::size_t vertices) {
-  constexpr std::size_t most_nodes = 56;  // of vertices_of_type()
-  std::array<std::int32_t, most_nodes> nodes{};
+  constexpr std::size_t max_nodes = 56;  // of vertices_of_type()
+  std::array<std::int32_t, max_nodes> nodes{};
   for (std::size_t k = 0; k < vertices; ++k) {
     const char* at = in_.here();
     const std::int64_t tag = version_2_ ? number_2("the number of a node") : in_.size("the number of a node");

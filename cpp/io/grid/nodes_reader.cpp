@@ -61,9 +61,9 @@ Block block_of(const std::vector<Entry>& entries, const Words& words, const std:
   if (i.count() < 2 || j.count() < 2)
     words.fail(entries.front().at, block + " has " + std::to_string(i.count()) + " x " + std::to_string(j.count()) +
                                        " nodes; a surface needs two rows and two columns");
-  constexpr std::int64_t most_missing = 1000;  // for each that is there: a mistake in an index, not a hole
+  constexpr std::int64_t max_missing = 1000;  // for each that is there: a mistake in an index, not a hole
   if (i.count() > std::numeric_limits<std::int32_t>::max() / j.count() ||
-      i.count() * j.count() > most_missing * static_cast<std::int64_t>(entries.size()))
+      i.count() * j.count() > max_missing * static_cast<std::int64_t>(entries.size()))
     words.fail(entries.front().at, block + " would have " + std::to_string(i.count()) + " x " +
                                        std::to_string(j.count()) + " nodes, and only " +
                                        std::to_string(entries.size()) + " are given");

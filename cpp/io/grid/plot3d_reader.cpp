@@ -170,9 +170,9 @@ void check_room(const Words& words, const std::vector<Counts>& counts, const std
   std::uint64_t nodes = 0;
   for (const Counts& n : counts) nodes += nodes_of(n);
   // `9*0 ` is the shortest way to write several numbers.
-  constexpr std::uint64_t most_repeated = 1 << 20;
+  constexpr std::uint64_t max_repeated = 1 << 20;
   const auto bytes = static_cast<std::uint64_t>(words.end() - words.position());
-  if (nodes > most_repeated && nodes > bytes)
+  if (nodes > max_repeated && nodes > bytes)
     throw FileError({.file = name}, std::to_string(nodes) + " nodes are announced, more than the file can hold");
 }
 

@@ -13,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int32_t most_fields = 64;  // a file of more is no solution, but a mistake
+constexpr std::int32_t max_fields = 64;  // a file of more is no solution, but a mistake
 
 /// Empty if values of the type can be a size, a field or a metric, else the reason.
 std::string refusal_of(std::int32_t type) {
@@ -50,8 +50,8 @@ Record read_types(std::int32_t how_many, const SolutionChoice& choice, Solution&
     fail("there are " + std::to_string(how_many) + " values at each vertex" + list);
   };
   const bool any = choice.use == SolutionUse::fields;
-  if (how_many < 1 || how_many > most_fields)
-    fail_number(any ? "; 1 to " + std::to_string(most_fields) + " are required"
+  if (how_many < 1 || how_many > max_fields)
+    fail_number(any ? "; 1 to " + std::to_string(max_fields) + " are required"
                     : "; one size, field or metric is required");
   std::vector<ValueType> types;
   Record record;

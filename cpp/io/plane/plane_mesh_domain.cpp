@@ -177,8 +177,8 @@ PlaneDomainInput plane_domain_of(const FlatMesh& mesh, const std::string& name) 
 }
 
 void smooth_polygons(PlaneDomainInput& input, double corner_angle) {
-  const double least_cosine = std::cos(corner_angle * std::numbers::pi / 180);
-  const auto goes_on = [=](int, const Vec2& d, const Vec2& e) { return dot(d, e) >= least_cosine * norm(d) * norm(e); };
+  const double min_cosine = std::cos(corner_angle * std::numbers::pi / 180);
+  const auto goes_on = [=](int, const Vec2& d, const Vec2& e) { return dot(d, e) >= min_cosine * norm(d) * norm(e); };
   Chains(input, goes_on, true).join();
 }
 

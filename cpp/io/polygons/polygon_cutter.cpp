@@ -8,7 +8,7 @@ namespace carreau {
 namespace {
 
 /// Ears are searched in time that grows with the square; real files have polygons of tens of corners.
-constexpr std::size_t most_corners = 4096;
+constexpr std::size_t max_corners = 4096;
 /// In polygons with more corners, the first ear is cut.
 constexpr std::size_t few_corners = 32;
 
@@ -30,8 +30,8 @@ double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 std::string PolygonCutter::add(std::span<const std::int32_t> corners, std::int32_t ref) {
   if (corners.size() < 3) return "a polygon has " + std::to_string(corners.size()) + " corners";
-  if (corners.size() > most_corners)
-    return "a polygon has " + std::to_string(corners.size()) + " corners; " + std::to_string(most_corners) +
+  if (corners.size() > max_corners)
+    return "a polygon has " + std::to_string(corners.size()) + " corners; " + std::to_string(max_corners) +
            " are the most that are cut";
   for (const std::int32_t v : corners)
     if (v < 0 || static_cast<std::size_t>(v) >= mesh_.vertices.size())

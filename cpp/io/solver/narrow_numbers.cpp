@@ -10,7 +10,7 @@ namespace carreau {
 
 namespace {
 
-constexpr int most_digits = 17;
+constexpr int max_digits = 17;
 
 /// "1e-07" becomes "1e-7", "1e+30" becomes "1e30".
 std::string compact(std::string text) {
@@ -43,7 +43,7 @@ std::string with_digits(double value, int digits, std::chars_format format) {
 
 std::string fitted(double value, std::size_t width, const std::function<std::string(const std::string&)>& form) {
   std::string text = form(format_number(value));
-  for (int digits = most_digits; text.size() > width && digits > 0; --digits) {
+  for (int digits = max_digits; text.size() > width && digits > 0; --digits) {
     text = form(with_digits(value, digits, std::chars_format::general));
     // If the general form starts with zeros, an exponent leaves more room for digits.
     if (text.size() > width) text = form(with_digits(value, digits - 1, std::chars_format::scientific));

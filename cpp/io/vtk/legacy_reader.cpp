@@ -301,8 +301,8 @@ class LegacyReader : private Words {
   }
 
   void take(std::string name, std::size_t components, std::size_t tuples, const LegacyName& of, const char* at) {
-    constexpr std::size_t most_components = 1000;
-    if (components < 1 || components > most_components)
+    constexpr std::size_t max_components = 1000;
+    if (components < 1 || components > max_components)
       fail(at, shown(name) + " has " + std::to_string(components) + " components");
     std::vector<double> values = numbers<double>(components * tuples, of);
     if (in_data_ && tuples == tuples_)

@@ -11,7 +11,7 @@ namespace carreau {
 namespace {
 
 // Pairs of blocks that are kept at a time. [memory only]
-constexpr std::size_t most_kept = 4096;
+constexpr std::size_t max_kept = 4096;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void BoxPairs::start(std::size_t part, Meeting& meeting) const {
 // The part of an earlier node finds its pairs with a.
 bool BoxPairs::find_some(Meeting& meeting) const {
   meeting.blocks.clear();
-  while (!meeting.todo.empty() && meeting.blocks.size() < most_kept) {
+  while (!meeting.todo.empty() && meeting.blocks.size() < max_kept) {
     const auto [a, b] = meeting.todo.back();
     meeting.todo.pop_back();
     if (b.end() <= a.begin() || are_of_one_set(a, b) || box(a).is_apart(box(b))) continue;

@@ -16,9 +16,9 @@ namespace carreau {
 namespace {
 
 // Triangles that are searched together; smaller sets are not searched. [time only]
-constexpr std::size_t triangles_at_once = 32768, least_graph = 24;
+constexpr std::size_t triangles_at_once = 32768, min_graph = 24;
 // Most removals of triangles at vertices that alone connect parts of a set. [time only]
-constexpr int most_repairs = 3;
+constexpr int max_repairs = 3;
 
 using Triangle = std::array<std::int32_t, 3>;
 constexpr std::int32_t open_edge = -1, no_pair = -2;  // half edges
@@ -148,10 +148,10 @@ class Graphs {
 
   bool is_graph() {
     for (int repair = 0;; ++repair) {
-      if (members_.size() < least_graph) return false;
+      if (members_.size() < min_graph) return false;
       const std::vector<std::int32_t> pinched = pinched_vertices(outline_);
       if (pinched.empty()) break;
-      if (repair == most_repairs) return false;
+      if (repair == max_repairs) return false;
       leave_out(pinched);
       set_outline();
     }

@@ -12,7 +12,7 @@ namespace carreau {
 namespace {
 
 // Pairs of edges that are compared, for each edge. [time only]
-constexpr std::size_t most_pairs_per_edge = 256;
+constexpr std::size_t max_pairs_per_edge = 256;
 
 bool is_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
@@ -55,7 +55,7 @@ bool are_simple(std::span<const OutlineEdge> edges) {
   for (const std::size_t k : order) {
     std::erase_if(active, [&](std::size_t a) { return spans.high[a] < spans.low[k]; });
     pairs += active.size();
-    if (pairs > most_pairs_per_edge * edges.size()) return false;
+    if (pairs > max_pairs_per_edge * edges.size()) return false;
     for (const std::size_t a : active)
       if (spans.below[a] <= spans.above[k] && spans.below[k] <= spans.above[a] && conflict(edges[a], edges[k]))
         return false;

@@ -16,9 +16,9 @@ namespace {
 using Box = BoxTree::Box;
 
 // Triangles that one thread sorts at once, and triangles of a task that distributes them to cells. [time only]
-constexpr std::size_t most_sorted = 1 << 16, most_dealt = 1 << 17;
+constexpr std::size_t max_sorted = 1 << 16, max_dealt = 1 << 17;
 // Neighbouring cells with fewer triangles are sorted together. [time only]
-constexpr std::size_t least_sorted = 1 << 12;
+constexpr std::size_t min_sorted = 1 << 12;
 // Triangles with one code that stay unsorted, and triangles that are sorted without digits. [time only]
 constexpr std::size_t crowd = 16, few = 128;
 // Bits of each coordinate of the cells that triangles are distributed to.
@@ -77,7 +77,7 @@ class SpatialSort {
     while (!large.empty()) {
       const Range range = large.back();
       large.pop_back();
-      if (range.size() <= most_sorted)
+      if (range.size() <= max_sorted)
         add_small(range);
       else
         deal_out(range, large);
@@ -102,7 +102,7 @@ class SpatialSort {
   }
   void add_small(const Range& range) {
     const bool joins =
-        !small_.empty() && small_.back().end == range.begin && range.end - small_.back().begin <= least_sorted;
+        !small_.empty() && small_.back().end == range.begin && range.end - small_.back().begin <= min_sorted;
     if (joins)
       small_.back().end = range.end;
     else if (range.size() > 0)
@@ -111,10 +111,10 @@ class SpatialSort {
 
   /// Sorts by cells of the range's box: cells with few triangles are small, cells with many large.
   void deal_out(const Range& range, std::vector<Range>& large) {
-    const std::size_t tasks = (range.size() + most_dealt - 1) / most_dealt;
+    const std::size_t tasks = (range.size() + max_dealt - 1) / max_dealt;
     const auto each = [&](const auto& work) {
       const auto of_task = [&](std::size_t task, Monitor&) {
-        work(task, Range{range.begin + task * most_dealt, std::min(range.begin + (task + 1) * most_dealt, range.end)});
+        work(task, Range{range.begin + task * max_dealt, std::min(range.begin + (task + 1) * max_dealt, range.end)});
       };
       run_each(tasks, false, threads_, of_task, monitor_);
     };

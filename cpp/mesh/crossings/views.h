@@ -22,7 +22,7 @@ inline int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) noexcept 
 
 /// Share of a normal that lies along an axis along which a triangle is well seen, squared: up to 60 degrees. The largest
 /// of three is .577 and more. [time only]
-inline constexpr double least_along_squared = 0.25;
+inline constexpr double min_along_squared = 0.25;
 
 /// The six ways along the axes are sides: 2 axis if the triangle is turned counterclockwise, 2 axis + 1 clockwise.
 struct TriangleView {
@@ -46,7 +46,7 @@ inline TriangleView view_of(const Vec3& a, const Vec3& b, const Vec3& c) noexcep
     const int axis = best + k < 3 ? best + k : best + k - 3;
     if (const int sign = turn(axis, a, b, c); sign != 0) view.side = static_cast<std::int8_t>(2 * axis + (sign < 0));
   }
-  const double least = least_along_squared * (x * x + y * y + z * z);
+  const double least = min_along_squared * (x * x + y * y + z * z);
   const auto bit = [&](int axis, double share) { return (share * share > least) << (2 * axis + (n[axis] < 0)); };
   view.good = static_cast<std::uint8_t>(bit(0, x) | bit(1, y) | bit(2, z));
   return view;

@@ -123,7 +123,7 @@ class CellDefects {
     }
     const std::string what = name(face) + "element " + std::to_string(c) + " has a Jacobian that is not positive in ";
     const auto in = [&](const std::array<Vec3, 8>& nodes) { return jacobian(cell.kind, {nodes.data(), n}); };
-    if (in_plane && !(in(plane).least_along({0, 0, 1}) > 0)) add(what + "(u, v)");
+    if (in_plane && !(in(plane).min_along({0, 0, 1}) > 0)) add(what + "(u, v)");
     if (!(in(space).least() > 0)) add(what + "space");
   }
 

@@ -90,8 +90,8 @@ double bound_of_least(std::span<const V> x) noexcept {
 
 }  // namespace
 
-double least_of_triangle6(std::span<const Vec3> nodes) noexcept { return bound_of_least(nodes); }
-double least_of_triangle6(std::span<const Vec2> nodes) noexcept { return bound_of_least(nodes); }
+double min_of_triangle6(std::span<const Vec3> nodes) noexcept { return bound_of_least(nodes); }
+double min_of_triangle6(std::span<const Vec2> nodes) noexcept { return bound_of_least(nodes); }
 
 Vec3 Jacobian::mean() const noexcept {
   Vec3 sum{0, 0, 0};
@@ -99,7 +99,7 @@ Vec3 Jacobian::mean() const noexcept {
   return (1.0 / count) * sum;
 }
 
-double Jacobian::least_along(const Vec3& direction) const noexcept {
+double Jacobian::min_along(const Vec3& direction) const noexcept {
   double least = 0, sum = 0;
   for (int i = 0; i < count; ++i) {
     const double value = dot(c[static_cast<std::size_t>(i)], direction);
@@ -114,7 +114,7 @@ double Jacobian::least_along(const Vec3& direction) const noexcept {
 double Jacobian::least() const noexcept {
   const Vec3 m = mean();
   const double length = norm(m);
-  return length > 0 ? least_along((1 / length) * m) : 0;
+  return length > 0 ? min_along((1 / length) * m) : 0;
 }
 
 Jacobian jacobian(CellKind kind, std::span<const Vec3> nodes) noexcept {

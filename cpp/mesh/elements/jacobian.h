@@ -25,7 +25,7 @@ struct Jacobian {
   /// 0 or less if the mean vanishes.
   [[nodiscard]] double least() const noexcept;
   /// The least along a given direction: {0, 0, 1} for plane elements.
-  [[nodiscard]] double least_along(const Vec3& direction) const noexcept;
+  [[nodiscard]] double min_along(const Vec3& direction) const noexcept;
 };
 
 /// `nodes`: node_count(kind) positions in the order of cells.h.
@@ -33,8 +33,8 @@ Jacobian jacobian(CellKind kind, std::span<const Vec3> nodes) noexcept;
 
 /// A lower bound of Jacobian::least() of a curved triangle, from its straight triangle and the bends of its sides, at a
 /// tenth of the cost; -infinity: no bound. The straight triangle of a plane triangle must be counterclockwise.
-double least_of_triangle6(std::span<const Vec3> nodes) noexcept;
-double least_of_triangle6(std::span<const Vec2> nodes) noexcept;
+double min_of_triangle6(std::span<const Vec3> nodes) noexcept;
+double min_of_triangle6(std::span<const Vec2> nodes) noexcept;
 
 /// The point of an element at (s, t) of its reference: the triangle s, t >= 0, s + t <= 1, or the unit square.
 Vec3 point_of_cell(CellKind kind, std::span<const Vec3> nodes, double s, double t) noexcept;

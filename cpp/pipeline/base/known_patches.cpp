@@ -16,7 +16,7 @@ bool all_same(const std::vector<T>& p, const std::vector<T>& q, const Same& same
 
 bool same_edge(const PlaneEdge& p, const PlaneEdge& q) {
   const auto key = [](const PlaneEdge& e) {
-    return std::tie(e.a, e.b, e.kind, e.curve, e.segment, e.least_fan, e.wide_fan);
+    return std::tie(e.a, e.b, e.kind, e.curve, e.segment, e.min_fan, e.wide_fan);
   };
   return key(p) == key(q);
 }

@@ -27,7 +27,7 @@ class KnownPatches {
   /// A copy of the outcome of the round before, if the face had the same input then.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
-  void clear() { known_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::most_known; }
+  void clear() { known_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::max_known; }
   /// Ends the keeping: later rounds mesh with other options.
   void end() { clear(), over_ = true; }
 
@@ -41,7 +41,7 @@ class KnownPatches {
   };
   std::vector<std::optional<Known>> known_;
   const std::vector<std::optional<ControlSpace>>* spaces_ = nullptr;
-  std::size_t room_ = thresholds::crossings::most_known;  // triangles that may still be kept
+  std::size_t room_ = thresholds::crossings::max_known;  // triangles that may still be kept
   bool over_ = false;
 };
 

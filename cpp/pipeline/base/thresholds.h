@@ -12,27 +12,27 @@ namespace carreau::thresholds::patches {
 // A face meshed again (face_job)
 /// Times that a patch is meshed again because the lift disagrees.
 /// [Verification.DipsOfTheSizesThatNoSampleHitsAreMeshed]
-inline constexpr int most_corrections = 3;
+inline constexpr int max_corrections = 3;
 /// Rounds that sample a face again because it has missed places of small sizes. Each round finds the missed places
 /// beside known ones. [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
-inline constexpr int most_refills = 6;
+inline constexpr int max_refills = 6;
 /// Ratio of triangles. A mesh with a larger ratio has not missed a place: its sizes are wrong nearly everywhere.
 /// [BadModels.SurfaceThatJumpsInManyPlaces]
-inline constexpr double most_growth = 1000;
+inline constexpr double max_growth = 1000;
 /// Tangent of the angle by which triangles may lean if long sizes are bounded for it: a ninth more area at worst.
 /// [Leaning.TrianglesOfRatio100LieOnTheSurface]
-inline constexpr double most_lean = 0.5;
+inline constexpr double max_lean = 0.5;
 /// Ratio by which sizes then grow from one edge to the next: at lines of zero curvature they would jump.
 /// [Leaning.ShortEdgesAreNotBounded]
 inline constexpr double gentle = 1.5;
 /// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
-inline constexpr double most_growth_bounded = 64;
+inline constexpr double max_growth_bounded = 64;
 /// Share of the extent squared. A patch of less area is a line with rounding errors. [BadModels.SurfaceWithoutArea]
 inline constexpr double no_area = 1e-14;
 
 // Jumps of a surface (face_job)
 /// Edges that are checked before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
-inline constexpr std::size_t most_looked_at_first = 30;
+inline constexpr std::size_t max_looked_at_first = 30;
 /// Halvings of an edge, to 1e-9 of it; more would compare numbers that are rounded.
 /// [BadModels.DerivativesThatVanishOnABorderAreNoJump]
 inline constexpr int jump_halvings = 30;
@@ -49,7 +49,7 @@ inline constexpr double short_share = 0.7;
 
 // Guarantees (curve_steps)
 /// Halvings of an edge that leaves its curve: to a sixteenth of a unit edge. [CurveAccuracy.*]
-inline constexpr int most_curve_halvings = 4;
+inline constexpr int max_curve_halvings = 4;
 
 // Progress (curve_steps, run)
 /// Curves that are cut between two reports, if several threads cut them. [time only]
@@ -66,7 +66,7 @@ inline constexpr double bytes_per_triangle = 200;
 /// Triangles over the square of the edges of the boundary: 4 / sqrt(3) / 16, unit equilateral triangles in a square.
 inline constexpr double triangles_of_squared_edges = 0.1443;
 /// Triangles so reckoned. Faces with fewer are not made by several processes together: the plane mesher would not cut
-/// them. [plane::least_divided]
+/// them. [plane::min_divided]
 inline constexpr double least_shared = 250'000;
 
 }  // namespace carreau::thresholds::patches
@@ -77,14 +77,14 @@ namespace carreau::thresholds::crossings {
 
 /// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them
 /// again.
-inline constexpr std::size_t most_known = 2'000'000;
+inline constexpr std::size_t max_known = 2'000'000;
 /// Pairs of triangles that are checked; a model whose parts share places has as many pairs as triangles there.
-inline constexpr std::size_t most_pairs = 100'000;
+inline constexpr std::size_t max_pairs = 100'000;
 /// Surfaces meet at two crossing triangles if Newton's method finds a common point in this number of steps. The point
 /// lies within a share of the longest edge, and the sine between the normals is at least this. [share: rounding; steps:
 /// quadratic convergence takes four]
 inline constexpr int newton_steps = 8;
-inline constexpr double meets_within = 1e-6, least_slope = 0.1;
+inline constexpr double meets_within = 1e-6, min_slope = 0.1;
 /// Projections from one face to the other and back. The first one finds the distance of parallel faces.
 /// [FaceGap.ConcentricCylindersHaveTheDifferenceOfTheirRadii]
 inline constexpr int projections = 3;
@@ -94,10 +94,10 @@ inline constexpr double no_sagitta = 1e-12;
 inline constexpr double sagitta_share = 0.5;
 /// Shares of the longest edge of a triangle that crosses another triangle. If a gap needs less than the smaller one, no
 /// mesh of the prescribed size shows it: the faces meet.
-inline constexpr double least_share = 0.125, most_share = 0.6;
+inline constexpr double min_share = 0.125, max_share = 0.6;
 /// Share of an edge times the sine between both surfaces. Surfaces nearer to each other meet beside the triangles that
 /// cross. [without it the teapot, whose spout crosses its body, is meshed again at .3]
-inline constexpr double least_width = 0.05;
+inline constexpr double min_width = 0.05;
 /// Triangles that a triangle becomes, with the neighbours that grow from it, times the square of the share.
 inline constexpr double growth = 1;
 /// Triangles whose making costs as much as all that a face costs whatever its triangles are (sampling, borders).
@@ -106,6 +106,6 @@ inline constexpr double work_per_face = 300;
 /// sampled. [measured on assemblies of 180 and 1 300 faces: 2.3 to 4.4]
 inline constexpr double work_of_varied_sizes = 3;
 /// Work of all rounds, in triangles, if the first mesh took less: some 50 ms.
-inline constexpr double least_budget = 24'000;
+inline constexpr double min_budget = 24'000;
 
 }  // namespace carreau::thresholds::crossings

@@ -119,7 +119,7 @@ void FaceJob::sample(Monitor& monitor) {
   }
   SampledFacts facts{.normals = options_.shape_trials ? &normals_ : nullptr,
                      .usual_speed = even_ ? 1. : 0.,
-                     .most_uneven = most_uneven()};
+                     .max_uneven = max_uneven()};
   try {
     space_ = sampled(monitor, &facts);
   } catch (const UnevenSpeed& speed) {
@@ -174,15 +174,15 @@ void FaceJob::lift(Monitor& monitor) {
     lift_patch(input_, *cad_, *mesh_, monitor, asking_positions());
     bad = swap_poor_edges(input_, *mesh_, monitor, team_);
     places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor, team_);
-    if (corrections_ < most_corrections) {
+    if (corrections_ < max_corrections) {
       const std::vector<Vec2> steep = missed_steep_places(input_, *space_, *cad_, *rules_, *mesh_, monitor);
       places.insert(places.end(), steep.begin(), steep.end());
     }
   }
   // Samples at a jump require triangles without end.
-  refuse_jumps(most_looked_at_first, monitor);
+  refuse_jumps(max_looked_at_first, monitor);
   const bool again = refill_undersampled(places, monitor);
-  if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {
+  if ((!places.empty() && corrections_ < max_corrections && sample_again(places, monitor)) || again) {
     next_ = Step::mesh;
     return;
   }
@@ -218,11 +218,11 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
 // would jump. Returns false if no more bounds are left.
 bool FaceJob::sample_bounded(Monitor& monitor) {
   if (++bounded_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
-  input_.limits.lean = most_lean;
+  input_.limits.lean = max_lean;
   if (bounded_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
   const Stopwatch watch(report_.seconds_sampling);
   space_ = sampled(monitor, nullptr);
-  const double most = most_growth_bounded * static_cast<double>(best_->mesh.plane.triangles.size());
+  const double most = max_growth_bounded * static_cast<double>(best_->mesh.plane.triangles.size());
   return space_->measure() <= std::min(most, static_cast<double>(options_.max_triangles));
 }
 
@@ -249,7 +249,7 @@ void FaceJob::add_remark(const std::string& what) {
 }
 
 // Sources know the host's parameters only.
-double FaceJob::most_uneven() const noexcept {
+double FaceJob::max_uneven() const noexcept {
   if (rules_->asks_sources()) return infinity;
   return evened_out_ && !even_ ? thresholds::sample::hopeless_speed : thresholds::sample::uneven_speed;
 }
@@ -297,8 +297,8 @@ void FaceJob::return_to_host(Monitor& monitor) {
 // True if the mesh has missed places that the control space knows correctly. Adds other places to `places`.
 bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   const std::size_t vertices = mesh_->plane.vertices.size();
-  if (refills_ == most_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
-  if (space_->measure() > most_growth * static_cast<double>(mesh_->plane.triangles.size())) return false;
+  if (refills_ == max_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
+  if (space_->measure() > max_growth * static_cast<double>(mesh_->plane.triangles.size())) return false;
   const Stopwatch watch(report_.seconds_lift);
   UndersampledRegions found = find_undersampled(input_, *space_, *cad_, *rules_, *mesh_, monitor);
   places.insert(places.end(), found.mistaken.begin(), found.mistaken.end());

@@ -70,7 +70,7 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] Team* asking_samples() const noexcept { return input_.is_plane && rules_->constant() ? nullptr : team_; }
   [[nodiscard]] Team* asking_positions() const noexcept { return input_.is_plane ? nullptr : team_; }
   void even_out(const UnevenSpeed& speed, Monitor& monitor);
-  [[nodiscard]] double most_uneven() const noexcept;
+  [[nodiscard]] double max_uneven() const noexcept;
   void return_to_host(Monitor& monitor);
   [[nodiscard]] Vec2 host_uv(const Vec2& p) const { return even_ ? even_->map.to_host(p) : p; }
 

@@ -78,12 +78,12 @@ std::vector<std::vector<Vec2>> places_in_patches(Team& team, const CompositeRun&
 
 }  // namespace
 
-std::int64_t least_of(Team& team, std::int64_t most_triangles) {
+std::int64_t least_of(Team& team, std::int64_t max_triangles) {
   PacketWriter packet;
-  packet.put(most_triangles);
+  packet.put(max_triangles);
   for (const std::string& of_rank : team.exchange("begin", packet.bytes()))
-    most_triangles = std::min(most_triangles, PacketReader(of_rank).integer());
-  return most_triangles;
+    max_triangles = std::min(max_triangles, PacketReader(of_rank).integer());
+  return max_triangles;
 }
 
 void require_same_curves(Team& team, const CompositeRun& run) {

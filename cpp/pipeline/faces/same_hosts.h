@@ -11,7 +11,7 @@
 namespace carreau {
 
 /// The minimum over the processes: machines differ in memory, and the mesh must not depend on the machine.
-[[nodiscard]] std::int64_t least_of(Team& team, std::int64_t most_triangles);
+[[nodiscard]] std::int64_t least_of(Team& team, std::int64_t max_triangles);
 
 /// Throws Error, which names process and curve, if a process has cut a curve differently from the first process: its
 /// callbacks or parameters differ.

@@ -71,7 +71,7 @@ class CrossPatchInspector final : public Inspector {
     is_free_ = make_once(run);
     const auto triangles = static_cast<double>(run.result.mesh.triangle_count());
     if (is_first_)
-      growth_ = left_ = most_growth * std::max(few_triangles, triangles);
+      growth_ = left_ = max_growth * std::max(few_triangles, triangles);
     else
       left_ -= triangles;
     is_first_ = false;
@@ -140,7 +140,7 @@ class CrossPatchInspector final : public Inspector {
 
   // Rounds continue while faults are left and the finer meshes stay within their bound.
   [[nodiscard]] bool remeshing_continues() const {
-    return is_free_ && round_ < most_divisions && now_.faults() > 0 && left_ >= 0;
+    return is_free_ && round_ < max_divisions && now_.faults() > 0 && left_ >= 0;
   }
 
   // If borders of patches are not much shorter than elements, quadrilaterals of patches are more regular than pairs of isotropic
@@ -152,20 +152,20 @@ class CrossPatchInspector final : public Inspector {
   }
 
   [[nodiscard]] bool patches_continue() const {
-    return is_free_ && round_ < thresholds::cross_patch::most_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
+    return is_free_ && round_ < thresholds::cross_patch::max_rounds_of_patches && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
   }
 
   // A mesh that is valid already is better than one with faults, even if that one may improve.
   [[nodiscard]] bool is_hopeless() const {
-    using thresholds::cross_patch::most_of_patches;
-    return best_ && best_->faults() == 0 && (now_.shape <= best_->shape || now_.elements > most_of_patches * best_->elements);
+    using thresholds::cross_patch::max_of_patches;
+    return best_ && best_->faults() == 0 && (now_.shape <= best_->shape || now_.elements > max_of_patches * best_->elements);
   }
 
   [[nodiscard]] bool are_patches_better(const CompositeRun& run) const {
     if (!new_places(best_ ? best_->crossings.all : crossings_of_patches_, now_.crossings.all).empty()) return false;
     if (!find_defects(run.result.mesh, {.closed = false, .limit = 1}).empty()) return false;
     if (!best_) return true;
-    if (now_.elements > thresholds::cross_patch::most_of_patches * best_->elements) return false;
+    if (now_.elements > thresholds::cross_patch::max_of_patches * best_->elements) return false;
     return now_.faults() != best_->faults() ? now_.faults() < best_->faults() : now_.shape > best_->shape;
   }
 

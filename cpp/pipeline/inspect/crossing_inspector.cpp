@@ -51,7 +51,7 @@ class CrossingInspector final : public Inspector {
   void inspect(CompositeRun& run) override {
     if (covers_a_plane_once(run)) return;
     if (!now_)
-      budget_ = run.options.rounds_over_first_mesh * std::max(work_of_mesh(run), least_budget) / work_of_varied_sizes;
+      budget_ = run.options.rounds_over_first_mesh * std::max(work_of_mesh(run), min_budget) / work_of_varied_sizes;
     else
       budget_ -= work_of_faces(run, plan_.faces);
     now_.emplace(run);

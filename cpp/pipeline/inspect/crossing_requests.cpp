@@ -63,8 +63,8 @@ class RequestFinder {
       if (!s.is_sound() || !t.is_sound()) continue;
       const FaceGap gap = measure_gap(run_.cad, s, t, pair.place);
       const double share = share_of(gap), longest = std::max(s.longest_edge(), t.longest_edge());
-      if (share >= least_share && gap.width >= least_width * gap.slope * longest)
-        add(pair, std::min(share, most_share), request);
+      if (share >= min_share && gap.width >= min_width * gap.slope * longest)
+        add(pair, std::min(share, max_share), request);
       else if (faces.first != faces.second && !shared.any_within(longest, gap.place))
         return {};
     }
@@ -154,7 +154,7 @@ class Planner {
 
 Crossings::Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
   if (run.result.shares) {
-    PartCrossings parts = find_part_crossings(run, most_pairs);
+    PartCrossings parts = find_part_crossings(run, max_pairs);
     crossing_ = std::make_unique<SurfaceMesh>(std::move(parts.mesh));
     mesh_ = crossing_.get();
     found = std::move(parts.found);
@@ -165,7 +165,7 @@ Crossings::Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
     first_.push_back(static_cast<std::int32_t>(triangles_.size()));
   }
   if (!run.result.shares)
-    found = find_intersections(mesh().vertices, triangles_, most_pairs, {run.options.team, run.options.threads},
+    found = find_intersections(mesh().vertices, triangles_, max_pairs, {run.options.team, run.options.threads},
                                run.monitor);
 }
 

@@ -40,7 +40,7 @@ QuadraticReport make_once(CompositeRun& run) {
   const std::vector<CuspEnd> cusps = report.cusps;
   if (!cusps.empty()) report = make_quadratic(work, cusps);
   // A few triangles are allowed: two replace a quadrilateral that cannot be valid.
-  for (int round = 0; round < most_partings && run.options.element == Element::q2_0; ++round) {
+  for (int round = 0; round < max_partings && run.options.element == Element::q2_0; ++round) {
     if (!part_invalid_quads(report, run.result.mesh)) break;
     report = make_quadratic(work, cusps);
   }
@@ -77,7 +77,7 @@ class ElementInspector final : public Inspector {
     now_ = make_once(run);
     const auto triangles = static_cast<double>(run.result.mesh.triangle_count());
     if (!left_)
-      left_ = most_growth * std::max(few_triangles, triangles);
+      left_ = max_growth * std::max(few_triangles, triangles);
     else
       *left_ -= triangles;
   }
@@ -87,7 +87,7 @@ class ElementInspector final : public Inspector {
 
   [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
     if (!run.options.refines_invalid_elements) return {};
-    const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
+    const int rounds = has_quads(run.options.element) ? max_divisions_of_quads : max_divisions;
     if (round_++ == rounds || count(now_) == 0 || *left_ < 0) return {};
     return RefinementRequests{.segments = segments_of(run, now_.coarse), .sizes = now_.finer};
   }

@@ -52,7 +52,7 @@ class Chains {
     }
     for (std::size_t v = 0; v < kept_.size(); ++v) {
       if (degree[v] != 2 || domain_.edges[at_[v][0]].kind != domain_.edges[at_[v][1]].kind ||
-          turn(static_cast<int>(v)) > most_coarse_turn)
+          turn(static_cast<int>(v)) > max_coarse_turn)
         kept_[v] = 1;
     }
   }
@@ -110,7 +110,7 @@ class Chains {
       const Vec2 p = domain_.vertices[v], q = domain_.vertices[w];
       sum += carreau::length(metric_.at(0.5 * (p + q)), q - p) / length_;
       upto.push_back(sum);
-      if (w != end || kept_[w] == 0) sum += turn(w) / most_coarse_turn;
+      if (w != end || kept_[w] == 0) sum += turn(w) / max_coarse_turn;
       v = w;
     }
     const bool closed = start == end;

@@ -24,7 +24,7 @@ namespace {
 
 // True if the zone would be most of the mesh and be improved twice: in narrow domains separators lie along the middle.
 bool is_mostly_zone(const Pieces& pieces, double triangles) {
-  return 4.0 * zone_layers * static_cast<double>(pieces.separators.size()) > most_of_zone * triangles;
+  return 4.0 * zone_layers * static_cast<double>(pieces.separators.size()) > max_of_zone * triangles;
 }
 
 // Units. In larger meshes separators may have longer straight parts: the coarse mesh, which one thread makes, has fewer
@@ -35,7 +35,7 @@ double coarse_edge(double triangles) {
 
 // Empty if separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
-  const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
+  const double wanted = std::min(context.known.triangles / a_piece, max_sectors);
   const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish together
   if (parts < 2) return {};
   const double edge = coarse_edge(context.known.triangles);
@@ -225,7 +225,7 @@ class Assembly {
 }  // namespace
 
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
-  return known.triangles >= least_divided && !options.squares && options.undersampled.empty();
+  return known.triangles >= min_divided && !options.squares && options.undersampled.empty();
 }
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,

@@ -14,7 +14,7 @@ namespace carreau::plane {
 // agree between the chart and the tensors halfway.
 Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
   const double by_shapes = bend_of_shapes(slopes);
-  if (!(by_shapes > least_bend) || by_shapes > most_bend) return Bend::none;
+  if (!(by_shapes > min_bend) || by_shapes > max_bend) return Bend::none;
   for (const Vec2& d : six_directions) {
     Vec2 e = chart.offset(d);
     // Along a strong bend only so far that the curve is about a unit long.

@@ -10,17 +10,17 @@ namespace carreau::plane {
 // Numbers (kernel/triangulation)
 /// Triangles. Limit of one piece: a side has four times its triangle's number and more, in 32 bits; improvements add a
 /// few. [Placement.IsBoundByNumbersOf32Bits]
-inline constexpr std::int64_t most_triangles_of_a_piece = 500'000'000;
-static_assert(4 * (most_triangles_of_a_piece + most_triangles_of_a_piece / 16) < INT32_MAX);
+inline constexpr std::int64_t max_triangles_of_a_piece = 500'000'000;
+static_assert(4 * (max_triangles_of_a_piece + max_triangles_of_a_piece / 16) < INT32_MAX);
 
 // Bends of the field (kernel/frame, kernel/shapes)
 /// Bend a unit. From here on a chart replaces the tensor. Tensors are still accurate enough if a size grows by a tenth,
 /// or if directions turn so that an edge's sagitta is a tenth of a unit. [0.5: worst of swirl 0.79 to 0.72]
-inline constexpr double least_bend = 0.4;
+inline constexpr double min_bend = 0.4;
 /// Bend a unit. Beyond, charts are of no use. The plane keeps 1 - bend / (2 sqrt(3)) of the area of a unit triangle
 /// whose height in the chart is along the bend; here this is little more than a quarter. [3.1: worst of swirl at 51 : 1
 /// 0.36 to 0.24]
-inline constexpr double most_bend = 2.5;
+inline constexpr double max_bend = 2.5;
 /// Triangles. In coarser meshes of patches with poles and creases charts reach too far. [12 500: coarse swirl at 51
 /// : 1 has 13 % more triangles, Q2 0.870 to 0.855]
 inline constexpr double fewest_for_charts = 10'000;
@@ -72,7 +72,7 @@ inline constexpr std::size_t renumbered_from = 200'000;
 inline constexpr std::size_t renumbered_ahead = 16;
 /// Power of 2. Extent of the domain's box: below, coordinates inside would lose their last bits to underflow.
 /// [boundary_test, tiny and huge coordinates]
-inline constexpr int least_exponent = -900;
+inline constexpr int min_exponent = -900;
 /// Power of 2. Above, the box overflows. [boundary_test, tiny and huge coordinates]
 inline constexpr int largest_exponent = 1020;
 
@@ -123,7 +123,7 @@ inline constexpr double degenerate_height = 0.70;
 // Advancing front (placement/advancing_front, respacing)
 /// Squared units. Over a long base the apex keeps at least this height. [0.24: longest edge of swirl at 51 : 1 2.4
 /// to 2.6; 0.38: of sizes 1.7 to 1.9]
-inline constexpr double least_apex_height2 = 0.3;
+inline constexpr double min_apex_height2 = 0.3;
 /// Rounds. Apex and centroid of its triangle, each by the other. [1: degrees of six on swirl 92.6 to 91.8 %; 4: as
 /// 2]
 inline constexpr int chart_rounds = 2;
@@ -167,7 +167,7 @@ inline constexpr double largest_rise = 0.05;
 /// edge of swirl at 51 : 1 2.4 to 2.6 and 2.8]
 inline constexpr double shorter_edge = 0.9;
 /// Points. On one edge in one pass; the next passes see to the rest. [memory only]
-inline constexpr int most_pieces = 4096;
+inline constexpr int max_pieces = 4096;
 
 // Degenerate sides (placement/degenerate_sides)
 /// Rays. 0.2 units apart round a pole, if all are equal. [16 and 66: no figure changes, only bits]
@@ -175,14 +175,14 @@ inline constexpr int rays = 33;
 /// Units. Between rays at unit height; else there are more of them, [metrics that differ by direction at a pole]
 inline constexpr double widest_ray_gap = 0.4;
 /// Rays. up to these. [time only]
-inline constexpr std::size_t most_rays = 512;
+inline constexpr std::size_t max_rays = 512;
 /// Units. Between places on a ray. [0.04 and 0.06: no figure changes, only bits]
 inline constexpr double ray_step = 0.05;
 /// Steps. 1.5 units: a layer fits between the ring and the domain beyond it. [15: degrees of six on a coarse cone 87 to
 /// 59 %]
 inline constexpr std::size_t steps_of_room = 30;
 /// Units. Below, no ring. [MeshPlane.SurroundsAnApexWithThreeTriangles, as the following]
-inline constexpr double least_room = 0.5;
+inline constexpr double min_room = 0.5;
 /// Heights. Width of the triangles of a wide fan.
 inline constexpr double narrowest_fan = 0.5;
 /// Units. Least distance of a ring point to other vertices.
@@ -235,7 +235,7 @@ inline constexpr double thinned_quality = 0.45;
 // Smoothing (optimise/smoothing, optimise)
 /// Area of a parallelogram in the metric after a move (ideal: 0.87); a smaller one undoes it. [0.16: lengths in range
 /// on rough sizes 91.5 to 92.2 %; 0.25: longest edges on turning fields 2.5 to 2.2]
-inline constexpr double least_area = 0.2;
+inline constexpr double min_area = 0.2;
 /// Rounds. Then all moves of the pass are taken back.
 inline constexpr int undo_rounds = 20;
 /// Share. Weight of unit lengths in the aim, against equilateral triangles; [0.04 and 0.06: lengths in range on turning
@@ -246,9 +246,9 @@ inline constexpr double pull_even = 0.05;
 inline constexpr double pull_graded = 0.1;
 /// Root of the determinant over the trace. Bound for metrics in single precision.
 /// [MeshPlane.WildMetricsStillGiveAValidMesh]
-inline constexpr double most_stretched = 1e-15;
+inline constexpr double max_stretched = 1e-15;
 /// Root of the determinant. The same. [MeshPlane.WildMetricsStillGiveAValidMesh]
-inline constexpr double least_root = 1e-30;
+inline constexpr double min_root = 1e-30;
 
 // Bad triangles (optimise/bad_triangles, mending)
 /// Q2. Worse triangles are improved. [0.64: p1 of rough sizes 0.80 to 0.71; 1: twice the time]
@@ -321,16 +321,16 @@ inline constexpr double longest_left2 = 2.4;
 /// 91.5 to 91.1 %]
 inline constexpr double shortest_left2 = 0.4;
 /// Squared units. Length of an edge that is split. [0.9: 7 of 17 meshes change, degrees of six on ellipses 73 to 67 %]
-inline constexpr double least_split2 = 1.1;
+inline constexpr double min_split2 = 1.1;
 /// Q2. Shape of triangles that a collapse leaves, before moves. [0.04: no figure changes]
-inline constexpr double least_collapse_quality = 0.05;
+inline constexpr double min_collapse_quality = 0.05;
 /// Cost. The cost of a triangle of Q2 .97: vertices amid such triangles need not move. [time only]
 inline constexpr double cheap_enough = 0.2;
 /// Moves. At one distance. [1: p1 of ellipses 0.88 to 0.86; 6: as 3]
 inline constexpr int turns_a_step = 3;
 /// Squared chord of unit normals. A turn of the surface along an edge that leaves no flat spot: 20 degrees.
 /// [MiddleRows in tests/cpp/surface/improve]
-inline constexpr double least_turn2 = 0.12;
+inline constexpr double min_turn2 = 0.12;
 /// Share. A smaller gain is no gain: in symmetric meshes, the last bits of a host's numbers would decide.
 /// [LocalSearch.RaiseTheWorstOfEllipses, by symmetry]
 inline constexpr double tie = 1e-6;
@@ -343,7 +343,7 @@ inline constexpr double square_height = 0.6;
 /// Units. Circumradius that requires one more point (half a unit square: 0.707).
 inline constexpr double large_square_radius = 1;
 /// Length of the mean of the crosses of two imposed edges that meet. Below, the corner does not determine a direction.
-inline constexpr double least_cross = 0.7;
+inline constexpr double min_cross = 0.7;
 /// Units. Edges of the mesh that carries crosses, away from the boundary: they are smooth there.
 inline constexpr double background_size = 1.6;
 /// Triangles expected. In smaller domains crosses turn too much within such an edge.
@@ -358,9 +358,9 @@ inline constexpr double cross_at_rest = 1e-5;
 /// Triangles. Approximate size of a piece. [90 000: a fifth more time on one thread at a million]
 inline constexpr double triangles_a_piece = 250'000;
 /// Pieces reach from the border to the meeting of the layers: more of them would become narrow.
-inline constexpr double most_sectors = 64;
+inline constexpr double max_sectors = 64;
 /// Triangles. Smaller domains are not divided.
-inline constexpr double least_divided = 250'000;
+inline constexpr double min_divided = 250'000;
 /// Units. Length of the edges of the coarse mesh, on which separators lie. [12: sphere has 1200 triangles fewer,
 /// degrees of six 99.0 to 98.7 %]
 inline constexpr double separator_length = 8;
@@ -373,9 +373,9 @@ inline constexpr int starts_of_sectors = 8;
 /// share. [1: degrees of six on a sphere of 290 000 triangles in pieces of 90 000 98.15 to 97.9 %]
 inline constexpr double much_shorter = 0.75;
 /// Radians. Turn of the boundary over one coarse edge.
-inline constexpr double most_coarse_turn = 0.45;
+inline constexpr double max_coarse_turn = 0.45;
 /// Squared coarse units, and Q2. Separators do not pass along triangles that are worse.
-inline constexpr double shortest_coarse2 = 0.16, least_coarse_quality = 0.5;
+inline constexpr double shortest_coarse2 = 0.16, min_coarse_quality = 0.5;
 /// Coarse triangles between degenerate sides and separators.
 inline constexpr int rings_at_degenerate_sides = 2;
 /// Layers of vertices on each side of a separator, the separator included, whose points are placed again.
@@ -384,6 +384,6 @@ inline constexpr int refilled_layers = 3;
 /// around places where several separators meet.
 inline constexpr int zone_layers = 5, meeting_layers = 7;
 /// Share of the triangles that lie in the zone. Domains with a larger share are not divided.
-inline constexpr double most_of_zone = 0.3;
+inline constexpr double max_of_zone = 0.3;
 
 }  // namespace carreau::plane

@@ -11,12 +11,12 @@
 
 namespace carreau::plane {
 
-int Triangulation::walk(const Vec2& p, int hint, std::size_t most_steps) const noexcept {
+int Triangulation::walk(const Vec2& p, int hint, std::size_t max_steps) const noexcept {
   const Triangle* const T = triangles.data();
   const Vertex* const V = vertices.data();
   int t = hint, from = -1;
   std::uint32_t turn = 1;
-  for (std::size_t step = 0; step < most_steps; ++step) {
+  for (std::size_t step = 0; step < max_steps; ++step) {
     const Triangle& now = T[t];
     // In a triangulation that is not Delaunay a fixed order could go round in circles.
     int first = 0;
@@ -43,8 +43,8 @@ int Triangulation::walk(const Vec2& p, int hint, std::size_t most_steps) const n
   return unfinished_walk;
 }
 
-int Triangulation::locate_near(const Vec2& p, int hint, int most_steps) const noexcept {
-  return std::max(walk(p, hint, static_cast<std::size_t>(most_steps)), blocked_walk);
+int Triangulation::locate_near(const Vec2& p, int hint, int max_steps) const noexcept {
+  return std::max(walk(p, hint, static_cast<std::size_t>(max_steps)), blocked_walk);
 }
 
 int Triangulation::locate(const Vec2& p, int hint) const noexcept {

@@ -99,8 +99,8 @@ class Triangulation {
   /// Triangle that contains p (on its border counts), walking from triangle `hint`; -1 when the walk leaves the
   /// triangulation or meets an imposed edge.
   [[nodiscard]] int locate(const Vec2& p, int hint) const noexcept;
-  /// Like locate(); returns -1 also when p is more than `most_steps` triangles away.
-  [[nodiscard]] int locate_near(const Vec2& p, int hint, int most_steps) const noexcept;
+  /// Like locate(); returns -1 also when p is more than `max_steps` triangles away.
+  [[nodiscard]] int locate_near(const Vec2& p, int hint, int max_steps) const noexcept;
 
   /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.
   /// Returns false if the rules reject the point, or if it lies on an imposed edge or a vertex. `chart`: the chart of
@@ -164,7 +164,7 @@ class Triangulation {
 
  private:
   static constexpr int blocked_walk = -1, unfinished_walk = -2;
-  [[nodiscard]] int walk(const Vec2& p, int hint, std::size_t most_steps) const noexcept;
+  [[nodiscard]] int walk(const Vec2& p, int hint, std::size_t max_steps) const noexcept;
   template <bool charted>
   bool dig_in(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart);
   [[nodiscard]] bool too_near(const Vec2& p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept;

@@ -99,21 +99,21 @@ bool move_pair(PlaneWork& work, Degrees& degrees, Pair pair, bool left, int reac
 int best_neighbour(const PlaneWork& work, const Degrees& degrees, const Star& star, int v) {
   const auto& link = star.link;
   const auto n = static_cast<int>(link.size());
-  int into = -1, least_change = 1;
+  int into = -1, min_change = 1;
   double best = thinned_quality;
   for (int k = 0; k < n; ++k) {
     const int u = link[k], a = link[(k + n - 1) % n], b = link[(k + 1) % n];
     const int of_u = degrees.excess(u), of_v = degrees.excess(v), joined = of_u + of_v + 2;
     const int change = joined * joined - of_u * of_u - of_v * of_v + 2 - 2 * (degrees.excess(a) + degrees.excess(b));
-    if (change > std::min(least_change, 0)) continue;
+    if (change > std::min(min_change, 0)) continue;
     double worst = 1;
     for (int j = 1; j + 1 < n && worst > thinned_quality; ++j) {
       const int x = link[(k + j) % n];
       worst = std::min(worst, work.shapes.quality(u, x, link[(k + j + 1) % n]));
       if (j > 1 && work.shapes.squared_length(u, x) > longest_thinned2) worst = 0;
     }
-    if (worst <= (change < least_change ? thinned_quality : best)) continue;
-    into = k, least_change = change, best = worst;
+    if (worst <= (change < min_change ? thinned_quality : best)) continue;
+    into = k, min_change = change, best = worst;
   }
   return into;
 }

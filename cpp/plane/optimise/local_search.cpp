@@ -27,7 +27,7 @@ struct Change {
 bool collapse_best(SearchZone& zone, int v) {
   Triangulation& mesh = zone.work.mesh;
   if (!zone.star.collect(mesh, v) || has_imposed_spoke(mesh, zone.star, v)) return false;
-  const int into = best_collapse(zone.star, least_collapse_quality, tie,
+  const int into = best_collapse(zone.star, min_collapse_quality, tie,
                                  [&](int p, int q, int r, bool) { return zone.shape(p, q, r); });
   if (into < 0) return false;
   collapse(mesh, zone.star, v, into);
@@ -63,7 +63,7 @@ std::vector<Change> list_changes(const SearchZone& zone, int t) {
   const auto may_split = [&](int s, int i) {
     const Triangle& S = mesh.triangles[s];
     return S.n[i] != no_edge && !mesh.is_imposed(s, i) &&
-           mesh.squared_length(S.v[next3[i]], S.v[prev3[i]]) > least_split2;
+           mesh.squared_length(S.v[next3[i]], S.v[prev3[i]]) > min_split2;
   };
   for (int i = 0; i < 3; ++i) {
     if (may_split(t, i)) changes.push_back({Change::Kind::split, t, i});

@@ -15,7 +15,7 @@ namespace {
 // Moves minimise this: bad triangles have a high penalty; a triangle that is turned over has an infinite one.
 double penalty(double quality) noexcept { return quality > 0 ? 1 / (quality * quality) : infinity; }
 // The penalty of the best shape, 1, less a thousandth for the rounding of very stretched metrics.
-constexpr double least_penalty = 0.999;
+constexpr double min_penalty = 0.999;
 
 double shape(const Mending& m, const Triangle& T) { return m.work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]); }
 
@@ -41,7 +41,7 @@ bool swap(Mending& m, int t) {
 bool move_to_best(Mending& m, int v) {
   Triangulation& mesh = m.work.mesh;
   Vertex& P = mesh.vertices[v];
-  StarBound bound{.least = least_penalty};
+  StarBound bound{.least = min_penalty};
   const auto cost = [&](double enough) {
     return bounded_star_cost(m.work.shapes, v, m.star.link, enough, penalty, bound, m.shapes_asked);
   };

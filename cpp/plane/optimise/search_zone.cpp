@@ -70,8 +70,8 @@ void SearchZone::add_edges(const Triangle& T, int t, ZoneCost& all) {
     all.shortest2 = std::min(all.shortest2, l2), all.longest2 = std::max(all.longest2, l2);
     if (normals_ == nullptr) continue;
     const Vec3 at_a = normal(a), turn = at_a - normal(b);
-    const double turn2 = std::max(dot(turn, turn), least_turn2);
-    all.turn2 = std::max(all.turn2, turn2), all.turns4 += turn2 * turn2 - least_turn2 * least_turn2;
+    const double turn2 = std::max(dot(turn, turn), min_turn2);
+    all.turn2 = std::max(all.turn2, turn2), all.turns4 += turn2 * turn2 - min_turn2 * min_turn2;
   }
 }
 

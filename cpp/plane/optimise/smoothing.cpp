@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t prefetch_distance = 12;
 // The limit in the plane, times the root of the determinant of the sum of three metrics.
-constexpr double least_area_in_sum = 3 * least_area;
+constexpr double min_area_in_sum = 3 * min_area;
 
 // True if the triangle of three vertices has area. `enough(area)`: returns true if that is enough in the metric.
 template <typename Enough>
@@ -59,13 +59,13 @@ inline bool is_sound(const PlaneWork& work, const SmoothingArrays& arrays, std::
   if constexpr (bends)
     if (work.shapes.is_bent(T))
       return orientation(A.point(), B.point(), C.point()) > 0 &&
-             work.shapes.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * least_area * least_area;
+             work.shapes.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * min_area * min_area;
   if (!arrays.steady.empty()) {
     const double root = squared_weight(arrays.steady[t].weight);
-    return has_area(A, B, C, [root](double area) { return area * root > least_area_in_sum; });
+    return has_area(A, B, C, [root](double area) { return area * root > min_area_in_sum; });
   }
   const double det = determinant(sum_of_metrics(A, B, C));
-  return has_area(A, B, C, [det](double area) { return area * area * det > 9 * least_area * least_area; });
+  return has_area(A, B, C, [det](double area) { return area * area * det > 9 * min_area * min_area; });
 }
 
 // Prepares the metrics for passes; they stay constant until the last pass. In varying sizes triangles are weighted by
@@ -88,7 +88,7 @@ void prepare(const Triangulation& mesh, SmoothingArrays& arrays, bool by_size) {
       arrays.heights.push_back(equilateral_height(root_of_determinant(m)));
     } else {
       // Numbers that fit into single precision, whatever the metric.
-      const double root = std::max({root_of_determinant(m), most_stretched * (m.a + m.c), least_root});
+      const double root = std::max({root_of_determinant(m), max_stretched * (m.a + m.c), min_root});
       const double height = equilateral_height(root);
       const auto single = static_cast<float>(std::sqrt(root));
       weight = single;
@@ -135,12 +135,12 @@ void propose(const PlaneWork& work, SmoothingArrays& arrays, double pull) {
       const SmoothingArrays::Steady& S = steady[t];
       m = {S.a, S.b, S.c}, weight = S.weight;
       const double root = weight * weight;
-      spoiled = !has_area(P, Q, R, [root](double area) { return area * root > least_area_in_sum; });
+      spoiled = !has_area(P, Q, R, [root](double area) { return area * root > min_area_in_sum; });
       k0 = 1 + slope, k1 = third / equilateral_height(1) * root, low = 1.5 * third, high = 6 * third;
     } else {
       m = sum_of_metrics(P, Q, R);
       const double det = determinant(m), k = heights[t];
-      spoiled = !has_area(P, Q, R, [det](double area) { return area * area * det > 9 * least_area * least_area; });
+      spoiled = !has_area(P, Q, R, [det](double area) { return area * area * det > 9 * min_area * min_area; });
       k0 = k * (1 + slope), k1 = k * third, low = 1.5 * k1, high = 6 * k1;
     }
     if (spoiled) spoiled_triangles.push_back(static_cast<std::int32_t>(t));

@@ -22,7 +22,7 @@ Candidate apex_in_charts(const Placement& placement, const FrontEdge& edge, cons
   for (int k = 0; k < chart_rounds; ++k) {
     const ChartedTriangle y(placement.field, a, b, top, !mesh.is_kinked(edge.a, edge.b));
     const Vec2 e = y.b - y.a;
-    const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, least_apex_height2) / l2);
+    const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, min_apex_height2) / l2);
     top = y.chart.point(0.5 * (y.a + y.b) + height * Vec2{-e.y(), e.x()}, top);
   }
   return {top, placement.field.at(top), edge.edge, edge.a};
@@ -36,7 +36,7 @@ Candidate apex(const Placement& placement, const FrontEdge& edge) {
   const Vec2 middle{0.5 * (A.x + B.x), 0.5 * (A.y + B.y)};
   const auto place = [&](Metric2 m) {
     const double l2 = m.a * ex * ex + 2 * m.b * ex * ey + m.c * ey * ey;
-    const double height2 = std::max(1 - 0.25 * l2, least_apex_height2);
+    const double height2 = std::max(1 - 0.25 * l2, min_apex_height2);
     const double k = std::sqrt(height2 / (std::max(determinant(m), 1e-300) * l2));
     return Vec2{middle.x() - k * (m.b * ex + m.c * ey), middle.y() + k * (m.a * ex + m.b * ey)};
   };

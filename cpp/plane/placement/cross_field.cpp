@@ -184,7 +184,7 @@ void fix_at_imposed_edges(const Triangulation& mesh, const std::vector<MetricFra
   }
   for (std::size_t v = 0; v < level.size(); ++v) {
     const double size = std::sqrt(std::norm(level.value[v]));
-    if (size > least_cross)
+    if (size > min_cross)
       level.fixed[v] = 1, level.value[v] /= size;
     else
       level.value[v] = 0;

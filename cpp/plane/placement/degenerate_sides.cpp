@@ -70,7 +70,7 @@ Ring sample_ring(const Placement& placement, const DegenerateSide& side) {
     ring.ray.push_back(ray_at(share.back()));
   }
   // If sizes differ by direction, rays that are evenly spaced in the frame are not so in the metric.
-  for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < most_rays;) {
+  for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < max_rays;) {
     const auto &ray = ring.ray[k], &next = ring.ray[k + 1];
     const std::size_t unit = std::min({static_cast<std::size_t>(1 / ray_step), ray.size() - 1, next.size() - 1});
     const double middle = 0.5 * (share[k] + share[k + 1]);
@@ -99,7 +99,7 @@ std::vector<Vec2> points_on(const Field& field, const Ring& ring, double height,
     at.push_back(ray[i]);
   }
   const bool wide = along.back() >= narrowest_fan * height * side.wide_fan;
-  const int least = wide ? std::max(side.wide_fan, side.least_fan) : side.least_fan;
+  const int least = wide ? std::max(side.wide_fan, side.min_fan) : side.min_fan;
   const int pieces = std::max(least, static_cast<int>(std::min(along.back() + 0.5, 1e6)));
   spacing = along.back() / pieces;
   std::vector<Vec2> points;
@@ -148,7 +148,7 @@ void surround(Placement& placement, DegenerateSide& side) {
   Triangulation& mesh = placement.mesh;
   const Ring ring = sample_ring(placement, side);
   const double height = ring.room >= (static_cast<double>(steps_of_room) - 0.5) * ray_step ? 1 : 0.5 * ring.room;
-  if (ring.room < least_room || (height < 1 && ring.fan >= side.least_fan)) return;
+  if (ring.room < min_room || (height < 1 && ring.fan >= side.min_fan)) return;
   std::vector<std::int32_t> fan;
   const auto takes_part = [&](int end, int v) {
     const double l = placement.field.length_at_middle(mesh.at(end), mesh.at(v));
@@ -179,7 +179,7 @@ void surround(Placement& placement, DegenerateSide& side) {
 void surround_degenerate_sides(Placement& placement, const PlaneDomain& domain) {
   for (const PlaneEdge& edge : domain.edges) {
     if (edge.kind != PlaneEdgeKind::degenerate) continue;
-    placement.degenerate.push_back({edge.a, edge.b, edge.least_fan, edge.wide_fan});
+    placement.degenerate.push_back({edge.a, edge.b, edge.min_fan, edge.wide_fan});
     placement.degenerate_ends.insert(placement.degenerate_ends.end(), {edge.a, edge.b});
   }
   for (DegenerateSide& side : placement.degenerate) {

@@ -9,7 +9,7 @@
 
 namespace carreau::plane {
 
-/// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::least_fan, wide_fan),
+/// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::min_fan, wide_fan),
 /// imposed and frozen. Its vertices must not move from now on.
 void surround_degenerate_sides(Placement& placement, const PlaneDomain& domain);
 

@@ -10,7 +10,7 @@ namespace carreau::plane {
 
 Placement::Placement(PlaneWork& work, std::int64_t triangle_limit)
     : mesh(work.mesh), field(work.field), shapes(work.shapes), monitor(work.monitor),
-      max_triangles(std::min(triangle_limit, most_triangles_of_a_piece)) {
+      max_triangles(std::min(triangle_limit, max_triangles_of_a_piece)) {
   if (field.bends()) mesh.bends.resize(mesh.vertices.size());
   for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) shapes.set_metric(v);
   const double expected = std::min(1.1 * std::max(field.measure(), 0.0) + static_cast<double>(mesh.triangles.size()),

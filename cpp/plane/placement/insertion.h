@@ -14,7 +14,7 @@ namespace carreau::plane {
 /// An edge of the domain that is one point in space.
 struct DegenerateSide {
   std::int32_t a, b;
-  int least_fan, wide_fan;  ///< triangles required around the point of space
+  int min_fan, wide_fan;  ///< triangles required around the point of space
   bool surrounded = false;  ///< by a fan that is frozen
 };
 

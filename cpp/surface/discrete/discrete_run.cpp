@@ -43,7 +43,7 @@ constexpr double same_size = 1e-6;
 
 /// Q2. Below this mean quality the input's triangles are as large as its details: local remeshing, with a penalty on
 /// collapses, gives better meshes.
-constexpr double least_mean_shape = 0.93;
+constexpr double min_mean_shape = 0.93;
 
 /// The state of a run: the triangles, cut by the sizes.
 struct Start {
@@ -83,7 +83,7 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
-  const std::string why = remesh_from_planes(frame, least_mean_shape, cad, options, start.result, monitor);
+  const std::string why = remesh_from_planes(frame, min_mean_shape, cad, options, start.result, monitor);
   if (!why.empty()) monitor.message(Level::detail, "local instead of parametric remeshing: " + why);
   return why.empty();
 }

@@ -19,9 +19,9 @@ using discrete::RefinedMesh;
 
 /// Tangent of the largest angle of triangles with the surface, which bounds long sizes as on patches
 /// (pipeline/base/thresholds.h).
-constexpr double most_lean = 0.5;
+constexpr double max_lean = 0.5;
 /// Ratio of sizes in two directions. Below, the sizes have no direction.
-constexpr double least_ratio = 1 + 1e-6;
+constexpr double min_ratio = 1 + 1e-6;
 
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -194,7 +194,7 @@ void DiscreteSizes::keep_flat(std::int32_t triangle, const Vec2& uv, TangentMetr
   SurfaceJet jet;
   jet.su = sizes.d1, jet.sv = sizes.d2;
   jet.suu = k.a * normal, jet.suv = k.b * normal, jet.svv = k.c * normal;
-  bound_lean(jet, most_lean, sizes);
+  bound_lean(jet, max_lean, sizes);
 }
 
 TangentMetric DiscreteSizes::wanted_at(const SizeRules& rules, int face, std::int32_t triangle, const Vec2& uv) const {
@@ -293,7 +293,7 @@ MeshSizes DiscreteSizes::at_vertices(const RefinedMesh& mesh, Monitor& monitor) 
       h[index(v)] = std::min({h[index(v)], sizes.back().h1, sizes.back().h2});
       graph.places.push_back({v, cross(sizes.back().d1, sizes.back().d2)});
     }
-    if (most > least_ratio) return by_direction(mesh, sides, std::move(graph), std::move(sizes), monitor);
+    if (most > min_ratio) return by_direction(mesh, sides, std::move(graph), std::move(sizes), monitor);
   }
   if (options_.gradation > 0)
     grade_over_edges(mesh, slope_of_gradation(options_.gradation), h, monitor);

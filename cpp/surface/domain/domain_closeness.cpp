@@ -155,7 +155,7 @@ double Sides::gap_along(const Side& side, double from, double to, double at) con
 /// The band of an edge for a vertex at arc length `at` of a side that may meet the edge's side at a corner.
 double Sides::band_at_corners(int edge, const Side& other, double at, double d, double coef) const {
   const Side& own = sides_[side_of_[edge]];
-  const double size = length_[edge], inner = std::min(coef, most_among_neighbours);
+  const double size = length_[edge], inner = std::min(coef, max_among_neighbours);
   double band = coef * size;
   if (own.closed || other.closed) return band;
   for (int i = 0; i < 2; ++i)
@@ -181,7 +181,7 @@ double Sides::band(int edge, int vertex, double d, double coef) const {
     const double at = comes_first ? start_[f] : start_[f] + length_[f];
     if (side_of_[f] == side_of_[edge] &&
         gap_along(own, start_[edge], start_[edge] + length_[edge], at) <= longest_detour * d)
-      band = std::min(band, most_among_neighbours * length_[edge]);
+      band = std::min(band, max_among_neighbours * length_[edge]);
     band = std::min(band, band_at_corners(edge, sides_[side_of_[f]], at, d, coef));
   }
   return band;
@@ -265,8 +265,8 @@ bool ClosenessCheck::is_too_long(int edge) const {
 
 double coefficient_of_width(double coef, double width) {
   if (width < narrowest_share) return 0;
-  if (coef >= least_wanted_coefficient) return coef;
-  return std::min(coef, std::max(least_coefficient, coef * width / thin_width));
+  if (coef >= min_wanted_coefficient) return coef;
+  return std::min(coef, std::max(min_coefficient, coef * width / thin_width));
 }
 
 std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef,

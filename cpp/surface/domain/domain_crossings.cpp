@@ -182,8 +182,8 @@ class Sweep {
   std::optional<EdgeConflict> found_;
 };
 
-/// All pairs of all cells, at most `most_tests` of them.
-std::vector<EdgeConflict> search_cells(const PlaneDomain& domain, const EdgeGrid& grid, double most_tests) {
+/// All pairs of all cells, at most `max_tests` of them.
+std::vector<EdgeConflict> search_cells(const PlaneDomain& domain, const EdgeGrid& grid, double max_tests) {
   const std::size_t most = 4 * domain.edges.size();
   std::vector<EdgeConflict> conflicts;
   double tests = 0;
@@ -192,7 +192,7 @@ std::vector<EdgeConflict> search_cells(const PlaneDomain& domain, const EdgeGrid
       const auto edges = grid.edges_in(column, row);  // increasing
       for (std::size_t i = 0; i < edges.size(); ++i) {
         tests += static_cast<double>(edges.size() - i);
-        if (tests > most_tests) return conflicts;
+        if (tests > max_tests) return conflicts;
         for (std::size_t j = i + 1; j < edges.size(); ++j) {
           const auto where = conflict_between(domain, domain.edges[edges[i]], domain.edges[edges[j]]);
           if (!where) continue;

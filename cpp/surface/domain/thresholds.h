@@ -19,17 +19,17 @@ inline constexpr double point_share = 1e-3;
 // Close edges (domain_closeness)
 /// Coefficient. The largest coefficient among neighbours along the boundary. Below one half a split only makes edges
 /// that are longer than some edge beside them, so that splitting ends (README). [Closeness.EndsAtAcuteCorners]
-inline constexpr double most_among_neighbours = 0.45;
+inline constexpr double max_among_neighbours = 0.45;
 /// Share. Two sides of a corner of angle t are at least s sin(t) apart at distance s. Curved sides and a varying metric
 /// need a reserve. [Closeness.EndsAtACusp]
 inline constexpr double corner_reserve = 0.25;
 /// Sizes. Width below which the coefficient falls, [Closeness.KeepsTheLengthOfEdgesInThinZones]
 inline constexpr double thin_width = 4e-3;
 /// Coefficient. The least value of the falling coefficient. [as above]
-inline constexpr double least_coefficient = 0.02;
+inline constexpr double min_coefficient = 0.02;
 /// Coefficient. From here on shapes take precedence: the coefficient holds at any width, as in the manual. [Closeness.
 /// RefinesANarrowZoneAndNothingElse]
-inline constexpr double least_wanted_coefficient = 0.1;
+inline constexpr double min_wanted_coefficient = 0.1;
 /// Ratio. Two edges do not form a narrow zone if the path along the boundary between them is at most this many times
 /// longer than the direct way. [Closeness. LooksAtTheSideOfTheDomainOnly]
 inline constexpr double longest_detour = 4;

@@ -121,7 +121,7 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
   GradedModel graded;
   std::size_t long_before = SIZE_MAX;
   double triangles_before = 0;
-  for (int number = 1; number <= most_rounds; ++number) {
+  for (int number = 1; number <= max_rounds; ++number) {
     detail::GradingWork work(model, rules, options, diag, monitor, periodic);
     auto [now, long_edges] = detail::run_round(work, raw, graded);
     graded = std::move(now);

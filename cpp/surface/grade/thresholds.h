@@ -39,7 +39,7 @@ inline constexpr double one_sample = 1e-6;
 /// Unit edges of the graded sizes. The graph is too coarse if an edge is longer. [4, 8]
 inline constexpr double too_long = 3.2;
 /// Graphs, each with the sizes of the previous graph. [0, 2]
-inline constexpr int most_rounds = 5;
+inline constexpr int max_rounds = 5;
 /// Edges a triangle that may be too long after the first round. [0, 2]
 inline constexpr double few_edges = 0.01;
 /// Share of the triangles. A graph that changes less is the same, and its long edges stay. [0, 0; without it

@@ -13,9 +13,9 @@ namespace {
 Budget budget_of(const SurfaceMesh& mesh) {
   // Points of surfaces, whatever the mesh, and for each vertex of larger meshes. If the curves of a model contradict its sizes, edges need
   // improvement everywhere.
-  constexpr double least_budget = 5'000, budget_a_vertex = 0.25;
+  constexpr double min_budget = 5'000, budget_a_vertex = 0.25;
   return Budget(
-      static_cast<std::int64_t>(std::max(least_budget, budget_a_vertex * static_cast<double>(mesh.vertices.size()))));
+      static_cast<std::int64_t>(std::max(min_budget, budget_a_vertex * static_cast<double>(mesh.vertices.size()))));
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ SurfaceJet AssembledSearch::ask(std::int32_t face, const Vec2& uv) {
 bool AssembledSearch::agree(std::span<const Place> places, const Vec3& mean) const {
   return std::all_of(places.begin(), places.end(), [&](Place p) {
     const Vec3 n = mesh_.normal(p);
-    return dot(n, mean) > thresholds::assembled::least_agreement * norm(n);
+    return dot(n, mean) > thresholds::assembled::min_agreement * norm(n);
   });
 }
 

@@ -46,7 +46,7 @@ class ChordGradation {
   using Vertex = EditableMesh::Vertex;
   using Place = EditableMesh::Place;
   static constexpr double good = thresholds::chord_gradation::good;
-  static constexpr Rings rings{.ascending = true, .most = thresholds::chord_gradation::most_rings};
+  static constexpr Rings rings{.ascending = true, .most = thresholds::chord_gradation::max_rings};
   static constexpr bool divides = false;
   static constexpr auto size_of = geometric_mean_size;
 

@@ -32,7 +32,7 @@ struct EveningJudgement {
     return out <= before.out && quality >= std::min(before.quality, good) && beyond <= std::max(before.beyond, 1.);
   }
   [[nodiscard]] bool improves(const EveningJudgement& before, double good) const noexcept {
-    return excess < before.excess - thresholds::evening::least_gain && no_worse_than(before, good);
+    return excess < before.excess - thresholds::evening::min_gain && no_worse_than(before, good);
   }
 };
 

@@ -38,8 +38,8 @@ class Refinement {
     const std::size_t vertices = mesh_.xyz.size();
     depth_.assign(mesh_.plane.triangles.size(), 0);
     // A bend needs two or three halvings. More divisions show a surface that is rough at every scale.
-    constexpr std::size_t most_divisions = 32;
-    left_ = Budget(static_cast<std::int64_t>(most_divisions * wrong.size()));
+    constexpr std::size_t max_divisions = 32;
+    left_ = Budget(static_cast<std::int64_t>(max_divisions * wrong.size()));
     std::vector<int> still = improve_ring_by_ring(
         wrong, {}, left_, monitor_, [this](int t) { return !is_sound(t); }, [this](int t) { return mend(t); },
         [this](int t) {
@@ -196,12 +196,12 @@ class Refinement {
     };
     if (known_)
       for (const std::int32_t v : c) compare(mesh_.normal[v]);
-    if (least < least_agreement) return least;
+    if (least < min_agreement) return least;
     const auto& uv = mesh_.plane.vertices;
     compare(unit_normal(jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]]))).value_or(Vec3{}));
     return least;
   }
-  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? least_agreement : 0); }
+  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? min_agreement : 0); }
 
   // A division, or a swap, that completes the work on the triangle.
   bool mend(int t) {
@@ -213,7 +213,7 @@ class Refinement {
   // The other diagonal of a quadrilateral, when both triangles agree with the surface and seem near then. The best of
   // three.
   bool swap_one(int t) {
-    double best = least_agreement;
+    double best = min_agreement;
     std::optional<Quad> found;
     for (int i = 0; i < 3; ++i) {
       const auto q = quad(t, i);

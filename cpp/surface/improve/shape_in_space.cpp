@@ -32,8 +32,8 @@ void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, P
   const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(*bad), input.threads, monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;
-  constexpr int most_rounds = 4;  // swaps and moves make room for each other
-  for (int round = 0; round < most_rounds; ++round) {
+  constexpr int max_rounds = 4;  // swaps and moves make room for each other
+  for (int round = 0; round < max_rounds; ++round) {
     const std::vector<std::int32_t> now = smooth_in_space(region, input.domain->plane, input.ref, cad, mesh, monitor);
     moved.insert(moved.end(), now.begin(), now.end());
     if (now.empty() || !swap_in_space(region, input.domain->plane, mesh.plane, mesh.xyz, monitor)) break;

@@ -36,9 +36,9 @@ class Smoothing {
 
   std::vector<std::int32_t> run() {
     std::vector<std::int32_t> moved;
-    constexpr int most_passes = 12;  // most patches need three
+    constexpr int max_passes = 12;  // most patches need three
     improve_in_passes(
-        most_passes, monitor_, [this] { return corners_of_bad(); },
+        max_passes, monitor_, [this] { return corners_of_bad(); },
         [&](std::int32_t v) {
           const bool better = improve(v);
           if (better) moved.push_back(v);
@@ -182,7 +182,7 @@ class Smoothing {
       Trial trial(editable_);
       editable_.move({0, v}, uv, there.s);
       known_[v].normal = normal_of(there);
-      const bool better = worst_around(v) > worst + least_gain && (worst < poor || sum_around(v) > sum);
+      const bool better = worst_around(v) > worst + min_gain && (worst < poor || sum_around(v) > sum);
       if (!better || !agrees(v)) continue;
       trial.accept();
       return true;
@@ -194,7 +194,7 @@ class Smoothing {
   [[nodiscard]] bool agrees(std::int32_t v) {
     const std::vector<Place>& around = star(v);
     for (std::size_t k = 0; k < around.size(); ++k)
-      if (agreement(around[k]) < std::min(agreement_before_[k], least_agreement)) return false;
+      if (agreement(around[k]) < std::min(agreement_before_[k], min_agreement)) return false;
     return true;
   }
 

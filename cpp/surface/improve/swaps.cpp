@@ -25,8 +25,8 @@ class Swapper {
       for (const std::int32_t t : region_.triangles()) touched_[t] = 0;
       return region_.below(poor);
     };
-    constexpr int most_passes = 100;  // a fan of n triangles in a narrow wedge is undone in n; most patches need three
-    return improve_in_passes(most_passes, monitor, list, [this](std::int32_t t) { return improve(t); });
+    constexpr int max_passes = 100;  // a fan of n triangles in a narrow wedge is undone in n; most patches need three
+    return improve_in_passes(max_passes, monitor, list, [this](std::int32_t t) { return improve(t); });
   }
 
  private:
@@ -42,7 +42,7 @@ class Swapper {
     const Vec3 n = unit_normal_in_space(t, xyz_), p = unit_normal_in_space(mesh_.at(first), xyz_),
                r = unit_normal_in_space(mesh_.at(second), xyz_);
     if (p == Vec3{0, 0, 0} || r == Vec3{0, 0, 0}) return false;
-    return std::max(dot(n, p), dot(n, r)) < least_agreement;
+    return std::max(dot(n, p), dot(n, r)) < min_agreement;
   }
   // In a narrow strip that winds, far vertices make triangles of a better shape that leave the surface.
   [[nodiscard]] bool is_longest(const Quad& q) const {
@@ -62,7 +62,7 @@ class Swapper {
   // Swaps the best of the triangle's three edges. The next pass looks again at triangles that a pass has changed.
   bool improve(std::int32_t t) {
     if (touched_[t] != 0) return false;
-    double best = least_gain;
+    double best = min_gain;
     std::optional<Quad> found;
     for (int i = 0; i < 3; ++i) {
       const auto q = mesh_.quad({0, t}, i);

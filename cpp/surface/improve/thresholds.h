@@ -21,27 +21,27 @@ inline constexpr double poor = 0.6;
 /// Swaps judged in space (poles_test, narrow/narrow_faces_test).
 namespace swaps {
 /// Shape. A swap must gain this much, so that no pair of swaps undoes each other for ever.
-inline constexpr double least_gain = 1e-6;
+inline constexpr double min_gain = 1e-6;
 /// Cosine of the angle between a new triangle and the nearer of the two old ones. Across a tube or around an apex of
 /// three edges the best shape is the cross-section.
-inline constexpr double least_agreement = 0.7;
+inline constexpr double min_agreement = 0.7;
 }  // namespace swaps
 
 /// Vertices moved for shapes in space (improve/smoothing_test).
 namespace smoothing {
 /// Shape. A move must raise the worst around a vertex by so much.
-inline constexpr double least_gain = 1e-3;
+inline constexpr double min_gain = 1e-3;
 /// Mean lengths of the edges around: steps of the search, from the first, halved down to the last.
 inline constexpr double first_step = 0.4, last_step = 0.01;
 /// Cosine of a triangle's normal and the surface's at its corners, unless it was less before. Around the apex of a
 /// narrow cone, and across a bend, the best shapes lie in the cross-section.
-inline constexpr double least_agreement = 0.5;
+inline constexpr double min_agreement = 0.5;
 }  // namespace smoothing
 
 /// Triangles that leave the surface (agreement_test, guarantees_test, lift/surface_agreement_test).
 namespace refinement {
 /// Cosine of a triangle's normal and the surface's: 85 degrees.
-inline constexpr double least_agreement = 0.08;
+inline constexpr double min_agreement = 0.08;
 /// Cosine, below which triangles are examined more closely. At a corner the surface may be turned by 60 degrees on the
 /// way to the middle of a coarse triangle.
 inline constexpr double doubtful = 0.5;
@@ -54,7 +54,7 @@ inline constexpr std::uint8_t deepest = 12;
 /// guarantees_test).
 namespace assembled {
 /// Cosine of the angle between a new triangle and the mean of the replaced triangles.
-inline constexpr double least_agreement = 0.7;
+inline constexpr double min_agreement = 0.7;
 /// The surroundings of its neighbours' neighbours judge a change beside a vertex; a change beside these may follow.
 inline constexpr int rings = 3;
 /// Length in the metric of a unit mesh.
@@ -66,7 +66,7 @@ namespace evening {
 /// Share of a ratio: rounding of the lengths that are compared.
 inline constexpr double rounding = 1e-9;
 /// Share of the limit. Gain of a change in the sum of the excesses, so that changes come to an end.
-inline constexpr double least_gain = 1e-4;
+inline constexpr double min_gain = 1e-4;
 }  // namespace evening
 
 /// Ratios of lengths at a vertex (improve/even_edges_test, grade/gradation_test).
@@ -88,7 +88,7 @@ inline constexpr double good = 0.5;
 /// Lengths in the metric of single edges, as the last resort.
 inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
 /// Rings of changes that follow each other.
-inline constexpr int most_rings = 10;
+inline constexpr int max_rings = 10;
 /// Length in the metric. Lengths are summed up from pieces no longer than this.
 inline constexpr double finest = 0.1;
 }  // namespace chord_gradation

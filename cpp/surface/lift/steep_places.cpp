@@ -88,7 +88,7 @@ class SteepPlaces {
         if (f.moving) f.uv = f.uv + d;
       }
     };
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       moving.clear(), uv.clear();
       for (std::size_t k = 0; k < feet.size(); ++k)
         if (feet[k].moving) moving.push_back(k), uv.push_back(feet[k].uv);
@@ -123,9 +123,9 @@ std::vector<Vec2> missed_steep_places(const PatchInput& input, const ControlSpac
   prescribed.sample(cad, input.ref, 0, uv, [&](std::size_t k, const SurfaceJet&, Metric2 metric) {
     if (!agree(length_ratios(metric, space.at(uv[k])), input)) missed.push_back(uv[k]);
   });
-  if (missed.size() <= most_places) return missed;
+  if (missed.size() <= max_places) return missed;
   std::vector<Vec2> some;
-  for (std::size_t k = 0; k < most_places; ++k) some.push_back(missed[k * missed.size() / most_places]);
+  for (std::size_t k = 0; k < max_places; ++k) some.push_back(missed[k * missed.size() / max_places]);
   return some;
 }
 

@@ -25,17 +25,17 @@ inline constexpr double notable_change = 0.1;
 inline constexpr double one_point = 1e-6;
 /// Places. Examined in one face, spread over all of them: more places cost more without new information. [surface:
 /// BadModels. SurfaceThatJumpsInManyPlaces]
-inline constexpr std::size_t most_places = 500;
+inline constexpr std::size_t max_places = 500;
 /// Triangles. Size of a part that one thread examines between two checks of the monitor. [tests/cpp/measure: stops;
 /// time only]
 inline constexpr std::size_t triangles_a_part = 1 << 14;
 /// Parts. Below, each process examines all parts: it would wait longer for the others. [time only]
-inline constexpr std::size_t least_shared_parts = 8;
+inline constexpr std::size_t min_shared_parts = 8;
 
 // Steep places of space (steep_places)
 /// Steps. Gauss-Newton steps from the nearest point of the mesh to the nearest point of the surface; they are of second
 /// order. [SteepPlaces.SpotsOfABackgroundInSpaceAreMeshed]
-inline constexpr int most_steps = 8;
+inline constexpr int max_steps = 8;
 /// Share of a place's reach. Shorter steps are the last. [as above]
 inline constexpr double last_step = 1e-3;
 /// sin^2 of the angle between the derivatives, below which the search takes no step. [rounding]
@@ -47,7 +47,7 @@ inline constexpr double no_step = 1e-12;
 inline constexpr double notable_area = 0.05;
 /// Cosine of the normals of a triangle and of its part of the surface: 85 degrees, as for triangles that are divided
 /// (surface/improve). [surface: AgreementBesideChords.AreNotDividedForEver]
-inline constexpr double least_agreement = 0.08;
+inline constexpr double min_agreement = 0.08;
 /// Parts along each side into which a triangle of (u, v) is divided for the test. [surface: SurfaceAgreement]
 inline constexpr int parts = 4;
 

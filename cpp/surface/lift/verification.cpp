@@ -53,9 +53,9 @@ class LiftCheck {
 
  private:
   void thin_out() {
-    if (places_.size() <= most_places) return;
+    if (places_.size() <= max_places) return;
     std::vector<Vec2> some;
-    for (std::size_t k = 0; k < most_places; ++k) some.push_back(places_[k * places_.size() / most_places]);
+    for (std::size_t k = 0; k < max_places; ++k) some.push_back(places_[k * places_.size() / max_places]);
     places_.swap(some);
   }
 
@@ -116,7 +116,7 @@ class LiftCheck {
   /// Returns the results of work(part) for all parts, by the threads and processes that make the patch.
   template <typename Result, typename Work, typename Put, typename Get>
   std::vector<Result> of_parts(std::string_view step, const Work& work, const Put& put, const Get& get) {
-    const Crew crew{parts() >= least_shared_parts ? team_ : nullptr, input_.threads};
+    const Crew crew{parts() >= min_shared_parts ? team_ : nullptr, input_.threads};
     return shared_work<Result>(crew, step, parts(), false, [&](std::size_t part, Monitor&) { return work(part); }, put, get, monitor_);
   }
   [[nodiscard]] double squared_promise(int a, int b) const {
@@ -270,7 +270,7 @@ UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpac
   const PolygonLocator locator(domain.vertices, domain.edges);
   for (std::vector<Vec2>& places : missed) std::erase_if(places, [&](Vec2 p) { return !locator.contains(p); });
   std::erase_if(missed, [](const std::vector<Vec2>& places) { return places.empty(); });
-  if (missed.size() > most_places) missed.resize(most_places);
+  if (missed.size() > max_places) missed.resize(max_places);
   std::vector<Vec2> uv;
   for (const std::vector<Vec2>& places : missed) uv.push_back(places.front());
   FaceMetric prescribed = prescription_of(input, rules, monitor);

@@ -180,7 +180,7 @@ class SideMatcher {
   // images, whose number may double in each round.
   [[nodiscard]] bool has_too_many(const SideRuler& side) const {
     for (std::size_t p = 0; p < side.parts(); ++p)
-      if (curves_[side.curve(p)].r.size() > most_vertices_) return true;
+      if (curves_[side.curve(p)].r.size() > max_vertices_) return true;
     return false;
   }
 
@@ -208,8 +208,8 @@ class SideMatcher {
     std::set<int> all;
     for (std::size_t i = 0; i < faces_.size(); ++i)
       if (is_matched_[i] != 0) curves[i] = curves_of(faces_[i]), all.insert(curves[i].begin(), curves[i].end());
-    most_vertices_ = 0;
-    for (const int curve : all) most_vertices_ += curves_[curve].r.size();
+    max_vertices_ = 0;
+    for (const int curve : all) max_vertices_ += curves_[curve].r.size();
     if (from_the_start)
       for (std::size_t i = 0; i < faces_.size(); ++i)
         if (is_matched_[i] != 0) match(faces_[i]);
@@ -240,7 +240,7 @@ class SideMatcher {
   std::vector<std::int64_t> version_;   // by curve: it grows with each change
   std::vector<char> is_matched_;        // by face
   std::map<int, DiscreteCurve> given_;  // curves that have changed, as they were given
-  std::size_t most_vertices_ = 0;       // of one curve
+  std::size_t max_vertices_ = 0;       // of one curve
 };
 
 }  // namespace

@@ -72,7 +72,7 @@ class Finder {
   std::optional<NarrowFace> look_at(int f) {
     face_ = f;
     const Face& face = model_.model.faces[f];
-    if (!face.points.empty() || face.curves.empty() || face.curves.size() > most_curves) return {};
+    if (!face.points.empty() || face.curves.empty() || face.curves.size() > max_curves) return {};
     for (const FaceCurve& curve : face.curves)
       if (curve.type == CurveType::internal) return {};
     NarrowFace narrow{.face = f, .size = smallest_size()};
@@ -131,7 +131,7 @@ class Finder {
       for (std::size_t count = 0; count + 2 <= n && length(loop, from, count) <= longest_end_cap * reach_; ++count)
         end_caps.push_back({from, count});
     double best = infinity;
-    std::size_t most_in_end_caps = 0;
+    std::size_t max_in_end_caps = 0;
     for (std::size_t i = 0; i < end_caps.size(); ++i)
       for (std::size_t j = i + 1; j < end_caps.size(); ++j) {
         const EndCap p = end_caps[i], q = end_caps[j];
@@ -141,9 +141,9 @@ class Finder {
         const Side one = part_of(loop, p.from + p.count, to_q), other = reversed(part_of(loop, q.from + q.count, to_p));
         const double width = hausdorff_distance(trace(one), trace(other), reach_);
         if (width > reach_ || width > best * (1 + same_width)) continue;
-        if (width > best * (1 - same_width) && p.count + q.count <= most_in_end_caps) continue;
+        if (width > best * (1 - same_width) && p.count + q.count <= max_in_end_caps) continue;
         best = width;
-        most_in_end_caps = p.count + q.count;
+        max_in_end_caps = p.count + q.count;
         narrow.width = width;
         narrow.side = {one, other};
         narrow.end_cap = {reversed(part_of(loop, p.from, p.count)), part_of(loop, q.from, q.count)};

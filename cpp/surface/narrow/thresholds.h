@@ -12,7 +12,7 @@ namespace carreau::thresholds::narrow {
 /// [Narrow.WedgeCollapses]
 inline constexpr double longest_end_cap = 2;
 /// Curves. The search for sides tests all pairs of ends: a face with more curves is skipped. [time only]
-inline constexpr std::size_t most_curves = 60;
+inline constexpr std::size_t max_curves = 60;
 /// Share of a width. Choices whose widths differ by less are equally near: the choice with more curves in its end caps
 /// is taken. [Narrow.ChamferOfABoxCollapses]
 inline constexpr double same_width = 1e-3;

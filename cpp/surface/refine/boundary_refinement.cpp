@@ -215,7 +215,7 @@ class Refiner {
   // distance are split.
   void add_loose_edges(Splits& splits) {
     for (const int face : turned_) {
-      if (given_up_.contains(face) || turned_rounds_[face]++ >= most_turned_rounds) continue;
+      if (given_up_.contains(face) || turned_rounds_[face]++ >= max_turned_rounds) continue;
       struct Candidate {
         int curve, segment;
         double deviation;
@@ -276,7 +276,7 @@ class Refiner {
 
   // A face found free of crossings stays so until it changes.
   void uncross() {
-    for (int i = 0; i < most_halvings; ++i)
+    for (int i = 0; i < max_halvings; ++i)
       if (!refine(
               crossable_, [this](int f) { return Found{edges_to_split_for_crossings(result_.domain[f]->plane)}; },
               [this](int f, Found& found, Monitor&) { give_up_if_fruitless(f, found); }, true))
@@ -290,7 +290,7 @@ class Refiner {
     Crossing& before = crossings_[f];
     before.fruitless = length > fruitless_share * before.length ? before.fruitless + 1 : 0;
     before.length = length;
-    if (before.fruitless > most_fruitless_halvings) {
+    if (before.fruitless > max_fruitless_halvings) {
       given_up_.insert(f);
       found.edges.clear();
     }

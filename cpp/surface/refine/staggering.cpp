@@ -72,11 +72,11 @@ struct Lack {
   void add(const std::vector<Vec3>& line, NearVertices near, const std::vector<Vec3>& points) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Vec3 a = line[k], b = line[k + 1];
-      double least_cosine = 1, quality = -1;  // none
+      double min_cosine = 1, quality = -1;  // none
       near.each_beside(a, b, widest * norm(b - a), [&](int v) {
         const Vec3 to_a = a - points[v], to_b = b - points[v];
         const double cosine = dot(to_a, to_b) / (norm(to_a) * norm(to_b));
-        if (cosine < least_cosine) least_cosine = cosine, quality = quality_q2(a, b, points[v]);
+        if (cosine < min_cosine) min_cosine = cosine, quality = quality_q2(a, b, points[v]);
         return true;
       });
       if (quality >= 0) sum += 1 - quality, worst = std::min(worst, quality), ++edges;
@@ -163,7 +163,7 @@ std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<Di
       if (may_move[c] == 0) continue;
       double sum = 0;  // of a change of this one
       for (const auto& [d, g] : others) sum += moved[c] == moved[d] ? g : -g;
-      if (moved[c] != 0 ? sum + least_curve_gain <= 0 : sum <= least_curve_gain) continue;
+      if (moved[c] != 0 ? sum + min_curve_gain <= 0 : sum <= min_curve_gain) continue;
       moved[c] = moved[c] == 0 ? 1 : 0;
       any = true;
     }

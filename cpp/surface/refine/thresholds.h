@@ -11,16 +11,16 @@ namespace carreau::thresholds::refine {
 // Crossings and balance (boundary_refinement)
 /// Rounds. Each halves the edges that cross: 2^-16 of an edge is below the accuracy of any support. [domain: Crossings.
 /// AreRemovedByRefinement]
-inline constexpr int most_halvings = 16;
+inline constexpr int max_halvings = 16;
 /// Rounds. Around a true crossing the edges that cross become shorter with every halving, and curves that only come
 /// near each other stop crossing. If this number of halvings changes nothing, the curves lie on each other, and would
 /// be cut for ever. [Refinement.CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour]
-inline constexpr int most_fruitless_halvings = 6;
+inline constexpr int max_fruitless_halvings = 6;
 /// Share of the length that crossed before. A halving without effect leaves more. [as above]
 inline constexpr double fruitless_share = 0.75;
 /// Rounds. Halvings of a boundary that is inside out: a model that is wrong stays so. [domain:
 /// OrientLoops.RejectsInvalidDomains]
-inline constexpr int most_turned_rounds = 6;
+inline constexpr int max_turned_rounds = 6;
 /// Ratio. Assumed ratio of lengths in the metric of a curved surface to straight distances in space.
 /// [Refinement.BordersWithTheOutsideBetweenThemAreNoNarrowZone]
 inline constexpr double straight_reserve = 2;
@@ -50,7 +50,7 @@ inline constexpr double widest = 1.2;
 inline constexpr int fewest_segments = 3;
 /// Sum of qualities. Least gain of a curve: the half edges at its ends cost as much in the faces beside it.
 /// [Staggering.StripsAreOfIsoscelesTriangles]
-inline constexpr double least_curve_gain = 1;
+inline constexpr double min_curve_gain = 1;
 /// Share of the worst quality, below which it must not fall, whatever the gain elsewhere. If vertices come to lie on
 /// the chords of arcs that bulge across the strip, triangles become flat. [Staggering.RingsToo]
 inline constexpr double largest_fall = 0.5;

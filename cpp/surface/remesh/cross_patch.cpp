@@ -27,7 +27,7 @@ PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
       most = std::max(most, anisotropy(metrics[f].back()));
     }
   }
-  return most > least_anisotropy ? metrics : PlaneMetrics{};
+  return most > min_anisotropy ? metrics : PlaneMetrics{};
 }
 
 // Keeps references to all arguments.

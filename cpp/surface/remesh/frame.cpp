@@ -13,7 +13,7 @@ using namespace thresholds::remesh;
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack) {
   const GeometricLimits limits = geometric_limits(options.size);
   // Folds of less than the sharp angle may be flattened.
-  const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
+  const double folded = std::min(usual_angle / 2 + options.sharp_angle, max_angle);
   SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg * angle_slack;
   if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;

@@ -54,7 +54,7 @@ double share_in_range(const CrossPatchMesh& mesh) {
 
 ShapeBudget budget_of(const Strategy& strategy, const ShapeSummary& before) {
   ShapeBudget budget{.price = strategy.price, .mean = strategy.weighs_moves ? before.mean : good_shape};
-  if (strategy.weighs_moves) budget.floor = std::min(before.worst, least_line_shape);
+  if (strategy.weighs_moves) budget.floor = std::min(before.worst, min_line_shape);
   if (strategy.kept != keep_none) budget.floor = before.worst;
   if (strategy.kept == keep_all) budget.left = 0;
   return budget;
@@ -71,10 +71,10 @@ class FrameRemesher {
     return candidate.why;
   }
 
-  std::string from_planes(double least_mean) {
+  std::string from_planes(double min_mean) {
     std::int64_t first = 0, last = 0;
     bool keeps = false;
-    std::optional<StartedMesh> mesh = made_in_planes(least_mean);
+    std::optional<StartedMesh> mesh = made_in_planes(min_mean);
     for (int round = 0; mesh; ++round) {
       Candidate candidate = replacement_.judge(*mesh);
       if (!candidate.crosses) {
@@ -85,7 +85,7 @@ class FrameRemesher {
       monitor_.message(Level::debug, std::to_string(found) + " pairs of triangles cross");
       const bool stays = round > 0 && found >= last;
       const bool all_found = found == static_cast<std::int64_t>(candidate.crossings.pairs.size());
-      if (round == most_untanglings || (stays && keeps) || !all_found) return "triangles would cross";
+      if (round == max_untanglings || (stays && keeps) || !all_found) return "triangles would cross";
       if (round == 0) first = found;
       last = found;
       replacement_.guard(candidate);
@@ -96,7 +96,7 @@ class FrameRemesher {
       // Edits do not help: the triangles of the atlas stay there.
       keeps = true, last = first;
       keep_around(candidate);
-      mesh = made_in_planes(least_mean);
+      mesh = made_in_planes(min_mean);
     }
     return "parametric remeshing is not possible";
   }
@@ -129,7 +129,7 @@ class FrameRemesher {
         continue;
       }
       // Sizes take precedence over shapes.
-      if (spare && tried.in_range < spare->in_range - most_range_for_shapes) {
+      if (spare && tried.in_range < spare->in_range - max_range_for_shapes) {
         std::swap(tried, *spare);
         if (tried.ended != nullptr) remesh_between_lines(tried.mesh, *tried.ended, false, false, 1, 0);
       }
@@ -148,7 +148,7 @@ class FrameRemesher {
     // A larger loss of the mean is not recovered.
     const bool may_end = !frame_.everywhere && !frame_.elements && strategy.price < infinity && strategy.kept != keep_all;
     const bool coarse = coarsely && frame_.everywhere;
-    if (!remesh_between_lines(start, strategy, coarse, coarse, 0, may_end ? before.mean - most_lost_at_first : 0)) {
+    if (!remesh_between_lines(start, strategy, coarse, coarse, 0, may_end ? before.mean - max_lost_at_first : 0)) {
       const double in_range = share_in_range(free);
       return {std::move(start), keep_all, in_range, &strategy};
     }
@@ -165,7 +165,7 @@ class FrameRemesher {
     CrossPatchMesh& free = *start.free;
     RemeshingReport report;
     bool done = true;
-    for (int round = first; round < most_line_rounds && done; ++round) {
+    for (int round = first; round < max_line_rounds && done; ++round) {
       const std::vector<std::int32_t> changed = remesh_lines(free, start.worked, monitor_);
       if (round > 0 && changed.empty() && strategy.kept != keep_all) break;
       if (round == 0 && coarsely) report += remesh_coarsely(free);
@@ -207,7 +207,7 @@ class FrameRemesher {
   ShapeSummary recover_mean(CrossPatchMesh& mesh, double mean) {
     ShapeSummary now = summarise_shapes(mesh, options_.threads, monitor_);
     for (const double below : regained_below) {
-      if (!falls(now.mean, mean) || now.mean < mean - most_regained) break;
+      if (!falls(now.mean, mean) || now.mean < mean - max_regained) break;
       polish(mesh, below, monitor_);
       now = summarise_shapes(mesh, options_.threads, monitor_);
     }
@@ -220,7 +220,7 @@ class FrameRemesher {
     if (frame_.everywhere || frame_.elements || options_.certified == Certified::none) return replacement_.judge(mesh);
     Certifier certifier(*mesh.free, options_.certified == Certified::all, frame_.workers, monitor_);
     std::optional<Candidate> plain;  // without its edits
-    for (int round = 0; round < most_certifications; ++round) {
+    for (int round = 0; round < max_certifications; ++round) {
       const Certification done = certifier.run();
       monitor_.message(Level::detail, "bounds of A0 and A1: " + std::to_string(done.beyond_before) + " triangles beyond, " +
                                           std::to_string(done.beyond) + " after " + std::to_string(done.swaps) + " swaps, " +
@@ -243,7 +243,7 @@ class FrameRemesher {
   }
 
   // The mesh of charts; its seams are remeshed, and its bad triangles.
-  std::optional<StartedMesh> made_in_planes(double least_mean) {
+  std::optional<StartedMesh> made_in_planes(double min_mean) {
     StartedMesh start{nullptr, replacement_.lines()};
     std::optional<PlacedMesh> placed = frame_.made(start.worked, replacement_.tolerances());
     if (!placed) return {};
@@ -266,7 +266,7 @@ class FrameRemesher {
     around.insert(around.end(), placed->seams.begin(), placed->seams.end());
     around.insert(around.end(), placed->kept.begin(), placed->kept.end());
     if (!around.empty()) remesh(free, monitor_, true, false, around);
-    if (summarise_shapes(free, options_.threads, monitor_).mean < least_mean) {
+    if (summarise_shapes(free, options_.threads, monitor_).mean < min_mean) {
       free.budget = budget_of(of_poor_planes, {});
       remesh_between_lines(start, of_poor_planes, false, true, 0, 0);
     }
@@ -331,7 +331,7 @@ class FrameRemesher {
 }  // namespace
 
 std::span<const Strategy> strategies(bool triangles_pass, double sharp_angle) noexcept {
-  if (sharp_angle > most_angle_of_price) return of_features;
+  if (sharp_angle > max_angle_of_price) return of_features;
   if (triangles_pass) return of_passing_triangles;
   return between_patches;
 }
@@ -341,9 +341,9 @@ std::string remesh_by_strategies(RemeshingFrame& frame, Cad& cad, const Composit
   return FrameRemesher(frame, cad, options, result, monitor).by_strategies();
 }
 
-std::string remesh_from_planes(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
+std::string remesh_from_planes(RemeshingFrame& frame, double min_mean, Cad& cad, const CompositeOptions& options,
                                CompositeResult& result, Monitor& monitor) {
-  return FrameRemesher(frame, cad, options, result, monitor).from_planes(least_mean);
+  return FrameRemesher(frame, cad, options, result, monitor).from_planes(min_mean);
 }
 
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,

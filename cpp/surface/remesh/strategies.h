@@ -32,9 +32,9 @@ std::span<const Strategy> strategies(bool triangles_pass, double sharp_angle) no
 std::string remesh_by_strategies(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                                  Monitor& monitor);
 
-/// Takes the mesh of frame.made, and remeshes around its seams; everywhere, if the mean of its shapes is below `least_mean`. Returns the
+/// Takes the mesh of frame.made, and remeshes around its seams; everywhere, if the mean of its shapes is below `min_mean`. Returns the
 /// reason why the mesh was not accepted; empty: the mesh is replaced.
-std::string remesh_from_planes(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
+std::string remesh_from_planes(RemeshingFrame& frame, double min_mean, Cad& cad, const CompositeOptions& options,
                                CompositeResult& result, Monitor& monitor);
 
 /// Keeps the triangles: only frame.elements changes them.

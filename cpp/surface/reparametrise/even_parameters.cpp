@@ -120,12 +120,12 @@ class Evener {
         else if (chords[k] > finest * total)
           refuse_jump(axis, 0.5 * (a + b), finer.back(), rows[k + 1], lines);
       }
-      const bool done = finer.size() == rows.size() || finer.size() > most_places;
+      const bool done = finer.size() == rows.size() || finer.size() > max_places;
       rows.swap(finer);
       if (done) break;
     }
     const double length = *std::max_element(lengths.begin(), lengths.end());
-    if (chords.size() + 1 != rows.size() || total > most_detours * length || !(total > 0))
+    if (chords.size() + 1 != rows.size() || total > max_detours * length || !(total > 0))
       return as_it_is(axis, length);
     return map_of(axis, rows, chords, total);
   }
@@ -137,7 +137,7 @@ class Evener {
     double reached = 0, fastest = 0, slowest = infinity;
     for (std::size_t k = 0; k < chords.size(); ++k) {
       const double step = (rows[k + 1].at - rows[k].at) / width,
-                   length = std::max(chords[k], least_speed * total * step);
+                   length = std::max(chords[k], min_speed * total * step);
       fastest = std::max(fastest, length / step), slowest = std::min(slowest, length / step);
       reached += length;
       const bool last = k + 1 == chords.size();
@@ -200,7 +200,7 @@ class TurnedTriangles {
       if (!q || !editable_.can_swap(*q)) continue;
       const auto [first, second] = EditableMesh::swapped(*q);
       const double worse = std::min(quality(first), quality(second));
-      if (worse < least_kept * std::min(own, quality(editable_.at({0, q->u})))) continue;
+      if (worse < min_kept * std::min(own, quality(editable_.at({0, q->u})))) continue;
       if (worse > best) best = worse, found = q;
     }
     return found && editable_.swap(*found);

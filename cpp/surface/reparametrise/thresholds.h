@@ -18,22 +18,22 @@ inline constexpr double finest = 1.0 / 128;
 /// Share of the domain. unless it is as narrow as this; a chord of the share above is a jump then. [rounding]
 inline constexpr double narrowest = 1e-13;
 /// Largest number of places on a parameter. [time only]
-inline constexpr std::size_t most_places = 3000;
+inline constexpr std::size_t max_places = 3000;
 /// Ratio. If all lines of a family together are longer than this factor times the longest one, fast places differ from
 /// line to line. [UnevenParameters.FastAlongASlantedLine]
-inline constexpr double most_detours = 8;
+inline constexpr double max_detours = 8;
 
 // New parameters
 /// Ratio of speeds. A parameter along which they differ by less is left as it is. [UnevenParameters.ExtremeWeights]
 inline constexpr double even = 30;
 /// Share of the mean speed. Lines that stand still count as so fast. [UnevenParameters.FastAtABorder]
-inline constexpr double least_speed = 0.02;
+inline constexpr double min_speed = 0.02;
 /// Share of the whole. Shorter pieces are joined to the next ones. [UnevenParameters.FastWithinAMillionthInside]
 inline constexpr double shortest = 1e-7;
 
 // Back to the host's (u, v)
 /// Share of the quality in space of two triangles, which a swap must leave. [UnevenParameters.NeighboursAndImposed...]
-inline constexpr double least_kept = 0.5;
+inline constexpr double min_kept = 0.5;
 /// Passes of swaps over triangles that are turned over. [as above]
 inline constexpr int turned_passes = 20;
 /// Samples. Largest number in the control space that is carried back. [time only]

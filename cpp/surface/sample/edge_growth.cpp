@@ -30,7 +30,7 @@ std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const S
   tried.limits.edges = nullptr;
   ControlSpace without = sample_face(tried, cad, rules, probe_points, monitor, nullptr, team);
   const auto bearable = [&](const ControlSpace& s) {
-    return s.measure() <= most_growth_excess * (without.measure() + edges.triangles_within(extent));
+    return s.measure() <= max_growth_excess * (without.measure() + edges.triangles_within(extent));
   };
   if (bearable(space)) return {};
   for (double least = growth_raise * edges.smallest(); least < extent; least *= growth_raise) {

@@ -81,7 +81,7 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
   FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<SurfaceJet> jets;
   const SampledFacts asked = facts != nullptr ? *facts : SampledFacts{};
-  SpeedWatch speeds(asked.most_uneven, asked.usual_speed);
+  SpeedWatch speeds(asked.max_uneven, asked.usual_speed);
   const auto look = [&](std::span<const Vec2> uv, std::span<const Metric2> metric, std::span<SurfaceTangents> tangents) {
     for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = {jets[i].su, jets[i].sv};
     if (facts == nullptr) return;

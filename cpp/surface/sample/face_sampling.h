@@ -16,10 +16,10 @@ namespace carreau {
 struct SampledFacts {
   SampledNormals* normals = nullptr;  ///< gets the normals at the samples, if given
   bool isotropic = true;              ///< sizes do not differ by direction at any of them
-  /// Stops with UnevenSpeed if a derivative is `most_uneven` times as long as usual. `usual_speed`: the usual length;
+  /// Stops with UnevenSpeed if a derivative is `max_uneven` times as long as usual. `usual_speed`: the usual length;
   /// 0: the length along that parameter at the first samples.
   double usual_speed = 0;
-  double most_uneven = infinity;
+  double max_uneven = infinity;
 };
 
 /// A place where the parametrisation is far faster than elsewhere. Not an error: sampling starts again in others.
@@ -31,7 +31,7 @@ struct UnevenSpeed {
 /// Compares lengths of derivatives at the first samples, all over the domain, with lengths at later samples.
 class SpeedWatch {
  public:
-  /// Takes SampledFacts::most_uneven and usual_speed.
+  /// Takes SampledFacts::max_uneven and usual_speed.
   SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
   /// Throws UnevenSpeed.
   void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets);

@@ -71,7 +71,7 @@ std::vector<double> shared_answers(Team& team, int ref, const HostQuestion& ques
   return shared_rows({&team, question.threads}, question.step,
                      {.count = uv.size(),
                       .width = question.width,
-                      .at_once = std::clamp(uv.size() / pieces_of_a_question, least_at_once, most_at_once),
+                      .at_once = std::clamp(uv.size() / pieces_of_a_question, min_at_once, max_at_once),
                       .bound = question.threads == 1},
                      ask, monitor);
 }

@@ -30,7 +30,7 @@ inline constexpr double hopeless_speed = 30'000;
 inline constexpr double few_triangles = 10'000;
 /// Times the number of triangles by sizes and growth. Straight distances and rounding of a sound control space leave
 /// 1.3 at most. [limits_test]
-inline constexpr double most_growth_excess = 2;
+inline constexpr double max_growth_excess = 2;
 /// Times. Factor on the least size of edges, from one round to the next. [limits_test]
 inline constexpr double growth_raise = 8;
 
@@ -39,7 +39,7 @@ inline constexpr double growth_raise = 8;
 /// microsecond each.
 inline constexpr std::size_t least_shared = 1024;
 /// Pieces of a question, and places of a piece. Many pieces let a late process take fewer of them, and large pieces give hosts batches.
-inline constexpr std::size_t pieces_of_a_question = 32, least_at_once = 128, most_at_once = 8192;
+inline constexpr std::size_t pieces_of_a_question = 32, min_at_once = 128, max_at_once = 8192;
 /// Places of which every process evaluates one, so that different hosts are found: 1.6 % more calls.
 inline constexpr std::size_t places_of_one_compared = 64;
 

@@ -39,10 +39,10 @@ inline constexpr double sharpest_tip = 15;
 inline constexpr double largest_bulge = 0.15;
 
 /// Times that elements are removed because their boundary edges cross others. [SelfOverlap.ElementsThatHaveMetGo]
-inline constexpr int most_overlap_rounds = 10;
+inline constexpr int max_overlap_rounds = 10;
 /// Times that crossing runs of new edges get their old nodes back, before all runs do.
 /// [Remesh.RunsThatCrossKeepTheirNodes]
-inline constexpr std::size_t most_rough_places = 12;
+inline constexpr std::size_t max_rough_places = 12;
 
 // Sizes
 /// Share of the prescribed size. Steps in which the size along the boundary is sampled. [BoundaryCut.HasUnitEdges]

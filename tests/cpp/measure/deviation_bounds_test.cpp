@@ -105,7 +105,7 @@ Dense dense(const SurfaceMesh& mesh, std::size_t t, const std::function<SurfaceJ
   return most;
 }
 
-void expect_bounds(const Measured& made, const std::function<SurfaceJet(Vec2)>& at, double most_of_deviation, double floor) {
+void expect_bounds(const Measured& made, const std::function<SurfaceJet(Vec2)>& at, double max_of_deviation, double floor) {
   const FaceMesh& face = made.mesh.faces[0];
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (const auto& t : face.triangles) triangles.push_back({face.vertex[t[0]], face.vertex[t[1]], face.vertex[t[2]]});
@@ -114,7 +114,7 @@ void expect_bounds(const Measured& made, const std::function<SurfaceJet(Vec2)>& 
     const Dense most = dense(made.mesh, t, at, search, 24);
     const double deviation = made.delivered[Kind::deviation_bound].values[t], angle = made.delivered[Kind::angle_bound].values[t];
     EXPECT_GE(deviation, most.deviation * (1 - 1e-9)) << t;
-    EXPECT_LE(deviation, most_of_deviation * most.deviation + floor) << t;
+    EXPECT_LE(deviation, max_of_deviation * most.deviation + floor) << t;
     EXPECT_GE(angle, most.angle * (1 - 1e-9)) << t;
     EXPECT_LE(angle, 1.3 * most.angle + 0.52) << t;  // a hundredth of 52 degrees is near enough
     EXPECT_GE(deviation, made.delivered[Kind::deviation].values[t]);

@@ -90,7 +90,7 @@ TEST(Jacobian, TheLeastCoefficientBoundsTheElement) {
 TEST(Jacobian, ANodeAtAQuarterOfItsSideIsTheLimit) {
   const auto least = [](double s) {
     const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {s, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}};
-    return jacobian(CellKind::triangle6, x).least_along({0, 0, 1});
+    return jacobian(CellKind::triangle6, x).min_along({0, 0, 1});
   };
   EXPECT_NEAR(least(0.25), 0, 1e-15);
   EXPECT_GT(least(0.26), 0);
@@ -136,28 +136,28 @@ TEST(Jacobian, TheBoundOfACurvedTriangleIsBelowItsLeastCoefficient) {
   for (const double by : {0.0, 1e-3, 0.02, 0.1, 0.5})
     for (int k = 0; k < 2000; ++k) {
       std::vector<Vec3> x = nodes_of(CellKind::triangle6, random, by);
-      const double bound = least_of_triangle6(std::span<const Vec3>(x));
+      const double bound = min_of_triangle6(std::span<const Vec3>(x));
       EXPECT_LE(bound, jacobian(CellKind::triangle6, x).least() + 1e-12);
       if (by <= 1e-3) {
         EXPECT_GT(bound, 0.9);
       }
       for (Vec3& p : x) p.z() = 0;
       const std::vector<Vec2> flat = in_plane(x);
-      EXPECT_LE(least_of_triangle6(std::span<const Vec2>(flat)), jacobian(CellKind::triangle6, x).least_along({0, 0, 1}) + 1e-12);
+      EXPECT_LE(min_of_triangle6(std::span<const Vec2>(flat)), jacobian(CellKind::triangle6, x).min_along({0, 0, 1}) + 1e-12);
     }
 }
 
 // Straight sides, halved: all coefficients are one. Bent by a fiftieth on a sphere's side: far from invalid.
 TEST(Jacobian, TheBoundOfACurvedTriangleDetectsStraightOnes) {
   std::vector<Vec3> x{{0, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1.5, 0, 0}, {2, 1, 0}, {0.5, 1, 0}};
-  EXPECT_NEAR(least_of_triangle6(std::span<const Vec3>(x)), 1, 1e-15);
-  EXPECT_NEAR(least_of_triangle6(std::span<const Vec2>(in_plane(x))), 1, 1e-15);
+  EXPECT_NEAR(min_of_triangle6(std::span<const Vec3>(x)), 1, 1e-15);
+  EXPECT_NEAR(min_of_triangle6(std::span<const Vec2>(in_plane(x))), 1, 1e-15);
   for (std::size_t k = 3; k < 6; ++k) x[k].z() = 0.02;
-  EXPECT_GT(least_of_triangle6(std::span<const Vec3>(x)), 0.8);
+  EXPECT_GT(min_of_triangle6(std::span<const Vec3>(x)), 0.8);
   std::swap(x[1], x[2]), std::swap(x[3], x[5]);
-  EXPECT_EQ(least_of_triangle6(std::span<const Vec2>(in_plane(x))), -infinity) << "turned over";
+  EXPECT_EQ(min_of_triangle6(std::span<const Vec2>(in_plane(x))), -infinity) << "turned over";
   x[2] = {7, 0, 0}, x[4] = {5, 0, 0};
-  EXPECT_LT(least_of_triangle6(std::span<const Vec3>(x)), 0.5);
+  EXPECT_LT(min_of_triangle6(std::span<const Vec3>(x)), 0.5);
 }
 
 TEST(CellQuality, AConcaveQuadrilateralIsWorthNothing) {

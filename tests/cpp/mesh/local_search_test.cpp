@@ -120,8 +120,8 @@ TEST(AlongCompass, EndsWhereItGetsBetterForEver) {
     return p.x() > -1 ? -1 / (2 + p.x()) : -2;
   });
   EXPECT_GT(top.x(), 1);
-  EXPECT_LE(norm(top), 0.2 * most_steps_of_compass);
-  EXPECT_LE(asked, 8 * most_steps_of_compass);
+  EXPECT_LE(norm(top), 0.2 * max_steps_of_compass);
+  EXPECT_LE(asked, 8 * max_steps_of_compass);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(Attractors, PlacesCoverTheElements) {
   const std::vector<Vec3> corners{{0, 0, 0}, {10, 0, 0}, {0, 7, 0}};
   Attractors field;
   field.add({.vertices = corners, .elements = {{0, 1, 2}}, .size = 0.1, .surrounding = 1, .reach = 1});
-  EXPECT_LE(field.steep_in_space().size(), thresholds::size::most_attractor_places);
+  EXPECT_LE(field.steep_in_space().size(), thresholds::size::max_attractor_places);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
   for (int i = 0; i < 1000; ++i) {
@@ -73,7 +73,7 @@ TEST(Attractors, PlacesCoverTheElements) {
   EXPECT_TRUE(gentle.steep_in_space().empty());
   std::vector<std::array<std::int32_t, 3>> many(5000, {0, 1, 2});
   field.add({.vertices = corners, .elements = many, .size = 0.1, .surrounding = 1, .reach = 1e-3});
-  EXPECT_LE(field.steep_in_space().size(), 2 * thresholds::size::most_attractor_places);
+  EXPECT_LE(field.steep_in_space().size(), 2 * thresholds::size::max_attractor_places);
 }
 
 TEST(Attractors, BadInputIsRejected) {

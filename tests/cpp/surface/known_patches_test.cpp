@@ -87,12 +87,12 @@ TEST(KnownPatches, AreNotUsedForOtherRequests) {
 
 TEST(KnownPatches, LargeModelsAreNotKept) {
   const Asked asked;
-  EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::most_known)).find(0, asked.input, asked.grow_from));
-  EXPECT_FALSE(knowing(asked, outcome_of(thresholds::crossings::most_known + 1)).find(0, asked.input, asked.grow_from));
+  EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::max_known)).find(0, asked.input, asked.grow_from));
+  EXPECT_FALSE(knowing(asked, outcome_of(thresholds::crossings::max_known + 1)).find(0, asked.input, asked.grow_from));
   // A patch that replaces another patch needs no more than its own room.
-  KnownPatches known = knowing(asked, outcome_of(thresholds::crossings::most_known));
+  KnownPatches known = knowing(asked, outcome_of(thresholds::crossings::max_known));
   known.keep(0, asked.input, asked.grow_from);
-  known.keep(0, outcome_of(thresholds::crossings::most_known));
+  known.keep(0, outcome_of(thresholds::crossings::max_known));
   EXPECT_TRUE(known.find(0, asked.input, asked.grow_from));
   known.keep(1, asked.input, asked.grow_from);
   known.keep(1, outcome_of(1));

@@ -70,8 +70,8 @@ struct Meshed {
   }
   [[nodiscard]] std::size_t triangles() const { return session->mesh().triangle_count(); }
 
-  /// Against the rule's own metric, in closed form from the jets; `most_stretched` is its largest ratio met.
-  MeshEvaluation measure(double* most_stretched = nullptr) {
+  /// Against the rule's own metric, in closed form from the jets; `max_stretched` is its largest ratio met.
+  MeshEvaluation measure(double* max_stretched = nullptr) {
     const GeometricRule by = rule.rule();
     PrescribedMetric prescribed;
     prescribed.wants = want_first | want_second;
@@ -81,7 +81,7 @@ struct Meshed {
         ASSERT_TRUE(sizes);
         const double h1 = std::clamp(sizes->h1, rule.hmin, rule.hmax);
         const double h2 = std::min(std::clamp(sizes->h2, rule.hmin, rule.hmax), rule.ratio * h1);
-        if (most_stretched != nullptr) *most_stretched = std::max(*most_stretched, h2 / h1);
+        if (max_stretched != nullptr) *max_stretched = std::max(*max_stretched, h2 / h1);
         const auto term = [&](Vec3 w, double h) {
           const double a = dot(w, jets[i].su) / h, b = dot(w, jets[i].sv) / h;
           return Metric2{a * a, a * b, b * b};

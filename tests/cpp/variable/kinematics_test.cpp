@@ -21,7 +21,7 @@ struct Course {
   double least_in_range = 1;  ///< of one increment
   double area_change = 0;     ///< from the previous boundary's geometry to the new boundary's, largest; relative
   double change_beside_removed = 0;  ///< likewise for increments that removed elements
-  std::int64_t most_bound = 0, removed = 0;
+  std::int64_t max_bound = 0, removed = 0;
   int parts = 1;
   double breaks_at = 0, first_crack = 0;  ///< mm
   double mass_error = 0;                  ///< largest, of an increment
@@ -40,7 +40,7 @@ void see_summary(const RemeshSummary& s, double moved, Course& course) {
   if (removed > 0 && course.first_crack == 0) course.first_crack = moved;
   if (s.parts_found > 1 && course.breaks_at == 0) course.breaks_at = moved;
   course.parts = std::max(course.parts, s.parts_found);
-  course.most_bound = std::max(course.most_bound, s.bound_vertices);
+  course.max_bound = std::max(course.max_bound, s.bound_vertices);
 }
 
 /// The new mesh has other nodes on the boundary: the area enclosed by splines through these, over the previous area.
@@ -98,7 +98,7 @@ TEST(Kinematics, BrazilianTest) {
   EXPECT_EQ(course.parts, 2);
   EXPECT_GT(course.breaks_at, 20);
   EXPECT_LT(course.breaks_at, 23);
-  EXPECT_GT(course.most_bound, 20);
+  EXPECT_GT(course.max_bound, 20);
   EXPECT_GT(course.removed, 10);
 }
 
@@ -110,7 +110,7 @@ TEST(Kinematics, OrthogonalCutting) {
   EXPECT_LT(course.area_change, 1e-4);
   EXPECT_EQ(course.parts, 2);
   EXPECT_NEAR(course.breaks_at, 29.7, 0.06);
-  EXPECT_GT(course.most_bound, 5);
+  EXPECT_GT(course.max_bound, 5);
 }
 
 }  // namespace

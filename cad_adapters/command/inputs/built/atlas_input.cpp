@@ -23,7 +23,7 @@ struct FreeAtlas {
 };
 using AtlasHandle = std::unique_ptr<carreau_atlas, FreeAtlas>;
 
-constexpr double least_even_quality = .5;       // Q2, first percentile: below it charts of neighbours disagree
+constexpr double min_even_quality = .5;       // Q2, first percentile: below it charts of neighbours disagree
 constexpr double fewest_even_triangles = 3000;  // CAD programs write two for a plane
 
 /// Uneven triangles of a closed surface are meshed evenly before they get charts. Empty where they are even, or cannot
@@ -32,7 +32,7 @@ MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
   carreau_quality quality{};
   quality.struct_size = sizeof quality;
   require(given, carreau_mesh_quality(given, &quality));
-  if (quality.q2_p1 >= least_even_quality || quality.open_edges > 0 || !(quality.area > 0)) return {};
+  if (quality.q2_p1 >= min_even_quality || quality.open_edges > 0 || !(quality.area > 0)) return {};
   const double count = std::max(static_cast<double>(quality.triangles), fewest_even_triangles);
   const SessionHandle session = make_silent_session();
   carreau_triangles_options options{};

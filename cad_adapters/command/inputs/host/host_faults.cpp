@@ -19,7 +19,7 @@ namespace command {
 namespace {
 
 constexpr int unusable = 2;  // exit status
-constexpr int most_frames = 64;
+constexpr int max_frames = 64;
 // Recursion without end uses up the stack: the handler needs another stack.
 constexpr std::size_t stack_size = 1 << 16;
 
@@ -29,8 +29,8 @@ char name[PATH_MAX];         // as it was typed
 
 /// The outermost routine of the library that is being called: null when none is, "" when it has no name.
 const char* routine_at_work() noexcept {
-  std::array<void*, most_frames> frames{};
-  const int n = backtrace(frames.data(), most_frames);
+  std::array<void*, max_frames> frames{};
+  const int n = backtrace(frames.data(), max_frames);
   const char* found = nullptr;
   for (int i = 0; i < n; ++i) {
     Dl_info info{};

@@ -37,8 +37,8 @@ Placement Placement::inverse() const {
 
 namespace {
 
-constexpr int most_components = 1'000'000;  // a cycle is found before; nested patterns multiply
-constexpr std::size_t most_levels = 1'000;     // of assemblies in assemblies; the walk over them recurs
+constexpr int max_components = 1'000'000;  // a cycle is found before; nested patterns multiply
+constexpr std::size_t max_levels = 1'000;     // of assemblies in assemblies; the walk over them recurs
 constexpr double parallel = 1e-9;           // sine of the angle between two directions
 
 using Record = StepRecords::Record;
@@ -213,8 +213,8 @@ class Assembly {
     open_.insert(set), reached_.insert(set);
     for (const Component& component : found->second) {
       if (open_.count(component.child) != 0) fail_as_cycle(component);
-      if (open_.size() > most_levels) records_.fail(component.entity, "assemblies are nested over a thousand times");
-      if (++count_ > most_components) records_.fail(component.entity, "the assembly has over a million components");
+      if (open_.size() > max_levels) records_.fail(component.entity, "assemblies are nested over a thousand times");
+      if (++count_ > max_components) records_.fail(component.entity, "the assembly has over a million components");
       place(component.child, placement * component.placement);
     }
     open_.erase(set);

@@ -69,11 +69,11 @@ class Mender {
     if (bad_.empty()) return;
     find_cells_of_nodes();
     in_vain_.assign(static_cast<std::size_t>(nodes_), 0);
-    trials_ = Budget(most_trials + most_trials_of_element * std::ssize(cells_));
+    trials_ = Budget(max_trials + max_trials_of_element * std::ssize(cells_));
     hopeless_.assign(cells_.size(), 0);
     for (const std::int32_t c : bad_) hopeless_[c] = static_cast<char>(is_hopeless(cells_[c]));
     std::erase_if(bad_, [&](std::int32_t c) { return hopeless_[c] != 0; });
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       const std::size_t before = moves_;
       for (std::size_t i = 0, n = bad_.size(); i < n && !trials_.is_spent(); ++i) {
         monitor_.checkpoint();
@@ -212,7 +212,7 @@ class Mender {
         auto trials = self().places(moves_with(node, way));
         if (trials.empty()) continue;
         const double found = judge(trials);
-        const double gain = chosen.empty() && found < good_jacobian ? least_gain : 0;
+        const double gain = chosen.empty() && found < good_jacobian ? min_gain : 0;
         if (found > best + gain) best = found, chosen = std::move(trials);
       }
       if (chosen.empty()) {

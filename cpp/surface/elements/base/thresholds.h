@@ -14,21 +14,21 @@ inline constexpr double least_jacobian = 1e-6;
 /// Gain of that share. The search rejects a step that gains less: an element that grows along one side raises the share
 /// for ever by less and less. A step of .01 edges of a regular element changes it by some .04.
 /// [FreeElementsAtCurves.AreValidWhereEdgesTurn]
-inline constexpr double least_gain = 0.005;
+inline constexpr double min_gain = 0.005;
 /// First and last step of the search for a node's place, shares of its edge. The first one reaches over the bulge of an
 /// edge that turns by 90 degrees (its sagitta is a fifth of the edge).
 inline constexpr double first_step = 0.2, last_step = 0.01;
 /// Rounds over the elements of a face that are not good: each round moves nodes that the round before has blocked.
-inline constexpr int most_rounds = 8;
+inline constexpr int max_rounds = 8;
 /// Largest number of places that the search of a face tests, and the share of each of its elements. A place costs about as much as a few
 /// evaluations of the surface, so that the search costs no multiple of the mesh. In eleven CAD models at 4 %, meshes that become good need
 /// at most 11 places per element. [geometry_fuzz grid 164, 182, molecule 61]
-inline constexpr std::int64_t most_trials = 3000, most_trials_of_element = 30;
+inline constexpr std::int64_t max_trials = 3000, max_trials_of_element = 30;
 /// Times that the model is meshed again with half the size beside elements that stay invalid. An edge of a whole circle
 /// then has 6 degrees. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
-inline constexpr int most_divisions = 6;
+inline constexpr int max_divisions = 6;
 /// Times that the model is meshed again if elements are quadrilaterals.
-inline constexpr int most_divisions_of_quads = 6;
+inline constexpr int max_divisions_of_quads = 6;
 /// Sine of the angle between the ways of two edges of curves from a corner of an invalid element. A smaller angle is a
 /// cusp. As parabolas they turn by their bends, a tenth and more of a radian.
 inline constexpr double sine_of_cusp = 0.1;
@@ -37,10 +37,10 @@ inline constexpr double sine_of_cusp = 0.1;
 /// difference of the curvatures. [CurvedElements.AreValidAtACusp]
 inline constexpr double shift_at_cusp = 0.08;
 /// Times that invalid curved quadrilaterals become two triangles, before which nodes move.
-inline constexpr int most_partings = 4;
+inline constexpr int max_partings = 4;
 /// Ratio of the triangles of all finer meshes together to the first mesh's. Screws and frames of coarse quadrilaterals of second
 /// order become valid in the sixth mesh, with twice as many each. [Quadratic.InnerEdgesBendBeforeACurvedBorder]
-inline constexpr double most_growth = 12;
+inline constexpr double max_growth = 12;
 /// Triangles. First meshes with fewer triangles count as having this number.
 inline constexpr double few_triangles = 1000;
 

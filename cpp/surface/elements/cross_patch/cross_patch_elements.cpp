@@ -141,7 +141,7 @@ class CrossPatchElements {
   // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
   EdgeNodes with_nodes() {
     EdgeNodes nodes = make_nodes(surface_, vertices_, lines_, cells_, monitor_);
-    for (int round = 0; round < thresholds::elements::most_partings && options_.element == Element::q2_0; ++round) {
+    for (int round = 0; round < thresholds::elements::max_partings && options_.element == Element::q2_0; ++round) {
       bool any = false;
       for (const std::int32_t c : nodes.invalid)
         if (corners_of(cells_.quads.cells()[c]) == 4) split_quad(cells_.quads.cells(), static_cast<std::size_t>(c), positions(), convexity()), any = true;
@@ -205,7 +205,7 @@ class ElementRounds {
                                           " vertices: triangles around them stay");
       for (const std::int32_t v : wrong)
         kept.near.push_back({made_.mesh.vertices[v], kept_sizes * std::exp2(round) * made_.vertex_size[v], {}});
-      kept.all = round == most_keeps;
+      kept.all = round == max_keeps;
     }
     if (!has_quads(options_.element)) return {};
     if (!fresh_.empty())
@@ -218,7 +218,7 @@ class ElementRounds {
   void make_all(const KeptTriangles& kept) {
     HeldPlaces held, held_by_best;
     std::size_t fewest = 0;
-    for (int attempt = 0; attempt < most_holds; ++attempt) {
+    for (int attempt = 0; attempt < max_holds; ++attempt) {
       make(held, kept, kept.all);
       if (attempt == 0 || fresh_.size() < fewest) fewest = fresh_.size(), held_by_best = held;
       if (fresh_.empty() || kept.all) break;

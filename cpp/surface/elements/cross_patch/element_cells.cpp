@@ -108,7 +108,7 @@ class CellMaker {
   [[nodiscard]] bool goes_on(std::int32_t a, std::int32_t v, std::int32_t b, bool inside) const {
     using namespace thresholds::quads;
     const Vec3 p = made_.quads.place(v).xyz, d = made_.quads.place(a).xyz - p, e = made_.quads.place(b).xyz - p;
-    const double least = inside ? least_angle_in_curve : least_angle_of_curves;
+    const double least = inside ? min_angle_in_curve : min_angle_of_curves;
     return dot(d, e) < std::cos(least * std::numbers::pi / 180) * norm(d) * norm(e);
   }
 

@@ -96,7 +96,7 @@ class Pass {
     for (int k = 0; k < corners_of(cell); ++k) touched_[cell[k]] = 1;
   }
   [[nodiscard]] bool is_good(const MixedCell& cell) const {
-    return quads_.is_convex(cell) && !quads_.has_flat_corner(cell) && quads_.quality(cell) > least_after_change;
+    return quads_.is_convex(cell) && !quads_.has_flat_corner(cell) && quads_.quality(cell) > min_after_change;
   }
   [[nodiscard]] bool has_good_length(std::int32_t a, std::int32_t b) const {
     const double l = quads_.length(a, b);
@@ -285,8 +285,8 @@ void clean_up(Quads& quads, const ImposedEdges& is_imposed, Monitor& monitor) {
   // The result of a pass for a cell depends on the cells at its corners. If nothing there has changed or moved since
   // the previous pass, the pass skips the cell.
   std::vector<char> active;
-  constexpr int most_rounds = 6;
-  for (int round = 0; round < most_rounds; ++round) {
+  constexpr int max_rounds = 6;
+  for (int round = 0; round < max_rounds; ++round) {
     Pass<Quads> pass(quads, is_imposed, ideal, active, monitor);
     if (pass.run() == 0) break;
     std::vector<char> moving;  // all, the first time

@@ -52,7 +52,7 @@ bool go_on_smoothly(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke
   const bool inside = s.curve == t.curve && std::abs(s.segment - t.segment) == 1;  // not where a closed curve begins
   const Vec3 d = inside ? Vec3(quads.xyz[s.a] - quads.xyz[s.v]) : tangent_at(mesh, quads, s),
              e = inside ? Vec3(quads.xyz[t.a] - quads.xyz[t.v]) : tangent_at(mesh, quads, t);
-  const double least = inside ? least_angle_in_curve : least_angle_of_curves;
+  const double least = inside ? min_angle_in_curve : min_angle_of_curves;
   return dot(d, e) < std::cos(least * std::numbers::pi / 180) * norm(d) * norm(e);
 }
 

@@ -31,8 +31,8 @@ class Matching {
     std::vector<std::int32_t> todo;
     for (std::size_t t = 0; t < chosen_.size(); ++t)
       if (!is_content(static_cast<std::int32_t>(t))) todo.push_back(static_cast<std::int32_t>(t));
-    constexpr int most_rounds = 20;
-    for (int round = 0; round < most_rounds && !todo.empty(); ++round) todo = improve(todo);
+    constexpr int max_rounds = 20;
+    for (int round = 0; round < max_rounds && !todo.empty(); ++round) todo = improve(todo);
     std::vector<std::int32_t> result;
     for (std::size_t t = 0; t < chosen_.size(); ++t)
       if (chosen_[t] >= 0 && pairs_[chosen_[t]].triangles[0] == static_cast<std::int32_t>(t))
@@ -163,8 +163,8 @@ class Matching {
     path_.push(w);
     on_path_[w] = 1;
     keep_if_best(gain, false);
-    constexpr double most_loss = 2.5;  // of a path on its way
-    if (gain > -most_loss) add_pairs(w, gain);
+    constexpr double max_loss = 2.5;  // of a path on its way
+    if (gain > -max_loss) add_pairs(w, gain);
     on_path_[w] = 0;
     path_.pop();
   }

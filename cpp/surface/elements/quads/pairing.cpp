@@ -74,7 +74,7 @@ class Pairing {
 
   void add(std::int32_t t, std::int32_t u, const MixedCell& quad) {
     const double quality = quality_(quad);
-    if (quality < least_pair) return;
+    if (quality < min_pair) return;
     const std::array<Vec3, 4> p{rules_.position(quad[0]), rules_.position(quad[1]), rules_.position(quad[2]),
                                 rules_.position(quad[3])};
     if (turns_too_much(p) || !(scaled_jacobian(p) > rules_.least_jacobian)) return;
@@ -87,8 +87,8 @@ class Pairing {
     const Vec3 diagonal = p[2] - p[0];
     const Vec3 right = cross(p[1] - p[0], diagonal), left = cross(diagonal, p[3] - p[0]);
     const double along = dot(right, left), across = norm(cross(right, left));
-    if (along > 0 && across < 0.99 * std::min(rules_.most_turn, 1.) * along) return false;  // an arc is shorter than its tangent
-    return !(std::atan2(across, along) <= rules_.most_turn);
+    if (along > 0 && across < 0.99 * std::min(rules_.max_turn, 1.) * along) return false;  // an arc is shorter than its tangent
+    return !(std::atan2(across, along) <= rules_.max_turn);
   }
 
   std::vector<MixedCell>& cells_;

@@ -19,7 +19,7 @@ struct PairRules {
   ImposedEdges is_imposed;
   /// The place in space of a corner of a triangle.
   std::function<Vec3(std::int32_t)> position;
-  double most_turn = 0.3;  ///< radians: largest angle between the normals of the two, in space
+  double max_turn = 0.3;  ///< radians: largest angle between the normals of the two, in space
   double least_jacobian = 0;  ///< of the quadrilateral in space: a candidate must exceed it
 };
 

@@ -6,7 +6,7 @@
 namespace carreau {
 
 FaceCharts::FaceCharts(const ControlSpace& space)
-    : space_(&space), bends_(space.largest_bend() > thresholds::quads::least_bend) {}
+    : space_(&space), bends_(space.largest_bend() > thresholds::quads::min_bend) {}
 
 Chart FaceCharts::about(const QuadPatch& patch, const MixedCell& cell) const noexcept {
   const Vec2 sum = patch.uv[cell[0]] + patch.uv[cell[1]] + patch.uv[cell[2]];

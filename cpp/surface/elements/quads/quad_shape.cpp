@@ -9,7 +9,7 @@ namespace carreau {
 
 namespace {
 
-constexpr double least_turned = 1e-9;                 // below 0, even if charts disagree
+constexpr double min_turned = 1e-9;                 // below 0, even if charts disagree
 constexpr double square = 2 + 2 * std::numbers::sqrt2;  // its sigma
 
 /// Edge lengths and diagonals of a quadrilateral, and twice the signed areas at its corners.
@@ -90,7 +90,7 @@ bool is_turned_over(const std::array<Vec3, 4>& p) noexcept {
   return false;
 }
 
-double least_shape(const std::array<Vec3, 4>& p) noexcept {
+double min_shape(const std::array<Vec3, 4>& p) noexcept {
   const Measures m = measure(p);
   const double jacobian = m.jacobian();
   return jacobian > 0 ? std::min(jacobian, m.quality()) : jacobian;
@@ -125,9 +125,9 @@ double untangling_quality(const QuadPatch& patch, const Chart& chart, const Mixe
   std::array<Vec2, 4> y;
   const int n = corners_of(cell);
   for (int k = 0; k < 4; ++k) y[k] = chart.at(patch.uv[cell[k % n]]);
-  if (n == 4) return std::min(scaled_jacobian(y), -least_turned);
+  if (n == 4) return std::min(scaled_jacobian(y), -min_turned);
   const double sides = norm(y[1] - y[0]) * norm(y[2] - y[0]);
-  return sides > 0 ? std::min(cross(y[1] - y[0], y[2] - y[0]) / sides, -least_turned) : -1;
+  return sides > 0 ? std::min(cross(y[1] - y[0], y[2] - y[0]) / sides, -min_turned) : -1;
 }
 
 }  // namespace carreau

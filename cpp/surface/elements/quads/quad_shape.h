@@ -21,7 +21,7 @@ double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept;
 /// Returns whether the scaled Jacobian is not above 0.
 bool is_turned_over(const std::array<Vec3, 4>& p) noexcept;
 /// The less of scaled Jacobian and quality, in space.
-double least_shape(const std::array<Vec3, 4>& p) noexcept;
+double min_shape(const std::array<Vec3, 4>& p) noexcept;
 
 /// Strictly convex and counterclockwise in (u, v), exactly; of triangles: counterclockwise.
 inline bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {

@@ -11,7 +11,7 @@ namespace carreau {
 
 namespace {
 
-constexpr double least_turned = 1e-9;  // below 0, even if planes disagree
+constexpr double min_turned = 1e-9;  // below 0, even if planes disagree
 
 // Any unit vector at right angles.
 Vec3 across(const Vec3& normal) noexcept {
@@ -123,7 +123,7 @@ double SpaceQuads::untangling_quality(const Frame& frame, const MixedCell& cell)
     const double sides = norm(to) * norm(from);
     least = std::min(least, sides > 0 ? cross(to, from) / sides : -1);
   }
-  return std::min(least, -least_turned);
+  return std::min(least, -min_turned);
 }
 
 double SpaceQuads::length(std::int32_t a, std::int32_t b) const noexcept {

@@ -65,7 +65,7 @@ class LiftedQuads {
     const auto at = [&](int k) -> const Vec3& { return quads_.xyz[c[k]]; };
     if (corners_of(c) == 4) {
       const std::array<Vec3, 4> p{at(0), at(1), at(2), at(3)};
-      return by_angles_ ? scaled_jacobian(p) : least_shape(p);
+      return by_angles_ ? scaled_jacobian(p) : min_shape(p);
     }
     const Vec3 a = at(1) - at(0), b = at(2) - at(0), d = at(2) - at(1);
     const double longest = std::max({norm(a) * norm(b), norm(a) * norm(d), norm(b) * norm(d)});

@@ -8,11 +8,11 @@ namespace carreau::thresholds::quads {
 
 // Charts (quad_patch)
 /// Bend a unit (metric/chart.h). Below it a tensor serves a whole cell: an edge's sagitta is less than a fortieth.
-inline constexpr double least_bend = 0.05;
+inline constexpr double min_bend = 0.05;
 
 // Pairs (pairing)
 /// Quality. Worse quadrilaterals are rejected.
-inline constexpr double least_pair = 0.08;
+inline constexpr double min_pair = 0.08;
 /// Edges of sizes by angle_mesh turn by twice that angle from end to end, and so may two triangles.
 inline constexpr double turns_per_edge = 2;
 
@@ -20,7 +20,7 @@ inline constexpr double turns_per_edge = 2;
 /// Degrees between chords of a curve, and between tangents of two curves, that go on smoothly into each other where
 /// they meet. An edge of a sixth of a circle turns by 60 degrees. Sharper corners are kinks, or corners of polygons.
 /// [CurvedElements.NoQuadrilateralHasTwoSidesOnOneCircle]
-inline constexpr double least_angle_in_curve = 110, least_angle_of_curves = 150;
+inline constexpr double min_angle_in_curve = 110, min_angle_of_curves = 150;
 
 // Matching
 /// Weight of a pair beside its quality: two poor quadrilaterals are better than a good one and two triangles.
@@ -54,13 +54,13 @@ inline constexpr double least_jacobian = 0.2;
 
 // Walks of triangles
 /// Quality of the cells that a walk leaves behind; smoothing improves them.
-inline constexpr double least_on_walk = 0.15;
+inline constexpr double min_on_walk = 0.15;
 
 // Clean-up
 /// Passes of smoothing around changes, before the next pass.
 inline constexpr int passes_after_changes = 3;
 /// Quality. Changes of the topology may leave so poor cells, which smoothing improves.
-inline constexpr double least_after_change = 0.15;
+inline constexpr double min_after_change = 0.15;
 /// Metric length of edges that a change makes.
 inline constexpr double shortest_edge = 0.5, longest_edge = 1.6;
 

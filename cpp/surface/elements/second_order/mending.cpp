@@ -57,15 +57,15 @@ class FaceMender : public Mender<FaceMender, Vec2> {
   [[nodiscard]] double score(const Cell& cell) const {
     const auto [plane, space] = jacobians(cell);
     if (is_turned(cell)) return space.least();
-    return std::min(space.least(), plane.least_along({0, 0, 1}));
+    return std::min(space.least(), plane.min_along({0, 0, 1}));
   }
   [[nodiscard]] double bound(const Cell& cell) const {
     if (cell.kind != CellKind::triangle6) return -infinity;
     std::array<Vec2, 6> plane;
     std::array<Vec3, 6> space;
     for (std::size_t i = 0; i < 6; ++i) plane[i] = uv(cell.nodes[i]), space[i] = xyz(cell.nodes[i]);
-    const double in_plane = least_of_triangle6(std::span<const Vec2>(plane));
-    return std::min(in_plane, least_of_triangle6(std::span<const Vec3>(space)));
+    const double in_plane = min_of_triangle6(std::span<const Vec2>(plane));
+    return std::min(in_plane, min_of_triangle6(std::span<const Vec3>(space)));
   }
   [[nodiscard]] double score_at(const Cell& cell, int corner) const {
     const auto [plane, space] = jacobians(cell);

@@ -229,7 +229,7 @@ Foot Charts::over(std::int32_t t, int side, const Vec2& at) const {
 // Walks along the straight line, out of each triangle by the first side that it meets.
 Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   std::int32_t t = from.triangle;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const std::array<double, 3> start = weights(t, from.uv), end = weights(t, to);
     int side = -1;
     double way = infinity;
@@ -254,7 +254,7 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
 // Walks through the flat triangles in space, without an evaluation; empty if a barrier is in the way.
 std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) const {
   std::int32_t t = from, before = -1;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Triangle& here = triangles_[t];
     const Vec3& a = xyz_[here.vertex[0]];
     const Vec3 p = xyz_[here.vertex[1]] - a, q = xyz_[here.vertex[2]] - a, d = target - a;
@@ -290,7 +290,7 @@ std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, 
     if (at.regular && is_near()) return at;
     if (!at.regular) at = from;
   }
-  for (int step = 0; step < most_newton_steps; ++step) {
+  for (int step = 0; step < max_newton_steps; ++step) {
     if (!at.regular) return {};
     const Vec3 d = target - at.xyz;
     const double e = dot(at.su, at.su), f = dot(at.su, at.sv), g = dot(at.sv, at.sv), det = e * g - f * f;

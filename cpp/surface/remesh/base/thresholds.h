@@ -8,11 +8,11 @@ namespace carreau::thresholds::remesh {
 
 // Walks in the atlas (charts)
 /// Triangles that a straight way may lead through; vertices move by an edge or so.
-inline constexpr int most_steps = 200;
+inline constexpr int max_steps = 200;
 /// Share of a triangle. A place so little beyond a side is on it.
 inline constexpr double on_side = 1e-9;
 /// Gauss-Newton steps, including steps that end on a border.
-inline constexpr int most_newton_steps = 6;
+inline constexpr int max_newton_steps = 6;
 /// Share of the way. The remainder along the surface: the result need not be the closest point of the target, since the
 /// place itself is judged.
 inline constexpr double near_enough = 0.3;
@@ -24,12 +24,12 @@ inline constexpr double support_angle = 2;
 // Edits (remeshing). Lengths are in the prescribed metric, shapes are Q2.
 // Lines (line_remeshing)
 /// Rounds of remeshing lines and then the mesh between them.
-inline constexpr int most_line_rounds = 3;
+inline constexpr int max_line_rounds = 3;
 /// Sweeps that even out the lengths of a line.
 inline constexpr int line_sweeps = 6;
 /// Shape that an edit of a line may leave where shapes were better. With .05 the worst triangle of frame.step falls from .139 to .06, with
 /// .3 short lines of bottle.brep stay.
-inline constexpr double least_line_shape = 0.15;
+inline constexpr double min_line_shape = 0.15;
 
 /// Edges out of this range are collapsed and split (HDR sec. 4.5.5, and the range of RR-2818 sec. 4.5).
 inline constexpr double shortest = 0.70710678118654752, longest = 1.41421356237309505;
@@ -37,9 +37,9 @@ inline constexpr double shortest = 0.70710678118654752, longest = 1.414213562373
 /// following moves distribute its length.
 inline constexpr double short_when_dense = 0.95;
 /// Area of unit equilateral triangles. The mean area that triangles around such an edge may have afterwards.
-inline constexpr double most_mean_area = 1.02;
+inline constexpr double max_mean_area = 1.02;
 /// Shape that such a collapse may leave.
-inline constexpr double least_shape_when_dense = 0.35;
+inline constexpr double min_shape_when_dense = 0.35;
 /// Times that edges of a coarse mesh are halved in everywhere-remeshing.
 inline constexpr int halvings = 2;
 /// Growth of the size of a coarse mesh from sharp lines, in sizes for each prescribed size.
@@ -49,11 +49,11 @@ inline constexpr double longest_of_halves = 1.2;
 /// No edit makes a longer edge.
 inline constexpr double never_longer = 1.8;
 /// Rounds of collapses, splits, swaps and moves.
-inline constexpr int most_rounds = 8;
+inline constexpr int max_rounds = 8;
 /// Passes of swaps and moves after them.
-inline constexpr int most_last_passes = 8, most_last_passes_thorough = 20;
+inline constexpr int max_last_passes = 8, max_last_passes_thorough = 20;
 /// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
-inline constexpr double least_shape = 0.15;
+inline constexpr double min_shape = 0.15;
 /// Shape that the halving of an edge may leave that untangles triangles: swaps and moves follow.
 inline constexpr double flat_shape = 0.02;
 /// Shape. Remeshing works at triangles below, with two rings around.
@@ -62,24 +62,24 @@ inline constexpr double good_enough = 0.7;
 /// diagonal are worse.
 inline constexpr double shape_of_squares = 0.87;
 /// Shape that a swap for the sake of degrees may leave, and rounds that have such swaps.
-inline constexpr double least_shape_of_degrees = 0.55;
-inline constexpr int most_rounds_of_degrees = 4;
+inline constexpr double min_shape_of_degrees = 0.55;
+inline constexpr int max_rounds_of_degrees = 4;
 /// Passes of swaps and moves for the sake of the mean shape.
-inline constexpr int most_polish_passes = 4;
+inline constexpr int max_polish_passes = 4;
 /// Share of the size. Shorter moves are not worth an evaluation.
-inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
+inline constexpr double min_move = 0.02, min_move_thorough = 0.01;
 /// Shape. Gains below do not count.
-inline constexpr double least_gain = 1e-4;
+inline constexpr double min_gain = 1e-4;
 
 // Parts (division)
 /// Triangles, among the triangles to remesh.
-inline constexpr double least_divided = 65536, triangles_of_part = 16384;
+inline constexpr double min_divided = 65536, triangles_of_part = 16384;
 /// Edges. Distance around cuts that is remeshed, and distance around a bad triangle at which work starts.
 inline constexpr int rings_of_zone = 8, rings_at_work = 2;
 
 // The worst triangles at the end (worst_first)
 /// Passes over triangles that are worse than the worst one of the previous mesh.
-inline constexpr int most_worst_passes = 6;
+inline constexpr int max_worst_passes = 6;
 /// Shares of the size: first step of a search uphill, and the step that is too short.
 inline constexpr double first_worst_step = 0.2, last_worst_step = 0.02;
 /// Directions of each step.
@@ -100,22 +100,22 @@ inline constexpr double low_price = 0.2, price_growth = 3;
 /// Shape. Means differ by less in rounding.
 inline constexpr double rounding_of_mean = 1e-9;
 /// Shape. If the mean has fallen by less, smoothing recovers it (regained_below).
-inline constexpr double most_regained = 0.004;
+inline constexpr double max_regained = 0.004;
 /// Shape. A strategy is given up if the mean has fallen by more after the first round. On frame.step at 5 and 2 % and the M6 screw at 5 %
 /// it falls by .019 to .084. Later rounds change it by less than .001.
-inline constexpr double most_lost_at_first = 2 * most_regained;
+inline constexpr double max_lost_at_first = 2 * max_regained;
 /// Shapes. Recovery of the mean works at triangles below, at first below the first value.
 inline constexpr std::array<double, 2> regained_below{0.9, 0.98};
 /// Share of the sides of triangles. If more sides would come into range without kept shapes, shapes are not kept: patches that are small
 /// and well shaped would stay. On the M6 screw and frame.step at a size of 5 % it is .21 and .20.
-inline constexpr double most_range_for_shapes = 0.3;
+inline constexpr double max_range_for_shapes = 0.3;
 /// Degrees. With a larger sharp_angle features are to vanish, and shapes carry no penalty.
-inline constexpr double most_angle_of_price = 5;
+inline constexpr double max_angle_of_price = 5;
 
 // Triangles in (u, v) (reassembly)
 /// Share of an edge in space. If the image of the edge by derivatives in (u, v) differs more, the corners do not belong
 /// to one chart.
-inline constexpr double most_distortion = 0.7;
+inline constexpr double max_distortion = 0.7;
 
 // Agreement with the surface
 /// Degrees: A1 where no geometric rule governs. A triangle of unit length on a sphere of this radius has this angle.
@@ -124,18 +124,18 @@ inline constexpr double usual_angle = 52;
 /// tolerances were a hundred times smaller.
 inline constexpr double guarded_factor = 1e4;
 /// Ratio of sizes in two directions. If all ratios of a model are below, sizes count as isotropic: control spaces have this accuracy.
-inline constexpr double least_anisotropy = 1.05;
+inline constexpr double min_anisotropy = 1.05;
 /// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
-/// against the surface; patches bound it, too (pipeline/base/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
+/// against the surface; patches bound it, too (pipeline/base/thresholds.h, max_lean: 26.6 degrees, and lengths vary).
 inline constexpr double leaning_angle = 35;
 /// Times that triangles beyond tolerances are edited, each time with the places of crossings guarded.
-inline constexpr int most_certifications = 3;
+inline constexpr int max_certifications = 3;
 /// Times that edges of triangles that cross are halved in a mesh from parametric remeshing.
-inline constexpr int most_untanglings = 8;
+inline constexpr int max_untanglings = 8;
 /// Sizes around such a place that are guarded.
 inline constexpr double guarded_sizes = 2;
 /// Degrees. A larger sharp_angle does not let triangles stand upright.
-inline constexpr double most_angle = 80;
+inline constexpr double max_angle = 80;
 /// Share of the size: A0 there.
 inline constexpr double usual_deviation = 0.3;
 

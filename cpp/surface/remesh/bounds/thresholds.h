@@ -18,7 +18,7 @@ inline constexpr double near_foot = 1e-4;
 /// [TriangleBound.SphereInClosedForm]
 inline constexpr double variation = 1;
 /// Least share of a triangle's bend that its quarters have: a difference of zero does not bound derivatives.
-inline constexpr double least_of_parent = 0.5;
+inline constexpr double min_of_parent = 0.5;
 /// Share of the largest observed deviation by which a bound may exceed it before the triangle is cut. The bound of a sphere exceeds it by
 /// less.
 inline constexpr double bound_gap = 0.2;
@@ -30,9 +30,9 @@ inline constexpr double bound_gap_undecided = 0.005;
 /// [DeviationBounds.NarrowBumpIsFound]
 inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
 /// Times that a part of a triangle is cut into four, and number of parts of a triangle: after that bounds stay.
-inline constexpr int most_cuts = 10, most_parts = 150;
+inline constexpr int max_cuts = 10, max_parts = 150;
 /// Number of parts of a triangle that is known to be beyond a tolerance, if the caller needs no more than that.
-inline constexpr int most_parts_beyond = 16;
+inline constexpr int max_parts_beyond = 16;
 /// Ratio of these to the parts that are cut when an edit is only tested. [time only]
 inline constexpr int roughly_parts = 4;
 /// Share of the largest |Su x Sv| of a triangle: where it is less the surface is singular.

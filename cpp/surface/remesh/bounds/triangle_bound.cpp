@@ -24,7 +24,7 @@ constexpr std::size_t rank_of(int j, int k) noexcept { return static_cast<std::s
 /// times their squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at
 /// the place with weights x. The variable part is at most `variation` times m. It makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's
 /// formula at the place for each corner.
-double most_off(double m0, double m1, double m2) noexcept {
+double max_off(double m0, double m1, double m2) noexcept {
   const double largest = std::max({m0, m1, m2}), sides = (m0 + m1 + m2) / 8;
   return std::min(largest / 6, sides) + variation * std::min(5. / 18 * largest, sides);
 }
@@ -128,7 +128,7 @@ void TriangleBound::cut_at_pole(const Part& part, const std::array<Seen, 3>& mid
   const std::size_t pole = part.corner[0].singular ? 0 : part.corner[1].singular ? 1 : 2, next = (pole + 1) % 3, last = (pole + 2) % 3;
   for (const std::size_t side : {pole, last}) {  // to the pole: as long as before
     bends[side] = bends[side].times(4);
-    bends[side].raise(part.bends[side].times(least_of_parent));
+    bends[side].raise(part.bends[side].times(min_of_parent));
   }
   bends[pole].raise(bends[last]);
   bends[last] = bends[pole];
@@ -150,8 +150,8 @@ void TriangleBound::judge(Part&& part) {
   const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
                     (leans || is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance));
   const bool known = triangle_.decides && (seen_deviation_ > triangle_.deviation_tolerance || seen_angle_ > triangle_.angle_tolerance);
-  const int most = known ? most_parts_beyond : most_parts;
-  if (near || part.cuts >= most_cuts || parts_ >= (triangle_.roughly ? most / roughly_parts : most)) {
+  const int most = known ? max_parts_beyond : max_parts;
+  if (near || part.cuts >= max_cuts || parts_ >= (triangle_.roughly ? most / roughly_parts : most)) {
     deviation_ = std::max(deviation_, deviation);
     angle_ = std::max(angle_, angle);
     return;
@@ -163,7 +163,7 @@ void TriangleBound::judge(Part&& part) {
 double TriangleBound::deviation_of(const Part& part) const noexcept {
   double height = 0;
   for (const Seen& c : part.corner) height = std::max(height, std::abs(c.height));
-  height += most_off(part.bends[0].height, part.bends[1].height, part.bends[2].height);
+  height += max_off(part.bends[0].height, part.bends[1].height, part.bends[2].height);
   const double beyond = overshoot_of(part);
   if (beyond == 0) return height;
   const double distance = std::hypot(height, beyond);
@@ -175,13 +175,13 @@ double TriangleBound::deviation_of(const Part& part) const noexcept {
 double TriangleBound::overshoot_of(const Part& part) const noexcept {
   const double rounding = beyond_side * triangle_.longest;
   const Bends& b = part.bends;
-  const double off = most_off(b[0].whole, b[1].whole, b[2].whole);
+  const double off = max_off(b[0].whole, b[1].whole, b[2].whole);
   std::array<double, 3> beyond{};
   int sides = 0;
   std::size_t one = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     for (const Seen& c : part.corner) beyond[k] = &c == &part.corner[0] ? c.beyond[k] : std::max(beyond[k], c.beyond[k]);
-    beyond[k] += most_off(b[0].across[k], b[1].across[k], b[2].across[k]);
+    beyond[k] += max_off(b[0].across[k], b[1].across[k], b[2].across[k]);
     if (beyond[k] > rounding) ++sides, one = k;
   }
   if (sides == 0) return 0;
@@ -205,7 +205,7 @@ bool TriangleBound::goes_on_beside(const Part& part, double overshoot) const noe
   for (std::size_t i = 0; i < 3; ++i) {
     bool beyond = false;
     double weight = 0;
-    const double off = most_off(part.bends[0].across[i], part.bends[1].across[i], part.bends[2].across[i]);
+    const double off = max_off(part.bends[0].across[i], part.bends[1].across[i], part.bends[2].across[i]);
     for (const Seen& c : part.corner) {
       beyond = beyond || c.beyond[i] + off > beyond_side * triangle_.longest;
       weight = std::max(weight, i == 0 ? 1 - c.at.x() - c.at.y() : i == 1 ? c.at.x() : c.at.y());
@@ -234,7 +234,7 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
   const auto off = [&](double Bend::*of) {
     const auto bend = [&](std::size_t side) { return part.bends[side % 3].*of; };
     // At a pole the lengths of normals, and their errors, are proportional to the distance from it.
-    return singular == 0 ? most_off(bend(0), bend(1), bend(2))
+    return singular == 0 ? max_off(bend(0), bend(1), bend(2))
                          : (1 + variation) * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
   };
   if (largest >= right) return turned;
@@ -259,7 +259,7 @@ void TriangleBound::take(std::span<const BoundPlace> places) {
     Bends bends;
     for (std::size_t i = 0; i < 3; ++i) {
       bends[i] = bend_of(part.corner[i].place, middles[k][i].place, part.corner[(i + 1) % 3].place);
-      bends[i].raise(part.bends[i].times(least_of_parent / 4));
+      bends[i].raise(part.bends[i].times(min_of_parent / 4));
     }
     if (part.cuts % 2 == 0 && std::ranges::count(part.corner, true, &Seen::singular) == 1)
       cut_at_pole(part, middles[k], bends);

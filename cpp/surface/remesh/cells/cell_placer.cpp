@@ -99,7 +99,7 @@ bool CellPlacer::fits(const Choice& k) const {
       const SurfacePlace& other = *p[(i + step) % n_];
       const Vec2 way = other.foot.uv - p[i]->foot.uv;
       const Vec3 chord = other.xyz - p[i]->xyz;
-      if (!(norm(way.x() * p[i]->su + way.y() * p[i]->sv - chord) <= most_distortion * norm(chord))) return false;
+      if (!(norm(way.x() * p[i]->su + way.y() * p[i]->sv - chord) <= max_distortion * norm(chord))) return false;
     }
   }
   return true;
@@ -223,7 +223,7 @@ bool CellPlacer::is_valid_in_chart(const PlacedCell& cell) const {
   for (int i = 0; i < n_; ++i)
     if (!put(i, cell.corners[i]) || !put(n_ + i, cell.nodes[i])) return false;
   const CellKind kind = n_ == 3 ? CellKind::triangle6 : CellKind::quad8;
-  return jacobian(kind, {plane.data(), static_cast<std::size_t>(2 * n_)}).least_along({0, 0, 1}) > 0;
+  return jacobian(kind, {plane.data(), static_cast<std::size_t>(2 * n_)}).min_along({0, 0, 1}) > 0;
 }
 
 }  // namespace carreau

@@ -39,19 +39,19 @@ class Certifier::Work {
     std::vector<Beyond> beyond = find();
     report_.beyond_before = static_cast<std::int64_t>(beyond.size());
     const double mean = beyond.empty() ? 0 : shapes_mean();
-    const std::int64_t end = bounds_.evaluations() + std::max(always_evaluations, most_evaluations * static_cast<std::int64_t>(mesh_.triangles().size()));
+    const std::int64_t end = bounds_.evaluations() + std::max(always_evaluations, max_evaluations * static_cast<std::int64_t>(mesh_.triangles().size()));
     std::vector<std::int32_t> worked;
-    constexpr int most_rounds_of_groups = 3;  // a group may leave two
-    for (int round = 0; round < most_rounds_of_groups && !beyond.empty(); ++round) {
+    constexpr int max_rounds_of_groups = 3;  // a group may leave two
+    for (int round = 0; round < max_rounds_of_groups && !beyond.empty(); ++round) {
       const std::int64_t before = edits();
       for (const std::vector<std::int32_t>& group : groups(beyond)) {
         const std::int64_t before_group = edits();
         std::vector<Corners> corners;
         for (const std::int32_t t : group) corners.push_back(mesh_.triangles()[t]);
         if (failed_.contains(corners)) continue;
-        end_ = std::min(end, bounds_.evaluations() + most_evaluations_of_group * static_cast<std::int64_t>(group.size()));
+        end_ = std::min(end, bounds_.evaluations() + max_evaluations_of_group * static_cast<std::int64_t>(group.size()));
         // Groups far beyond the tolerances first allow splits that degrade triangles.
-        const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > most_moved; });
+        const bool boldly = std::ranges::any_of(group, [&](std::int32_t t) { return share_of(t) > max_moved; });
         if (!work_at(group, boldly)) (void)work_at(group, !boldly);
         if (edits() == before_group) failed_.insert(std::move(corners));
         worked.insert(worked.end(), changed_.begin(), changed_.end());
@@ -101,7 +101,7 @@ class Certifier::Work {
 
   [[nodiscard]] bool costs_too_much(double mean_before) const {
     const double mean = shapes_mean();
-    return mean < std::min(least_mean, mean_before) && (mean_before >= least_mean || mean < mean_before - most_mean_lost);
+    return mean < std::min(min_mean, mean_before) && (mean_before >= min_mean || mean < mean_before - max_mean_lost);
   }
 
   // Triangles that share a vertex. The worst group is last: no edit may help it.
@@ -142,15 +142,15 @@ class Certifier::Work {
     touched_ = group, changed_.clear(), boldly_ = boldly;
     std::erase_if(touched_, [&](std::int32_t t) { return share_of(t) <= 1; });
     if (touched_.empty()) return true;
-    const double most = std::max(1.0, excess().most * most_growth);
+    const double most = std::max(1.0, excess().most * max_growth);
     Trial whole(mesh_), best(mesh_);
     const Certification before_group = report_;
     Certification report_of_best = report_;
     const double first = excess().sum;
     double least = first;
     // A round halves edges once. If splits help, two rounds show an improvement.
-    constexpr int most_rounds = 6, rounds_without_success = 3;
-    for (int round = 0; round < most_rounds && least > 0; ++round) {
+    constexpr int max_rounds = 6, rounds_without_success = 3;
+    for (int round = 0; round < max_rounds && least > 0; ++round) {
       const std::int64_t before = edits();
       const std::vector<std::int32_t> here = touched_;
       for (const std::int32_t t : here) {
@@ -159,12 +159,12 @@ class Certifier::Work {
       }
       for (int pass = 0; pass < tidy_passes; ++pass) tidy();
       if (edits() == before) break;
-      if (const Excess now = excess(); now.most <= most && now.sum < least - least_gain) least = now.sum, best.accept(), report_of_best = report_;
+      if (const Excess now = excess(); now.most <= most && now.sum < least - min_gain) least = now.sum, best.accept(), report_of_best = report_;
       if (round + 1 >= rounds_without_success && least == first) break;
     }
     undo(best, report_of_best);
     // Rejects edits that bring edges out of range for a small gain.
-    if (least > least_success * first)
+    if (least > min_success * first)
       undo(whole, before_group), least = first;
     else
       whole.accept();
@@ -246,9 +246,9 @@ class Certifier::Work {
     const auto best = std::ranges::min_element(swapped) - swapped.begin();
     if (swapped[best] <= 1 && swap(*quads[best])) return;
     for (const std::int32_t v : corners)
-      if (share_of(triangle) < most_moved && mesh_.is_free(v) && move(v)) return;
+      if (share_of(triangle) < max_moved && mesh_.is_free(v) && move(v)) return;
     if (split(quads)) return;
-    if (swapped[best] < infinity && swapped[best] < before(*quads[best]) - least_gain) swap(*quads[best]);
+    if (swapped[best] < infinity && swapped[best] < before(*quads[best]) - min_gain) swap(*quads[best]);
   }
 
   double before(const Quad& q) { return std::max(share_of(q.t), share_of(q.u)); }
@@ -258,7 +258,7 @@ class Certifier::Work {
     if (is_guarded({q.a, q.b, q.c, q.d}) || is_too_long(q)) return infinity;
     Change change;
     judge_swap(mesh_, q, &CrossPatchMesh::judge, change);
-    if (!is_fair(change, least_shape) || !mesh_.mesh().can_swap(q)) return infinity;
+    if (!is_fair(change, min_shape) || !mesh_.mesh().can_swap(q)) return infinity;
     const auto [first, second] = EditableMesh::swapped(q);
     return std::max(bounds_.share_roughly(first), bounds_.share_roughly(second));
   }
@@ -280,7 +280,7 @@ class Certifier::Work {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
     const double h = mesh_.size(v);
-    const double fair = std::min(mesh_.judge_shapes_around(v).worst, least_shape_of_move);
+    const double fair = std::min(mesh_.judge_shapes_around(v).worst, min_shape_of_move);
     for (const double step : steps)
       for (int k = 0; k < directions; ++k)
         if (put(v, beside(from, step * h, k, directions), 1, fair)) return true;
@@ -318,7 +318,7 @@ class Certifier::Work {
   double when_split(const Quad& q, const SurfacePlace& at) {
     const std::int32_t m = mesh_.try_vertex(at);
     double share = infinity;
-    if (is_fair(judge_split(mesh_, q, m), least_shape)) {
+    if (is_fair(judge_split(mesh_, q, m), min_shape)) {
       share = 1;
       if (!boldly_)
         for (const Corners& t : split_parts(q, m)) share = std::max(share, bounds_.share_roughly(t));
@@ -384,7 +384,7 @@ class Certifier::Work {
     if (!q) return;
     Change change;
     judge_swap(mesh_, *q, &CrossPatchMesh::judge_shape, change);
-    if (change.before.worst >= good_ || change.after.worst < change.before.worst + least_shape_gain) return;
+    if (change.before.worst >= good_ || change.after.worst < change.before.worst + min_shape_gain) return;
     if (when_swapped(*q) <= std::max(1.0, before(*q))) swap(*q);
   }
 
@@ -398,7 +398,7 @@ class Certifier::Work {
     double most = 1;
     for (const Place p : mesh_.mesh().fan(v)) most = std::max(most, share_of(p.triangle));
     for (const double part : {1.0, 0.5})
-      if (put(v, lerp(mesh_.position(v), target, part), most, shapes.worst + least_shape_gain)) return;
+      if (put(v, lerp(mesh_.position(v), target, part), most, shapes.worst + min_shape_gain)) return;
   }
 
   static constexpr double unknown = -1;

@@ -13,35 +13,35 @@ inline constexpr double suspect_share = 0.5;
 /// Share of a tolerance. Smaller shares are within: measures see triangles from places that differ a little.
 inline constexpr double within = 0.98;
 /// Ratio. Allowed growth of the largest share of a group if other triangles come within tolerances.
-inline constexpr double most_growth = 1.05;
+inline constexpr double max_growth = 1.05;
 /// Share of the excess over tolerances of a group that may be left.
-inline constexpr double least_success = 0.5;
+inline constexpr double min_success = 0.5;
 /// Share of a tolerance. Moves do not help triangles that are farther beyond it.
-inline constexpr double most_moved = 1.3;
+inline constexpr double max_moved = 1.3;
 /// Share of a tolerance. Gains below do not count.
-inline constexpr double least_gain = 1e-3;
+inline constexpr double min_gain = 1e-3;
 /// Shape (Q2) that an edit may leave after better shapes, also a split before further splits.
-inline constexpr double least_shape = 0.3;
+inline constexpr double min_shape = 0.3;
 /// Shape that a move may leave.
-inline constexpr double least_shape_of_move = 0.5;
+inline constexpr double min_shape_of_move = 0.5;
 /// Lengths. Shorter edges are not split. A bend beyond the tolerance over half of that length is a feature of another size.
 inline constexpr double shortest_split = 0.3;
 /// Lengths. A swap does not make a longer edge from shorter ones.
 inline constexpr double longest_swapped = 1.8;
 /// Mean shape. Edits do not lower a better mesh below this: in a coarse mesh a few edits are a large part.
-inline constexpr double least_mean = 0.95;
+inline constexpr double min_mean = 0.95;
 /// The loss for a mesh that is worse: edits do not repair a surface that bends within a size everywhere.
-inline constexpr double most_mean_lost = 0.04;
+inline constexpr double max_mean_lost = 0.04;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
 inline constexpr int directions = 6;
-/// Shape. New triangles below are swapped and moved, at last triangles below the second value. Gains below `least_shape_gain` do not count;
+/// Shape. New triangles below are swapped and moved, at last triangles below the second value. Gains below `min_shape_gain` do not count;
 /// passes.
-inline constexpr double good_shape = 0.7, good_shape_at_last = 0.95, least_shape_gain = 0.01;
+inline constexpr double good_shape = 0.7, good_shape_at_last = 0.95, min_shape_gain = 0.01;
 inline constexpr int tidy_passes = 2, tidy_passes_at_last = 5;
 
 /// Evaluations of the surface, for each triangle of the mesh and for each triangle of a group beyond tolerances. Triangles that stay beyond
 /// are reported. The mesh took some twenty a vertex. The last number is allowed in any case: a tenth of a second.
-inline constexpr std::int64_t most_evaluations = 32, most_evaluations_of_group = 6000, always_evaluations = 200'000;
+inline constexpr std::int64_t max_evaluations = 32, max_evaluations_of_group = 6000, always_evaluations = 200'000;
 
 }  // namespace carreau::thresholds::certify

@@ -25,7 +25,7 @@ using namespace thresholds::remesh;
 using Vertices = std::vector<std::int32_t>;
 
 /// Triangles of prescribed size: least work of a triangle, so that each triangle is in some part.
-constexpr double least_work = 1e-3;
+constexpr double min_work = 1e-3;
 
 // Marks the starting vertices of remesh() if it does not work everywhere: corners of triangles that violate the
 // prescription.
@@ -58,7 +58,7 @@ std::vector<float> work_everywhere(const CrossPatchMesh& mesh) {
   for (std::size_t t = 0; t < work.size(); ++t)
     if (mesh.triangles()[t][0] >= 0) {
       const double wanted = mesh.double_area(mesh.triangles()[t]) / half_root3;
-      work[t] = static_cast<float>(std::isfinite(wanted) ? std::max(wanted, least_work) : 1);
+      work[t] = static_cast<float>(std::isfinite(wanted) ? std::max(wanted, min_work) : 1);
     }
   return work;
 }
@@ -160,7 +160,7 @@ RemeshingReport remesh_divided(CrossPatchMesh& mesh, const RemeshingWorkers& wor
     if (bad.empty()) return {};
   }
   const std::vector<float> work = everywhere ? work_everywhere(mesh) : work_around(mesh, bad);
-  if (std::accumulate(work.begin(), work.end(), 0.0) < least_divided) return remesh(mesh, monitor, everywhere, thorough, bad);
+  if (std::accumulate(work.begin(), work.end(), 0.0) < min_divided) return remesh(mesh, monitor, everywhere, thorough, bad);
   return DividedRemeshing(mesh, workers, monitor, everywhere, thorough).run(work);
 }
 

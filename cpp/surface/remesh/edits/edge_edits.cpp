@@ -37,8 +37,8 @@ bool swap_edge(CrossPatchMesh& mesh, const Quad& q, bool for_degrees) {
   Change change;
   judge_swap(mesh, q, &CrossPatchMesh::judge_shape, change);
   const auto& [before, after] = change;
-  const bool better = after.worst >= before.worst + least_gain ||
-                      (for_degrees && after.worst >= std::max(least_shape_of_degrees, mesh.budget.floor));
+  const bool better = after.worst >= before.worst + min_gain ||
+                      (for_degrees && after.worst >= std::max(min_shape_of_degrees, mesh.budget.floor));
   const double cost = mesh.budget.cost(before, after);
   if (!better || !mesh.budget.affords(cost)) return false;
   judge_swap(mesh, q, &CrossPatchMesh::judge_agreement, change);
@@ -60,7 +60,7 @@ std::optional<std::int32_t> split(CrossPatchMesh& mesh, const Quad& q, bool what
   const Change change = judge_split(mesh, q, m);
   mesh.forget_vertex();
   const bool gains = whatever_length || least > was;
-  const double floor = whatever_length ? flat_shape : std::max(least_shape, mesh.budget.floor);
+  const double floor = whatever_length ? flat_shape : std::max(min_shape, mesh.budget.floor);
   if (!gains || !change.keeps_surface() || !change.keeps_shapes(floor)) return {};
   const double cost = mesh.budget.cost(change.before, change.after);
   if (!mesh.budget.affords(cost)) return {};
@@ -93,7 +93,7 @@ CollapseShapes shapes_after_collapse(const CrossPatchMesh& mesh, std::int32_t go
   if (!adjacent) return {};
   Change change;
   judge_collapse(mesh, gone, kept, &CrossPatchMesh::judge_shape, change);
-  const double floor = std::max(dense ? least_shape_when_dense : least_shape, mesh.budget.floor);
+  const double floor = std::max(dense ? min_shape_when_dense : min_shape, mesh.budget.floor);
   if (dense ? change.after.worst < floor : !change.keeps_shapes(floor)) return {};
   const auto cost = cost_of_collapse(mesh, gone, kept, change);
   return cost ? CollapseShapes{change.after.worst, *cost} : CollapseShapes{};
@@ -109,7 +109,7 @@ bool is_dense(const CrossPatchMesh& mesh, std::int32_t v, std::int32_t w) {
       area += mesh.double_area(t) / 2;
       ++count;
     }
-  return area <= 0.5 * half_root3 * count * most_mean_area;
+  return area <= 0.5 * half_root3 * count * max_mean_area;
 }
 
 bool collapse_edge(CrossPatchMesh& mesh, std::int32_t gone, std::int32_t kept) {

@@ -29,7 +29,7 @@ class Remesher {
         monitor_(monitor),
         everywhere_(everywhere),
         thorough_(thorough),
-        mover_(mesh, thorough ? least_move_thorough : least_move) {}
+        mover_(mesh, thorough ? min_move_thorough : min_move) {}
 
   RemeshingReport halve() {
     activate_all();
@@ -45,7 +45,7 @@ class Remesher {
         if (!q || q->c < old || q->d < old) continue;
         Change change;
         judge_swap(mesh_, *q, &CrossPatchMesh::judge, change);
-        if (change.keeps_shapes(least_shape_of_degrees) && change.keeps_surface() && mesh_.swap(*q)) ++report_.swaps;
+        if (change.keeps_shapes(min_shape_of_degrees) && change.keeps_surface() && mesh_.swap(*q)) ++report_.swaps;
       }
     }
     return report_;
@@ -57,14 +57,14 @@ class Remesher {
     for (std::size_t t = 0; t < mesh_.triangles().size(); ++t)
       if (mesh_.triangles()[t][0] >= 0 && shape_of({0, static_cast<std::int32_t>(t)}) < below)
         for (const std::int32_t v : mesh_.triangles()[t]) mark(v, active);
-    report_.rounds = most_rounds_of_degrees;
-    last_passes(most_polish_passes);
+    report_.rounds = max_rounds_of_degrees;
+    last_passes(max_polish_passes);
     return report_;
   }
 
   RemeshingReport run(std::span<const std::int32_t> around) {
     around.empty() ? activate_all() : activate_around(around);
-    for (report_.rounds = 0; report_.rounds < most_rounds; ++report_.rounds) {
+    for (report_.rounds = 0; report_.rounds < max_rounds; ++report_.rounds) {
       const std::int64_t before = report_.collapses + report_.splits;
       collapse_edges(false);
       split_long();
@@ -77,7 +77,7 @@ class Remesher {
       move_all();
       if (report_.collapses + report_.splits == before) break;
     }
-    last_passes(thorough_ ? most_last_passes_thorough : most_last_passes);
+    last_passes(thorough_ ? max_last_passes_thorough : max_last_passes);
     return report_;
   }
 
@@ -294,7 +294,7 @@ class Remesher {
   }
 
   bool swap(std::int32_t v, const Spoke& e) {
-    const bool for_degrees = report_.rounds < most_rounds_of_degrees && evens_degrees(mesh_, v, e.w, e.c, e.d);
+    const bool for_degrees = report_.rounds < max_rounds_of_degrees && evens_degrees(mesh_, v, e.w, e.c, e.d);
     if (!for_degrees && e.shape >= shape_of_squares) return false;
     const auto q = quad_between(v, e.w);
     if (!q || !swap_edge(mesh_, *q, for_degrees)) return false;

@@ -18,7 +18,7 @@ using namespace thresholds::remesh;
 using Place = CrossPatchMesh::Place;
 
 bool gains(const Change& change, const ShapeBudget& budget) noexcept {
-  return change.after.inverses < change.before.inverses - least_gain && change.keeps_shapes(std::max(good_enough, budget.floor)) &&
+  return change.after.inverses < change.before.inverses - min_gain && change.keeps_shapes(std::max(good_enough, budget.floor)) &&
          budget.affords(change.before.sum - change.after.sum);
 }
 

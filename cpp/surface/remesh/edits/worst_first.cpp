@@ -27,7 +27,7 @@ class WorstFirst {
       : mesh_(mesh), floor_(floor), monitor_(monitor), forgets_(mesh.budget.is_limited()), changed_(mesh.vertices(), 1), tried_(mesh.vertices(), 0) {}
 
   std::int64_t run() {
-    for (int pass = 0; pass < most_worst_passes; ++pass) {
+    for (int pass = 0; pass < max_worst_passes; ++pass) {
       const std::int64_t before = edits_, began = now_;
       for (const auto& [shape, t] : below_floor()) {
         monitor_.checkpoint();
@@ -99,7 +99,7 @@ class WorstFirst {
     const TriangleShapes agreed = mesh_.judge_agreement_around(v);
     const int out = out_of_range(mesh_, v);
     SurfacePlace best = from;
-    double worst = before.worst + least_gain, cost = 0;
+    double worst = before.worst + min_gain, cost = 0;
     for (int k = 0; k < worst_directions; ++k) {
       const auto to = mesh_.near(v, from.normal, beside(from, step * h, k, worst_directions));
       if (!to) continue;
@@ -110,7 +110,7 @@ class WorstFirst {
           Change{agreed, mesh_.judge_agreement_around(v)}.keeps_surface())
         worst = after.worst, cost = before.sum - after.sum, best = *to;
     }
-    if (worst <= before.worst + least_gain) return false;
+    if (worst <= before.worst + min_gain) return false;
     mesh_.put(v, best, mesh_.wanted_at(best));
     mesh_.budget.pay(cost);
     ++edits_;

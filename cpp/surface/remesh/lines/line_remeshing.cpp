@@ -115,14 +115,14 @@ class LineRemesher {
   [[nodiscard]] std::optional<double> cost_of(std::int32_t gone, std::int32_t kept) const {
     Change change;
     judge_collapse(mesh_, gone, kept, &CrossPatchMesh::judge_shape, change);
-    if (!change.keeps_shapes(least_shape())) return {};
+    if (!change.keeps_shapes(min_shape())) return {};
     const std::optional<double> cost = cost_of_collapse(mesh_, gone, kept, change);
     if (!cost) return {};
     judge_collapse(mesh_, gone, kept, &CrossPatchMesh::judge_agreement, change);
     return change.keeps_surface() ? cost : std::nullopt;
   }
 
-  [[nodiscard]] double least_shape() const { return std::max(least_line_shape, mesh_.budget.floor); }
+  [[nodiscard]] double min_shape() const { return std::max(min_line_shape, mesh_.budget.floor); }
 
   // Returns whether the previous shapes are kept.
   [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }
@@ -133,7 +133,7 @@ class LineRemesher {
     Node& here = left_[k];
     const double p = mesh_.length(previous.vertex, here.vertex), q = mesh_.length(here.vertex, next.vertex);
     const double mean = (p + q) / 2;
-    if (std::abs(p - q) < least_move * mean) return false;
+    if (std::abs(p - q) < min_move * mean) return false;
     const double to = p > mean ? previous.arc + mean / p * (here.arc - previous.arc)
                                : next.arc - mean / q * (next.arc - here.arc);
     const double arc = here.arc;
@@ -147,7 +147,7 @@ class LineRemesher {
       mesh_.put_kept(here.vertex, places, mesh_.wanted_at(places));
       const Change change{before, mesh_.judge_shapes_around(here.vertex)};
       const double cost = before.sum - change.after.sum;
-      if (!is_worth(cost, out - out_of_range(mesh_, here.vertex)) || !change.keeps_shapes(least_shape()) ||
+      if (!is_worth(cost, out - out_of_range(mesh_, here.vertex)) || !change.keeps_shapes(min_shape()) ||
           !Change{agreed, mesh_.judge_agreement_around(here.vertex)}.keeps_surface())
         continue;
       trial.accept();

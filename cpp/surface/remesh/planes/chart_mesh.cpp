@@ -51,7 +51,7 @@ std::optional<double> one_size(const ChartInput& input) {
 
 ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& monitor) {
   const std::optional<double> size = one_size(input);
-  if (size && input.plane.least_cosine() >= flat_cosine) {
+  if (size && input.plane.min_cosine() >= flat_cosine) {
     const double k = 1 / (*size * *size);
     return ControlSpace::constant({k, 0, k});
   }

@@ -66,7 +66,7 @@ void ChartPlane::enclose(std::span<const std::int32_t> triangles) {
   for (int i = 0; i < 2; ++i) low[i] -= 2 * step_, high[i] += 2 * step_;
   low_ = low;
   const Vec2 extents = high - low;
-  step_ = std::max(step_, std::sqrt(extents.x() * extents.y() / most_cells));
+  step_ = std::max(step_, std::sqrt(extents.x() * extents.y() / max_cells));
   columns_ = static_cast<int>(extents.x() / step_) + 1, rows_ = static_cast<int>(extents.y() / step_) + 1;
   raster_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
 }
@@ -116,8 +116,8 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
   const int i = clamped_int((p.x() - low_.x()) / step_, 0, columns_ - 1),
             j = clamped_int((p.y() - low_.y()) / step_, 0, rows_ - 1);
   std::int32_t t = raster_[cell(i, j)], before = -1;
-  for (int step = 0; step <= most_steps && t >= 0; ++step) {
-    if (step == most_steps) t = straight_to(p, t);
+  for (int step = 0; step <= max_steps && t >= 0; ++step) {
+    if (step == max_steps) t = straight_to(p, t);
     const std::array<double, 3> w = weights_in(corners(t), p);
     std::int32_t next = -1;
     double least = -on_side;
@@ -136,12 +136,12 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
     for (int k = std::max(j - 1, 0); k <= std::min(j + 1, rows_ - 1); ++k)
       for (int n = std::max(i - 1, 0); n <= std::min(i + 1, columns_ - 1) && found.outside > 0; ++n)
         if (const Found other = find_around(raster_[cell(n, k)], p); other.outside < found.outside) found = other;
-  if (found.outside > most_miss * step_) found = find_anywhere(p, found);
+  if (found.outside > max_miss * step_) found = find_anywhere(p, found);
   return foot_in(found.triangle, weights_in(corners(found.triangle), p));
 }
 
 bool ChartPlane::is_shown(std::int32_t t) const {
-  return t >= 0 && dot(atlas_.normal[t], axis_) > thresholds::planes::least_cosine;
+  return t >= 0 && dot(atlas_.normal[t], axis_) > thresholds::planes::min_cosine;
 }
 
 std::optional<Foot> ChartPlane::foot_in(std::int32_t t, std::array<double, 3> w) const {
@@ -167,7 +167,7 @@ std::int32_t ChartPlane::straight_to(const Vec2& p, std::int32_t first) const {
   const std::array<Vec2, 3> begin = corners(first);
   const Vec2 from = (begin[0] + begin[1] + begin[2]) / 3;
   std::int32_t t = first, before = -1;
-  for (int step = 0; step < most_straight_steps; ++step) {
+  for (int step = 0; step < max_straight_steps; ++step) {
     const std::array<Vec2, 3> c = corners(t);
     const std::array<double, 3> there = weights_in(c, p), here = weights_in(c, from);
     std::int32_t next = -1;
@@ -203,7 +203,7 @@ ChartPlane::Found ChartPlane::find_around(std::int32_t first, const Vec2& p) con
     std::size_t best = around.size();
     for (std::size_t k = 0; k < around.size(); ++k)
       if (done[k] == 0 && (best == around.size() || around[k].outside < around[best].outside)) best = k;
-    if (best == around.size() || around.size() >= most_around || !(around[best].outside > 0)) break;
+    if (best == around.size() || around.size() >= max_around || !(around[best].outside > 0)) break;
     done[best] = 1;
     for (const std::int32_t u : atlas_.at(around[best].triangle).beyond)
       if (is_shown(u) && std::ranges::find(around, u, &Found::triangle) == around.end())
@@ -218,9 +218,9 @@ Metric2 ChartPlane::metric(const Foot& at) const {
   const auto& n = atlas_.corner[at.triangle];
   Vec3 normal = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
   // Opposite normals at the corners of a folded triangle cancel out, and a triangle without area has no weights.
-  if (!(norm(normal) > least_normal)) normal = atlas_.normal[at.triangle];
-  if (!(norm(normal) > least_normal)) return {1, 0, 1};
-  const double up = std::max(dot(normal, axis_), thresholds::planes::least_cosine * norm(normal));
+  if (!(norm(normal) > min_normal)) normal = atlas_.normal[at.triangle];
+  if (!(norm(normal) > min_normal)) return {1, 0, 1};
+  const double up = std::max(dot(normal, axis_), thresholds::planes::min_cosine * norm(normal));
   const double p = dot(normal, first_) / up, q = dot(normal, second_) / up;
   return {1 + p * p, p * q, 1 + q * q};
 }

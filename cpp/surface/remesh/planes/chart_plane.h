@@ -27,7 +27,7 @@ class ChartPlane {
   /// The metric of unit lengths in space, by the normals of the surface.
   [[nodiscard]] Metric2 metric(const Foot& at) const;
   /// The least cosine between the axis and normals at corners of the triangles of the chart.
-  [[nodiscard]] double least_cosine() const noexcept { return least_; }
+  [[nodiscard]] double min_cosine() const noexcept { return least_; }
 
  private:
   void enclose(std::span<const std::int32_t> triangles);

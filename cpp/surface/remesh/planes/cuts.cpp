@@ -110,7 +110,7 @@ class CutTracer {
     cut.start = node_at(cut.path.front(), cut.triangles.front());
     cut.end = node_at(cut.path.back(), cut.triangles.back());
     const char exact = std::max(input_.exact[cut.left], input_.exact[cut.right]);
-    cut.exact = exact != 0, cut.undivided = exact == most_exact;
+    cut.exact = exact != 0, cut.undivided = exact == max_exact;
     for (const std::size_t end : {cut.start, cut.end})
       nodes_[end].stays = nodes_[end].stays || cut.exact || nodes_[end].vertex >= 0;
     nodes_[cut.start].cuts.emplace_back(cuts_.size(), true);
@@ -173,7 +173,7 @@ class CutTracer {
 
   // Cosine of the angle between the surface and the axes of both charts. A cut that slides over the end of a thin part,
   // where one chart does not show it, would cut the end off.
-  [[nodiscard]] double least_shown(const Cut& cut, const CutPoint& p) const {
+  [[nodiscard]] double min_shown(const Cut& cut, const CutPoint& p) const {
     const Vec3& normal = atlas_.normal[p.foot.triangle];
     return std::min(dot(normal, input_.charts.axis[cut.left]), dot(normal, input_.charts.axis[cut.right]));
   }
@@ -187,17 +187,17 @@ class CutTracer {
       double shown = infinity, still_shown = infinity;
       const auto at = near(node.at, sum / static_cast<double>(node.cuts.size()));
       for (const auto& [cut, starts] : node.cuts) {
-        shown = std::min(shown, least_shown(cuts_[cut], node.at));
-        if (at) still_shown = std::min(still_shown, least_shown(cuts_[cut], *at));
+        shown = std::min(shown, min_shown(cuts_[cut], node.at));
+        if (at) still_shown = std::min(still_shown, min_shown(cuts_[cut], *at));
       }
-      if (at && still_shown >= std::min(least_cosine, shown)) node.at = *at;
+      if (at && still_shown >= std::min(min_cosine, shown)) node.at = *at;
     }
     for (Cut& cut : cuts_)
       for (std::size_t k = 0; k < cut.inner.size() && !cut.exact; ++k) {
         const Vec3& before = k == 0 ? nodes_[cut.start].at.xyz : cut.inner[k - 1].xyz;
         const Vec3& after = k + 1 == cut.inner.size() ? nodes_[cut.end].at.xyz : cut.inner[k + 1].xyz;
         if (const auto at = near(cut.inner[k], (before + after) / 2);
-            at && least_shown(cut, *at) >= std::min(least_cosine, least_shown(cut, cut.inner[k])))
+            at && min_shown(cut, *at) >= std::min(min_cosine, min_shown(cut, cut.inner[k])))
           cut.inner[k] = *at;
       }
   }

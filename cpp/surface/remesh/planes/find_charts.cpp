@@ -280,7 +280,7 @@ bool keep_triangles(const FlatAtlas& atlas, const std::vector<char>& which, Proj
   for (std::int32_t t = 0; t < atlas.triangles(); ++t) {
     if (which[t] == 0 || charts.kept[t] != 0) continue;
     any = true;
-    charts.kept[t] = 1, charts.exact[t] = most_exact;
+    charts.kept[t] = 1, charts.exact[t] = max_exact;
     charts.chart[t] = static_cast<std::int32_t>(charts.axis.size());
     charts.axis.push_back(atlas.normal[t]);
   }

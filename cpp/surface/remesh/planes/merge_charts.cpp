@@ -81,10 +81,10 @@ class ChartMerger {
     if (is_kept(p) || is_kept(q)) return false;
     const Vec3 sum = sum_[p] + sum_[q];
     // The surface leans more than its flat triangles: at their corners the projection must not turn over.
-    const double least = cosine_ * norm(sum), least_at_corners = least_cosine * norm(sum);
+    const double least = cosine_ * norm(sum), min_at_corners = min_cosine * norm(sum);
     const auto shown = [&](std::int32_t t) {
       return dot(atlas_.normal[t], sum) >= least &&
-             std::ranges::all_of(atlas_.corner[t], [&](const Vec3& n) { return dot(n, sum) >= least_at_corners; });
+             std::ranges::all_of(atlas_.corner[t], [&](const Vec3& n) { return dot(n, sum) >= min_at_corners; });
     };
     return least > 0 && std::ranges::all_of(members_[p], shown) && std::ranges::all_of(members_[q], shown);
   }

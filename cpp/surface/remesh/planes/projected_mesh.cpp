@@ -137,7 +137,7 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
                      static_cast<std::int32_t>(c), plan.xyz},
                     own);
       // A chart that was cut in two may now lie along its axis.
-      if (exact[c] != 0 && chart.triangles.size() > 1 && chart.plane->least_cosine() < least_cosine) chart.leans = true;
+      if (exact[c] != 0 && chart.triangles.size() > 1 && chart.plane->min_cosine() < min_cosine) chart.leans = true;
     } catch (const DomainError& error) {
       chart.why = error.what();
     }
@@ -168,7 +168,7 @@ bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, Projec
       if (found.exact[t] != 0) join[c] = 0;
     }
   const std::size_t before = found.axis.size();
-  merge_charts(atlas, most_merge_cosine, join, found, monitor);
+  merge_charts(atlas, max_merge_cosine, join, found, monitor);
   bool changed = found.axis.size() < before;
   if (changed) return true;
   std::vector<std::size_t> members(found.axis.size(), 0);
@@ -198,7 +198,7 @@ bool keep_charts(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong,
 SurfacePlace lifted(const FlatAtlas& atlas, const ChartPlane& plane, const Foot& foot, const Vec2& wanted, Cad& cad) {
   const SurfacePlace first = atlas.charts.evaluate(cad, foot);
   const Vec2 miss = wanted - plane.project(first.xyz);
-  if (!(norm(miss) > most_miss * atlas.charts.size(foot))) return first;
+  if (!(norm(miss) > max_miss * atlas.charts.size(foot))) return first;
   const auto better = plane.find(wanted + miss);
   if (!better) return first;
   const SurfacePlace second = atlas.charts.evaluate(cad, *better);
@@ -298,11 +298,11 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   for (int round = 0;;) {
     plan = planned(source, found, monitor);
     if (!plan) return refuse("borders of charts are not divided");
-    if (static_cast<double>(std::ranges::count(found.kept, 1)) > most_kept * flat.triangles())
+    if (static_cast<double>(std::ranges::count(found.kept, 1)) > max_kept * flat.triangles())
       return refuse("charts do not project to planes");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
-    if (!worse.empty() && round++ < most_mendings && mend(flat, worse, found, monitor)) continue;
+    if (!worse.empty() && round++ < max_mendings && mend(flat, worse, found, monitor)) continue;
     std::vector<std::int32_t>& wrong = plan->wrong;
     if (wrong.empty()) {
       const auto work = [&](std::size_t c, Monitor& own) {

@@ -13,18 +13,18 @@ inline constexpr double usual_cosine = 0.55;
 /// Neighbours become one chart if all normals lean less.
 inline constexpr double merge_cosine = 0.42;
 /// Neighbours become one chart up to this lean if borders would cross otherwise.
-inline constexpr double most_merge_cosine = 0.2;
+inline constexpr double max_merge_cosine = 0.2;
 /// Largest value of ProjectedCharts::exact: 1 divides borders of edges of the atlas, 2 leaves them if their parts would cross, too.
-inline constexpr char most_exact = 2;
+inline constexpr char max_exact = 2;
 /// Times that charts whose borders cross are repaired.
-inline constexpr int most_mendings = 16;
+inline constexpr int max_mendings = 16;
 /// Share of the triangles of the atlas that may be kept. Beyond, local remeshing of the whole mesh is as cheap. For
 /// scans it is below .15.
-inline constexpr double most_kept = 0.25;
+inline constexpr double max_kept = 0.25;
 /// Triangles left between charts may lean so far: a ratio of 3.
 inline constexpr double loose_cosine = 0.3;
 /// The search ignores triangles that lean more: there the projection turns over soon.
-inline constexpr double least_cosine = 0.15;
+inline constexpr double min_cosine = 0.15;
 /// Triangles: smaller pieces that are left between charts join one of them.
 inline constexpr int small_piece = 16;
 /// Times that charts are grown again from their middles, which makes their borders short.
@@ -47,17 +47,17 @@ inline constexpr double same_size = 1e-6;
 inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
 inline constexpr std::size_t least_samples = 40;
 /// Share of the size. A vertex is lifted again if its lifted place is farther from its place in the plane.
-inline constexpr double most_miss = 0.05;
+inline constexpr double max_miss = 0.05;
 /// Largest number of cells of the raster of a chart, of triangles on the quickest way to a place, and of triangles on a
 /// straight way behind. One cell may contain many needles. [ProjectedMeshes.FansOfNeedlesAreNotFolded]
-inline constexpr int most_cells = 1 << 20, most_steps = 64, most_straight_steps = 1 << 16;
+inline constexpr int max_cells = 1 << 20, max_steps = 64, max_straight_steps = 1 << 16;
 /// Triangles around that are searched if a barrier is in the way.
-inline constexpr std::size_t most_around = 64;
+inline constexpr std::size_t max_around = 64;
 /// Rings of triangles beyond the border of a chart in its raster: cuts are straightened.
 inline constexpr int rings_beyond = 2;
 
 /// Length. A mean of unit normals that is shorter has no direction: the normals cancel out. [rounding]
-inline constexpr double least_normal = 1e-9;
+inline constexpr double min_normal = 1e-9;
 
 /// Vertices that are lifted between two looks for a stop [time only].
 inline constexpr std::size_t between_checkpoints = 256;

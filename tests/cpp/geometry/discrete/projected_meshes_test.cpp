@@ -341,7 +341,7 @@ TEST(ProjectedCharts, MergedOnesDoNotTurnOverAtTheirCorners) {
     EXPECT_LT(found.axis.size(), split);
     for (std::size_t t = 0; t < found.chart.size(); ++t)
       for (const Vec3& normal : atlas.flat.corner[t])
-        EXPECT_GE(dot(normal, found.axis[static_cast<std::size_t>(found.chart[t])]), least_cosine - 1e-12);
+        EXPECT_GE(dot(normal, found.axis[static_cast<std::size_t>(found.chart[t])]), min_cosine - 1e-12);
   }
 }
 
@@ -352,7 +352,7 @@ TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
   const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
   const std::size_t n = atlas.mesh.vertices.size();
   for (const double size : {0.02, 0.05, 4.0})
-    for (const char exact : {char{1}, most_exact}) {
+    for (const char exact : {char{1}, max_exact}) {
       const std::vector<double> sizes(n, size);
       const std::vector<char> all(found.axis.size(), exact);
       const std::vector<char> kept(n, 0);
@@ -367,7 +367,7 @@ TEST(ProjectedCharts, ExactBordersAreEdgesOfTheAtlasCutBySizes) {
           if (u <= t || found.chart[static_cast<std::size_t>(u)] == found.chart[static_cast<std::size_t>(t)]) continue;
           const double length = norm(atlas.flat.xyz(here.vertex[static_cast<std::size_t>((i + 1) % 3)]) -
                                      atlas.flat.xyz(here.vertex[static_cast<std::size_t>(i)]));
-          expected += exact == most_exact ? 1 : std::max(1.0, std::round(length / size));
+          expected += exact == max_exact ? 1 : std::max(1.0, std::round(length / size));
         }
       double edges = 0;
       for (const BorderChain& chain : borders->chains) edges += static_cast<double>(chain.vertices.size()) - 1;

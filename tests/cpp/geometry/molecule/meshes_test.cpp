@@ -129,11 +129,11 @@ TEST(MolecularSurfaces, GlobulesAreClosedWithTheEulerNumberOfTheirArcs) {
   for (const SurfaceKind kind : {SurfaceKind::vws, SurfaceKind::sas, SurfaceKind::ses}) {
     Monitor silent;
     MoleculeSummary summary;
-    constexpr double size = 0.6, least_radius = 1.2;
+    constexpr double size = 0.6, min_radius = 1.2;
     const SurfaceMesh mesh = mesh_of(build_surface({globule(100)}, {.kind = kind}, silent, &summary), size);
     EXPECT_EQ(euler_number_of(mesh), summary.euler_number);
     // Equilateral triangles on a sphere lose h^2 / (8 r^2) of its area; twice as much is allowed.
-    const double chords = size * size / (4 * least_radius * least_radius);
+    const double chords = size * size / (4 * min_radius * min_radius);
     EXPECT_NEAR(area_of(mesh), summary.measures.area, chords * summary.measures.area);
     for (const FaceMesh& face : mesh.faces) EXPECT_NE(face.status, FaceStatus::failed);
   }

@@ -62,7 +62,7 @@ TEST(Mender, EndsWhenItsPlacesAreSpent) {
     LineMender mender(cells, [](double x) { return x - 1e9; }, monitor);
     mender.find_below(good_jacobian);
     mender.mend();
-    const std::int64_t budget = most_trials + most_trials_of_element * cells;
+    const std::int64_t budget = max_trials + max_trials_of_element * cells;
     EXPECT_GE(mender.tried, budget) << cells;
     EXPECT_LT(mender.tried, budget + 8) << cells;
     EXPECT_FALSE(mender.bad().empty()) << cells;
