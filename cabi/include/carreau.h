@@ -836,14 +836,15 @@ CARREAU_API carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* s
 /* ---- Meshes in parts ---- */
 
 /* Runs carreau_mesh_generate by the processes of the session's team (carreau_set_team), each of which keeps its part. The parts together
- * are identical to the mesh of one process; no process ever has the whole mesh. `part` (carreau_mesh_create) becomes the part of this
- * process: the triangles of the faces that it has meshed and, behind them, ghosts. Ghosts are triangles of other processes that touch them
- * in a vertex. Vertices that this process owns come first. The faces of the part are the faces of the whole mesh. carreau_mesh_encode
- * writes the bytes of this process in the ".meshb" of the whole mesh; other functions treat the part as a complete mesh. The mesh of the
- * session does not change. Options that need the whole mesh are rejected: gradation, elements other than p1, patches=independent, cracks,
- * faces that narrow_faces=collapse lets vanish, measure, surfaces given as triangles.
- * Errors: as carreau_mesh_generate, on all processes; carreau_last_error has the sentence. ARGUMENT (no team; an option that needs the
- * whole mesh; part is NULL or a session's). */
+ * are identical to the mesh of one process. `part` (carreau_mesh_create) becomes the part of this process: the triangles of the faces that
+ * it has meshed and, behind them, ghosts. Ghosts are elements of other processes that touch them in a vertex. Vertices that this process
+ * owns come first. The faces of the part are the faces of the whole mesh. carreau_mesh_encode writes the bytes of this process in the
+ * ".meshb" of the whole mesh; other functions treat the part as a complete mesh. No process has the whole mesh, and the mesh of the session
+ * does not change. Exceptions: gradation, elements other than p1, patches=independent, periodic faces, cracks, faces that
+ * narrow_faces=collapse lets vanish, measure, and surfaces given as triangles work on the whole mesh. The session then has it, as after
+ * carreau_mesh_generate, and the part has a share of consecutive elements.
+ * Errors: as carreau_mesh_generate, on all processes; carreau_last_error has the sentence. ARGUMENT (no team; part is NULL or a
+ * session's). */
 CARREAU_API carreau_status carreau_mesh_generate_part(carreau_session* session, carreau_mesh* part);
 
 /* Numbers of a mesh in parts. */

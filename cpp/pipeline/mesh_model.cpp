@@ -79,12 +79,11 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
                                const CompositeOptions& options, Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   CompositeRun run(model, topology, supports, cad, options, monitor);
-  if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
-  if (run.options.parts) refuse_parts(run.options, run.rules);
   grade_sizes(run);
   discretise_curves(run);
   find_narrow(run);
-  if (run.options.parts) refuse_narrow_parts(run.narrow);
+  if (run.options.parts && !run.narrow.vanishing.curve.empty()) run.make_whole();
+  if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
   MeshRounds rounds(run);
   rounds.mesh_first();
   for (const std::unique_ptr<Inspector>& inspector : inspectors_of(run)) rounds.refine(*inspector);

@@ -12,6 +12,7 @@
 #include "model/geometries.h"
 #include "pipeline/faces/same_hosts.h"
 #include "pipeline/parts/part_mesh.h"
+#include "pipeline/parts/split_mesh.h"
 #include "session/derivatives.h"
 #include "session/file_adaptation.h"
 #include "session/left_out.h"
@@ -24,22 +25,6 @@
 #include "surface/discrete/discrete_run.h"
 
 namespace carreau {
-
-namespace {
-
-void refuse_parts_of(const Model& model, const Parameters& parameters) {
-  const std::string option = parameters.text("option");
-  std::string what;
-  if (has_discrete(model))
-    what = "surfaces given as triangles";
-  else if (parameters.integer("measure") != 0)
-    what = "measures of a mesh (parameter measure)";
-  else if (!option.empty() && option != "allsurf3d")
-    what = "an export other than the whole surface in space (parameter option)";
-  if (!what.empty()) throw InvalidArgument(needs_whole_mesh(what));
-}
-
-}  // namespace
 
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}
 Session::~Session() = default;
@@ -217,10 +202,13 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
   if (has_discrete(known) && !s.triangles)
     throw InvalidModel("the model has faces given by triangles, and no triangles");
-  if (part != nullptr) refuse_parts_of(known, s.parameters);
   if (has_discrete(known) && !known.periodicities.empty())
     throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
-  if (is_discrete(known)) return make_discrete_mesh(known, whole_cad, making, measuring, run);
+  if (is_discrete(known)) {
+    make_discrete_mesh(known, whole_cad, making, measuring, run);
+    if (part != nullptr) *part = part_of_mesh();
+    return;
+  }
   leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
@@ -238,7 +226,7 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
   options.team = s.team.get();
-  options.parts = part != nullptr;
+  options.parts = part != nullptr && !has_discrete(known) && !measured;
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -265,11 +253,14 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
     throw DomainError("no face could be meshed: " + (failed != result.mesh.faces.end() ? reason_of(failed->ref, failed->why)
                                                                                        : std::string("no reason is known")));
   }
-  if (part != nullptr)
+  if (result.shares) {
     *part = part_of(model, std::move(result));
-  else
+  } else {
+    if (part != nullptr) s.tried_parameters = s.parameters;
     keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
                 std::move(parts), background, measuring);
+    if (part != nullptr) *part = part_of_mesh();
+  }
   run.progress(Phase::idle, 0, 1);
 }
 
@@ -278,9 +269,37 @@ PartMesh Session::part_of(const Model& model, CompositeResult result) {
   const CompositeReport report = result.report;
   PartMesh part = carreau::make_part(*s.team, std::move(result), s.parameters.integer("flag") == 1, threads_of(s.parameters));
   if (model.plane) part.mesh.dimension = 2;
-  for (std::int32_t& ref : part.mesh.vertex_refs)
-    if (const auto found = model.shown_points.find(ref); found != model.shown_points.end()) ref = found->second;
+  show_points(model, part.mesh.vertex_refs);
   describe_part(part, report, s.monitor);
+  return part;
+}
+
+// An option needed the whole mesh: each process has it, and takes its share.
+PartMesh Session::part_of_mesh() {
+  State& s = *state_;
+  const int rank = s.team->rank(), processes = s.team->size();
+  const auto flat = [&](bool with_edges) {
+    FlatMesh mesh = flatten(s.result.mesh, with_edges);
+    if (s.meshed.model.plane) mesh.dimension = 2;
+    show_points(s.meshed.model, mesh.vertex_refs);
+    return mesh;
+  };
+  FlatMesh whole = flat(true);
+  PartMesh part = split_mesh(whole, rank, processes);
+  part.loose_edges = static_cast<std::int64_t>(s.result.mesh.loose_edge_count());
+  part.faces = s.whole_faces;
+  part.quality = quality();
+  part.crossings = s.result.report.crossings;
+  if (s.parameters.integer("flag") != 1) whole = flat(false);
+  if (whole.cells.empty()) {
+    part.file_edges = std::ssize(whole.edges);
+    if (rank == 0) part.file_edge_vertices = std::move(whole.edges), part.file_edge_refs = std::move(whole.edge_refs);
+  } else {
+    const std::string bytes = mesh_bytes(whole, MeshFormat::meshb);
+    const auto before = [&](int r) { return bytes.size() * static_cast<std::size_t>(r) / static_cast<std::size_t>(processes); };
+    part.begin_in_file = before(rank);
+    part.bytes_of_file = bytes.substr(before(rank), before(rank + 1) - before(rank));
+  }
   return part;
 }
 

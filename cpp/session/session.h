@@ -91,8 +91,8 @@ class Session {
   void make_mesh(double from = 0, double to = 1);
 
   /// Like make_mesh(), by all processes of the team: patches stay in the processes that made them. The parts form the mesh of
-  /// make_mesh(), with equal numbers, which no process holds. mesh() does not change. Throws InvalidArgument without a team, and for
-  /// options that need the whole mesh (pipeline/parts).
+  /// make_mesh(), with equal numbers, which no process holds; mesh() does not change. With options that need the whole mesh
+  /// (pipeline/parts) each process makes it, which is mesh() then, and takes its share. Throws InvalidArgument without a team.
   [[nodiscard]] PartMesh make_part();
 
   /// Throws InvalidArgument before the first make_mesh().
@@ -176,6 +176,7 @@ class Session {
   void make_mesh_alone(double from, double to, PartMesh* part);
   void make_mesh_of(Model& known, Monitor& run, PartMesh* part);
   PartMesh part_of(const Model& model, CompositeResult result);
+  PartMesh part_of_mesh();
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);
   void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
                    CompositeResult result, std::shared_ptr<const PartResults> parts,

@@ -64,4 +64,10 @@ struct Session::State {
 std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters, bool one_plane,
                                                    const std::shared_ptr<BackgroundField>& set);
 
+/// Replaces the references of points by the references that results show.
+inline void show_points(const Model& model, std::vector<std::int32_t>& refs) {
+  for (std::int32_t& ref : refs)
+    if (const auto found = model.shown_points.find(ref); found != model.shown_points.end()) ref = found->second;
+}
+
 }  // namespace carreau

@@ -72,8 +72,7 @@ struct CompositeOptions {
   int threads = 1;
   /// Processes that make the mesh together; null: only this process. The mesh does not depend on it.
   Team* team = nullptr;
-  /// Patches stay with the process that has meshed them: no process has the whole mesh (pipeline/parts). Steps that need the whole mesh are
-  /// rejected.
+  /// Patches stay with the process that has meshed them: no process has the whole mesh (pipeline/parts), unless a step needs it.
   bool parts = false;
 };
 

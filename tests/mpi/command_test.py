@@ -6,6 +6,7 @@ rank that is killed leaves no file.
     command_test.py <mpirun> <ranks> <carreau> <teapot.bpt> <python with VTK, or NONE>
 """
 import glob
+import json
 import math
 import os
 import signal
@@ -64,9 +65,18 @@ def same_parts(folder):
     if VTK != "NONE":
         subprocess.run([VTK, f"{HERE}/read_pvtu.py", f"{folder}/many0.pvtu", f"{folder}/one0.vtu", str(RANKS), "kept"], check=True)
     before = sorted(os.listdir(folder))
-    for refused, word in [(["--element", "p2"], "element"), (["--angle", "12", "--gradation", "1.3"], "gradation"), (["--json"], "--json")]:
-        done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, "--size", "0.3", *refused, "--parts", "-o", f"{folder}/x.meshb")
-        assert done.returncode == 2 and done.stderr.count("carreau: ") == 1 and word in done.stderr, (done.returncode, done.stderr)
+    # These need the whole mesh: each process makes it, and keeps its part.
+    for options in [["--element", "p2"], ["--element", "q1.0"], ["--angle", "12", "--gradation", "1.3"], ["--cross-patch"]]:
+        one, many = f"{folder}/whole_one.meshb", f"{folder}/whole_many.meshb"
+        first = alone("mesh", TEAPOT, "--size", "0.3", *options, "--json", "-o", one)
+        done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, "--size", "0.3", *options, "--json", "--parts", "-o", many, "-o", f"{folder}/whole.pvtu")
+        assert done.returncode == first.returncode == 0, (options, first.stderr + done.stderr)
+        assert content(one) == content(many), options
+        told, expected = json.loads(done.stdout), json.loads(first.stdout)
+        assert told["processes"] == RANKS and told["closed"] == expected["closed"], options
+        assert all(told["mesh"][key] == expected["mesh"][key] for key in ("vertices", "triangles")), (told["mesh"], expected["mesh"])
+        for name in sorted(set(os.listdir(folder)) - set(before)):
+            os.remove(f"{folder}/{name}")
     done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, "--size", "0.3", "--parts", "-o", f"{folder}/x.stl")
     assert done.returncode == 2 and ".stl" in done.stderr, (done.returncode, done.stderr)
     assert sorted(os.listdir(folder)) == before

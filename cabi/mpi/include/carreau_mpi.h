@@ -36,10 +36,10 @@ CARREAU_API carreau_status carreau_mesh_generate_mpi(carreau_session* session, i
 /* The part of a mesh that is one rank's. */
 typedef struct carreau_part carreau_part;
 
-/* Generates the mesh in parts, one kept by each rank: no rank ever has the whole mesh, whose size the memory of all ranks bounds. A
+/* Generates the mesh in parts, one kept by each rank: no rank has the whole mesh, whose size the memory of all ranks bounds. A
  * part is the triangles of the faces that the rank has meshed, with a layer of ghosts; it is the rank's until carreau_part_free.
- * Vertices, triangles and their numbers are identical to the mesh of carreau_mesh_generate_mpi. Options that need the whole mesh are
- * rejected (carreau_mesh_generate_part of carreau.h). An earlier mesh of the session stays.
+ * Vertices, triangles and their numbers are identical to the mesh of carreau_mesh_generate_mpi. Options that need the whole mesh make
+ * it on each rank (carreau_mesh_generate_part of carreau.h). Else an earlier mesh of the session stays.
  * Errors: as carreau_mesh_generate_part; CALLBACK (MPI has failed). With PARTIAL (some faces failed) there is a part. */
 CARREAU_API carreau_status carreau_mesh_generate_parts(carreau_session* session, int32_t comm, carreau_part** out_part);
 

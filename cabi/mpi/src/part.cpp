@@ -2,8 +2,10 @@
 #include "part.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "calls.h"
 
@@ -72,6 +74,33 @@ void require(carreau_mesh* mesh, carreau_status status) {
   if (status != CARREAU_OK) throw Failure(status, carreau_mesh_last_error(mesh));
 }
 
+namespace {
+
+// Elements come by kind. The first triangle of an element has its first three corners.
+void list_elements(carreau_mesh* mesh, ListedPart& all) {
+  constexpr std::array<std::pair<std::int32_t, std::size_t>, 4> kinds{
+      {{CARREAU_CELL_TRIANGLE3, 3}, {CARREAU_CELL_TRIANGLE6, 6}, {CARREAU_CELL_QUAD4, 4}, {CARREAU_CELL_QUAD8, 8}}};
+  std::map<std::array<std::int32_t, 3>, std::size_t> triangles;
+  bool other = false;
+  for (const auto& [kind, size] : kinds) {
+    std::int64_t n = 0;
+    require(mesh, carreau_mesh_cell_count(mesh, kind, &n));
+    other = other || (n > 0 && kind != CARREAU_CELL_TRIANGLE3);
+  }
+  if (!other) return;
+  for (std::size_t t = 0; t < all.part.corners.size(); ++t) triangles[all.part.corners[t]] = t;
+  for (const auto& [kind, size] : kinds) {
+    std::int64_t n = 0;
+    require(mesh, carreau_mesh_cell_count(mesh, kind, &n));
+    std::vector<std::int32_t> nodes(static_cast<std::size_t>(n) * size);
+    if (n > 0) require(mesh, carreau_mesh_cells(mesh, kind, n, nodes.data(), nullptr));
+    for (auto at = nodes.begin(); at != nodes.end(); at += static_cast<std::ptrdiff_t>(size))
+      all.elements.push_back({kind, {at, at + static_cast<std::ptrdiff_t>(size)}, triangles.at({at[0], at[1], at[2]})});
+  }
+}
+
+}  // namespace
+
 ListedPart listed(const carreau_part& part) {
   carreau_mesh* const mesh = part.mesh.get();
   ListedPart all;
@@ -89,6 +118,7 @@ ListedPart listed(const carreau_part& part) {
   if (m == 0) return all;
   require(mesh, carreau_mesh_triangles(mesh, m, lists.corners.front().data()));
   require(mesh, carreau_mesh_triangle_refs(mesh, m, all.refs.data()));
+  list_elements(mesh, all);
   return all;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -28,11 +29,17 @@ namespace carreau_mpi {
 void require(carreau_mesh* mesh, carreau_status status);
 
 /// A part with its lists: the lists of `part`, or lists made from its mesh. Rows of `xyz` are of its vertices, `refs` of its
-/// triangles.
+/// triangles. `elements`: of other kinds than straight triangles, if the mesh has some.
 struct ListedPart {
+  struct Element {
+    std::int32_t kind;
+    std::vector<std::int32_t> nodes;
+    std::size_t triangle;  ///< its first one
+  };
   carreau_part part;
   std::vector<double> xyz;
   std::vector<std::int32_t> refs;
+  std::vector<Element> elements = {};
 };
 ListedPart listed(const carreau_part& part);
 

@@ -14,6 +14,19 @@ namespace {
 constexpr std::uint8_t duplicate = 1;
 constexpr std::uint8_t vtk_triangle = 5;
 
+std::uint8_t vtk_cell(std::int32_t kind) {
+  switch (kind) {
+    case CARREAU_CELL_TRIANGLE6:
+      return 22;
+    case CARREAU_CELL_QUAD4:
+      return 9;
+    case CARREAU_CELL_QUAD8:
+      return 23;
+    default:
+      return vtk_triangle;
+  }
+}
+
 constexpr const char* file_attributes =
     R"(version="1.0" byte_order="LittleEndian" header_type="UInt64")";
 
@@ -56,17 +69,28 @@ std::vector<std::uint8_t> ghosts(const std::vector<std::int32_t>& owners, int ra
   return types;
 }
 
-void add_cells(Arrays& arrays, const carreau_part& part) {
-  std::vector<std::int64_t> nodes, ends;
-  for (const auto& corners : part.corners) {
-    nodes.insert(nodes.end(), corners.begin(), corners.end());
+/// Cells of VTK and their data.
+struct Cells {
+  std::vector<std::int64_t> nodes, ends, number;
+  std::vector<std::uint8_t> types;
+  std::vector<std::int32_t> owner, ref;
+
+  void add(std::uint8_t type, const std::int32_t* first, std::size_t n, std::size_t triangle, const ListedPart& listed) {
+    nodes.insert(nodes.end(), first, first + n);
     ends.push_back(static_cast<std::int64_t>(nodes.size()));
+    types.push_back(type);
+    number.push_back(listed.part.triangle[triangle]);
+    owner.push_back(listed.part.triangle_owner[triangle]), ref.push_back(listed.refs[triangle]);
   }
-  arrays.line("<Cells>");
-  arrays.add("Int64", "connectivity", 1, nodes);
-  arrays.add("Int64", "offsets", 1, ends);
-  arrays.add("UInt8", "types", 1, std::vector<std::uint8_t>(part.corners.size(), vtk_triangle));
-  arrays.line("</Cells>");
+};
+
+Cells cells_of(const ListedPart& listed) {
+  Cells cells;
+  for (const ListedPart::Element& element : listed.elements)
+    cells.add(vtk_cell(element.kind), element.nodes.data(), element.nodes.size(), element.triangle, listed);
+  for (std::size_t t = 0; t < listed.part.corners.size() && listed.elements.empty(); ++t)
+    cells.add(vtk_triangle, listed.part.corners[t].data(), 3, t, listed);
+  return cells;
 }
 
 /// The arrays of all pieces, as the master file declares them.
@@ -95,28 +119,33 @@ std::string escaped(const std::string& name) {
 
 std::vector<std::string> vtu_of_part(const ListedPart& listed, int rank) {
   const carreau_part& part = listed.part;
+  const Cells cells = cells_of(listed);
   constexpr std::size_t of_vertex = 8 + 1 + 4 + 24, of_triangle = 8 + 1 + 4 + 4 + 24 + 8 + 1, of_lengths = 11 * 8;
   Arrays arrays(of_vertex * part.vertex.size() + of_triangle * part.triangle.size() + of_lengths);
   arrays.line("<?xml version=\"1.0\"?>");
   arrays.line("<VTKFile type=\"UnstructuredGrid\" " + std::string(file_attributes) + ">");
   arrays.line("<UnstructuredGrid>");
   arrays.line("<Piece NumberOfPoints=\"" + std::to_string(part.vertex.size()) + "\" NumberOfCells=\"" +
-              std::to_string(part.triangle.size()) + "\">");
+              std::to_string(cells.types.size()) + "\">");
   arrays.line("<PointData GlobalIds=\"GlobalPointIds\">");
   arrays.add("Int64", "GlobalPointIds", 1, part.vertex);
   arrays.add("UInt8", "vtkGhostType", 1, ghosts(part.vertex_owner, rank));
   arrays.add("Int32", "owner", 1, part.vertex_owner);
   arrays.line("</PointData>");
   arrays.line("<CellData GlobalIds=\"GlobalElementIds\">");
-  arrays.add("Int64", "GlobalElementIds", 1, part.triangle);
-  arrays.add("UInt8", "vtkGhostType", 1, ghosts(part.triangle_owner, rank));
-  arrays.add("Int32", "reference", 1, listed.refs);
-  arrays.add("Int32", "owner", 1, part.triangle_owner);
+  arrays.add("Int64", "GlobalElementIds", 1, cells.number);
+  arrays.add("UInt8", "vtkGhostType", 1, ghosts(cells.owner, rank));
+  arrays.add("Int32", "reference", 1, cells.ref);
+  arrays.add("Int32", "owner", 1, cells.owner);
   arrays.line("</CellData>");
   arrays.line("<Points>");
   arrays.add("Float64", "Points", 3, listed.xyz);
   arrays.line("</Points>");
-  add_cells(arrays, part);
+  arrays.line("<Cells>");
+  arrays.add("Int64", "connectivity", 1, cells.nodes);
+  arrays.add("Int64", "offsets", 1, cells.ends);
+  arrays.add("UInt8", "types", 1, cells.types);
+  arrays.line("</Cells>");
   arrays.line("</Piece>");
   arrays.line("</UnstructuredGrid>");
   return std::move(arrays).file();

@@ -255,10 +255,9 @@ std::vector<std::string> with_group_tables(const MeshOptions& options, std::vect
   return outputs;
 }
 
-/// JSON and files of failed faces need the whole mesh.
+/// Files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
-  for (const auto& [given, name] : {std::pair{options.json, "--json"}, {!options.dump_failed.empty(), "--dump-failed"}})
-    if (given) throw Failure(std::string("--parts and ") + name + " exclude each other: no process has the whole mesh.");
+  if (!options.dump_failed.empty()) throw Failure("--parts and --dump-failed exclude each other: no process has the whole mesh.");
   for (const std::string& path : options.outputs)
     if (!is_one_of(suffix_of(path), {".meshb", ".pvtu"}))
       throw Failure("'" + path + "' is made of the whole mesh: --parts writes .meshb and .pvtu.");
@@ -359,6 +358,8 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
     nlohmann::ordered_json json = summary_json(run, false);
     json["volume"] = volume_json(*volume);
     print_json("volume", json);
+  } else if (options.json && part != nullptr) {
+    print_json("mesh", part_json(run, ranks->size()));
   } else if (options.json) {
     print_json(run);
   }

@@ -253,6 +253,23 @@ carreau_part_counts counts_of(carreau_mesh* part) {
   return counts;
 }
 
+nlohmann::ordered_json faces_json(const MeshRun& run) {
+  nlohmann::ordered_json faces = nlohmann::ordered_json::array();
+  for (const FaceResult& face : run.faces)
+    faces.push_back({{"reference", face.ref},
+                     {"name", face.name},
+                     {"status", status_word(face.status)},
+                     {"triangles", face.triangles},
+                     {"why", face.why}});
+  return faces;
+}
+
+bool is_measured(const MeshRun& run) {
+  std::int32_t measured = 0;
+  require(run.session, carreau_get_integer(run.session, "measure", &measured));
+  return measured != 0;
+}
+
 }  // namespace
 
 std::string free_edges_of_parts(const MeshRun& run) {
@@ -306,17 +323,29 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   return lines;
 }
 
+nlohmann::ordered_json part_json(const MeshRun& run, int processes) {
+  const carreau_part_counts counts = counts_of(run.mesh);
+  nlohmann::ordered_json summary = {{"input", run.options.input},
+                                    {"more_inputs", run.options.more_inputs},
+                                    {"outputs", run.options.outputs},
+                                    {"diagonal", run.input.diagonal()},
+                                    {"closed", run.quality.open_edges == 0},
+                                    {"threads", threads_of(run.session)},
+                                    {"processes", processes},
+                                    {"mesh", quality_json(run.quality)},
+                                    {"faces", faces_json(run)},
+                                    {"intersections", {{"pairs", counts.crossings}}},
+                                    {"not_read", run.input.losses()},
+                                    {"warnings", run.warnings},
+                                    {"seconds", {{"reading", run.seconds_reading}, {"writing", run.seconds_writing}, {"processor", run.seconds_processor}}}};
+  if (is_measured(run)) summary["delivered"] = delivered_json(run.session);
+  return summary;
+}
+
 nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
   const carreau_report r = report_of(run.session);
   const carreau_quality& q = run.quality;
   const ShortEdges& short_edges = run.short_edges;
-  nlohmann::ordered_json faces = nlohmann::ordered_json::array();
-  for (const FaceResult& face : run.faces)
-    faces.push_back({{"reference", face.ref},
-                     {"name", face.name},
-                     {"status", status_word(face.status)},
-                     {"triangles", face.triangles},
-                     {"why", face.why}});
   nlohmann::ordered_json summary = {{"input", run.options.input},
                                     {"more_inputs", run.options.more_inputs},
                                     {"outputs", run.options.outputs},
@@ -330,7 +359,7 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                                       {"edges", short_edges.count},
                                       {"shortest", short_edges.shortest},
                                       {"faces", short_edges.faces}}},
-                                    {"faces", faces},
+                                    {"faces", faces_json(run)},
                                     {"intersections", crossings_json(run.crossings)},
                                     {"crossing_parts", part_crossings_json(run.crossings, run.input)},
                                     {"contacts", contacts_json(run.input)},
@@ -358,10 +387,6 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
   return summary;
 }
 
-void print_json(const MeshRun& run) {
-  std::int32_t measured = 0;
-  require(run.session, carreau_get_integer(run.session, "measure", &measured));
-  print_json("mesh", summary_json(run, measured != 0));
-}
+void print_json(const MeshRun& run) { print_json("mesh", summary_json(run, is_measured(run))); }
 
 }  // namespace command

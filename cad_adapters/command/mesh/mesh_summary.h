@@ -60,6 +60,8 @@ std::vector<std::string> crossing_lines_of_parts(const MeshRun& run);
 /// All results of a run for programs, without the format: the output of `carreau mesh --json`. `delivered`: with the
 /// measures of the mesh, which are computed if necessary.
 nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered);
+/// The same for a mesh that several processes keep in parts.
+nlohmann::ordered_json part_json(const MeshRun& run, int processes);
 
 /// Prints summary_json() on the standard output, with the measures of the mesh when the parameter `measure` requires
 /// them.

@@ -160,7 +160,10 @@ void write_part(const PartMesh& part, const FlatMesh& mesh, MeshFormat format, c
     if (!is_finite(mesh.vertices[v]))
       throw InvalidArgument("a mesh cannot be written: vertex " + std::to_string(part.vertex_number[v]) +
                             " (from 0) has a coordinate that is not finite");
-  GmfFile(part, mesh, sink).write();
+  if (!mesh.cells.empty())
+    sink(part.begin_in_file, part.bytes_of_file);
+  else
+    GmfFile(part, mesh, sink).write();
 }
 
 }  // namespace carreau

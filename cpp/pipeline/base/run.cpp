@@ -31,6 +31,14 @@ std::int64_t triangles_by_memory() {
 // Ratio by which sizes grow from triangles that requests make smaller, and from prescribed edges, if no growth is given.
 constexpr double usual_growth = 1.5;
 
+std::int64_t limit_by_memory() { return std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4); }
+
+// True if all steps work on a mesh in parts.
+bool work_on_parts(const CompositeOptions& options, const SizeRules& rules) {
+  const bool graded = options.gradation > 0 && !(rules.constant() && options.proximity == 0);
+  return options.element == Element::p1 && !options.independent && !options.cracks && !graded;
+}
+
 }  // namespace
 
 CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topology,
@@ -45,14 +53,19 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
       rules(model, topology, cad, enlarged(options.size, enlargement_for(options.element))),
       curve_model{model, topology, supports.of_face, cad} {
   options.size = enlarged(options.size, enlargement_for(options.element));
-  if (options.max_triangles <= 0)
-    options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4) * (options.parts ? options.team->size() : 1);
+  options.parts = options.parts && work_on_parts(options, rules) && model.periodicities.empty();
+  if (options.max_triangles <= 0) options.max_triangles = limit_by_memory() * (options.parts ? options.team->size() : 1);
   result.report.diag = supports.diag;
   periodic = find_periodic(curve_model, supports.diag);
   for (const std::string& remark : periodic.remarks) report(Level::warning, remark);
   if (periodic.empty()) return;
   if (!rules.constant()) slave_sizes.emplace(curve_model, periodic.pairs);
   rules.join(periodic.corners, slave_sizes ? &*slave_sizes : nullptr);
+}
+
+void CompositeRun::make_whole() {
+  options.parts = false;
+  options.max_triangles = std::min(options.max_triangles, limit_by_memory());
 }
 
 double CompositeRun::slope_of_edges() const {

@@ -54,6 +54,8 @@ struct CompositeRun {
   [[nodiscard]] bool is_slave(std::size_t face) const { return !periodic.empty() && periodic.pair_of_slave[face] >= 0; }
   /// True if an inspector may request a finer mesh.
   [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
+  /// From now on each process makes the whole mesh.
+  void make_whole();
   /// The face has no mesh; the run continues with the others.
   void fail(std::size_t face, const std::string& why);
 

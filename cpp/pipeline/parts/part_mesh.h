@@ -35,12 +35,10 @@ struct PartMesh {
   std::int64_t file_edges = 0;
   std::vector<std::array<std::int32_t, 2>> file_edge_vertices;
   std::vector<std::int32_t> file_edge_refs;
+  /// Elements other than triangles: the bytes of this process in the file of the whole mesh.
+  std::string bytes_of_file;
+  std::uint64_t begin_in_file = 0;
 };
-
-/// The sentence that rejects an option for a mesh in parts.
-inline std::string needs_whole_mesh(const std::string& what) {
-  return "a mesh that several processes keep in parts cannot have " + what + ": that needs the whole mesh";
-}
 
 /// The part of this process of a result in parts (CompositeResult::shares), which is used up. `all_edges`: include the edges of
 /// all curves, which files require. All processes call it.

@@ -32,24 +32,6 @@ std::string own_counts(const CompositeRun& run, int rank) {
 
 }  // namespace
 
-void refuse_parts(const CompositeOptions& options, const SizeRules& rules) {
-  std::string what;
-  if (options.element != Element::p1)
-    what = "other elements than p1 (parameter element)";
-  else if (options.independent)
-    what = "cross-patch remeshing (parameter patches)";
-  else if (options.cracks)
-    what = "cracks (parameter cracks)";
-  else if (options.gradation > 0 && !(rules.constant() && options.proximity == 0))
-    what = "a gradation (parameter gradation)";
-  if (!what.empty()) throw InvalidArgument(needs_whole_mesh(what));
-}
-
-void refuse_narrow_parts(const NarrowModel& narrow) {
-  if (!narrow.vanishing.curve.empty())
-    throw InvalidArgument(needs_whole_mesh("narrow faces that collapse, of which the model has some (parameter narrow_faces)"));
-}
-
 void share_sentences(Team& team, std::vector<std::string>& of_face) {
   PacketWriter packet;
   for (std::size_t f = 0; f < of_face.size(); ++f)

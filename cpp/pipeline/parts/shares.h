@@ -9,12 +9,6 @@
 
 namespace carreau {
 
-/// Throws InvalidArgument if an option requires the whole mesh. Callers check before they mesh.
-void refuse_parts(const CompositeOptions& options, const SizeRules& rules);
-
-/// Rejects narrow faces that are to vanish, before a face is meshed.
-void refuse_narrow_parts(const NarrowModel& narrow);
-
 /// Sends the sentences on each process's own faces to all. Before, `of_face` is "" for faces of other processes.
 void share_sentences(Team& team, std::vector<std::string>& of_face);
 

@@ -103,9 +103,7 @@ FlatMesh Session::exported(const MeshEvaluation* delivered, bool with_fields) co
   FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
   if (source.model.plane) flat.dimension = 2;
   flat.names = source.model.names;
-  const std::map<int, int>& shown = shown_points();
-  for (std::int32_t& ref : flat.vertex_refs)
-    if (const auto found = shown.find(ref); found != shown.end()) ref = found->second;
+  show_points(source.model, flat.vertex_refs);
   return flat;
 }
 
