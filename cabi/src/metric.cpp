@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Algebra of metrics for hosts.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -106,10 +105,8 @@ Metric3 composed(const double* k, const Vec3* axis) {
 /// Directions that are orthogonal in both metrics, of any length.
 void conjugate(const Metric3& p, const Metric3& q, Vec3* directions) {
   const carreau::Reduction3 r = carreau::reduce(p, q);
-  Eigen::Matrix3d axes;
-  axes << r.axis[0], r.axis[1], r.axis[2];
-  const Eigen::Matrix3d dual = axes.inverse().transpose();
-  for (int i = 0; i < 3; ++i) directions[i] = dual.col(i);
+  const double volume = carreau::dot(r.axis[0], carreau::cross(r.axis[1], r.axis[2]));
+  for (int i = 0; i < 3; ++i) directions[i] = carreau::cross(r.axis[(i + 1) % 3], r.axis[(i + 2) % 3]) / volume;
 }
 // In space, with a ratio across the plane that no ratio in it reaches.
 void conjugate(const Metric2& p, const Metric2& q, Vec2* directions) {

@@ -8,6 +8,7 @@
 #include "adapt/thresholds.h"
 #include "mesh/elements/jacobian.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -82,7 +83,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
   const double third = 1.0 / 3, start = corner_count(cell.kind) == 3 ? third : 0.5;
   Place place{c, start, start, 0};
   double step = infinity;
-  for (int k = 0; k < max_newton_steps; ++k) {
+  for (int k = 0; k < rounding_of::max_steps; ++k) {
     const double s = place.s, t = place.t;
     const auto at = [&](double ds, double dt) { return point_of_cell(cell.kind, x, s + ds, t + dt); };
     const Vec3 by_s = at(0.5, 0) - at(-0.5, 0), by_t = at(0, 0.5) - at(0, -0.5), d = p - at(0, 0);
@@ -92,7 +93,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
     const double f = dot(by_s, d), g = dot(by_t, d), ds = (e * f - b * g) / det, dt = (a * g - b * f) / det;
     place.s = std::clamp(s + ds, -1.0, 2.0), place.t = std::clamp(t + dt, -1.0, 2.0);
     step = std::max(std::abs(place.s - s), std::abs(place.t - t));
-    if (step < newton_rounding) break;
+    if (step < rounding_of::digits) break;
   }
   // Far from p the element may fold on the way; then Newton's method stops at a point that is not p.
   place.inside = step < newton_arrived ? min_coordinate(cell.kind, place.s, place.t) : -infinity;

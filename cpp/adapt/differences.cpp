@@ -10,6 +10,7 @@
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 
@@ -70,7 +71,7 @@ std::vector<double> steps_of(const Refined& mesh) {
 // Functions of the ranks, at every so many points.
 void require_same_function(std::span<const Vec3> points, const FieldFunction& exact, Team& team) {
   std::vector<Vec3> some;
-  for (std::size_t i = 0; i < points.size(); i += points_of_one_compared) some.push_back(points[i]);
+  for (std::size_t i = 0; i < points.size(); i += work_sizes::places_of_one_compared) some.push_back(points[i]);
   std::vector<double> values(some.size());
   exact(some, values);
   LongChecksum sum;
@@ -118,7 +119,7 @@ FieldFunction shared_function(const FieldFunction& exact, const Crew& crew, Moni
     };
     const std::size_t n = points.size();
     const std::vector<double> all = shared_rows(
-        crew, "values of a field", {.count = n, .at_once = at_once(n), .bound = true}, ask, monitor);
+        crew, "values of a field", {.count = n, .at_once = work_sizes::piece_of(n), .bound = true}, ask, monitor);
     std::ranges::copy(all, values.begin());
   };
 }

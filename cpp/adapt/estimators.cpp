@@ -10,6 +10,7 @@
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 namespace {
@@ -185,7 +186,7 @@ struct Sharing {
       }
     };
     const std::vector<double> rows =
-        shared_rows(crew, "metrics of a field", {.count = n, .width = width, .at_once = at_once(n)}, fill, monitor);
+        shared_rows(crew, "metrics of a field", {.count = n, .width = width, .at_once = work_sizes::piece_of(n)}, fill, monitor);
     std::vector<Metric2> result;
     result.reserve(n);
     for (const double* row = rows.data(); result.size() < n; row += width) result.push_back({row[0], row[1], row[2]});

@@ -10,6 +10,7 @@
 #include "adapt/thresholds.h"
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 namespace {
@@ -203,13 +204,13 @@ std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, cons
   const auto fit = [&](std::size_t first, std::size_t last, double* out, Monitor& of_task) {
     Fitter fitter(field, neighbours);
     for (std::size_t v = first; v < last; ++v, out += row_width) {
-      if (v % between_checkpoints == 0) of_task.checkpoint();
+      if (v % work_sizes::evaluations == 0) of_task.checkpoint();
       put_row(fitter.fit(static_cast<std::int32_t>(v), frames[v]), out);
     }
   };
   Monitor silent;
   const std::vector<double> rows =
-      shared_rows(crew, "derivatives of a field", {.count = frames.size(), .width = row_width, .at_once = at_once(frames.size())}, fit,
+      shared_rows(crew, "derivatives of a field", {.count = frames.size(), .width = row_width, .at_once = work_sizes::piece_of(frames.size())}, fit,
                   monitor != nullptr ? *monitor : silent);
   std::vector<LocalDerivatives> result;
   result.reserve(frames.size());

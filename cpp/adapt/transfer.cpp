@@ -18,6 +18,8 @@
 #include "mesh/triangle_search.h"
 #include "size/thresholds.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 
@@ -183,13 +185,13 @@ class Transfer {
       std::int32_t guess = 0;
       std::shared_ptr<const Piece> piece;
       for (std::size_t k = first, at = pieces_.size(); k < last; ++k, out += width) {
-        if (k % between_checkpoints == 0) of_task.checkpoint();
+        if (k % work_sizes::evaluations == 0) of_task.checkpoint();
         if (const std::size_t now = piece_with(k); !piece || now != at) piece = pieces.at(at = now), guess = 0;
         look_up_in(*piece, rows_[k], guess, out);
       }
     };
     const std::vector<double> found = shared_rows(
-        crew, "fields on the next mesh", {.count = rows_.size(), .width = width, .at_once = at_once(rows_.size())}, look_up, monitor);
+        crew, "fields on the next mesh", {.count = rows_.size(), .width = width, .at_once = work_sizes::piece_of(rows_.size())}, look_up, monitor);
     return gathered(found, width);
   }
 
@@ -237,7 +239,7 @@ class Transfer {
     if (piece.around) {
       const NearestOnMesh nearer = piece.around->nearest(place_in_space(wanted.row), found.triangle);
       const double away = norm(place_of(piece, found) - place_in_space(wanted.row));
-      if (away > as_near * nearer.distance + place_rounding * largest_coordinate_) found = nearer, in_space = true;
+      if (away > as_near * nearer.distance + rounding_of::digits * largest_coordinate_) found = nearer, in_space = true;
     }
     if (piece.curved.has(found.triangle)) {
       piece.curved.interpolate(found.triangle, in_space ? place_in_space(wanted.row) : wanted.p, in_space, values_, components_, out);

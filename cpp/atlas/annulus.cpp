@@ -6,6 +6,7 @@
 #include "atlas/thresholds.h"
 #include "predicates/predicates.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
@@ -40,7 +41,7 @@ Annulus::Annulus(Polygon inner, Polygon outer, AnnulusOptions options)
 
 std::size_t Annulus::part_around(const Vec2& p) const {
   std::size_t best = parts_.size();
-  double least = thresholds::on_border;
+  double least = rounding_of::places;
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     const Part& part = parts_[n];
     const Pair<double> polar = part.polar(pair_of(p));

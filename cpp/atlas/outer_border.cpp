@@ -6,6 +6,7 @@
 
 #include "atlas/thresholds.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
@@ -120,7 +121,7 @@ class View {
     const auto is_knot = [&](double at) { return std::binary_search(part_.angle.begin(), part_.angle.end(), at); };
     std::vector<double> kept;
     for (const double at : list) {
-      if (kept.empty() || at - kept.back() > thresholds::same_angle)
+      if (kept.empty() || at - kept.back() > rounding_of::places)
         kept.push_back(at);
       else if (is_knot(at) && at != kept.back()) {
         if (is_knot(kept.back()))
@@ -204,7 +205,7 @@ class Border {
         worst_ = edges[i].part;
     for (std::size_t n = 0; n < pieces_.size(); ++n)
       for (std::size_t k = 0; k < marked[n].size(); ++k)
-        if (marked[n][k] != 0) rooms_[n][k] *= thresholds::less_room;
+        if (marked[n][k] != 0) rooms_[n][k] *= slide;
     return any;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers that decide something in this room.
+// All of tests/cpp/atlas rests on them: annulus_test covers thousands of random loops.
 #pragma once
 
 namespace carreau::atlas::thresholds {
@@ -30,13 +31,8 @@ inline constexpr int slides = 12;
 inline constexpr double nearer = 0.5;
 inline constexpr int nearer_rounds = 40;
 
-/// The room of the outer border shrinks by this factor where it crosses itself, at most so many times.
-inline constexpr double less_room = 0.6;
+/// The room of the outer border shrinks by the factor `slide` where it crosses itself, at most so many times.
 inline constexpr int room_rounds = 80;
-
-/// Radians, and shares of the width: places that are outside of an annulus by less belong to it, since angles and radii
-/// have rounding errors.
-inline constexpr double on_border = 1e-9;
 
 /// Radians: a pivot must see each edge of its part under a larger angle. Exact conditions may hold where rounding
 /// leaves no angle; at 1e-6 angles keep nine digits.
@@ -45,9 +41,6 @@ inline constexpr double min_angle = 1e-6;
 /// Sine of the angle between an edge and the ray to it: below, distances along the ray are too inaccurate. This rejects
 /// pivots that are barycentres of slivers.
 inline constexpr double min_slope = 1e-5;
-
-/// Radians: knots of the outer border that are nearer to one another are one.
-inline constexpr double same_angle = 1e-9;
 
 /// Logarithm of the change of width over which the outer border gets one knot more, and how many at most in a piece.
 /// Covers a tenth more of random annuli than the knots of the polygons alone.

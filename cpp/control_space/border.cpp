@@ -9,6 +9,7 @@
 #include "metric/metric2_algebra.h"
 #include "predicates/clamped_int.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau::detail {
 
@@ -32,8 +33,8 @@ Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
     return std::sqrt(across * across + 4 * m.b * m.b);
   };
   const double trace = root.a + root.c, s = spread(root);
-  if (0.5 * (trace + s) < (1 - eigenvalue_rounding) * max_extrapolation * above &&
-      0.5 * (trace - s) > eigenvalue_rounding * trace + below / max_extrapolation)
+  if (0.5 * (trace + s) < (1 - rounding_of::sizes) * max_extrapolation * above &&
+      0.5 * (trace - s) > rounding_of::sizes * trace + below / max_extrapolation)
     return root;
   double low = infinity, high = 0;
   for (const auto& sample : near) {

@@ -11,6 +11,7 @@
 #include "gradation/place_fans.h"
 #include "gradation/smallest_first.h"
 #include "support/incidence.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -96,7 +97,7 @@ class IsotropicBounds {
   }
 
   void lower(std::int32_t s, double h) {
-    if (!(h < (1 - size_rounding) * h_[s])) return;
+    if (!(h < (1 - rounding_of::sizes) * h_[s])) return;
     h_[s] = h;
     queue_.push(h, s);
   }

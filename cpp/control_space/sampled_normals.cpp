@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "control_space/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -72,7 +73,7 @@ void SampledNormals::add(Vec2 uv, Vec3 normal) {
   if (!(length > 0) || !std::isfinite(length)) return;
   if (samples_.size() >= max_normals && differ_) return;
   const Vec3 unit = (1 / length) * normal;
-  if (!samples_.empty() && !differ_) differ_ = norm(cross(samples_.front().normal, unit)) > flat_angle;
+  if (!samples_.empty() && !differ_) differ_ = norm(cross(samples_.front().normal, unit)) > rounding_of::sizes;
   if (samples_.size() < max_normals) samples_.push_back({uv, unit});
 }
 
@@ -121,7 +122,7 @@ Vec3 SampledNormals::at(const Vec2& uv) const noexcept {
   if (samples_.empty()) return {};
   if (!differ_) return samples_.front().normal;
   const Metric2 metric = space_->at(uv);
-  double reach = first_reach * spacing_;
+  double reach = spacing_;
   for (int k = 0;; ++k, reach *= reach_growth) {
     Fit fit(metric, reach);
     gather(uv, metric, reach, fit);

@@ -10,6 +10,7 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
+#include "support/work_sizes.h"
 
 namespace carreau::detail {
 
@@ -123,7 +124,7 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
 std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   std::vector<Metric2> metric(uv.size());
   if (on_surface_) last_tangents_.resize(uv.size());
-  for_pieces(uv.size(), asked_at_once, [&](std::size_t start, std::size_t n) {
+  for_pieces(uv.size(), work_sizes::searches, [&](std::size_t start, std::size_t n) {
     monitor_.checkpoint();
     sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n),
              on_surface_ ? std::span(last_tangents_).subspan(start, n) : std::span<SurfaceTangents>{});
@@ -259,8 +260,8 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   }
   for (std::size_t k = 0; k < cells.size(); ++k) {
     TreeCell& cell = (*tree_)[cells[k]];
-    cell.decay = slowest_decay;
-    if (before[k] > 0) cell.decay = std::clamp(2 * cell.error / before[k], fastest_decay, slowest_decay);
+    cell.decay = 0.5;
+    if (before[k] > 0) cell.decay = std::clamp(2 * cell.error / before[k], 1.0 / 16, 0.5);
   }
 }
 
@@ -305,7 +306,7 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
   if (width <= min_width) return infinity;
-  return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : allowed_half);
+  return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : 1.0);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
@@ -318,7 +319,7 @@ double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
 bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexcept {
   if (options_.thorough) return cell.error > std::max(allowed_error(cell.vertices), options_.tolerance);
   return cell.filled ? cell.decay * cell.error > tolerated_error(0.25 * cell.vertices)
-                     : left_by_centre * cell.error > tolerated_error(cell.vertices);
+                     : 0.5 * cell.error > tolerated_error(cell.vertices);
 }
 
 double ControlSpaceSampling::samples_for_smooth_fields() const noexcept {

@@ -9,6 +9,7 @@
 #include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau::detail {
 
@@ -55,9 +56,9 @@ int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLoca
     const int first = std::max(0, static_cast<int>((p.y() - s.low.y()) / w.y() * n) - 1);
     for (int j = first; j < n; ++j) {
       const double y = at(j, s.low.y(), w.y());
-      if (y < p.y() - same_height * w.y()) continue;
-      if (y > q.y() + same_height * w.y()) break;
-      if (y < p.y() + same_height * w.y() || y > q.y() - same_height * w.y())
+      if (y < p.y() - rounding_of::places * w.y()) continue;
+      if (y > q.y() + rounding_of::places * w.y()) break;
+      if (y < p.y() + rounding_of::places * w.y() || y > q.y() - rounding_of::places * w.y())
         doubtful[static_cast<std::size_t>(j)] = 1;
       else
         crossings[static_cast<std::size_t>(j)].push_back(p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
@@ -70,7 +71,7 @@ int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLoca
       bool inside = false, close = doubtful[static_cast<std::size_t>(j)] != 0;
       for (const double crossing : crossings[static_cast<std::size_t>(j)]) {
         if (crossing < x) inside = !inside;
-        close = close || std::abs(crossing - x) < same_height * w.x();
+        close = close || std::abs(crossing - x) < rounding_of::places * w.x();
       }
       if (close) inside = locator.contains({x, y});
       count += inside ? 1 : 0;

@@ -17,8 +17,6 @@ inline constexpr std::size_t max_border_points = 8;
 inline constexpr int inner_points = 3;
 /// Points. Along each side of the box, to find the domain's share of it; no sample is taken. [Limits.AThinSliver...]
 inline constexpr int share_points = 16;
-/// Share of the box. Points so near to the height of a vertex are located one by one. [rounding]
-inline constexpr double same_height = 1e-9;
 /// Ratio. How far the cells may differ from squares of the metric where the field varies more in one direction.
 /// [Limits. AspectRatiosUpToAMillionAreKept]
 inline constexpr double max_stretch = 6;
@@ -31,11 +29,6 @@ inline constexpr double min_box_length = 1e-2;
 inline constexpr double min_share_of_usual = 1e-3;
 
 // The tree (tree, sampling)
-/// Share of a cell's size. Cells are so much wider when they are compared with an edge: rounding must not lose one.
-/// [Limits.SidesThatWaverByRoundingAreSides]
-inline constexpr double widening = 1e-9;
-/// Points. Samples in one call of the host. [time only]
-inline constexpr std::size_t asked_at_once = 4096;
 /// Vertices. A cell of the first grid for so many, [samples: SmoothFields.AreReproducedFromFewSamples, as all below]
 inline constexpr double usual_vertices_per_cell = 10;
 /// Vertices. beyond which the number of cells grows with the square root only.
@@ -60,24 +53,19 @@ inline constexpr int max_looks = 24;
 // Errors (sampling)
 /// Edges. Lengths of a cell below do not matter. [ControlSpace.ErrorsFollowTheTolerance, as all below]
 inline constexpr double negligible_length = 0.03;
-/// Tolerances. The error allowed where prediction is checked, of cells wider than an edge of the mesh, than half an
-/// edge, than the least width.
-inline constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1;
+/// Tolerances. The error allowed where prediction is checked, of cells wider than an edge of the mesh, and than half an
+/// edge; smaller cells may have the whole tolerance.
+inline constexpr double allowed_wide = 0.25, allowed_edge = 0.5;
 /// Edges. Smaller cells serve no purpose. [ControlSpace.SharpSizesAreFollowedDownToTheEdgesOfTheMesh]
 inline constexpr double min_width = 0.25;
 /// Edges. In cells at least so wide, errors above the tolerance are refined at any cost. Below, the tolerated error
 /// grows with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
 inline constexpr double plain_width = 2.5;
-/// Share. Remaining part of a cell's error when its centre is known. A cubic along a side errs by half as much as a
-/// cubic for the centre, to which both directions contribute.
-inline constexpr double left_by_centre = 0.5;
 /// Ratio of sizes. From here on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
 /// the shortest edges wide. [ControlSpace.SizesMayVaryAThousandfold]
 inline constexpr double much_stretched = 30;
 /// Share. A boundary sample is compared with an extrapolation that does not contain it; later it takes part.
 inline constexpr double border_relief = 0.25;
-/// Shares. Errors of cells fall from a cell to its parts by at most and at least this share. [orders of a quadratic]
-inline constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5;
 /// Share of the error allowed. If the expected error is smaller, no sample need confirm it.
 inline constexpr double trusted = 0.25;
 
@@ -111,15 +99,11 @@ inline constexpr double reach_in_sizes = 2.2;
 inline constexpr double near_share = 0.5, softness = 0.04;
 /// Ratio. Eigenvalues of the fit over eigenvalues of its samples,
 inline constexpr double max_extrapolation = 2;
-/// Share. but for rounding.
-inline constexpr double eigenvalue_rounding = 1e-6;
 /// Shares of the sum of weights. Regularisation of slopes and curvatures: has no effect if the samples determine the
 /// polynomial, and pulls undetermined coefficients to zero. [QuadraticFit.AConstantComesBackFromSamplesOnALine]
 inline constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 
 // Gradation of samples (sample_gradation)
-/// Share of a size. Smaller changes are rounding. [BoundSlopes.GentleSizesStay]
-inline constexpr double size_rounding = 1e-6;
 /// Smaller changes by direction are rounding: far below the change by polynomials between the samples.
 /// [BoundSlopesByDirection.GentleSizesStay]
 inline constexpr double directed_rounding = 1e-4;
@@ -127,12 +111,8 @@ inline constexpr double directed_rounding = 1e-4;
 // Normals at samples (sampled_normals)
 /// Samples. More do not extend the reach. [SampledNormals.ConvergeAtSecondOrder, as all below]
 inline constexpr std::size_t max_normals = 16'384;
-/// Sine. Largest angle between normals of a plane, from rounding. [SampledNormals.DoNotDifferOnAPlane]
-inline constexpr double flat_angle = 1e-6;
 /// Samples. Number in a bucket of the grid. [time only]
 inline constexpr double samples_per_bucket = 2;
-/// Spacings of samples. First reach.
-inline constexpr double first_reach = 1;
 /// Ratio. Ratio from one reach to the next, if the samples are too few or on a line,
 inline constexpr double reach_growth = 1.5;
 /// Times. so often.
@@ -163,7 +143,5 @@ inline constexpr double crowd = 4;
 /// Share of the vertices. A mesh whose edges are twice as long as prescribed has a quarter; if sizes change much within
 /// an edge good meshes have half of them.
 inline constexpr double min_share = 0.25;
-/// Triangles. Number in a unit mesh. [Euler]
-inline constexpr double triangles_per_vertex = 2;
 
 }  // namespace carreau::thresholds::control_space

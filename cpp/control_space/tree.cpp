@@ -6,6 +6,7 @@
 
 #include "control_space/thresholds.h"
 #include "predicates/clamped_int.h"
+#include "support/rounding_of.h"
 
 namespace carreau::detail {
 
@@ -30,10 +31,10 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
   for (std::size_t e = 0; e < domain.edges.size(); ++e) {
     const Vec2 p = lattice.position(domain.vertices[domain.edges[e].first]);
     const Vec2 q = lattice.position(domain.vertices[domain.edges[e].second]);
-    const int i0 = cell_of(std::min(p.x(), q.x()), columns_, -widening),
-              i1 = cell_of(std::max(p.x(), q.x()), columns_, widening);
-    const int j0 = cell_of(std::min(p.y(), q.y()), rows_, -widening),
-              j1 = cell_of(std::max(p.y(), q.y()), rows_, widening);
+    const int i0 = cell_of(std::min(p.x(), q.x()), columns_, -rounding_of::places),
+              i1 = cell_of(std::max(p.x(), q.x()), columns_, rounding_of::places);
+    const int j0 = cell_of(std::min(p.y(), q.y()), rows_, -rounding_of::places),
+              j1 = cell_of(std::max(p.y(), q.y()), rows_, rounding_of::places);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i)
         candidates[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(e));
@@ -54,12 +55,12 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
 bool Tree::meets(const TreeCell& cell, std::int32_t edge) const noexcept {
   const Vec2 p = lattice_.position(domain_.vertices[domain_.edges[edge].first]);
   const Vec2 q = lattice_.position(domain_.vertices[domain_.edges[edge].second]);
-  const double half = 0.5 * cell.size * (1 + widening);
+  const double half = 0.5 * cell.size * (1 + rounding_of::places);
   const Vec2 centre{cell.i + 0.5 * cell.size, cell.j + 0.5 * cell.size};
   const Vec2 middle = 0.5 * (p + q) - centre, d = 0.5 * (q - p);
   const double x = std::abs(d.x()), y = std::abs(d.y());
   return std::abs(middle.x()) <= half + x && std::abs(middle.y()) <= half + y &&
-         std::abs(cross(d, middle)) <= half * (x + y) * (1 + widening);
+         std::abs(cross(d, middle)) <= half * (x + y) * (1 + rounding_of::places);
 }
 
 // Finds the cell's edges and whether it is relevant; returns the resulting place of its nodes.

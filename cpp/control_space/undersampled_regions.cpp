@@ -72,7 +72,7 @@ class ControlSpace::UndersampledSearch {
     const Leaf& leaf = space_.leaves_[static_cast<std::size_t>(number)];
     const Vec2 centre = space_.low_ + Vec2{leaf.x / space_.scale_.x(), leaf.y / space_.scale_.y()};
     places_.push_back({accurate_determinant(space_.at(centre)), centre});
-    return {space_.measures_[static_cast<std::size_t>(number)] / triangles_per_vertex,
+    return {space_.measures_[static_cast<std::size_t>(number)] / 2,
             static_cast<double>(held_[static_cast<std::size_t>(number)]), false};
   }
   static void add(Content& all, const Content& part) noexcept {

@@ -7,6 +7,8 @@
 
 #include "gradation/thresholds.h"
 #include "mesh/triangle_search.h"
+#include "support/rounding_of.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 
@@ -57,7 +59,7 @@ class Facing {
     std::array<double, 3> w{};
     for (int i = 0; i < 3; ++i) {
       w[i] = dot(cross(x[(i + 2) % 3] - x[(i + 1) % 3], at - x[(i + 1) % 3]), normal) / (area * area);
-      if (w[i] < -edge_rounding) return {};
+      if (w[i] < -rounding_of::places) return {};
     }
     return FacingPlace{place, std::abs(way + bulge(c, x, w, normal) * area / steep), t, at};
   }
@@ -91,7 +93,7 @@ std::vector<FacingPlace> find_facing_places(const GradationGraph& graph, const s
   if (graph.triangles.empty()) return found;
   Facing facing(graph, monitor);
   for (std::size_t p = 0; p < graph.places.size(); ++p) {
-    if (p % places_between_checks == 0) monitor.checkpoint();
+    if (p % work_sizes::searches == 0) monitor.checkpoint();
     if (const auto place = facing.from(static_cast<int>(p), reach(static_cast<int>(p)), apart)) found.push_back(*place);
   }
   return found;

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gradation/place_fans.h"
-#include "gradation/smallest_first.h"
+#include "gradation/graph_walk.h"
 #include "gradation/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -16,6 +15,7 @@ namespace carreau {
 
 namespace {
 
+using detail::facing;
 using detail::roll;
 
 using namespace thresholds::gradation;
@@ -25,19 +25,24 @@ Vec3 resized(const Vec3& v, double length) noexcept {
   return l > 0 ? (length / l) * v : Vec3{};
 }
 
+/// Front at a vertex: h = source_h + slope |line|.
+struct Front {
+  double h = infinity, source_h = infinity;
+  Vec3 line;      // from the source, in the tangent plane of `place`
+  int place = 0;  // in GradationGraph::places; -1: a vertex without place
+  int source = 0;
+  bool accepted = false;
+};
+
 /// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector. An edge away, the line
 /// is this vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
 /// through the inside of triangles as a plane wave.
-class Grading {
+class Grading : detail::GraphWalk<Front> {
  public:
   Grading(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor)
-      : graph_(graph),
-        slope_(slope),
-        monitor_(monitor),
-        fans_(graph),
+      : GraphWalk(graph, std::vector<Front>(graph.xyz.size()), slope, monitor),
         segments_(graph.xyz.size(), graph.segments),
-        joined_(graph.xyz.size(), graph.joined),
-        front_(graph.xyz.size()) {
+        joined_(graph.xyz.size(), graph.joined) {
     for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
   }
 
@@ -80,18 +85,7 @@ class Grading {
   }
 
  private:
-  /// Front at a vertex: h = source_h + slope |line|.
-  struct Front {
-    double h = infinity, source_h = infinity;
-    Vec3 line;      // from the source, in the tangent plane of `place`
-    int place = 0;  // in GradationGraph::places; -1: a vertex without place
-    int source = 0;
-    bool accepted = false;
-  };
-
-  [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
-  [[nodiscard]] Vec3 normal(int place) const noexcept { return graph_.places[place].normal; }
-  [[nodiscard]] Front& front_at(int place) noexcept { return front_[graph_.places[place].vertex]; }
+  [[nodiscard]] Front& front_at(int place) noexcept { return front_[vertex(place)]; }
 
   /// Carries the line of a vertex to another of its places; returns false when the surface cannot be unfolded there.
   bool carry(int v, int to, Vec3& line) const noexcept {
@@ -105,12 +99,10 @@ class Grading {
       Front from = front_[v];
       from.place = p;
       if (!carry(v, p, from.line)) from = restarted(v, p);
-      for (const auto& [a, b] : fans_.triangles(p)) {
-        along_edge(from, v, a);
-        along_edge(from, v, b);
-        through_triangle(from, b, a);
-        through_triangle(from, a, b);
-      }
+      step_from(p, [&](int beside, int to) {
+        along_edge(from, v, to);
+        through_triangle(from, beside, to);
+      });
     }
     leave_joined(v);
     for (const std::int32_t s : segments_.of(v)) {
@@ -143,7 +135,7 @@ class Grading {
     const double length = norm(e);
     if (!(length > 0)) return {};
     // A circle that turns by t has the chord sin(t / 2) / (t / 2) times the arc.
-    const Vec3 m = dot(n, normal(to)) < 0 ? -1 * normal(to) : normal(to);
+    const Vec3 m = facing(n, normal(to));
     const double turn = std::min(1., std::abs(dot(m - n, e)) / length);
     return resized(e - dot(n, e) * n, length * (1 + turn * turn / 24));
   }
@@ -153,12 +145,12 @@ class Grading {
     const Vec3 e = unrolled_edge(from.place, to);
     const Vec3 line = from.line + e;
     const double length = norm(line), edge = norm(e);
-    const bool seen = dot(line, e) >= seen_from_beside * length * edge;
+    const bool seen = dot(line, e) >= within_45_degrees * length * edge;
     Front candidate = seen ? Front{from.source_h + slope_ * length, from.source_h, line, to, from.source, false}
                            : Front{front_[v].h + slope_ * edge, front_[v].h, e, to, v, false};
-    const Vec3 n = normal(from.place), m = dot(n, normal(to)) < 0 ? -1 * normal(to) : normal(to);
-    candidate.line = resized(roll(candidate.line, n, m), norm(candidate.line));
-    improve(graph_.places[to].vertex, candidate);
+    const Vec3 n = normal(from.place);
+    candidate.line = resized(roll(candidate.line, n, facing(n, normal(to))), norm(candidate.line));
+    improve(vertex(to), candidate);
   }
 
   /// Plane wave through the edge between two accepted vertices of a triangle (as in fast marching).
@@ -166,8 +158,8 @@ class Grading {
     const Front& other = front_at(beside);
     if (!other.accepted || front_at(to).accepted || other.source == from.source) return;
     Vec3 line;
-    if (!carry(graph_.places[beside].vertex, beside, line)) return;
-    if (dot(from.line, line) < same_wave * norm(from.line) * norm(line)) return;
+    if (!carry(vertex(beside), beside, line)) return;
+    if (dot(from.line, line) < within_45_degrees * norm(from.line) * norm(line)) return;
     const Vec3 a = position(from.place), ab = position(beside) - a, ac = position(to) - a;
     const double width = norm(ab);
     if (!(width > 0)) return;
@@ -183,17 +175,12 @@ class Grading {
     const double h = front_at(from.place).h + slope_ * (climb * along + steep * height);
     const double length = std::lerp(norm(from.line), norm(line), crossing / width) + height / steep;
     const Vec3 n = normal(to), direction = climb * x + (steep / height) * up;
-    improve(graph_.places[to].vertex, {h, h - slope_ * length, resized(direction - dot(n, direction) * n, length), to,
+    improve(vertex(to), {h, h - slope_ * length, resized(direction - dot(n, direction) * n, length), to,
                                        2 * crossing < width ? from.source : other.source, false});
   }
 
-  const GradationGraph& graph_;
-  double slope_;
-  Monitor& monitor_;
-  detail::PlaceFans fans_;
+  std::vector<Front>& front_ = values_;  // by vertex
   Incidence segments_, joined_;
-  std::vector<Front> front_;
-  SmallestFirst queue_;
 };
 
 void check(const GradationGraph& graph, const std::vector<double>& h, double slope) {

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "gradation/graded_field.h"
-#include "gradation/place_fans.h"
-#include "gradation/smallest_first.h"
+#include "gradation/graph_walk.h"
 #include "gradation/thresholds.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
@@ -15,19 +14,20 @@ namespace carreau {
 
 namespace {
 
+using detail::facing;
 using detail::roll;
 
 using namespace thresholds::gradation;
 
-class MetricGrading {
+class MetricGrading : detail::GraphWalk<TangentMetric> {
  public:
   MetricGrading(const GradationGraph& graph, std::vector<TangentMetric> sizes, double slope, Monitor& monitor)
-      : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {
+      : GraphWalk(graph, std::move(sizes), slope / detour, monitor) {
     waits_.assign(sizes_.size(), 0);
   }
 
   void add(const MetricSource& s) {
-    bound(s.place, graph_.places[s.place].normal, s.way, [&](Vec3 w) { return s.sizes.along(w); });
+    bound(s.place, normal(s.place), s.way, [&](Vec3 w) { return s.sizes.along(w); });
   }
 
   std::vector<TangentMetric> run() {
@@ -44,7 +44,6 @@ class MetricGrading {
     queue_.push(smaller(p), p);
     waits_[p] = 1;
   }
-  [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
 
   /// Bounds the sizes at `to` by the sizes `along` at the other end of `way` (a tangent vector there, where the normal
   /// is n).
@@ -54,7 +53,7 @@ class MetricGrading {
     const TangentMetric before = q;
     const double length = norm(way);
     const double growth = length > 0 ? 1 + slope_ * length / along((1 / length) * way) : 1;
-    const Vec3 m = graph_.places[to].normal, near = dot(n, m) < 0 ? -1 * n : n;
+    const Vec3 m = normal(to), near = facing(m, n);
     q.h1 = std::min(q.h1, growth * along(roll(q.d1, m, near)));
     q.h2 = std::min(q.h2, growth * along(roll(q.d2, m, near)));
     if (length > 0) {
@@ -66,22 +65,19 @@ class MetricGrading {
 
   void leave(int p) {
     waits_[p] = 0;
-    const Vec3 n = graph_.places[p].normal;
-    for (const auto& [a, b] : fans_.triangles(p)) {
-      if (graph_.places[a].vertex == graph_.places[p].vertex || graph_.places[b].vertex == graph_.places[p].vertex)
-        continue;
-      for (const auto& [q, r] : {std::pair{a, b}, std::pair{b, a}}) {
-        const auto here = [&, s = sizes_[p]](Vec3 w) { return s.along(w); };
-        if (bound(q, n, step_on_surface(n, position(q) - position(p)), here)) enqueue(q);
-        from_middle(p, r, q);
-      }
-    }
+    const Vec3 n = normal(p);
+    step_from(p, [&](int r, int q) {
+      if (vertex(q) == vertex(p) || vertex(r) == vertex(p)) return;
+      const auto here = [&, s = sizes_[p]](Vec3 w) { return s.along(w); };
+      if (bound(q, n, step_on_surface(n, position(q) - position(p)), here)) enqueue(q);
+      from_middle(p, r, q);
+    });
     carry_to_other_places(p);
   }
 
   // Bounds from the middle of the edge (p, r), where sizes are means.
   void from_middle(int p, int r, int q) {
-    const Vec3 n = graph_.places[p].normal, m = graph_.places[r].normal, near = dot(n, m) < 0 ? -1 * m : m;
+    const Vec3 n = normal(p), near = facing(n, normal(r));
     const auto mean = [&, s = sizes_[p], t = sizes_[r]](Vec3 w) {
       return 0.5 * (s.along(w) + t.along(roll(w, n, near)));
     };
@@ -91,7 +87,7 @@ class MetricGrading {
 
   // Carries the metric, unfolded, to the other sides of a crease or a seam.
   void carry_to_other_places(int p) {
-    for (int q = fans_.first(graph_.places[p].vertex); q >= 0; q = fans_.next(q)) {
+    for (int q = fans_.first(vertex(p)); q >= 0; q = fans_.next(q)) {
       if (q == p) continue;
       Vec3 d1 = sizes_[q].d1, d2 = sizes_[q].d2;
       if (!fans_.carry(q, p, d1) || !fans_.carry(q, p, d2)) continue;
@@ -103,13 +99,8 @@ class MetricGrading {
     }
   }
 
-  const GradationGraph& graph_;
-  std::vector<TangentMetric> sizes_;
-  double slope_;
-  Monitor& monitor_;
-  detail::PlaceFans fans_;
-  std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
-  SmallestFirst queue_;
+  std::vector<TangentMetric>& sizes_ = values_;  // by place
+  std::vector<char> waits_;                      // by place: it is in the queue, and has not left yet
 };
 
 }  // namespace

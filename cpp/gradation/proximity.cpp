@@ -12,6 +12,7 @@
 #include "gradation/boundary_sides.h"
 #include "gradation/thresholds.h"
 #include "support/infinity.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 
@@ -39,7 +40,7 @@ class NarrowZones {
     mark_boundaries();
     send_fronts();
     for (std::size_t t = 0; t < graph_.triangles.size(); ++t) {
-      if (t % places_between_checks == 0) monitor_.checkpoint();
+      if (t % work_sizes::searches == 0) monitor_.checkpoint();
       for (int i = 0; i < 3; ++i) {
         const int a = graph_.triangles[t][i], b = graph_.triangles[t][(i + 1) % 3],
                   c = graph_.triangles[t][(i + 2) % 3];
@@ -234,7 +235,7 @@ class NarrowZones {
           if (k < 0 || seed[vertex(outside)] >= 0) continue;
           // Not on, beyond a boundary.
           const double way = norm(position(outside) - graph_.xyz[found_[k].vertex]);
-          if (!first && (on_boundary_[vertex(inside)] != 0 || way > half_diagonal * found_[k].gap)) continue;
+          if (!first && (on_boundary_[vertex(inside)] != 0 || way > std::numbers::sqrt2 / 2 * found_[k].gap)) continue;
           if (known < 0 || found_[k].gap < found_[known].gap) known = k;
         }
     return next;

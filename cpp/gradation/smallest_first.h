@@ -9,6 +9,7 @@
 
 #include "gradation/thresholds.h"
 #include "support/monitor.h"
+#include "support/work_sizes.h"
 
 namespace carreau {
 
@@ -27,7 +28,7 @@ class SmallestFirst {
       const auto [size, place] = queue_.top();
       queue_.pop();
       if (!counts(size, place)) continue;
-      if (++steps % thresholds::gradation::places_between_checks == 0) monitor.checkpoint();
+      if (++steps % work_sizes::searches == 0) monitor.checkpoint();
       leave(place);
     }
   }

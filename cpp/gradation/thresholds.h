@@ -2,7 +2,6 @@
 // Thresholds of this room, with their meaning, unit, reason and support.
 #pragma once
 
-#include <cstddef>
 #include <numbers>
 
 namespace carreau::thresholds::gradation {
@@ -10,13 +9,12 @@ namespace carreau::thresholds::gradation {
 // In brackets: the tests of the threshold, in tests/cpp/gradation and tests/cpp/surface/grade.
 
 // Fronts of one size (gradation, graded_field)
-/// Cosine. A front goes straight on over a vertex if the line from its source and the edge to the next vertex make at
-/// most this angle. The six neighbours of a vertex of a good mesh leave at most 30 degrees.
-/// [Gradation.ConeOnATriangulationOfVaryingSize]
-inline constexpr double seen_from_beside = 0.7;
-/// Cosine. Lines that agree so well are one wave from a line of sources, not two cones.
-/// [Gradation.RidgeBetweenTwoSourcesAndPlaneWaveFromALine]
-inline constexpr double same_wave = 0.7;
+/// Cosine, 45.6 degrees. A front goes straight on over a vertex if the line from its source and the edge to the next vertex make at most
+/// this angle: the six neighbours of a vertex of a good mesh leave at most 30 degrees. Lines that agree so well are one wave from a line of
+/// sources, not two cones. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
+/// polygons. [Gradation.ConeOnATriangulationOfVaryingSize, RidgeBetweenTwoSourcesAndPlaneWaveFromALine,
+/// Proximity.NarrowZonesHoldTheRequestedLayers]
+inline constexpr double within_45_degrees = 0.7;
 /// Cosine. Normals of places of a vertex that are one smooth surface, where more than two faces meet.
 /// [Gradation.ConeOnASphereOfTwoPatches]
 inline constexpr double smooth_corner = 0.9;
@@ -33,9 +31,6 @@ inline constexpr double detour = 1.0175;
 inline constexpr double negligible = 1e-3;
 
 // Narrow zones and faces that face each other (boundary_sides, proximity, facing)
-/// Cosine. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
-/// polygons. [Proximity.NarrowZonesHoldTheRequestedLayers]
-inline constexpr double straight_on = std::numbers::sqrt2 / 2;
 /// Cosine. Fronts, or normals of faces, that meet within this angle of head on. [as above]
 inline constexpr double head_on = 0.8;
 /// Radians. Angle of a corner whose sides are near each other because it is a corner,
@@ -49,22 +44,9 @@ inline constexpr double wedge = 28 * std::numbers::pi / 180;
 /// Ratio. Ways of fronts near corners may be shorter by it than the ways between their closest points, which are
 /// vertices. [models: corners are no zones]
 inline constexpr double longer_between_feet = 1.05;
-/// Sides of a square. Extent of the filling between ways that are a gap apart. [geometry]
-inline constexpr double half_diagonal = std::numbers::sqrt2 / 2;
-/// Weight. A normal that meets an edge between two triangles meets one of them. [rounding]
-inline constexpr double edge_rounding = 1e-9;
 
 // Places in a face (triangle_tree)
-/// Share of the extent. Rounding may move a triangle's point by so much, and it is still the same point.
-/// [TriangleTreePlaces.AtVerticesAndOnSides...]
-inline constexpr double point_rounding = 1e-14;
 /// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.MatchTheNearestTriangle]
 inline constexpr double clearly_inside = 1e5;
-/// Triangles. Longer walks are left to the search. [time only]
-inline constexpr int longest_walk = 32;
-
-// Stops
-/// Vertices, places or triangles between two looks at the monitor. [GradedModel.ReportsItsProgressAndStops]
-inline constexpr std::size_t places_between_checks = 1 << 12;
 
 }  // namespace carreau::thresholds::gradation

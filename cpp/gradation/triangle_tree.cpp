@@ -7,6 +7,7 @@
 
 #include "gradation/thresholds.h"
 #include "predicates/clamped_int.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -29,7 +30,7 @@ TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<
   const double edges = 3 * static_cast<double>(triangles.size());
   low_ = low;
   scale_ = {length.x() > 0 ? edges / length.x() : 1, length.y() > 0 ? edges / length.y() : 1};
-  inside_ = point_rounding * std::max((high.x() - low.x()) * scale_.x(), (high.y() - low.y()) * scale_.y());
+  inside_ = rounding_of::digits * std::max((high.x() - low.x()) * scale_.x(), (high.y() - low.y()) * scale_.y());
   std::vector<Vec3> scaled;
   scaled.reserve(vertices.size());
   for (const Vec2& p : vertices)
@@ -98,7 +99,7 @@ std::size_t TriangleTree::start_near(const Vec2& p) const noexcept {
 std::int32_t TriangleTree::walk(const Vec2& p) const noexcept {
   const double clear = clearly_inside * inside_;
   std::int32_t t = starts_[start_near(p)];
-  for (int step = 0; step < longest_walk && t >= 0; ++step) {
+  for (int step = 0; step < 32 && /* longer walks are left to the search */ t >= 0; ++step) {
     const Corners& c = corners_[static_cast<std::size_t>(t)];
     std::int32_t next = -1;
     bool holds = true;

@@ -10,6 +10,7 @@
 #include "measure/bounds/bounded_triangles.h"
 #include "measure/bounds/charted_places.h"
 #include "support/infinity.h"
+#include "support/work_sizes.h"
 #include "surface/remesh/bounds/spread_places.h"
 #include "surface/remesh/bounds/thresholds.h"
 
@@ -18,7 +19,6 @@ namespace carreau {
 namespace {
 
 using thresholds::bounds::near_angle, thresholds::bounds::near_deviation;
-using thresholds::measure::triangles_at_once;
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -48,7 +48,7 @@ class Bounds {
       } else {
         charted.push_back(static_cast<std::int32_t>(t));
       }
-      if (charted.size() == triangles_at_once) bound_charted(places, charted, first), charted.clear();
+      if (charted.size() == work_sizes::triangles) bound_charted(places, charted, first), charted.clear();
     }
     bound_charted(places, charted, first);
   }

@@ -18,6 +18,7 @@
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
 #include "metric/field_length.h"
+#include "metric/unit_edge.h"
 #include "support/gauss.h"
 #include "support/infinity.h"
 
@@ -313,10 +314,10 @@ class Measurement {
       p = (*h)[0], q = (*h)[1];
     } else if (const ControlSpace* space = governing_space()) {
       p = size_along(a, at_a, space->at(from)), q = size_along(b, at_b, space->at(to));
-      l = field_length([space](Vec2 uv) { return space->at(uv); }, from, to, fine_length);
+      l = field_length([space](Vec2 uv) { return space->at(uv); }, from, to, unit_edge::finest);
     }
     if (!(p > 0) || !(q > 0) || !(l > 0)) return;
-    of(EvaluationKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / std::max(l, shortest_way));
+    of(EvaluationKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / std::max(l, unit_edge::finest));
   }
 
   void measure_triangles() {

@@ -7,8 +7,10 @@
 
 #include "measure/base/thresholds.h"
 #include "measure/mesh_evaluation.h"
+#include "metric/unit_edge.h"
 #include "support/format.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "support/short_number.h"
 
 namespace carreau {
@@ -64,7 +66,7 @@ std::string part_of(std::int64_t part, std::int64_t all, const char* entities) {
 }
 
 std::int64_t count_above(const std::vector<double>& values, double limit) {
-  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + limit_rounding); });
+  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + rounding_of::places); });
 }
 
 }  // namespace
@@ -162,13 +164,13 @@ void summarise(MeshEvaluation& d) {
         break;
     }
     one.spread = spread_of(one.values, bounds);
-    one.tolerance = measure.kind == EvaluationKind::gradation ? gradation_tolerance : limit_rounding;
+    one.tolerance = measure.kind == EvaluationKind::gradation ? gradation_tolerance : rounding_of::places;
     one.beyond = std::count_if(one.values.begin(), one.values.end(), [&one](double x) { return one.exceeds(x); });
   }
   const std::vector<double>& length = d[EvaluationKind::length].values;
-  d.long_edges = count_above(length, long_limit);
+  d.long_edges = count_above(length, unit_edge::longest);
   d.short_edges =
-      std::count_if(length.begin(), length.end(), [](double l) { return l < short_limit / (1 + limit_rounding); });
+      std::count_if(length.begin(), length.end(), [](double l) { return l < unit_edge::shortest / (1 + rounding_of::places); });
   d.folded_triangles = count_above(d[EvaluationKind::angle].values, 90);
 }
 

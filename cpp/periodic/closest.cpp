@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "metric/thresholds.h"
 #include "periodic/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -19,7 +21,7 @@ Vec2 step_towards(const SurfaceJet& jet, const Vec3& target) {
   const Vec3 away = target - jet.s;
   const double a = dot(jet.su, jet.su), b = dot(jet.su, jet.sv), c = dot(jet.sv, jet.sv);
   const double determinant = a * c - b * b;
-  if (!(determinant > min_independence * a * c)) return {0, 0};
+  if (!(determinant > thresholds::degenerate::parallel * a * c)) return {0, 0};
   const double p = dot(jet.su, away), q = dot(jet.sv, away);
   return {(c * p - b * q) / determinant, (a * q - b * p) / determinant};
 }
@@ -32,7 +34,7 @@ void find_closest(Cad& cad, int face, std::span<const Vec3> targets, std::span<C
   for (std::size_t i = 0; i < points.size(); ++i) active[i] = i;
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
-  for (int round = 0; round <= max_steps && !active.empty(); ++round) {
+  for (int round = 0; round <= rounding_of::max_steps && !active.empty(); ++round) {
     uv.clear();
     for (const std::size_t i : active) uv.push_back(points[i].uv + step[i]);
     jets.resize(uv.size());
@@ -43,7 +45,7 @@ void find_closest(Cad& cad, int face, std::span<const Vec3> targets, std::span<C
       const double distance = norm(jets[k].s - targets[i]);
       if (round > 0 && !(distance < points[i].distance)) {
         // A step that is too long is halved; one that gains nothing any more ends the search.
-        if (distance <= points[i].distance * overshoot || round > halved_steps) continue;
+        if (distance <= points[i].distance * (1 + rounding_of::sizes) || round > rounding_of::halvings) continue;
         step[i] *= 0.5;
         left.push_back(i);
         continue;
@@ -60,13 +62,13 @@ CurvePoint find_closest(const CurveModel& model, const CurveUse& use, double t, 
   const int face = model.face_ref(use);
   CurvePoint best{t, {}, {}, -1};
   double step = 0;
-  for (int round = 0; round <= max_steps; ++round) {
+  for (int round = 0; round <= rounding_of::max_steps; ++round) {
     const double at = std::clamp(best.t + step, t_low, t_high);
     const CurveJet curve = model.cad.curve(face, use.curve + 1, want_position | want_first, at);
     const SurfaceJet jet = surface_at(model.cad, face, want_position | want_first, curve.c);
     const double distance = norm(jet.s - target);
     if (best.distance >= 0 && !(distance < best.distance)) {
-      if (distance <= best.distance * overshoot || round > halved_steps) break;
+      if (distance <= best.distance * (1 + rounding_of::sizes) || round > rounding_of::halvings) break;
       step /= 2;
       continue;
     }

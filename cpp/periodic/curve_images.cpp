@@ -8,6 +8,7 @@
 #include "model/traces.h"
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -40,7 +41,7 @@ bool fits(const CurveModel& model, const CurveShape& from, const CurveImage& ima
 
 double wrapped(double r) noexcept {
   const double rest = r - std::floor(r);
-  return rest < same_fraction || rest > 1 - same_fraction ? 0 : rest;
+  return rest < rounding_of::places || rest > 1 - rounding_of::places ? 0 : rest;
 }
 
 CurveImage composed(const CurveImage& first, const CurveImage& second) noexcept {

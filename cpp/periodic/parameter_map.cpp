@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "metric/metric2_algebra.h"
+#include "metric/thresholds.h"
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
 #include "support/infinity.h"
@@ -137,7 +138,7 @@ void SlaveSizes::intersect(const SizeRules& rules, int face, std::span<const Vec
     // Derivatives of the image's parameters: least squares of R S_u in its tangent plane.
     const double a = dot(image.su, image.su), b = dot(image.su, image.sv), c = dot(image.sv, image.sv);
     const double determinant = a * c - b * b;
-    if (!(determinant > min_independence * a * c)) return;
+    if (!(determinant > thresholds::degenerate::parallel * a * c)) return;
     const auto carried = [&](const Vec3& tangent) {
       const double p = dot(image.su, tangent), q = dot(image.sv, tangent);
       return Vec2((c * p - b * q) / determinant, (a * q - b * p) / determinant);

@@ -11,6 +11,7 @@
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -25,8 +26,8 @@ bool is_closed(const CurveModel& model, int curve) {
 
 // Fractions that the list has already, or nearly, stay.
 void insert_fraction(std::vector<double>& sorted, double r) {
-  const auto above = std::lower_bound(sorted.begin(), sorted.end(), r - same_fraction);
-  if (above != sorted.end() && *above <= r + same_fraction) return;
+  const auto above = std::lower_bound(sorted.begin(), sorted.end(), r - rounding_of::places);
+  if (above != sorted.end() && *above <= r + rounding_of::places) return;
   if (r > 0 && r < 1) sorted.insert(above, r);
 }
 
@@ -168,7 +169,7 @@ void meet_beginnings(const CurveClass& all, const CurveModel& model, DiscreteCur
   for (const CurveMember& member : all.members) {
     const double at = wrapped(member.image.back(0));
     for (std::size_t k = 1; at > 0 && k + 1 < root.r.size(); ++k) {
-      if (std::abs(root.r[k] - at) > same_fraction) continue;
+      if (std::abs(root.r[k] - at) > rounding_of::places) continue;
       const Vec3 begin = model.topology.points[static_cast<std::size_t>(model.curve(member.image.curve).end1)].position;
       t[k - 1] = find_closest(model, use, t[k - 1], support.t.front(), support.t.back(), member.map.inverse()(begin)).t;
       any = true;
@@ -216,7 +217,7 @@ void share_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
       if (!fixed.empty()) cut_at(fixed, model, root);
       if (all.turn) make_symmetric(*all.turn, model, root);
     }
-    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, exact_images * periodic.gap, curves);
+    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, rounding_of::places * periodic.gap, curves);
   }
 }
 
@@ -225,7 +226,7 @@ void carry_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
     DiscreteCurve& root = curves[all.members.front().image.curve];
     if (root.indivisible || root.prescribed) continue;
     if (all.turn) make_symmetric(*all.turn, model, root);
-    carry_from(all, 0, model, exact_images * periodic.gap, curves);
+    carry_from(all, 0, model, rounding_of::places * periodic.gap, curves);
   }
 }
 
@@ -248,7 +249,7 @@ std::vector<int> complete_classes(const PeriodicModel& periodic, const CurveMode
     } else {
       place_vertices(root, r, model);
     }
-    carry_from(all, 0, model, exact_images * periodic.gap, curves);
+    carry_from(all, 0, model, rounding_of::places * periodic.gap, curves);
     for (const CurveMember& member : all.members) changed.push_back(member.image.curve);
   }
   std::sort(changed.begin(), changed.end());

@@ -105,7 +105,7 @@ void discretise_curves(CompositeRun& run) {
   const std::vector<SizeSamples> shared = run.periodic.empty() ? std::vector<SizeSamples>{} : shared_sizes(run);
   // Rules keep the sizes of points for later, unless there is one size everywhere.
   const bool alone = !run.rules.constant() || !asks_from_threads(run.options, run.cad);
-  const std::size_t at_once = alone ? 1 : curves_at_once;
+  const std::size_t at_once = alone ? 1 : 64;
   const std::int64_t most = run.options.max_triangles;
   std::int64_t edges = 0;
   for (std::size_t begin = 0; begin < n; begin += at_once) {

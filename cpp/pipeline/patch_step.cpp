@@ -2,6 +2,7 @@
 // The patches: sample, mesh, lift of every face, on several threads.
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "pipeline/faces/dealt_faces.h"
 #include "pipeline/faces/face_job.h"
 #include "pipeline/faces/same_hosts.h"
+#include "plane/kernel/thresholds.h"
 
 namespace carreau {
 
@@ -127,7 +129,7 @@ std::vector<double> expected_triangles(const PatchJobs& work) {
   std::vector<double> triangles;
   for (const std::size_t f : work.face_of) {
     const auto edges = static_cast<double>(work.run.domains.domain[f]->plane.edges.size());
-    triangles.push_back(triangles_of_squared_edges * edges * edges);
+    triangles.push_back(std::numbers::sqrt3 / 12 * edges * edges);  // unit equilateral triangles in a square
   }
   return triangles;
 }
@@ -137,7 +139,7 @@ std::vector<std::size_t> faces_to_share(const std::vector<double>& triangles, in
   const double share = std::accumulate(triangles.begin(), triangles.end(), 0.0) / processes;
   std::vector<std::size_t> shared;
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    if (triangles[i] > std::max(share, least_shared)) shared.push_back(i);
+    if (triangles[i] > std::max(share, plane::triangles_a_piece)) shared.push_back(i);
   return shared;
 }
 
@@ -187,7 +189,7 @@ void mesh_in_team(PatchJobs& work, Team& team) {
               .shared = shared,
               .order = std::move(order),
               .expected = std::move(expected),
-              .least_shared = least_shared,
+              .least_shared = plane::triangles_a_piece,
               .threads = run.options.threads,
               .parts = run.options.parts,
               .on_begun =

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "projection/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau::projection {
 
@@ -33,7 +34,7 @@ bool Descent::turn_at_pole(const Vec3& r) {
     if (!at_low && at_[across] < region_.high[across]) continue;
     const Vec3& side = along == 0 ? jet_.su : jet_.sv;
     const double width = region_.high[along] - region_.low[along], sign = at_low ? 1 : -1;
-    if (norm(side) * width > limit::length_of_pole * diagonal_) continue;
+    if (norm(side) * width > rounding_of::places * diagonal_) continue;
     const Vec3 inwards = sign * (along == 0 ? jet_.sv : jet_.su), turning = sign * jet_.suv;
     const double speed = norm(inwards), rate = norm(turning);
     if (!(speed > 0 && rate > 0)) continue;
@@ -67,7 +68,7 @@ bool Descent::take(const SurfaceJet& jet) {
   if (!is_finite(jet.s) && !found_) return false;
   const bool worse = found_ && !(square <= square_ * (1 + 1e-13)) && move_ > 1e-9 * size_;
   if (worse || !is_finite(jet.s)) {
-    if (++halvings_ > max_halvings || steps_ >= limit::max_steps) return finish({0, 0}), false;
+    if (++halvings_ > max_halvings || steps_ >= rounding_of::max_steps) return finish({0, 0}), false;
     step_ *= halved, move_ *= halved;
     trial_ = at_ + step_;
     return true;
@@ -83,10 +84,10 @@ bool Descent::take(const SurfaceJet& jet) {
   const Vec3 second = (0.5 * step_.x() * step_.x()) * jet.suu + (step_.x() * step_.y()) * jet.suv + (0.5 * step_.y() * step_.y()) * jet.svv;
   const bool straight = norm(second) <= limit::bend_of_last_step * move_;  // the expansion holds over the step
   const bool last = step.full && straight && move_ <= limit::last_step * size_;
-  const bool still = move_ <= limit::shortest_step * diagonal_ || (move_ <= 1e-10 * diagonal_ && move_ >= 0.5 * move_before) ||
+  const bool still = move_ <= rounding_of::digits * diagonal_ || (move_ <= 1e-10 * diagonal_ && move_ >= 0.5 * move_before) ||
                      (!step.full && step.gain <= 1e-17 * square_ && step.gain <= 1e-28 * diagonal_ * diagonal_);
   if (still && turn_at_pole(r)) return true;
-  if (last || still || steps_ >= limit::max_steps) return finish((last || still) && straight ? step_ : Vec2(0, 0)), false;
+  if (last || still || steps_ >= rounding_of::max_steps) return finish((last || still) && straight ? step_ : Vec2(0, 0)), false;
   trial_ = step.to;
   return true;
 }

@@ -17,6 +17,7 @@
 #include "support/infinity.h"
 #include "support/pieces.h"
 #include "support/stepped_tasks.h"
+#include "support/work_sizes.h"
 #include "surface/supports.h"
 
 namespace carreau {
@@ -342,7 +343,7 @@ void Projector::project(int dimension, int ref, std::span<const Vec3> x, std::sp
   if (dimension == 1 && ref != 0)
     only = static_cast<std::int32_t>(std::lower_bound(s.curve_refs.begin(), s.curve_refs.end(), ref) - s.curve_refs.begin());
   const Entities& entities = dimension == 2 ? s.all_faces : s.all_curves;
-  constexpr std::size_t each = thresholds::projection::points_of_task;
+  constexpr std::size_t each = work_sizes::searches;
   run_each((x.size() + each - 1) / each, s.bound(), threads,
            [&](std::size_t k, Monitor& here) {
              const std::size_t first = k * each, n = std::min(each, x.size() - first);

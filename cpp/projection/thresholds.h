@@ -30,12 +30,6 @@ inline constexpr std::size_t max_cells = 40'000;
 inline constexpr double last_step = 1e-7;
 /// Share of that step: the term of second order is at most so large. [Projector.ConeAndItsApex]
 inline constexpr double bend_of_last_step = 1e-4;
-/// Share of the diagonal. Steps that are shorter end the descent where the Hessian is nearly singular. [Projector.TorusFromItsAxis]
-inline constexpr double shortest_step = 1e-14;
-/// Number of evaluations of one descent. [Projector.TorusFromItsAxis]
-inline constexpr int max_steps = 60;
-/// Share of the diagonal. A side of a region that is shorter is a point. [Projector.Sphere, Projector.ConeAndItsApex]
-inline constexpr double length_of_pole = 1e-9;
 /// Number of times that a descent turns at such a point.
 inline constexpr int max_turns = 4;
 /// Ratio of the eigenvalues of the Hessian in the first fundamental form. Below it the Hessian counts as singular.
@@ -44,13 +38,8 @@ inline constexpr double regular_hessian = 1e-3;
 inline constexpr double smallest_eigenvalue = 1e-6;
 
 // Domains (trimmed_domain)
-/// Share of the extents of a domain. Boundaries that lie so near the sides of their box are the box.
-inline constexpr double side_of_box = 1e-9;
 /// Share of a chord. Curves leave the chords of their supports by less; nearer places are decided by the curve itself.
 /// [Projector.TrimmedPlane]
 inline constexpr double beside_chord = 0.05;
-
-/// Number of points that one task of a thread projects. Their evaluations go to the host together.
-inline constexpr std::size_t points_of_task = 1024;
 
 }  // namespace carreau::thresholds::projection

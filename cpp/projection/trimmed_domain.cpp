@@ -7,6 +7,7 @@
 #include "cad/parameter_domain.h"
 #include "projection/thresholds.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau::projection {
 
@@ -40,7 +41,7 @@ std::pair<Vec2, Vec2> box_of_boundary(const Face& face, const std::vector<CurveS
 }
 
 bool is_box(const Face& face, const std::vector<CurveSupport>& supports, const Vec2& low, const Vec2& high) {
-  const Vec2 near = limit::side_of_box * (high - low);
+  const Vec2 near = rounding_of::places * (high - low);
   for (std::size_t c = 0; c < supports.size(); ++c) {
     if (!bounds_face(face, c)) continue;
     for (const Vec2& p : supports[c].uv) {

@@ -9,6 +9,7 @@
 
 #include "size/thresholds.h"
 #include "support/format.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 namespace {
@@ -252,7 +253,7 @@ std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>
       if (other.face == corner.face) scale = std::max({scale, norm(other.uv - corner.uv), norm(corner.uv)});
     }
     const bool known = std::any_of(corners.begin(), corners.end(), [&](const Corner& other) {
-      return other.face == corner.face && norm(other.uv - corner.uv) <= same_corner * scale;
+      return other.face == corner.face && norm(other.uv - corner.uv) <= rounding_of::sizes * scale;
     });
     if (!known) corners.push_back(corner);
   }

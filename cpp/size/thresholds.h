@@ -12,9 +12,6 @@ namespace carreau::thresholds::size {
 /// Share of the way to the middle of a curve. Distance inside the curve at which its surfaces are evaluated when its
 /// end is a pole. [SizeRules.PolesTakeTheRadiusBesideThem]
 inline constexpr double way_inside = 1e-3;
-/// Share of the box of a face's corners. Nearer corners are one: corners of a seam, given with rounding.
-/// [SizeRules.ASeamCountsOncePerUseAndItsEndOncePerCorner]
-inline constexpr double same_corner = 1e-6;
 
 // Guarantees (geo_guarantee)
 /// Factors of sizes for which at least 99.5 % of the edges (angle) or triangles (chord) fulfil the criterion, coarse

@@ -8,6 +8,7 @@
 #include "atlas/covering/ring_phi.h"
 #include "atlas/covering/thresholds.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
@@ -101,7 +102,7 @@ std::optional<Vec2> Covering::transition(std::size_t i, std::size_t j, const Vec
   for (int c = 0; c < 3; ++c) {
     if (static_cast<std::size_t>(t.chart[static_cast<std::size_t>(c)]) != j || c == on->corner.corner) continue;
     const double share = share_of(to_polar(c, on->place));
-    if (share < -thresholds::beyond_zone || share > 1 + thresholds::beyond_zone) continue;
+    if (share < -rounding_of::places || share > 1 + rounding_of::places) continue;
     return value_of(from_t(on->corner.triple, c, on->place));
   }
   return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers that decide something about coverings.
+// tests/cpp/atlas/covering_test rests on them.
 #pragma once
 
 namespace carreau::atlas::thresholds {
@@ -26,9 +27,6 @@ inline constexpr int subdivisions = 3;
 /// Share of clusters without a defect from which moves of single vertices can repair the others; below, triangles are
 /// divided first.
 inline constexpr double repairable = 0.8;
-
-/// Share of a region's width by which a place may be beyond it and still be in it, for rounding.
-inline constexpr double beyond_zone = 1e-9;
 
 /// Radians between directions that both get a vertex of the inner border: nearer ones would make steep functions of
 /// phi.

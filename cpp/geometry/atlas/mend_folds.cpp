@@ -119,7 +119,7 @@ class FoldMender {
   }
   void add(std::size_t i) {
     rank_[i] = active_.size();
-    active_.push_back(i), anchor_.push_back(thresholds::first_anchor);
+    active_.push_back(i), anchor_.push_back(1);
     gram_.push_back(gram_of(covering_, covering_.charts()[i], primitives_[i]));
     start_.push_back(block_of(primitives_[i]));
   }
@@ -180,7 +180,7 @@ class FoldMender {
 
   /// Steps of Levenberg and Marquardt, until they gain little.
   void descend() {
-    double damping = thresholds::first_damping, now = energy();
+    double damping = 1, now = energy();
     for (int step = 0; step < thresholds::mend_steps; ++step) {
       const std::vector<MendRow> pulling = rows();
       if (pulling.empty()) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thresholds of the surface of an atlas.
+// All of tests/cpp/geometry/atlas rests on them; figures are of the meshes in tests/data.
 #pragma once
 
 namespace carreau::atlas::thresholds {
@@ -15,16 +16,16 @@ inline constexpr double wanted_jacobian = 0.4;
 /// Places above this value are not watched while charts move. If one folds nevertheless, the next round finds it.
 inline constexpr double watched_jacobian = 0.7;
 
-/// Weight of distances from the initial positions: at first, factor of each round, and minimum.
-inline constexpr double first_anchor = 1, loosening = 0.3, min_anchor = 1e-4;
+/// Weight of distances from the initial positions, 1 at first: factor of each round, and minimum.
+inline constexpr double loosening = 0.3, min_anchor = 1e-4;
 /// Below this weight, neighbours move as well; before, charts at the fold alone, so that the repair stays local.
 inline constexpr double giving_way = 0.1;
 /// Mean square of values per coefficient that the vertices of a chart do not determine.
 inline constexpr double undetermined = 1e-3;
 /// Rounds, and steps in each. Joint.off and spot need one round, the bunny three.
 inline constexpr int mend_rounds = 24, mend_steps = 30;
-/// Damping of steps (Levenberg and Marquardt), in the unit of anchors.
-inline constexpr double first_damping = 1, min_damping = 1e-6, max_damping = 1e8;
+/// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
+inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.
 inline constexpr double notable_gain = 0.999;
 

@@ -9,6 +9,7 @@
 #include "geometry/discrete/thresholds.h"
 #include "geometry/discrete/triangulation.h"
 #include "model/union_find.h"
+#include "support/rounding_of.h"
 
 namespace carreau::discrete {
 
@@ -61,7 +62,7 @@ class FlatDropper {
       const double longest = length(t[k], t[(k + 1) % 3]);
       for (std::size_t i = 1; i < 3; ++i) {
         const std::int32_t v = t[(k + i) % 3], w = t[(k + i + 1) % 3];
-        if (length(v, w) <= thresholds::flat_height * longest) joined.merge(index(v), index(w)), any = true;
+        if (length(v, w) <= rounding_of::heights * longest) joined.merge(index(v), index(w)), any = true;
       }
     }
     if (!any) return;
@@ -154,7 +155,7 @@ class FlatDropper {
 bool is_flat(std::span<const Vec3> vertices, const Corners& t) noexcept {
   const Vec3 &a = vertices[index(t[0])], &b = vertices[index(t[1])], &c = vertices[index(t[2])];
   const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  return !(norm(cross(b - a, c - a)) > thresholds::flat_height * longest * longest);
+  return !(norm(cross(b - a, c - a)) > rounding_of::heights * longest * longest);
 }
 
 std::vector<std::int32_t> drop_flat_triangles(std::span<const Vec3> vertices, TriangleList list,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/discrete/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau::discrete {
 
@@ -42,7 +43,7 @@ Jet share_of(const Jet& x, const Jet& y) noexcept {
   const double s = a + b;
   Jet r;
   r.f = 0.5;
-  if (!(s > thresholds::tiny)) return r;
+  if (!(s > rounding_of::heights)) return r;
   // g = a / s has the derivatives g_a = b / s^2, g_b = -a / s^2, g_aa = -2 b / s^3, g_ab = (a - b) / s^3, g_bb = 2 a /
   // s^3.
   const double s2 = s * s, ga = b / s2, gb = -a / s2;
@@ -124,7 +125,7 @@ SurfaceJet first_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     const Vec3 apart = patch.inner[2 * i] - patch.inner[2 * k + 1];
     const double x = std::max(b[j], 0.0), y = std::max(b[k], 0.0), sum = x + y;
-    if (!(sum > thresholds::tiny)) {
+    if (!(sum > rounding_of::heights)) {
       inside[i] = patch.inner[2 * k + 1] + 0.5 * apart;
       continue;
     }
@@ -147,11 +148,11 @@ SurfaceJet first_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
 std::array<Vec3, 2> ribbon(const Cubic& z, const Vec3& n_start, const Vec3& n_end, const Vec3& d0, const Vec3& d3) {
   const std::array<Vec3, 3> w{z[1] - z[0], z[2] - z[1], z[3] - z[2]};
   Vec3 a0 = cross(n_start, w[0]), a2 = cross(n_end, w[2]);
-  a0 /= std::max(norm(a0), thresholds::tiny * norm(z[3] - z[0]) + 1e-300);
-  a2 /= std::max(norm(a2), thresholds::tiny * norm(z[3] - z[0]) + 1e-300);
+  a0 /= std::max(norm(a0), rounding_of::heights * norm(z[3] - z[0]) + 1e-300);
+  a2 /= std::max(norm(a2), rounding_of::heights * norm(z[3] - z[0]) + 1e-300);
   Vec3 a1 = a0 + a2;
   const double length = norm(a1);
-  a1 = length > thresholds::tiny ? Vec3(a1 / length) : a0;
+  a1 = length > rounding_of::heights ? Vec3(a1 / length) : a0;
   const double w0 = dot(w[0], w[0]), w2 = dot(w[2], w[2]);
   const double l0 = w0 > 0 ? dot(d0, w[0]) / w0 : 0, l1 = w2 > 0 ? dot(d3, w[2]) / w2 : 0;
   const double m0 = dot(d0, a0), m1 = dot(d3, a2);

@@ -7,6 +7,7 @@
 #include "geometry/discrete/thresholds.h"
 #include "support/incidence.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau::discrete {
 
@@ -21,7 +22,7 @@ Vec3 unit(const Vec3& v) noexcept {
 /// The unit vector of `n` without its component along the unit vector `t`; `n` itself if nothing remains.
 Vec3 across(const Vec3& n, const Vec3& t) noexcept {
   const Vec3 left = n - dot(n, t) * t;
-  return norm(left) > thresholds::tiny ? unit(left) : n;
+  return norm(left) > rounding_of::heights ? unit(left) : n;
 }
 
 /// The sharp edges at each vertex.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thresholds of this room, with their meaning, unit, reason and support.
+// All of tests/cpp/geometry/discrete rests on them: triangulation_test (sharp lines), discrete_surface_test (normals and patches).
 #pragma once
 
 namespace carreau::discrete::thresholds {
 
 // Mending (triangulation)
-/// Share of the longest side. A triangle with a smaller height is flat: its normal is rounding.
-inline constexpr double flat_height = 1e-12;
 
 // Sharp angle
 /// Degrees: if the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
@@ -46,7 +45,7 @@ inline constexpr double min_straightness = 0.5;
 inline constexpr int max_prolongation = 2;
 /// Connected edges of lines with a free end, and edges of a line that fades out: fewer are noise. With the paper's
 /// limit of one edge, bunny.off has lines; a crease of a part without junctions is longer.
-inline constexpr int min_edges = 8, min_faded = 8;
+inline constexpr int min_edges = 8;
 
 // Normals and tangents
 /// Sine of the angle between the normals of a triangle and of its vertex: a triangle that leans less (5 degrees) does
@@ -67,7 +66,5 @@ inline constexpr double clear_crease = 0.3;
 inline constexpr double clear_corner = 0.17;
 /// Cosine: the region's plane at a corner is the plane of two lines if its normal is no farther from the mean normal.
 inline constexpr double same_side = 0.7;
-/// Denominators of the normals' product in eq. 4.98 and normals of no length.
-inline constexpr double tiny = 1e-12;
 
 }  // namespace carreau::discrete::thresholds

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/grid/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau::grid {
 
@@ -30,9 +31,9 @@ Shape shape_of(const Block& block, int i, int j) {
     const Vec3 normal = cross(next, before);
     longest = std::max({longest, norm(next), norm(p[(k + 2) % 4] - p[k])});
     largest = std::max(largest, norm(normal));
-    folded = folded || dot(normal, area) < -thresholds::folded_share * dot(area, area);
+    folded = folded || dot(normal, area) < -rounding_of::sizes * dot(area, area);
   }
-  if (largest <= thresholds::flat_share * longest * longest) return Shape::flat;
+  if (largest <= rounding_of::heights * longest * longest) return Shape::flat;
   return folded ? Shape::folded : Shape::good;
 }
 

@@ -8,6 +8,7 @@
 #include "geometry/grid/orientation.h"
 #include "geometry/grid/thresholds.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau::grid {
 
@@ -52,11 +53,11 @@ double usual_tolerance(const std::vector<Block>& blocks) {
   for (const Block& block : blocks)
     for (const Vec3& p : block.nodes)
       if (is_finite(p)) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double same = thresholds::same_node_share * norm(high - low);
+  const double same = rounding_of::sizes * norm(high - low);
   double shortest = HUGE_VAL;
   const auto look_at = [&](const Vec3& p, const Vec3& q) {
     const double length = norm(q - p);
-    if (length > same * thresholds::same_node_share) shortest = std::min(shortest, length);
+    if (length > same * rounding_of::sizes) shortest = std::min(shortest, length);
   };
   for (const Block& block : blocks)
     for (int j = 0; j < block.rows; ++j)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/grid/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau::grid {
 
@@ -92,7 +93,7 @@ class Filler {
         here = mean;
       }
       if (sweep == 0) first = largest;
-      if (largest <= thresholds::still_share * first) return;
+      if (largest <= rounding_of::places * first) return;
     }
   }
 

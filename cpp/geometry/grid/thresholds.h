@@ -6,19 +6,11 @@
 
 namespace carreau::grid::thresholds {
 
-/// Nodes on borders nearer than this share of the diagonal are one: files of single precision have 1e-7. [Glue.*]
-inline constexpr double same_node_share = 1e-6;
 /// ... but never farther than this share of the shortest edge between nodes that differ: cells would vanish. [Glue.*]
 inline constexpr double same_node_share_of_edge = 0.1;
-/// A cell whose corners all have less than this share of the square of its longest line is a line. [Cells.*]
-inline constexpr double flat_share = 1e-12;
-/// A corner turns against its cell when its normal leans this share of the area back: rounding does not count. [Cells.*]
-inline constexpr double folded_share = 1e-6;
 /// Turn at the joint of a closed grid (in the mean), or between lines of two blocks, radians. From this turn on the lines do not go on into
 /// one another: eight cells make a circle. [Glue.*, Coons.*]
 inline constexpr double closed_turn = std::numbers::pi / 4;
-/// Holes are filled when no node moves by more than this share of the first sweep's largest move. [Holes.*]
-inline constexpr double still_share = 1e-9;
 /// ... or after so many sweeps: of a hole of 50 x 50 nodes 1e-3 is left. [Holes.*]
 inline constexpr int max_sweeps = 2000;
 /// Parameter length of a row of cells without extent, as a share of the mean one: parameters must ascend. [Lengths.*]

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 namespace carreau::thresholds::patches {
 
@@ -27,15 +26,10 @@ inline constexpr double max_lean = 0.5;
 inline constexpr double gentle = 1.5;
 /// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
 inline constexpr double max_growth_bounded = 64;
-/// Share of the extent squared. A patch of less area is a line with rounding errors. [BadModels.SurfaceWithoutArea]
-inline constexpr double no_area = 1e-14;
 
 // Jumps of a surface (face_job)
 /// Edges that are checked before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t max_looked_at_first = 30;
-/// Halvings of an edge, to 1e-9 of it; more would compare numbers that are rounded.
-/// [BadModels.DerivativesThatVanishOnABorderAreNoJump]
-inline constexpr int jump_halvings = 30;
 /// Share of the chord that must be left; a surface as steep as a square root leaves 3e-5. [as above]
 inline constexpr double jump_share = 0.1;
 /// Share of coordinates, above the errors of evaluators. [as above]
@@ -52,8 +46,6 @@ inline constexpr double short_share = 0.7;
 inline constexpr int max_curve_halvings = 4;
 
 // Progress (curve_steps, run)
-/// Curves that are cut between two reports, if several threads cut them. [time only]
-inline constexpr std::size_t curves_at_once = 64;
 /// Shares of the run: the gradation if there is one, then shares of the rest for curves and for patches.
 /// [GradedModel.ReportsItsProgressAndStops]
 inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share = 0.85;
@@ -63,11 +55,6 @@ inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share
 /// process (docs/scale.md) leaves room for metrics, curved elements and copies of hosts.
 /// [Memory.AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh]
 inline constexpr double bytes_per_triangle = 200;
-/// Triangles over the square of the edges of the boundary: 4 / sqrt(3) / 16, unit equilateral triangles in a square.
-inline constexpr double triangles_of_squared_edges = 0.1443;
-/// Triangles so reckoned. Faces with fewer are not made by several processes together: the plane mesher would not cut
-/// them. [plane::min_divided]
-inline constexpr double least_shared = 250'000;
 
 }  // namespace carreau::thresholds::patches
 
@@ -80,16 +67,11 @@ namespace carreau::thresholds::crossings {
 inline constexpr std::size_t max_known = 2'000'000;
 /// Pairs of triangles that are checked; a model whose parts share places has as many pairs as triangles there.
 inline constexpr std::size_t max_pairs = 100'000;
-/// Surfaces meet at two crossing triangles if Newton's method finds a common point in this number of steps. The point
-/// lies within a share of the longest edge, and the sine between the normals is at least this. [share: rounding; steps:
-/// quadratic convergence takes four]
-inline constexpr int newton_steps = 8;
-inline constexpr double meets_within = 1e-6, min_slope = 0.1;
+/// Sine between the normals of surfaces that meet at two crossing triangles, where Newton's method finds a common point. [FaceGap.*]
+inline constexpr double min_slope = 0.1;
 /// Projections from one face to the other and back. The first one finds the distance of parallel faces.
 /// [FaceGap.ConcentricCylindersHaveTheDifferenceOfTheirRadii]
 inline constexpr int projections = 3;
-/// Share of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
-inline constexpr double no_sagitta = 1e-12;
 /// Share of the gap that the larger sagitta may fill. [CloseWalls.ThatCrossByTheirChordsAreParted]
 inline constexpr double sagitta_share = 0.5;
 /// Shares of the longest edge of a triangle that crosses another triangle. If a gap needs less than the smaller one, no
@@ -98,8 +80,6 @@ inline constexpr double min_share = 0.125, max_share = 0.6;
 /// Share of an edge times the sine between both surfaces. Surfaces nearer to each other meet beside the triangles that
 /// cross. [without it the teapot, whose spout crosses its body, is meshed again at .3]
 inline constexpr double min_width = 0.05;
-/// Triangles that a triangle becomes, with the neighbours that grow from it, times the square of the share.
-inline constexpr double growth = 1;
 /// Triangles whose making costs as much as all that a face costs whatever its triangles are (sampling, borders).
 inline constexpr double work_per_face = 300;
 /// Ratio of a face's work in a round to its work before, for as many triangles: its sizes vary now, so that its metric is

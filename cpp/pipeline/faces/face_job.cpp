@@ -11,6 +11,7 @@
 #include "plane/plane_mesher.h"
 #include "support/format.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/domain/domain_check.h"
 #include "surface/improve/refinement.h"
 #include "surface/improve/shape_in_space.h"
@@ -31,7 +32,7 @@ using namespace thresholds::patches;
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
   const double whole = norm(q - p);
-  for (int i = 0; i < jump_halvings; ++i) {
+  for (int i = 0; i < rounding_of::halvings; ++i) {
     const Vec2 middle = 0.5 * (from + to);
     const Vec3 m = surface_at(cad, face, want_position, middle).s;
     if (norm(m - p) > norm(q - m))
@@ -329,9 +330,9 @@ void FaceJob::refuse_unsound(Monitor& monitor) const {
   for (const Vec3& q : p) extent2 = std::max(extent2, dot(q - p.front(), q - p.front()));
   for (const auto& [a, b, c] : mesh_->plane.triangles) {
     area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
-    if (area > no_area * extent2) break;  // a few triangles suffice
+    if (area > rounding_of::digits * extent2) break;  // a few triangles suffice
   }
-  if (!(area > no_area * extent2)) {
+  if (!(area > rounding_of::digits * extent2)) {
     const auto& sides = input_.domain->plane.edges;
     const bool tiny =
         std::all_of(sides.begin(), sides.end(), [](const PlaneEdge& e) { return e.kind == PlaneEdgeKind::degenerate; });

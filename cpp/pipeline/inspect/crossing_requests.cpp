@@ -12,6 +12,7 @@
 #include "pipeline/inspect/face_gap.h"
 #include "pipeline/inspect/face_triangle.h"
 #include "pipeline/parts/part_crossings.h"
+#include "support/rounding_of.h"
 #include "surface/elements/quads/quadrilaterals.h"
 
 namespace carreau {
@@ -78,7 +79,7 @@ class RequestFinder {
   }
   /// Share of edges whose sagittas fill a part of the gap: they are as the squares of lengths.
   [[nodiscard]] double share_of(const FaceGap& gap) const {
-    if (!(gap.sagitta > no_sagitta * run_.supports.diag)) return 0;
+    if (!(gap.sagitta > rounding_of::heights * run_.supports.diag)) return 0;
     return std::sqrt(sagitta_share * gap.width / gap.sagitta);
   }
   void add(const TriangleIntersection& pair, double share, CrossingRequest& request) const {
@@ -116,7 +117,7 @@ class Planner {
     double work = 0;
     for (const int f : faces_of(request))
       if (!plan.faces.contains(f)) work += work_of_face(run_, static_cast<std::size_t>(f));
-    for (const auto& [triangle, share] : request.triangles) work += growth / (share * share);
+    for (const auto& [triangle, share] : request.triangles) work += 1 / (share * share);
     return work;
   }
   void add(const CrossingRequest& request, RefinementPlan& plan) {

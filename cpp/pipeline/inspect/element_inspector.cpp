@@ -87,7 +87,7 @@ class ElementInspector final : public Inspector {
 
   [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
     if (!run.options.refines_invalid_elements) return {};
-    const int rounds = has_quads(run.options.element) ? max_divisions_of_quads : max_divisions;
+    const int rounds = max_divisions;
     if (round_++ == rounds || count(now_) == 0 || *left_ < 0) return {};
     return RefinementRequests{.segments = segments_of(run, now_.coarse), .sizes = now_.finer};
   }

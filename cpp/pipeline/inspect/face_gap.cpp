@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pipeline/base/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -22,8 +23,8 @@ struct PointPair {
 // The nearest point of the line that both tangent planes have, again and again. Empty: the planes are parallel, or a
 // step leaves the triangles.
 std::optional<PointPair> common_point(Cad& cad, const FaceTriangle& s, const FaceTriangle& t, PointPair pair) {
-  const double longest = std::max(s.longest_edge(), t.longest_edge()), near = meets_within * longest;
-  for (int step = 0; step < newton_steps; ++step) {
+  const double longest = std::max(s.longest_edge(), t.longest_edge()), near = rounding_of::sizes * longest;
+  for (int step = 0; step < rounding_of::newton_steps; ++step) {
     if (pair.distance() <= near) return pair;
     const auto& [p, q] = pair;
     const Vec3 line = cross(p.normal, q.normal), middle = pair.middle();

@@ -17,6 +17,7 @@
 #include "plane/kernel/thresholds.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -30,7 +31,7 @@ bool is_mostly_zone(const Pieces& pieces, double triangles) {
 // Units. In larger meshes separators may have longer straight parts: the coarse mesh, which one thread makes, has fewer
 // triangles for each of the fine one.
 double coarse_edge(double triangles) {
-  return separator_length * std::sqrt(std::sqrt(std::max(triangles / many_for_longer_separators, 1.0)));
+  return separator_length * std::sqrt(std::sqrt(std::max(triangles / (4 * triangles_a_piece), 1.0)));
 }
 
 // Empty if separators find no way.
@@ -101,7 +102,7 @@ void resize(std::vector<T>& values, std::size_t n, Monitor& monitor) {
   values.reserve(n);
   while (values.size() < n) {
     monitor.checkpoint();
-    values.resize(std::min(n, values.size() + elements_between_checks));
+    values.resize(std::min(n, values.size() + work_sizes::steps));
   }
 }
 
@@ -225,7 +226,7 @@ class Assembly {
 }  // namespace
 
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
-  return known.triangles >= min_divided && !options.squares && options.undersampled.empty();
+  return known.triangles >= triangles_a_piece && !options.squares && options.undersampled.empty();
 }
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,

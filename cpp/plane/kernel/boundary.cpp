@@ -7,6 +7,7 @@
 #include "plane/kernel/edge_recovery.h"
 #include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -30,7 +31,7 @@ class BoundaryMesher {
 
  private:
   void tick() {
-    if (++work_ % insertions_between_checks == 0) monitor_.checkpoint();
+    if (++work_ % work_sizes::searches == 0) monitor_.checkpoint();
   }
   [[nodiscard]] Vec2 uv(int v) const { return domain_.vertices[v]; }
 

@@ -6,6 +6,7 @@
 #include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
 #include "predicates/predicates.h"
+#include "support/rounding_of.h"
 
 namespace carreau::plane {
 
@@ -46,7 +47,7 @@ bool Triangulation::in_far_circle(const Metric2& metric, const RimPoint& a, cons
 bool Triangulation::in_circle_of_chart(std::int32_t a, std::int32_t b, std::int32_t d) const noexcept {
   const Vec2 A = charted_[a], B = charted_[b], D = charted_[d];
   const double ab = cross(A, B), d2 = points_[d].d2;
-  return points_[a].d2 * cross(D, B) + points_[b].d2 * cross(A, D) - d2 * ab > cavity_tolerance * d2 * std::abs(ab);
+  return points_[a].d2 * cross(D, B) + points_[b].d2 * cross(A, D) - d2 * ab > rounding_of::heights * d2 * std::abs(ab);
 }
 
 void Triangulation::reserve_cavity(std::size_t triangles_in) {
@@ -113,7 +114,7 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
       int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
       if (left >= 0 && right >= 0) {
         bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
-                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > cavity_tolerance * D.d2 * e.area;
+                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > rounding_of::heights * D.d2 * e.area;
         if (std::max({A.d2, B.d2, D.d2}) > near2) {
           const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
           if (D.d2 <= near2)

@@ -44,7 +44,7 @@ class Field {
   }
   /// True if charts are useful anywhere in the domain of the space. Searches all of it.
   [[nodiscard]] static bool may_bend(const ControlSpace& space) noexcept {
-    return space.measure() >= fewest_for_charts && space.largest_bend() > min_bend;
+    return space.measure() >= large_mesh && space.largest_bend() > min_bend;
   }
 
   [[nodiscard]] Metric2 at(const Vec2& p) const noexcept {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "plane/kernel/thresholds.h"
+#include "support/rounding_of.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -27,7 +29,7 @@ bool wants_swap(const Triangulation& mesh, int t, int i) noexcept {
   if (!mesh.can_swap(t, i)) return false;
   const double now = std::max(sharpness(mesh, c, a, b), sharpness(mesh, d, b, a));
   const double then = std::max(sharpness(mesh, c, a, d), sharpness(mesh, c, d, b));
-  return then * (1 + swap_tolerance) < now;
+  return then * (1 + rounding_of::places) < now;
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> 
     open.pop_back();
     const int t = he >> 2, i = he & 3;
     if (!wants_swap(mesh, t, i)) continue;
-    if (++swaps % insertions_between_checks == 0) monitor.checkpoint();
+    if (++swaps % work_sizes::searches == 0) monitor.checkpoint();
     const int u = mesh.triangles[t].n[i] >> 2;
     mesh.swap_edge(t, i);
     for (const HalfEdge outer : {4 * t, 4 * t + 2, 4 * u, 4 * u + 1}) open.push_back(outer);

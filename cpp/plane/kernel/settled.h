@@ -11,6 +11,8 @@
 
 #include "plane/kernel/plane_work.h"
 #include "plane/kernel/thresholds.h"
+#include "support/rounding_of.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -50,7 +52,7 @@ inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex
   const double longest2 = largest(uu, vv, ww), shortest2 = least(uu, vv, ww), sum = uu + vv + ww;
   const bool acute = cross(u, v) > 0 && least(uv, uu - uv, vv - uv) >= acute_cosine * longest2;
   const double area2 = 12 * (uu * vv - uv * uv), sum2 = sum * sum;
-  const bool good = shortest2 > 3 * surely_not_crowded2 && area2 > surely_not_bad * surely_not_bad * sum2;
+  const bool good = shortest2 > 3 * crowded_length2 / (1 - alike_share) * (1 + rounding_of::sizes) && area2 > (1 + rounding_of::sizes) * doubtful_quality * (1 + rounding_of::sizes) * doubtful_quality * sum2;
   const bool fine = area2 > surely_not_searched * surely_not_searched * sum2;
   if (!acute) return 0;
   return static_cast<std::uint8_t>(Settled::acute | (good ? Settled::good : 0) | (fine ? Settled::fine : 0));
@@ -63,9 +65,9 @@ inline void find_settled(const PlaneWork& work, Settled& settled) {
   settled.of.assign(n, 0);
   if (!mesh.bends.empty()) return;
   for (std::size_t t = 0; t < n; ++t) {
-    if (t % steps_between_checks == 0) work.monitor.checkpoint();
+    if (t % work_sizes::steps == 0) work.monitor.checkpoint();
     const Triangle& T = mesh.triangles[t];
-    for (const std::int32_t v : mesh.triangles[std::min(t + settled_ahead, n - 1)].v) prefetch(&mesh.vertices[v]);
+    for (const std::int32_t v : mesh.triangles[std::min(t + work_sizes::prefetched, n - 1)].v) prefetch(&mesh.vertices[v]);
     settled.of[t] = settled_state(mesh.vertices[T.v[0]], mesh.vertices[T.v[1]], mesh.vertices[T.v[2]]);
   }
 }

@@ -21,9 +21,6 @@ inline constexpr double min_bend = 0.4;
 /// whose height in the chart is along the bend; here this is little more than a quarter. [3.1: worst of swirl at 51 : 1
 /// 0.36 to 0.24]
 inline constexpr double max_bend = 2.5;
-/// Triangles. In coarser meshes of patches with poles and creases charts reach too far. [12 500: coarse swirl at 51
-/// : 1 has 13 % more triangles, Q2 0.870 to 0.855]
-inline constexpr double fewest_for_charts = 10'000;
 /// Share of a length. Tolerance between distances in a chart and by the tensors halfway; beyond, the field has a kink
 /// there. [0.08: worst of swirl at 51 : 1 0.36 to 0.07]
 inline constexpr double chart_tolerance = 0.1;
@@ -57,36 +54,16 @@ inline constexpr std::size_t fewest_for_lattice = 4000;
 /// Squared units. Within this distance the metric or chart of the new point replaces the others; a chart's error grows
 /// with its cube. [7 and 11: longest edges on turning fields 2.5 to 2.0, equal Q2 of smooth ones]
 inline constexpr double near2 = 9;
-/// Share. Nearly cocircular points are left as they are: rounding must not dig. [any other value changes symmetric
-/// meshes by rounding; boundary_test, cocircular vertices]
-inline constexpr double cavity_tolerance = 1e-12;
-/// Share. Nearly cocircular vertices keep their diagonal, so that swaps cannot run in circles.
-/// [MeshPlane.IsTheSameBitForBit; 1e-11: 2 of 42 meshes change by rounding]
-inline constexpr double swap_tolerance = 1e-9;
 /// Triangles. Length of a walk after which it turns at random: in a triangulation that is not Delaunay a fixed order
 /// could go round in circles. [20 and 80: no figure changes; without it a walk may not end]
 inline constexpr std::size_t fixed_order_steps = 40;
 /// Triangles. Larger meshes do not fit in the cache and are sorted once. [time only]
 inline constexpr std::size_t renumbered_from = 200'000;
-/// Triangles. Prefetch distance of their places. [time only]
-inline constexpr std::size_t renumbered_ahead = 16;
 /// Power of 2. Extent of the domain's box: below, coordinates inside would lose their last bits to underflow.
 /// [boundary_test, tiny and huge coordinates]
 inline constexpr int min_exponent = -900;
 /// Power of 2. Above, the box overflows. [boundary_test, tiny and huge coordinates]
 inline constexpr int largest_exponent = 1020;
-
-// Stops (all): work between two looks at the monitor, well within a tenth of a second
-/// Triangles or vertices. A few operations each. [MeshPlane.LooksForAStopThroughout, as the following]
-inline constexpr int steps_between_checks = 1 << 16;
-/// Points or swaps.
-inline constexpr int insertions_between_checks = 4096;
-/// Shapes.
-inline constexpr int shapes_between_checks = 1 << 15;
-/// Edges.
-inline constexpr int integrals_between_checks = 256;
-/// Elements. Length of allocated arrays.
-inline constexpr std::size_t elements_between_checks = 1 << 20;
 
 // Distances of new points (placement)
 /// Units. Circumradius of a triangle that is small enough (equilateral: 0.577). [0.56: 20 % fewer triangles than
@@ -98,8 +75,8 @@ inline constexpr double large_radius = 0.87;
 /// Units. Least distance of a point of a layer to other vertices. [0.60: lengths in range on turning fields 82 to 76 %;
 /// 0.94: 12 % fewer triangles than expected]
 inline constexpr double layer_distance = 0.75;
-/// Units. Least distance of circumcentres and, in algebraic placement, of points on edges, [0.56: 5 % more triangles in
-/// algebraic meshes, length 0.97; 0.87: 23 % fewer, 1.13]
+/// Units. Least distance of circumcentres, of points on edges in algebraic placement, of vertices of a lattice, and to a degenerate edge as
+/// a whole. [0.56: 5 % more triangles in algebraic meshes, length 0.97; 0.87: 23 % fewer, 1.13; AnyCase, coarse poles]
 inline constexpr double point_distance = 0.7;
 /// Units. Least distance of circumcentres in a second pass. [0.48: lengths in range of turning fields 85 to 81 %; 0.75:
 /// 6 % fewer triangles]
@@ -117,8 +94,6 @@ inline constexpr double seed_distance = 1;
 /// Lengths of the edge, at most of one. Least height over an imposed edge. [0.5: lengths 0.93 to 0.99, but degrees
 /// of six 64 to 53 % on rings]
 inline constexpr double imposed_height = 0.40;
-/// Units. Least distance to a degenerate edge as a whole. [AnyCase, coarse poles]
-inline constexpr double degenerate_height = 0.70;
 
 // Advancing front (placement/advancing_front, respacing)
 /// Squared units. Over a long base the apex keeps at least this height. [0.24: longest edge of swirl at 51 : 1 2.4
@@ -150,7 +125,8 @@ inline constexpr double strain_limit_small = 0.9;
 /// Edges. Misfit in large meshes, whose layers are long. [1.0 and 1.6: longest edge of torus 1.30 to 1.44, worst
 /// 0.91 to 0.85]
 inline constexpr double strain_limit_large = 1.3;
-/// Triangles. Size from which the second limit applies. [8000: longest edge of a paraboloid 1.31 to 1.37]
+/// Triangles. Size from which the second limit applies, and charts: in coarser meshes of patches with poles and creases they reach too far.
+/// [8000: longest edge of a paraboloid 1.31 to 1.37; 12 500: coarse swirl at 51 : 1 has 13 % more triangles, Q2 0.870 to 0.855]
 inline constexpr double large_mesh = 10000;
 
 // Circumcentres and points on edges (placement/circumcentres, algebraic)
@@ -181,16 +157,13 @@ inline constexpr double ray_step = 0.05;
 /// Steps. 1.5 units: a layer fits between the ring and the domain beyond it. [15: degrees of six on a coarse cone 87 to
 /// 59 %]
 inline constexpr std::size_t steps_of_room = 30;
-/// Units. Below, no ring. [MeshPlane.SurroundsAnApexWithThreeTriangles, as the following]
+/// Units. Below, no ring, and least distance of a ring point to other vertices. [MeshPlane.
+/// SurroundsAnApexWithThreeTriangles, as the following]
 inline constexpr double min_room = 0.5;
-/// Heights. Width of the triangles of a wide fan.
+/// Heights. Width of the triangles of a wide fan, and least length of a lateral edge.
 inline constexpr double narrowest_fan = 0.5;
-/// Units. Least distance of a ring point to other vertices.
-inline constexpr double ring_distance = 0.5;
 /// Heights. Length of a lateral edge in the fan.
 inline constexpr double longest_lateral = 1.6;
-/// Heights.
-inline constexpr double shortest_lateral = 0.5;
 
 // Swaps (optimise/delaunay_swaps, degrees, degree_pairs)
 /// Passes. Swaps can run in circles in a metric that varies. [5: shapes on turning fields, p1 0.39 to 0.38; 20: as
@@ -201,20 +174,13 @@ inline constexpr int delaunay_passes = 10;
 inline constexpr double alike_share = 0.2;
 /// Cosine. Largest angle of a triangle whose edges need no test: more than the 0.125 that metrics may err by.
 inline constexpr double acute_cosine = 0.2;
-/// Squared units in the mean metric. Longer than crowded_length2 in the mean of any two similar metrics: 0.52 / (1 -
-/// 0.2) = 0.65.
-inline constexpr double surely_not_crowded2 = 0.66;
-/// Q2 in the mean metric. More than doubtful_quality, beyond rounding.
-inline constexpr double surely_not_bad = 0.86;
-/// Triangles. Prefetch distance of their vertices.
-inline constexpr std::size_t settled_ahead = 12;
 /// Squared units, and shortest edges of the triangle. Longer than any edge that points a unit apart leave.
 /// [MeshPlane.LongStripsAreDelaunayInTheMetric, LongStripsOfOneLayerDoNotLean]
 inline constexpr double long_edge2 = 9;
 /// Passes. [1: degrees of six on a coarse disc 62 to 57 %; 4: as 2]
 inline constexpr int degree_passes = 2;
-/// Q2. A swap for better degrees leaves no triangle worse than this. [0.48: degrees of six on algebraic meshes 83 to 72
-/// %; 0.75: on coarse poles 87 to 67 %]
+/// Q2. Swaps for better degrees and removals of crowded vertices leave no triangle worse than this. [0.48: degrees of six on
+/// algebraic meshes 83 to 72 %; 0.75: on coarse poles 87 to 67 %, lengths in range on rough sizes 91.5 to 89.7 %]
 inline constexpr double degree_swap_quality = 0.6;
 /// Q2. A layer that is shifted by one edge leaves triangles of 0.6 until vertices move; none may be much worse.
 /// [0.4: longest edge of paraboloid 1.31 to 1.43; 0.6: degrees of six 83 to 78 %]
@@ -275,8 +241,6 @@ inline constexpr double longest_after_removal2 = 2.0;
 inline constexpr double crowded_length2 = 0.52;
 /// Squared units. Length of the remaining edges, [2.6: length on a coarse disc 1.01 to 1.06]
 inline constexpr double longest_uncrowded2 = 2.1;
-/// Q2. Shape of the worst triangle. [0.75: lengths in range on rough sizes 91.5 to 89.7 %]
-inline constexpr double uncrowded_quality = 0.6;
 /// Shapes. Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing
 /// but bad triangles. It is counted in shapes, since a fine boundary far from all other vertices gives stars of
 /// thousands. This minimum is a few tenths of a second, [time only; 2 million: coarse swirl at 51 : 1 is cut off]
@@ -299,17 +263,13 @@ inline constexpr int search_passes = 8;
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
 inline constexpr std::int64_t search_shapes_a_triangle = 48;
-/// Shapes. The limit until the first success: strips between fixed borders cannot be improved.
-inline constexpr std::int64_t first_search_shapes = 2'400;
-/// Shapes.
-inline constexpr std::int64_t first_search_shapes_a_triangle = 4;
+/// One of so many shapes is allowed until the first success: strips between fixed borders cannot be improved.
+inline constexpr std::int64_t first_share_of_search = 8;
 /// Shapes. Increase of the limit for each success.
 inline constexpr std::int64_t search_shapes_a_success = 12'000;
-/// Share of the mean cost. Required gain of a change, [0.8 to 1.25 times: no figure changes; ends the search]
+/// Share of the mean cost. Required gain of a change, and of a round of moves that another round follows. [0.8 to 1.25
+/// times: no figure changes; ends the search]
 inline constexpr double change_gain = 0.01;
-/// Share of the mean cost. Required gain of a round of moves, which another round then follows. [0.8 to 1.25 times: no
-/// figure changes; ends the rounds]
-inline constexpr double round_gain = 0.02;
 /// Rounds. Most of these rounds. [as above]
 inline constexpr int relaxing_rounds = 4;
 /// Changes. Followed through. [2: one of 17 meshes changes for the better, one for the worse; 10: as 5]
@@ -331,13 +291,8 @@ inline constexpr int turns_a_step = 3;
 /// Squared chord of unit normals. A turn of the surface along an edge that leaves no flat spot: 20 degrees.
 /// [MiddleRows in tests/cpp/surface/improve]
 inline constexpr double min_turn2 = 0.12;
-/// Share. A smaller gain is no gain: in symmetric meshes, the last bits of a host's numbers would decide.
-/// [LocalSearch.RaiseTheWorstOfEllipses, by symmetry]
-inline constexpr double tie = 1e-6;
 
 // Squares (placement/squares, placement/cross_field)
-/// Units. Least distance of a vertex of the lattice to others.
-inline constexpr double square_distance = 0.7;
 /// Lengths of the edge, at most of one. Least height over an imposed edge.
 inline constexpr double square_height = 0.6;
 /// Units. Circumradius that requires one more point (half a unit square: 0.707).
@@ -355,17 +310,14 @@ inline constexpr int cross_sweeps = 6;
 inline constexpr double cross_at_rest = 1e-5;
 
 // Division of large domains (division)
-/// Triangles. Approximate size of a piece. [90 000: a fifth more time on one thread at a million]
+/// Triangles. Approximate size of a piece; smaller domains are not divided. From four pieces on separators have longer edges, since one
+/// thread makes the coarse mesh. [90 000: a fifth more time on one thread at a million]
 inline constexpr double triangles_a_piece = 250'000;
 /// Pieces reach from the border to the meeting of the layers: more of them would become narrow.
 inline constexpr double max_sectors = 64;
-/// Triangles. Smaller domains are not divided.
-inline constexpr double min_divided = 250'000;
 /// Units. Length of the edges of the coarse mesh, on which separators lie. [12: sphere has 1200 triangles fewer,
 /// degrees of six 99.0 to 98.7 %]
 inline constexpr double separator_length = 8;
-/// Triangles. In larger meshes they are longer by the fourth root: one thread makes the coarse mesh. [time only]
-inline constexpr double many_for_longer_separators = 1e6;
 /// Places of the first sector that are tried on a single loop, for four sectors and more. [1: square has separators 1.75
 /// times as long]
 inline constexpr int starts_of_sectors = 8;

@@ -8,6 +8,7 @@
 
 #include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -75,7 +76,7 @@ void Triangulation::renumber_if_large() {
   sorted.resize(triangles.size());
   const std::size_t last = triangles.size() - 1;
   for (std::size_t t = 0; t <= last; ++t) {
-    const std::size_t ahead = std::min(t + renumbered_ahead, last);
+    const std::size_t ahead = std::min(t + work_sizes::prefetched, last);
     prefetch(&sorted[rank[ahead]]);
     for (const HalfEdge n : triangles[ahead].n) prefetch(&rank[std::max(n, 0) >> 2]);
     Triangle T = triangles[t];

@@ -5,6 +5,7 @@
 
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/mending.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -39,7 +40,7 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled)
   const auto total = static_cast<std::int32_t>(work.mesh.triangles.size());
   std::vector<std::int32_t> open, looked_at;
   for (std::int32_t t = 0; t < total; ++t) {
-    if (t % steps_between_checks == 0) work.monitor.checkpoint();
+    if (t % work_sizes::steps == 0) work.monitor.checkpoint();
     if (!settled.is_good(t) && needs_help(work, helped, t)) open.push_back(t);
   }
   const std::int64_t budget = std::max(mending_shapes, mending_shapes_a_triangle * total);
@@ -53,7 +54,7 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled)
       if (mending.shapes_asked > budget) break;
       if (mending.shapes_asked > checked) {
         work.monitor.checkpoint();
-        checked = mending.shapes_asked + shapes_between_checks;
+        checked = mending.shapes_asked + work_sizes::steps;
       }
       if (needs_help(work, helped, t)) helped == Helped::crowded ? remove_crowded_vertex(mending, t) : mend(mending, t);
     }

@@ -6,6 +6,7 @@
 
 #include "plane/kernel/star.h"
 #include "plane/kernel/thresholds.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -125,7 +126,7 @@ void cancel_degree_pairs(PlaneWork& work, Degrees& degrees, int reach) {
   std::vector<std::pair<std::int32_t, std::int32_t>> swapped;
   const auto n = static_cast<int>(work.mesh.vertices.size());
   for (int v = work.fixed; v < n; ++v) {
-    if (v % steps_between_checks == 0) work.monitor.checkpoint();
+    if (v % work_sizes::steps == 0) work.monitor.checkpoint();
     if (work.mesh.vertices[v].triangle < 0 || degrees.excess(v) < 1 || swap_around(work, degrees, v) ||
         degrees.excess(v) != 1 || !star.collect(work.mesh, v))
       continue;
@@ -144,7 +145,7 @@ void remove_surplus_vertices(PlaneWork& work, Degrees& degrees) {
   const auto n = static_cast<int>(work.mesh.vertices.size());
   bool any = false;
   for (int v = work.fixed; v < n; ++v) {
-    if (v % steps_between_checks == 0) work.monitor.checkpoint();
+    if (v % work_sizes::steps == 0) work.monitor.checkpoint();
     if (work.mesh.vertices[v].triangle < 0 || degrees.excess(v) > -1 || !star.collect(work.mesh, v) ||
         has_imposed_spoke(work.mesh, star, v))
       continue;

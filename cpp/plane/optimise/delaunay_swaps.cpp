@@ -8,6 +8,8 @@
 #include "plane/kernel/metric_delaunay.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/inner_edges.h"
+#include "support/rounding_of.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -16,7 +18,7 @@ namespace {
 // Opposite angles, at c and d, that sum to more than pi: their sines are areas over lengths.
 bool sum_exceeds_pi(double dot_c, double area_c, double dot_d, double area_d) noexcept {
   const double s = dot_c * area_d + dot_d * area_c, scale = std::abs(dot_c) * area_d + std::abs(dot_d) * area_c;
-  return s < -swap_tolerance * scale;
+  return s < -rounding_of::places * scale;
 }
 
 // Uses Simpson's rule: on an edge of several units sizes may change manifold, for example beside a waist.
@@ -34,7 +36,7 @@ bool wants_bent_swap(const PlaneWork& work, int a, int b, int c, int d) {
   const Shapes& shapes = work.shapes;
   const double ab = shapes.squared_length(a, b);
   if (ab > longest_bent2)
-    return squared_length_along(work, c, d) < squared_length_along(work, a, b) * (1 - swap_tolerance);
+    return squared_length_along(work, c, d) < squared_length_along(work, a, b) * (1 - rounding_of::places);
   const Lengths abc{shapes.squared_length(b, c), shapes.squared_length(c, a), ab},
       abd{shapes.squared_length(b, d), shapes.squared_length(d, a), ab};
   return sum_exceeds_pi(abc.a + abc.b - ab, std::sqrt(abc.area2()), abd.a + abd.b - ab, std::sqrt(abd.area2()));
@@ -87,8 +89,8 @@ void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
     if (A.n[i] == no_edge || mesh.is_imposed(t, i)) continue;
     const int u = A.n[i] >> 2, c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh.triangles[u].v[A.n[i] & 3];
     if (!(mesh.squared_length(a, b) > long_edge2) || !mesh.can_swap(t, i)) continue;
-    if (++measured % integrals_between_checks == 0) work.monitor.checkpoint();
-    if (!(length_along(c, d) < (1 - swap_tolerance) * length_along(a, b))) continue;
+    if (++measured % work_sizes::evaluations == 0) work.monitor.checkpoint();
+    if (!(length_along(c, d) < (1 - rounding_of::places) * length_along(a, b))) continue;
     mesh.swap_edge(t, i);
     triangles.insert(triangles.end(), {t, u});
     open.insert(open.end(), {4 * t, 4 * t + 2, 4 * u, 4 * u + 1});

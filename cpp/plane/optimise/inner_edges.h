@@ -10,6 +10,7 @@
 #include "plane/kernel/thresholds.h"
 #include "plane/kernel/triangulation.h"
 #include "support/monitor.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -69,7 +70,7 @@ void for_calling_edges(const Triangulation& mesh, Monitor& monitor, const CallsF
   std::vector<HalfEdge> calling, all;
   const auto total = static_cast<std::int32_t>(mesh.triangles.size());
   for (std::int32_t first = 0; first < total; first += triangles_at_once) {
-    if (first % steps_between_checks == 0) monitor.checkpoint();
+    if (first % work_sizes::steps == 0) monitor.checkpoint();
     const std::int32_t end = std::min(total, first + triangles_at_once);
     list_calling_edges(mesh, first, end, calling, calls_for);
     if (calling.empty()) continue;

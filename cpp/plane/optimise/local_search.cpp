@@ -12,6 +12,7 @@
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/zone_moves.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau::plane {
 
@@ -27,7 +28,7 @@ struct Change {
 bool collapse_best(SearchZone& zone, int v) {
   Triangulation& mesh = zone.work.mesh;
   if (!zone.star.collect(mesh, v) || has_imposed_spoke(mesh, zone.star, v)) return false;
-  const int into = best_collapse(zone.star, min_collapse_quality, tie,
+  const int into = best_collapse(zone.star, min_collapse_quality, rounding_of::sizes,
                                  [&](int p, int q, int r, bool) { return zone.shape(p, q, r); });
   if (into < 0) return false;
   collapse(mesh, zone.star, v, into);
@@ -87,8 +88,8 @@ struct Target {
            now.shortest2 >= std::min(before.shortest2, shortest_left2) && !leaves_flat_spots(now);
   }
   [[nodiscard]] bool leaves_flat_spots(const ZoneCost& now) const {
-    return on_surface && (now.across > before.across || now.turn2 > before.turn2 * (1 + tie) ||
-                          now.turns4 > before.turns4 * (1 + tie));
+    return on_surface && (now.across > before.across || now.turn2 > before.turn2 * (1 + rounding_of::sizes) ||
+                          now.turns4 > before.turns4 * (1 + rounding_of::sizes));
   }
 };
 
@@ -98,7 +99,7 @@ void keep_most_promising(SearchZone& zone, std::vector<Change>& changes, double 
     change.promise = infinity;
     if (apply(zone, change)) {
       relax_zone(zone, true);
-      change.promise = std::round(zone.cost(2 * mean).mean / mean / tie);
+      change.promise = std::round(zone.cost(2 * mean).mean / mean / rounding_of::sizes);
     }
     zone.restore();
   }
@@ -115,7 +116,7 @@ const Change* best_of(SearchZone& zone, const std::vector<Change>& changes, cons
     if (apply(zone, change)) {
       relax_zone(zone, false);
       const ZoneCost now = zone.cost(least);
-      if (target.is_met(now, least)) best = &change, least = now.mean * (1 - tie);
+      if (target.is_met(now, least)) best = &change, least = now.mean * (1 - rounding_of::sizes);
     }
     zone.restore();
   }
@@ -136,7 +137,7 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   for (int round = 1; round < relaxing_rounds; ++round) {
     relax_zone(zone, false);
     const ZoneCost next = zone.cost(infinity);
-    const bool more = next.mean < now.mean * (1 - round_gain);
+    const bool more = next.mean < now.mean * (1 - change_gain);
     now = next;
     if (!more) break;
   }
@@ -163,7 +164,7 @@ class BadTriangles {
       const Triangle& T = work_.mesh.triangles[t];
       if (T.v[0] < 0 || T.done == Done::frozen || in_vain_[t] != 0) continue;
       const double q = work_.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]);
-      if (q < searched_quality) bad.emplace_back(std::round(q / tie), t);
+      if (q < searched_quality) bad.emplace_back(std::round(q / rounding_of::sizes), t);
     }
     std::sort(bad.begin(), bad.end());
     changed_.clear();
@@ -191,7 +192,7 @@ void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const 
   if (!mesh.bends.empty()) return;
   const auto total = static_cast<std::int64_t>(mesh.triangles.size());
   const std::int64_t budget = search_shapes + search_shapes_a_triangle * total;
-  std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
+  std::int64_t allowed = budget / first_share_of_search;
   std::optional<SearchZone> made;  // most meshes need none
   BadTriangles bad(work, settled);
   for (int pass = 0; pass < search_passes; ++pass) {

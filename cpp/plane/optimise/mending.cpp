@@ -95,7 +95,7 @@ bool remove(Mending& m, int v, bool crowded) {
   double worst = 1;
   for (int k = 0; k < n; ++k) worst = std::min(worst, shapes.quality_at_centroid(v, link[k], link[(k + 1) % n]));
   const double least =
-      crowded ? std::max(std::min(worst, uncrowded_quality) - mending_gain, 0.0) : worst + mending_gain;
+      crowded ? std::max(std::min(worst, degree_swap_quality) - mending_gain, 0.0) : worst + mending_gain;
   const double longest2 = crowded ? longest_uncrowded2 : longest_after_removal2;
   const int into = best_collapse(m.star, least, 0, [&](int u, int a, int b, bool inner) {
     return inner && shapes.squared_length(u, a) > longest2 ? 0 : shapes.quality_at_centroid(u, a, b);

@@ -9,6 +9,7 @@
 #include "plane/kernel/star.h"
 #include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -273,7 +274,7 @@ void smooth_evenly(PlaneWork& work, SmoothingArrays& arrays, EvenDamping damping
 
 void update_metrics(PlaneWork& work) {
   for (int v = work.fixed; v < static_cast<int>(work.mesh.vertices.size()); ++v) {
-    if (v % steps_between_checks == 0) work.monitor.checkpoint();
+    if (v % work_sizes::steps == 0) work.monitor.checkpoint();
     work.shapes.set_metric(v);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/star_cost.h"
+#include "support/rounding_of.h"
 
 namespace carreau::plane {
 
@@ -24,7 +25,7 @@ void search_at(SearchZone& zone, int v, double step, int turns, double& best) {
       const Vec2 kept = P.point(), to = centre + circle.vector(step * d);
       P.x = to.x(), P.y = to.y();
       const double now = star_cost(zone.work.shapes, v, zone.star.link, best, shape_cost, zone.shapes_asked);
-      if (now < best * (1 - tie))
+      if (now < best * (1 - rounding_of::sizes))
         best = now, any = true;
       else
         P.x = kept.x(), P.y = kept.y();
@@ -85,7 +86,7 @@ bool wants_swap(SearchZone& zone, int t, int i, int d) {
   if (const bool* known = zone.known_swaps.find(key)) return *known;
   bool swaps = false;
   if (zone.work.mesh.can_swap(t, i)) {
-    const double before = (shape_cost(zone.shape(c, a, b)) + shape_cost(zone.shape(d, b, a))) * (1 - tie);
+    const double before = (shape_cost(zone.shape(c, a, b)) + shape_cost(zone.shape(d, b, a))) * (1 - rounding_of::sizes);
     const double after = shape_cost(zone.shape(c, a, d));
     swaps = after < before && after + shape_cost(zone.shape(c, d, b)) < before;
   }

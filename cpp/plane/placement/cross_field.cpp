@@ -7,6 +7,7 @@
 
 #include "plane/kernel/thresholds.h"
 #include "support/infinity.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -94,7 +95,7 @@ void aggregate(Level& fine, Level& coarse, Monitor& monitor) {
   fine.up.assign(fine.size(), Complex(1, 0));
   std::int32_t count = 0;
   for (std::int32_t i = 0; i < n; ++i) {
-    if (i % steps_between_checks == 0) monitor.checkpoint();
+    if (i % work_sizes::steps == 0) monitor.checkpoint();
     if (fine.aggregate[i] >= 0) continue;
     fine.aggregate[i] = count;
     for (int members = 1; members < 4 && fine.fixed[i] == 0; ++members) {
@@ -118,7 +119,7 @@ void aggregate(Level& fine, Level& coarse, Monitor& monitor) {
   std::vector<Triple> triples;
   triples.reserve(fine.links.size());
   for (std::int32_t i = 0; i < n; ++i) {
-    if (i % steps_between_checks == 0) monitor.checkpoint();
+    if (i % work_sizes::steps == 0) monitor.checkpoint();
     const std::int32_t I = fine.aggregate[i];
     if (fine.fixed[i] != 0) coarse.fixed[I] = 1, coarse.value[I] = fine.value[i];
     coarse.diagonal[I] += fine.diagonal[i];

@@ -152,7 +152,7 @@ void surround(Placement& placement, DegenerateSide& side) {
   std::vector<std::int32_t> fan;
   const auto takes_part = [&](int end, int v) {
     const double l = placement.field.length_at_middle(mesh.at(end), mesh.at(v));
-    return l < longest_lateral * height && l > shortest_lateral * height;
+    return l < longest_lateral * height && l > narrowest_fan * height;
   };
   if (takes_part(side.a, ring.before)) fan.push_back(ring.before);
   int hint = ring.triangle;
@@ -164,7 +164,7 @@ void surround(Placement& placement, DegenerateSide& side) {
       continue;
     }
     const Metric2 metric = placement.field.at(p);
-    const double least = ring_distance * std::min(spacing, height);
+    const double least = min_room * std::min(spacing, height);
     if (!mesh.dig(p, metric, hint, {least * least, 0, 0, placement.degenerate_ends})) continue;
     fill_cavity(placement, p, metric, Bend::none);
     fan.push_back(static_cast<std::int32_t>(mesh.vertices.size()) - 1);

@@ -38,7 +38,7 @@ bool near_degenerate_side(const Placement& placement, const Vec2& p, Metric2 met
     const Vec2 a = mesh.at(side.a) - p, d = mesh.at(side.b) - mesh.at(side.a);
     const double l2 = squared_length(metric, d);
     const double s = l2 > 0 ? std::clamp(-dot(metric, a, d) / l2, 0.0, 1.0) : 0;
-    if (squared_length(metric, a + s * d) < degenerate_height * degenerate_height) return true;
+    if (squared_length(metric, a + s * d) < point_distance * point_distance) return true;
   }
   return false;
 }
@@ -96,7 +96,7 @@ bool try_insert(Placement& placement, Vec2 p, int start, double distance) {
   placement.tick();
   const Metric2 metric = placement.field.at(p);
   if (near_degenerate_side(placement, p, metric)) return false;
-  const InsertRules rules{distance * distance, imposed_height, degenerate_height, placement.degenerate_ends};
+  const InsertRules rules{distance * distance, imposed_height, point_distance, placement.degenerate_ends};
   Bend bend = Bend::none;
   if (placement.field.bends()) {
     const MetricSlopes slopes = placement.field.slopes(p);

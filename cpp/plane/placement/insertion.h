@@ -8,6 +8,7 @@
 
 #include "plane/kernel/plane_work.h"
 #include "plane/kernel/thresholds.h"
+#include "support/work_sizes.h"
 
 namespace carreau::plane {
 
@@ -25,7 +26,7 @@ struct Placement {
 
   /// To be called often.
   void tick() {
-    if (++ticks % insertions_between_checks == 0) monitor.checkpoint();
+    if (++ticks % work_sizes::searches == 0) monitor.checkpoint();
   }
 
   void touch(std::int32_t t) {

@@ -61,7 +61,7 @@ class Squares {
   [[nodiscard]] bool is_taken(const Vec2& p, int t) const {
     for (const std::int32_t w : mesh_.triangles[t].v) {
       const Vertex& W = mesh_.vertices[w];
-      if (squared_length(W.metric(), p - W.point()) < square_distance * square_distance) return true;
+      if (squared_length(W.metric(), p - W.point()) < point_distance * point_distance) return true;
     }
     return false;
   }
@@ -83,7 +83,7 @@ class Squares {
   void insert(const Vec2& p, int start, int near) {
     placement_.tick();
     const Metric2 metric = placement_.field.at(p);
-    const InsertRules rules{square_distance * square_distance, square_height, degenerate_height,
+    const InsertRules rules{point_distance * point_distance, square_height, point_distance,
                             placement_.degenerate_ends};
     if (!mesh_.dig(p, metric, start, rules)) return;
     fill_cavity(placement_, p, metric, Bend::none);
@@ -103,7 +103,7 @@ void place_squares(Placement& placement) {
   judge_all(placement);
   const Triangulation background = background_of(placement);
   Squares(placement, background).run();
-  insert_circumcentres(placement, large_square_radius, square_distance);
+  insert_circumcentres(placement, large_square_radius, point_distance);
 }
 
 }  // namespace carreau::plane

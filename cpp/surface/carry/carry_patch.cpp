@@ -11,13 +11,13 @@
 #include "predicates/predicates.h"
 #include "support/format.h"
 #include "support/format_point.h"
+#include "support/rounding_of.h"
 #include "surface/carry/image_vertices.h"
 
 namespace carreau {
 
 namespace {
 
-using thresholds::periodic::exact_images;
 
 Vec3 surface_point(const CurveModel& model, int face, const Vec2& uv) {
   return surface_at(model.cad, model.model.faces[face].ref, want_position, uv).s;
@@ -68,7 +68,7 @@ CarriedPatch carry_patch(const CurveModel& model, const std::vector<DiscreteCurv
     vertices.known[w] = v < imposed ? 1 : 0;
   }
   const MissedVertex missed =
-      place_images(vertices, image.plane.triangles, exact_images * gap, image.plane.vertices, image.xyz);
+      place_images(vertices, image.plane.triangles, rounding_of::places * gap, image.plane.vertices, image.xyz);
   if (missed.distance > gap) {
     carried.failure = "the image of the mesh of face " + std::to_string(model.model.faces[pair.master].ref) + " is " +
                       format_number(missed.distance) + " away from the surface at " + format_point(image.xyz[missed.vertex]);

@@ -5,6 +5,7 @@
 
 #include "gradation/place_fans.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
@@ -70,7 +71,7 @@ class DirectionalSizes final : public GraphSizes {
     // The directions of a limit lie in the tangent plane of a meridian. A bound along the normal of that plane would make
     // all sizes vanish.
     const Vec3 of_limit = cross(m.d1, m.d2), near = dot(of_limit, n) < 0 ? -1 * of_limit : of_limit;
-    if (dot(near, n) < parallel) m.d1 = roll(m.d1, near, n), m.d2 = roll(m.d2, near, n);
+    if (dot(near, n) < (1 - rounding_of::places)) m.d1 = roll(m.d1, near, n), m.d2 = roll(m.d2, near, n);
   }
   void add_source(int place, const GradingWork::Sample& sample, const Vec3& way) override {
     sources_.push_back({place, sample.sizes, way});

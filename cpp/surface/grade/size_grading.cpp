@@ -7,6 +7,7 @@
 
 #include "curve/unit_discretisation.h"
 #include "periodic/shared_curves.h"
+#include "support/rounding_of.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
@@ -50,7 +51,7 @@ std::vector<double> between(double from, double to, const std::vector<double>& k
   std::vector<double> at;
   for (int i = 1; i < samples_per_edge; ++i)
     at.push_back(std::lerp(from, to, static_cast<double>(i) / samples_per_edge));
-  const double least = one_sample * (to - from);
+  const double least = rounding_of::sizes * (to - from);
   for (const double r : known)
     if (r > from + least && r < to - least) at.push_back(r);
   std::sort(at.begin(), at.end());

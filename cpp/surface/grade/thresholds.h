@@ -2,8 +2,6 @@
 // Thresholds of this room: unit, reason, support.
 #pragma once
 
-#include <cstddef>
-
 namespace carreau::thresholds::grade {
 
 // Brackets give the number of 15 meshes that change if the value is doubled and halved. The meshes are STEP files, the teapot, formulas and
@@ -17,8 +15,6 @@ inline constexpr double graph_factor = 2;
 inline constexpr double graph_share = 1. / 20;
 /// Share of a length. Tolerance of its control spaces: sizes and positions are evaluated at its vertices again. [9, 9]
 inline constexpr double graph_tolerance = 0.1;
-/// Cosine of normals that differ by rounding. [4, 2]
-inline constexpr double parallel = 1 - 1e-9;
 
 // Sizes that obey
 /// Share of a size. Largest difference between smooth prescribed sizes and linear interpolation in the graph. [1, 1]
@@ -32,8 +28,6 @@ inline constexpr double interpolation_error = 0.02;
 // Curves
 /// Samples of a curve's sizes on each of its edges in the graph. [11, 11]
 inline constexpr int samples_per_edge = 4;
-/// Share of an edge. Nearer samples are one. [rounding: without it a mesh changes by 1e-14]
-inline constexpr double one_sample = 1e-6;
 
 // Rounds
 /// Unit edges of the graded sizes. The graph is too coarse if an edge is longer. [4, 8]

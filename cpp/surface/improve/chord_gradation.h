@@ -12,6 +12,7 @@
 #include "cad/batches.h"
 #include "metric/field_length.h"
 #include "metric/metric3_algebra.h"
+#include "metric/unit_edge.h"
 #include "surface/improve/assembled_search.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/evening.h"
@@ -144,7 +145,7 @@ class ChordGradation {
     const double roughly = norm(chord) / std::max(p, q);
     if (!std::isfinite(change) || change <= 0.5 * log_limit_ * roughly) return 0;
     const double l = field_length([&](const Vec2& at) { return metric(face, at); }, uv(face, a), uv(face, b),
-                                  thresholds::chord_gradation::finest);
+                                  unit_edge::finest);
     return std::max(0., change / (log_limit_ * l) - 1);
   }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "metric/unit_edge.h"
 #include "surface/improve/chord_gradation.h"
 #include "surface/improve/length_ratio.h"
 
@@ -25,7 +26,7 @@ class Evening {
     if constexpr (Criterion::divides) {
       change_each(std::move(uneven), &Evening::divide_one);
     } else {
-      range_ = {thresholds::chord_gradation::shortest_at_last, thresholds::chord_gradation::longest_at_last};
+      range_ = {unit_edge::shortest_at_last, unit_edge::longest_at_last};
       uneven = change_each(std::move(uneven), &Evening::move_one);
       change_each(std::move(uneven), &Evening::swap_one);
     }
@@ -120,7 +121,7 @@ class Evening {
   std::optional<Found> best_division(const Quad& q, Judgement& after) {
     const Vec2 middle = 0.5 * (mesh_.uv({q.face, q.a}) + mesh_.uv({q.face, q.b}));
     if (!mesh_.can_split(q, middle)) return {};
-    constexpr LengthRange range{.shortest = thresholds::length_ratio::shortest_divided};
+    constexpr LengthRange range{.shortest = unit_edge::shortest_at_last};
     const Judgement before = criterion_.judge(mesh_, mesh_.corners(q), range);
     const Vec3 mean = mesh_.mean_normal(q.places());
     Trial trial(mesh_);

@@ -7,11 +7,14 @@
 
 #include "surface/improve/thresholds.h"
 
+#include "metric/unit_edge.h"
+#include "support/rounding_of.h"
+
 namespace carreau {
 
 /// Lengths of edges in the metric that fit.
 struct LengthRange {
-  double shortest = thresholds::assembled::shortest, longest = thresholds::assembled::longest;
+  double shortest = unit_edge::shortest, longest = unit_edge::longest;
 
   [[nodiscard]] bool excludes(double length) const noexcept { return length < shortest || length > longest; }
 };
@@ -24,7 +27,7 @@ struct EveningJudgement {
   double beyond = 0;   ///< largest angle or offset of a triangle, as a share of the bound
 
   [[nodiscard]] bool better_than(const EveningJudgement& other) const noexcept {
-    if (std::abs(excess - other.excess) > thresholds::evening::rounding) return excess < other.excess;
+    if (std::abs(excess - other.excess) > rounding_of::places) return excess < other.excess;
     return out != other.out ? out < other.out : quality > other.quality;
   }
   /// Ignores the excess. Triangles of quality `good` are never worse.

@@ -9,6 +9,7 @@
 
 #include "mesh/quality.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/improve/assembled_search.h"
 #include "surface/improve/evening.h"
 #include "surface/sample/face_metric.h"
@@ -25,7 +26,7 @@ class LengthRatio {
   static constexpr auto size_of = isotropic_size;
 
   LengthRatio(double limit, CompositeResult& result)
-      : limit_((1 - thresholds::evening::rounding) * limit), all_(result.mesh), size_(result.vertex_size) {}
+      : limit_((1 - rounding_of::places) * limit), all_(result.mesh), size_(result.vertex_size) {}
 
   /// Finds vertices whose edges differ too much, over all faces; compares edges by their squares.
   [[nodiscard]] std::vector<std::int32_t> find_uneven(Monitor& monitor) const {

@@ -16,6 +16,7 @@
 #include "support/ranks/all_that_hold.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/thresholds.h"
+#include "surface/lift/thresholds.h"
 
 namespace carreau {
 
@@ -196,12 +197,12 @@ class Refinement {
     };
     if (known_)
       for (const std::int32_t v : c) compare(mesh_.normal[v]);
-    if (least < min_agreement) return least;
+    if (least < thresholds::lift::min_agreement) return least;
     const auto& uv = mesh_.plane.vertices;
     compare(unit_normal(jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]]))).value_or(Vec3{}));
     return least;
   }
-  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? min_agreement : 0); }
+  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? thresholds::lift::min_agreement : 0); }
 
   // A division, or a swap, that completes the work on the triangle.
   bool mend(int t) {
@@ -213,7 +214,7 @@ class Refinement {
   // The other diagonal of a quadrilateral, when both triangles agree with the surface and seem near then. The best of
   // three.
   bool swap_one(int t) {
-    double best = min_agreement;
+    double best = thresholds::lift::min_agreement;
     std::optional<Quad> found;
     for (int i = 0; i < 3; ++i) {
       const auto q = quad(t, i);

@@ -6,6 +6,7 @@
 
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
+#include "support/rounding_of.h"
 #include "surface/improve/thresholds.h"
 
 namespace carreau {
@@ -62,7 +63,7 @@ class Swapper {
   // Swaps the best of the triangle's three edges. The next pass looks again at triangles that a pass has changed.
   bool improve(std::int32_t t) {
     if (touched_[t] != 0) return false;
-    double best = min_gain;
+    double best = rounding_of::sizes;
     std::optional<Quad> found;
     for (int i = 0; i < 3; ++i) {
       const auto q = mesh_.quad({0, t}, i);

@@ -2,9 +2,7 @@
 // Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <numbers>
 
 namespace carreau::thresholds {
 
@@ -18,10 +16,8 @@ inline constexpr double good = 0.8;
 inline constexpr double poor = 0.6;
 }  // namespace shape
 
-/// Swaps judged in space (poles_test, narrow/narrow_faces_test).
+/// Swaps judged in space (poles_test, narrow/narrow_faces_test), and searches over the assembled mesh.
 namespace swaps {
-/// Shape. A swap must gain this much, so that no pair of swaps undoes each other for ever.
-inline constexpr double min_gain = 1e-6;
 /// Cosine of the angle between a new triangle and the nearer of the two old ones. Across a tube or around an apex of
 /// three edges the best shape is the cross-section.
 inline constexpr double min_agreement = 0.7;
@@ -40,8 +36,6 @@ inline constexpr double min_agreement = 0.5;
 
 /// Triangles that leave the surface (agreement_test, guarantees_test, lift/surface_agreement_test).
 namespace refinement {
-/// Cosine of a triangle's normal and the surface's: 85 degrees.
-inline constexpr double min_agreement = 0.08;
 /// Cosine, below which triangles are examined more closely. At a corner the surface may be turned by 60 degrees on the
 /// way to the middle of a coarse triangle.
 inline constexpr double doubtful = 0.5;
@@ -53,18 +47,12 @@ inline constexpr std::uint8_t deepest = 12;
 /// Searches over the assembled mesh, of either kind (improve/even_edges_test, grade/gradation_test,
 /// guarantees_test).
 namespace assembled {
-/// Cosine of the angle between a new triangle and the mean of the replaced triangles.
-inline constexpr double min_agreement = 0.7;
 /// The surroundings of its neighbours' neighbours judge a change beside a vertex; a change beside these may follow.
 inline constexpr int rings = 3;
-/// Length in the metric of a unit mesh.
-inline constexpr double shortest = std::numbers::sqrt2 / 2, longest = std::numbers::sqrt2;
 }  // namespace assembled
 
 /// Both criteria of neighbouring edges (improve/even_edges_test, grade/gradation_test).
 namespace evening {
-/// Share of a ratio: rounding of the lengths that are compared.
-inline constexpr double rounding = 1e-9;
 /// Share of the limit. Gain of a change in the sum of the excesses, so that changes come to an end.
 inline constexpr double min_gain = 1e-4;
 }  // namespace evening
@@ -73,8 +61,6 @@ inline constexpr double min_gain = 1e-4;
 namespace length_ratio {
 /// Shape. Such triangles are good whatever they were before.
 inline constexpr double good = 0.7;
-/// Length in the metric. A vertex put between imposed ones, as the last resort, may make edges as short as this.
-inline constexpr double shortest_divided = 0.5;
 /// Times that a new vertex is moved.
 inline constexpr int placements = 4;
 }  // namespace length_ratio
@@ -85,12 +71,8 @@ namespace chord_gradation {
 inline constexpr double aim = 0.999;
 /// Shape in the metric. Such triangles are good whatever they were before.
 inline constexpr double good = 0.5;
-/// Lengths in the metric of single edges, as the last resort.
-inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
 /// Rings of changes that follow each other.
 inline constexpr int max_rings = 10;
-/// Length in the metric. Lengths are summed up from pieces no longer than this.
-inline constexpr double finest = 0.1;
 }  // namespace chord_gradation
 
 }  // namespace carreau::thresholds

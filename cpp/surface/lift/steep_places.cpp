@@ -7,6 +7,7 @@
 #include "mesh/triangle_search.h"
 #include "predicates/polygon_locator.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/lift/thresholds.h"
 #include "surface/lift/verification.h"
 #include "surface/sample/face_metric.h"
@@ -29,7 +30,7 @@ Vec2 step_towards(const SurfaceJet& jet, const Vec3& at) noexcept {
   const Vec3 away = at - jet.s;
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
   const double p = dot(jet.su, away), q = dot(jet.sv, away), det = e * g - f * f;
-  if (!(det > no_step * e * g)) return {};
+  if (!(det > rounding_of::heights * e * g)) return {};
   return {(g * p - f * q) / det, (e * q - f * p) / det};
 }
 
@@ -88,7 +89,7 @@ class SteepPlaces {
         if (f.moving) f.uv = f.uv + d;
       }
     };
-    for (int step = 0; step < max_steps; ++step) {
+    for (int step = 0; step < rounding_of::newton_steps; ++step) {
       moving.clear(), uv.clear();
       for (std::size_t k = 0; k < feet.size(); ++k)
         if (feet[k].moving) moving.push_back(k), uv.push_back(feet[k].uv);

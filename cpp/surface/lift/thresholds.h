@@ -20,26 +20,13 @@ inline constexpr double too_short = 0.65;
 inline constexpr double excess = 8;
 /// Relative length. A larger change of the control space requires a new mesh. [Verification.SampledDetailsCostNothing]
 inline constexpr double notable_change = 0.1;
-/// Ratio of lengths. An edge that is so much shorter than the longest edge of its triangle is a point of space.
-/// Triangles of prescribed metrics are at most some ten thousand times longer than wide. [surface: Poles]
-inline constexpr double one_point = 1e-6;
 /// Places. Examined in one face, spread over all of them: more places cost more without new information. [surface:
 /// BadModels. SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t max_places = 500;
-/// Triangles. Size of a part that one thread examines between two checks of the monitor. [tests/cpp/measure: stops;
-/// time only]
-inline constexpr std::size_t triangles_a_part = 1 << 14;
-/// Parts. Below, each process examines all parts: it would wait longer for the others. [time only]
-inline constexpr std::size_t min_shared_parts = 8;
 
 // Steep places of space (steep_places)
-/// Steps. Gauss-Newton steps from the nearest point of the mesh to the nearest point of the surface; they are of second
-/// order. [SteepPlaces.SpotsOfABackgroundInSpaceAreMeshed]
-inline constexpr int max_steps = 8;
 /// Share of a place's reach. Shorter steps are the last. [as above]
 inline constexpr double last_step = 1e-3;
-/// sin^2 of the angle between the derivatives, below which the search takes no step. [rounding]
-inline constexpr double no_step = 1e-12;
 
 // Agreement (surface_agreement)
 /// Share of the area. A larger excess over the surface's area is reported; unit meshes by curvature have some 1e-4.

@@ -12,6 +12,8 @@
 #include "support/format.h"
 #include "support/ranks/all_that_hold.h"
 #include "support/ranks/crew.h"
+#include "support/rounding_of.h"
+#include "support/work_sizes.h"
 #include "surface/lift/excess_packet.h"
 #include "surface/lift/thresholds.h"
 #include "surface/sample/face_metric.h"
@@ -101,22 +103,23 @@ class LiftCheck {
   }
 
   [[nodiscard]] std::size_t parts() const {
-    return (mesh_.plane.triangles.size() + triangles_a_part - 1) / triangles_a_part;
+    return (mesh_.plane.triangles.size() + work_sizes::triangles - 1) / work_sizes::triangles;
   }
   /// Calls `use(a, b)` for each edge of a part of the triangles that is not on the border, once. Both sides of an internal
   /// edge count as one.
   template <typename Use>
   void for_edges(std::size_t part, const Use& use) const {
     const auto& triangles = mesh_.plane.triangles;
-    const std::size_t end = std::min((part + 1) * triangles_a_part, triangles.size());
-    for (std::size_t k = part * triangles_a_part; k < end; ++k)
+    const std::size_t end = std::min((part + 1) * work_sizes::triangles, triangles.size());
+    for (std::size_t k = part * work_sizes::triangles; k < end; ++k)
       for (int i = 0; i < 3; ++i)
         if (const std::int32_t a = triangles[k][i], b = triangles[k][i == 2 ? 0 : i + 1]; a < b) use(a, b);
   }
   /// Returns the results of work(part) for all parts, by the threads and processes that make the patch.
   template <typename Result, typename Work, typename Put, typename Get>
   std::vector<Result> of_parts(std::string_view step, const Work& work, const Put& put, const Get& get) {
-    const Crew crew{parts() >= min_shared_parts ? team_ : nullptr, input_.threads};
+    // Below, each process examines all parts: it would wait longer for the others.
+    const Crew crew{parts() >= 8 ? team_ : nullptr, input_.threads};
     return shared_work<Result>(crew, step, parts(), false, [&](std::size_t part, Monitor&) { return work(part); }, put, get, monitor_);
   }
   [[nodiscard]] double squared_promise(int a, int b) const {
@@ -132,7 +135,7 @@ class LiftCheck {
         "promised lengths",
         [&](std::size_t part) {
           std::vector<double> promised;
-          promised.reserve(3 * triangles_a_part / 2 + 1);
+          promised.reserve(3 * work_sizes::triangles / 2 + 1);
           for_edges(part, [&](int a, int b) { promised.push_back(std::sqrt(squared_promise(a, b))); });
           return promised;
         },
@@ -292,13 +295,13 @@ std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh
       const Vec3 edge = mesh.xyz[t[(i + 1) % 3]] - mesh.xyz[t[i]];
       in_space[i] = dot(edge, edge);
     }
-    const double far = one_point * one_point * std::max({in_space[0], in_space[1], in_space[2]});
+    const double far = rounding_of::sizes * rounding_of::sizes * std::max({in_space[0], in_space[1], in_space[2]});
     if (std::min({in_space[0], in_space[1], in_space[2]}) > far) return 3;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 uv = mesh.plane.vertices[t[(i + 1) % 3]] - mesh.plane.vertices[t[i]];
       in_domain[i] = dot(uv, uv);
     }
-    const double apart = one_point * one_point * *std::max_element(in_domain.begin(), in_domain.end());
+    const double apart = rounding_of::sizes * rounding_of::sizes * *std::max_element(in_domain.begin(), in_domain.end());
     for (std::size_t i = 0; i < 3; ++i) {
       const bool inside = t[i] >= imposed || t[(i + 1) % 3] >= imposed;
       if (inside && !(in_space[i] > far) && in_domain[i] > apart) return i;

@@ -9,6 +9,7 @@
 #include "model/traces.h"
 #include "model/union_find.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/narrow/side_ruler.h"
 #include "surface/narrow/thresholds.h"
 
@@ -226,7 +227,7 @@ std::vector<int> vanishing_loop(const CurveModel& model, const std::vector<char>
 /// Returns whether the face has no width between its two uses of one curve.
 bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int face, std::array<CurveUse, 2> uses) {
   const int ref = model.model.faces[face].ref;
-  const double near = std::max(folded_gap * curve.gap, folded_share * model.length(curve.curve));
+  const double near = std::max(folded_gap * curve.gap, rounding_of::places * model.length(curve.curve));
   for (const double r : {0.25, 0.5, 0.75}) {
     std::array<Vec2, 2> uv;
     std::array<Vec3, 2> p;
@@ -259,7 +260,7 @@ bool is_point_of_space(const CurveModel& model, int face) {
   }
   if (border.empty()) return false;
   const Vec3 p = surface_at(model.cad, model.model.faces[face].ref, want_position, middle).s;
-  double extent = folded_share * norm(p);
+  double extent = rounding_of::places * norm(p);
   for (const Vec3& q : border) extent = std::max(extent, norm(q - border.front()));
   return norm(p - border.front()) <= extent;
 }

@@ -21,9 +21,6 @@ inline constexpr int probes = 12;
 /// Gaps. A face is without width if its surface, halfway between two uses of a curve, is within this distance from
 /// them, [Folded.FaceWithoutWidthIsNoFailure]
 inline constexpr double folded_gap = 4;
-/// Share of their length. or than this. Beside a point of space: share of its coordinates, for rounding.
-/// [Folded.SeamsAreNot]
-inline constexpr double folded_share = 1e-9;
 /// Widths. Vertices on two sides stand for one place if their distance along the sides is less. If they are farther
 /// apart, triangles between them would become worse, and a collapse would move them more than it must.
 /// [Narrow.ChainOfSliversHasOneLayerEach]

@@ -215,7 +215,7 @@ class Refiner {
   // distance are split.
   void add_loose_edges(Splits& splits) {
     for (const int face : turned_) {
-      if (given_up_.contains(face) || turned_rounds_[face]++ >= max_turned_rounds) continue;
+      if (given_up_.contains(face) || turned_rounds_[face]++ >= max_fruitless_halvings) continue;
       struct Candidate {
         int curve, segment;
         double deviation;

@@ -40,7 +40,7 @@ double mean_width(const CurveModel& model, int face, const PlaneDomain& plane) {
   for (const PlaneEdge& e : plane.edges)
     if (bounds(e)) area += cross(plane.vertices[e.a] - plane.vertices[0], plane.vertices[e.b] - plane.vertices[0]) / 2;
   for (const int c : model.topology.curve_of[face]) perimeter += model.length(c);
-  const std::size_t n = std::min(stretch_samples, plane.edges.size());
+  const std::size_t n = std::min(std::size_t{16}, plane.edges.size());
   for (std::size_t i = 0; i < n; ++i) {
     const PlaneEdge& e = plane.edges[i * plane.edges.size() / n];
     const SurfaceJet jet = surface_at(model.cad, ref, want_first, lerp(plane.vertices[e.a], plane.vertices[e.b], 0.5));

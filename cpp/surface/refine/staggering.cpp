@@ -144,7 +144,8 @@ std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<Di
       const Lack now = lack_between(moved.xyz, other);
       const Lack then = lack_between(staggered(moved, model), other);
       in_face[f].emplace_back(pair,
-                              then.worst < largest_fall * now.worst ? ruin : now.edges * (now.mean() - then.mean()));
+                              then.worst < largest_fall * now.worst ? -1e9  // no sum outweighs it
+                                                                    : now.edges * (now.mean() - then.mean()));
     }
   };
   run_each(domains.size(), !model.cad.reentrant(), threads, look, monitor);

@@ -2,8 +2,6 @@
 // Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
-#include <cstddef>
-
 namespace carreau::thresholds::refine {
 
 // Brackets name the tests that rest on a threshold, by default tests of tests/cpp/surface/refine.
@@ -18,9 +16,6 @@ inline constexpr int max_halvings = 16;
 inline constexpr int max_fruitless_halvings = 6;
 /// Share of the length that crossed before. A halving without effect leaves more. [as above]
 inline constexpr double fruitless_share = 0.75;
-/// Rounds. Halvings of a boundary that is inside out: a model that is wrong stays so. [domain:
-/// OrientLoops.RejectsInvalidDomains]
-inline constexpr int max_turned_rounds = 6;
 /// Ratio. Assumed ratio of lengths in the metric of a curved surface to straight distances in space.
 /// [Refinement.BordersWithTheOutsideBetweenThemAreNoNarrowZone]
 inline constexpr double straight_reserve = 2;
@@ -33,8 +28,6 @@ inline constexpr double balance_to_look_at = 1.6;
 /// width, in sizes: wider faces are narrow in places alone, where short edges leave bad triangles beside them.
 /// [Refinement.StripsWithoutNeighboursAreCutToTheirWidth]
 inline constexpr double coefficient_alone = 0.35;
-/// Places of the boundary where the stretch of the surface is sampled. [time only]
-inline constexpr std::size_t stretch_samples = 16;
 
 // Tips and seams (strips, seam_loops)
 /// Slope. Curves that leave a corner at less are its tip. [Tongues.AreNotCutToTheirTips]
@@ -54,8 +47,6 @@ inline constexpr double min_curve_gain = 1;
 /// Share of the worst quality, below which it must not fall, whatever the gain elsewhere. If vertices come to lie on
 /// the chords of arcs that bulge across the strip, triangles become flat. [Staggering.RingsToo]
 inline constexpr double largest_fall = 0.5;
-/// Gain of a change that makes the worst triangle fall farther: no sum outweighs it. [arithmetic]
-inline constexpr double ruin = -1e9;
 /// Passes over all strips; each pass may change the gains of the next. [Staggering.StripsAre...]
 inline constexpr int staggering_passes = 8;
 /// Cosine of an angle. At a sharper corner a half edge beside a whole edge leaves a triangle worse than 0.75 (Q2; 0.95

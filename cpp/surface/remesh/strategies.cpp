@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "mesh/flat_mesh.h"
+#include "metric/unit_edge.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/certify/certification.h"
 #include "surface/remesh/edits/edge_edits.h"
@@ -37,7 +39,7 @@ constexpr std::array<Strategy, 4> of_features{
     {{infinity, false, keep_none}, {infinity, false, keep_none}, {infinity, false, keep_none}, {infinity, false, keep_none}}};
 constexpr Strategy of_seams{0, false, keep_none}, of_poor_planes{high_price, false, keep_none};
 
-bool falls(double to, double from) { return to < from - rounding_of_mean; }
+bool falls(double to, double from) { return to < from - rounding_of::places; }
 
 double share_in_range(const CrossPatchMesh& mesh) {
   std::int64_t inside = 0, count = 0;
@@ -45,7 +47,7 @@ double share_in_range(const CrossPatchMesh& mesh) {
     if (t[0] < 0) continue;
     for (int i = 0; i < 3; ++i) {
       const double l = mesh.length(t[i], t[(i + 1) % 3]);
-      inside += l >= shortest && l <= longest ? 1 : 0;
+      inside += l >= unit_edge::shortest && l <= unit_edge::longest ? 1 : 0;
     }
     count += 3;
   }
@@ -54,7 +56,7 @@ double share_in_range(const CrossPatchMesh& mesh) {
 
 ShapeBudget budget_of(const Strategy& strategy, const ShapeSummary& before) {
   ShapeBudget budget{.price = strategy.price, .mean = strategy.weighs_moves ? before.mean : good_shape};
-  if (strategy.weighs_moves) budget.floor = std::min(before.worst, min_line_shape);
+  if (strategy.weighs_moves) budget.floor = std::min(before.worst, min_shape);
   if (strategy.kept != keep_none) budget.floor = before.worst;
   if (strategy.kept == keep_all) budget.left = 0;
   return budget;
@@ -148,7 +150,7 @@ class FrameRemesher {
     // A larger loss of the mean is not recovered.
     const bool may_end = !frame_.everywhere && !frame_.elements && strategy.price < infinity && strategy.kept != keep_all;
     const bool coarse = coarsely && frame_.everywhere;
-    if (!remesh_between_lines(start, strategy, coarse, coarse, 0, may_end ? before.mean - max_lost_at_first : 0)) {
+    if (!remesh_between_lines(start, strategy, coarse, coarse, 0, may_end ? before.mean - 2 * max_regained : 0)) {
       const double in_range = share_in_range(free);
       return {std::move(start), keep_all, in_range, &strategy};
     }
@@ -191,7 +193,7 @@ class FrameRemesher {
       std::vector<double> factor(replacement_.before().mesh.vertices.size(), times);
       for (const MeshEdge& e : frame_.sharp) factor[e[0]] = factor[e[1]] = 1;
       for (const std::int32_t v : frame_.corners) factor[v] = 1;
-      frame_.charts->enlarge(frame_.charts->graded_factors(std::move(factor), growth_of_coarse));
+      frame_.charts->enlarge(frame_.charts->graded_factors(std::move(factor), 1));
       free.update_sizes();
       free.tighten(times);
       report += level == halvings ? RemeshingReport{} : halve(free, monitor_);

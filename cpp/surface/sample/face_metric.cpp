@@ -7,6 +7,7 @@
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/sample/face_sampling.h"
 #include "surface/sample/thresholds.h"
 
@@ -20,8 +21,8 @@ using namespace thresholds::sample;
 /// still, if it stands still along the other; otherwise it leads towards the middle.
 Vec2 along_meridian(const SurfaceJet& jet, const Vec2& to_middle, const Vec2& half) noexcept {
   const double u = norm(jet.su), v = norm(jet.sv);
-  if (u <= still * v) return {0, std::copysign(half.y(), to_middle.y())};
-  if (v <= still * u) return {std::copysign(half.x(), to_middle.x()), 0};
+  if (u <= rounding_of::heights * v) return {0, std::copysign(half.y(), to_middle.y())};
+  if (v <= rounding_of::heights * u) return {std::copysign(half.x(), to_middle.x()), 0};
   return to_middle;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/sample/face_metric.h"
 #include "surface/sample/shared_answers.h"
 #include "surface/sample/thresholds.h"
@@ -20,8 +21,8 @@ bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
   const double h = isotropic_size(jet, m), k = 1 / (h * h);
   if (!(h > 0)) return true;
   const double e = k * dot(jet.su, jet.su), f = k * dot(jet.su, jet.sv), g = k * dot(jet.sv, jet.sv);
-  return std::abs(m.a - e) <= same_size * e && std::abs(m.c - g) <= same_size * g &&
-         std::abs(m.b - f) <= same_size * std::sqrt(e * g);
+  return std::abs(m.a - e) <= rounding_of::sizes * e && std::abs(m.c - g) <= rounding_of::sizes * g &&
+         std::abs(m.b - f) <= rounding_of::sizes * std::sqrt(e * g);
 }
 
 // The median; infinity if most derivatives vanish.

@@ -8,6 +8,7 @@
 #include "support/error.h"
 #include "support/ranks/crew.h"
 #include "support/ranks/packet.h"
+#include "support/work_sizes.h"
 #include "surface/sample/thresholds.h"
 
 namespace carreau {
@@ -24,7 +25,7 @@ struct OwnAnswers {
 
 OwnAnswers own_answers(const HostQuestion& question, std::span<const Vec2> uv, Monitor& monitor) {
   std::vector<Vec2> some;
-  for (std::size_t k = 0; k < uv.size(); k += places_of_one_compared) some.push_back(uv[k]);
+  for (std::size_t k = 0; k < uv.size(); k += work_sizes::places_of_one_compared) some.push_back(uv[k]);
   OwnAnswers own;
   std::vector<double> answers(question.width * some.size());
   try {
@@ -71,7 +72,7 @@ std::vector<double> shared_answers(Team& team, int ref, const HostQuestion& ques
   return shared_rows({&team, question.threads}, question.step,
                      {.count = uv.size(),
                       .width = question.width,
-                      .at_once = std::clamp(uv.size() / pieces_of_a_question, min_at_once, max_at_once),
+                      .at_once = work_sizes::piece_of(uv.size()),
                       .bound = question.threads == 1},
                      ask, monitor);
 }

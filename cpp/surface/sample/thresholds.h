@@ -14,11 +14,6 @@ inline constexpr double ways_inside[] = {1e-4, 1e-6};
 /// Share of that way. The part aside, towards the middle of the box: meridians may run along sides of the domain, which
 /// are straight but for rounding. [as above]
 inline constexpr double aside = 1e-6;
-/// Ratio of derivatives. The surface stands still along the shorter one. [as above]
-inline constexpr double still = 1e-12;
-/// Relative difference between a metric and the metric of one size that rounding leaves.
-/// [VertexSizes.AreThePrescribedOneWhenItIsConstant]
-inline constexpr double same_size = 1e-6;
 /// Ratio of speeds. Largest speed of a parametrisation over its usual speed; above it other parameters are searched;
 /// [UnevenParameters]
 inline constexpr double uneven_speed = 1000;
@@ -38,9 +33,5 @@ inline constexpr double growth_raise = 8;
 /// Places. Below, each process evaluates all places: to wait for the others twice takes longer than a thousand answers that take half a
 /// microsecond each.
 inline constexpr std::size_t least_shared = 1024;
-/// Pieces of a question, and places of a piece. Many pieces let a late process take fewer of them, and large pieces give hosts batches.
-inline constexpr std::size_t pieces_of_a_question = 32, min_at_once = 128, max_at_once = 8192;
-/// Places of which every process evaluates one, so that different hosts are found: 1.6 % more calls.
-inline constexpr std::size_t places_of_one_compared = 64;
 
 }  // namespace carreau::thresholds::sample

@@ -10,8 +10,6 @@ namespace carreau::thresholds::variable {
 /// Degrees. Arcs of tools have a node at least so often: a piece may touch them between its own nodes.
 /// [Contact.ToolNodesBetweenNodesOfThePieceAreInserted]
 inline constexpr double arc_node_angle = 15;
-/// Share of a side. Arcs at both ends of a side may take all of it, up to rounding. [Tools.RejectsRadiiThatDoNotFit]
-inline constexpr double side_rounding = 1e-12;
 
 // Contact
 /// Ratio of the tool's path between two bound nodes to their distance, beyond which the edge does not follow the tool.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/error.h"
+#include "support/rounding_of.h"
 #include "support/segment.h"
 #include "variable/base/thresholds.h"
 
@@ -136,11 +137,11 @@ void Tools::add(const Tool& tool, std::int32_t index) {
     const std::size_t next = (k + 1) % n;
     const Vec2 p = tool.points[k], q = tool.points[next];
     const double length = norm(q - p), rest = length - back[k] - back[next];
-    if (rest < -thresholds::variable::side_rounding * length)
+    if (rest < -rounding_of::heights * length)
       throw InvalidArgument("the radii at points " + std::to_string(k) + " and " + std::to_string(next) + " of " +
                             name_of(index) + " do not fit on the side between them");
     if (back[k] > 0) append(arc_at(tool, k, back[k]));
-    if (rest <= thresholds::variable::side_rounding * length) continue;
+    if (rest <= rounding_of::heights * length) continue;
     ToolPart side;
     side.a = p + back[k] / length * (q - p), side.b = q - back[next] / length * (q - p);
     side.length = rest;

@@ -122,7 +122,7 @@ class DividedFaces : public ::testing::TestWithParam<Case> {};
 TEST_P(DividedFaces, AreSoundAndTheSameForAnyNumberOfThreads) {
   const Case& c = GetParam();
   const SurfaceMesh one = meshed(c, 1);
-  for (const FaceMesh& face : one.faces) ASSERT_GT(static_cast<double>(face.triangles.size()), plane::min_divided);
+  for (const FaceMesh& face : one.faces) ASSERT_GT(static_cast<double>(face.triangles.size()), plane::triangles_a_piece);
   EXPECT_EQ(find_defects(one, {.closed = c.closed}), Defects{});
   EXPECT_EQ(euler_characteristic(one), c.euler);
   for (const int threads : {2, 3, 7}) {

@@ -8,6 +8,7 @@
 #include "periodic/closest.h"
 #include "periodic/shared_curves.h"
 #include "periodic/thresholds.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -129,7 +130,7 @@ std::optional<CurveMiddle> EdgeMiddles::image(std::size_t curve, std::size_t k, 
     const CurvePoint point = find_closest(work_.model, uses[u], (low + high) / 2, low, high, target);
     middle->uv_of_use[u] = point.uv;
     if (static_cast<int>(u) == to.owner)
-      middle->xyz = point.distance <= thresholds::periodic::exact_images * work_.periodic->gap ? target : point.xyz;
+      middle->xyz = point.distance <= rounding_of::places * work_.periodic->gap ? target : point.xyz;
   }
   return middle;
 }

@@ -13,6 +13,7 @@
 #include "mesh/local_search.h"
 #include "support/infinity.h"
 #include "support/monitor.h"
+#include "support/rounding_of.h"
 #include "surface/elements/base/thresholds.h"
 
 namespace carreau {
@@ -58,7 +59,7 @@ class Mender {
       if (self().bound(cells_[c]) >= least) continue;
       const double found = self().score(cells_[c]);
       if (found < least) bad_.push_back(static_cast<std::int32_t>(c));
-      if (found < thresholds::elements::least_jacobian) ++invalid;
+      if (found < rounding_of::sizes) ++invalid;
     }
     return invalid;
   }
@@ -152,7 +153,7 @@ class Mender {
       const int before = (i + n - 1) % n;
       bool fixed = fixed_[cell.nodes[i]] != 0 && fixed_[cell.nodes[before]] != 0 && fixed_[cell.nodes[(i + 1) % n]] != 0;
       if (fixed && node_count(cell.kind) > n) fixed = fixed_[cell.nodes[n + i]] != 0 && fixed_[cell.nodes[n + before]] != 0;
-      if (fixed && self().score_at(cell, i) < thresholds::elements::least_jacobian) return true;
+      if (fixed && self().score_at(cell, i) < rounding_of::sizes) return true;
     }
     return false;
   }

@@ -9,8 +9,6 @@ namespace carreau::thresholds::elements {
 /// Least Jacobian over its mean (Jacobian::least) at which repairs stop. Condition numbers of solvers grow with its
 /// inverse, and 0 is the limit of validity. [Quadratic.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr double good_jacobian = 0.2;
-/// Below this an element is not valid: rounding of coefficients is far smaller.
-inline constexpr double least_jacobian = 1e-6;
 /// Gain of that share. The search rejects a step that gains less: an element that grows along one side raises the share
 /// for ever by less and less. A step of .01 edges of a regular element changes it by some .04.
 /// [FreeElementsAtCurves.AreValidWhereEdgesTurn]
@@ -27,8 +25,6 @@ inline constexpr std::int64_t max_trials = 3000, max_trials_of_element = 30;
 /// Times that the model is meshed again with half the size beside elements that stay invalid. An edge of a whole circle
 /// then has 6 degrees. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int max_divisions = 6;
-/// Times that the model is meshed again if elements are quadrilaterals.
-inline constexpr int max_divisions_of_quads = 6;
 /// Sine of the angle between the ways of two edges of curves from a corner of an invalid element. A smaller angle is a
 /// cusp. As parabolas they turn by their bends, a tenth and more of a radian.
 inline constexpr double sine_of_cusp = 0.1;

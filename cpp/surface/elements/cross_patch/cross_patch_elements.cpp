@@ -205,7 +205,7 @@ class ElementRounds {
                                           " vertices: triangles around them stay");
       for (const std::int32_t v : wrong)
         kept.near.push_back({made_.mesh.vertices[v], kept_sizes * std::exp2(round) * made_.vertex_size[v], {}});
-      kept.all = round == max_keeps;
+      kept.all = round == max_again;
     }
     if (!has_quads(options_.element)) return {};
     if (!fresh_.empty())
@@ -218,7 +218,7 @@ class ElementRounds {
   void make_all(const KeptTriangles& kept) {
     HeldPlaces held, held_by_best;
     std::size_t fewest = 0;
-    for (int attempt = 0; attempt < max_holds; ++attempt) {
+    for (int attempt = 0; attempt < max_again; ++attempt) {
       make(held, kept, kept.all);
       if (attempt == 0 || fresh_.size() < fewest) fewest = fresh_.size(), held_by_best = held;
       if (fresh_.empty() || kept.all) break;

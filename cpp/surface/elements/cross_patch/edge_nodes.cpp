@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/elements/jacobian.h"
+#include "support/rounding_of.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/mender.h"
 
@@ -220,7 +221,7 @@ EdgeNodes make_nodes(const AtlasSurface& surface, PlacedVertices& vertices, Line
     (void)mender.find_below(thresholds::elements::good_jacobian);
     mender.mend();
     made.moved = mender.moves();
-    (void)mender.find_below(thresholds::elements::least_jacobian);
+    (void)mender.find_below(rounding_of::sizes);
     made.invalid = mender.bad();
   }
   std::vector<std::int32_t> vertex;

@@ -7,7 +7,9 @@
 #include <optional>
 #include <span>
 
+#include "metric/unit_edge.h"
 #include "support/incidence.h"
+#include "support/work_sizes.h"
 #include "surface/elements/quads/quad_shape.h"
 #include "surface/elements/quads/space_quads.h"
 #include "surface/elements/quads/thresholds.h"
@@ -44,7 +46,7 @@ class Pass {
   int run() {
     int changes = 0;
     for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {
-      if (c % steps_between_checks == 0) monitor_.checkpoint();
+      if (c % work_sizes::searches == 0) monitor_.checkpoint();
       if (is_irregular(c) && (remove_doublet(c) || draw_together(c) || turn_edge(c))) ++changes;
     }
     std::erase(cells_, none);
@@ -100,7 +102,7 @@ class Pass {
   }
   [[nodiscard]] bool has_good_length(std::int32_t a, std::int32_t b) const {
     const double l = quads_.length(a, b);
-    return l > shortest_edge && l < longest_edge;
+    return l > unit_edge::shortest_at_last && l < unit_edge::longest_at_last;
   }
 
   // A vertex inside with two cells.

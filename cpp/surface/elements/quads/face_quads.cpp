@@ -7,6 +7,7 @@
 
 #include "cad/batches.h"
 #include "periodic/thresholds.h"
+#include "support/rounding_of.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/carry/image_vertices.h"
 #include "surface/elements/quads/quad_shape.h"
@@ -305,7 +306,7 @@ void place_cells(const ElementWork& work, SlaveQuads& quads) {
   }
   for (auto& t : triangles)
     for (std::int32_t& w : t) w = rank[w];
-  place_images(fitted, triangles, thresholds::periodic::exact_images * work.periodic->gap, uv, xyz);
+  place_images(fitted, triangles, rounding_of::places * work.periodic->gap, uv, xyz);
   for (std::size_t i = 0; i < of.size(); ++i) slave.patch.uv[of[i]] = uv[i], slave.xyz[of[i]] = xyz[i];
   slave.lifted = slave.patch.uv;
 }

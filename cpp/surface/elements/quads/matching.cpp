@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "predicates/clamped_int.h"
+#include "support/work_sizes.h"
 #include "surface/elements/quads/thresholds.h"
 
 namespace carreau {
@@ -96,7 +97,7 @@ class Matching {
     std::vector<std::int32_t> changed;
     int n = 0;
     for (const std::int32_t t : todo) {
-      if (++n % steps_between_checks == 0) monitor_.checkpoint();
+      if (++n % work_sizes::searches == 0) monitor_.checkpoint();
       if (is_content(t) || !search_from(t)) continue;
       for (std::size_t k = 0; k < best_path_.size; ++k) {
         changed.push_back(best_path_.triangle[k]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "support/incidence.h"
+#include "support/work_sizes.h"
 #include "surface/elements/quads/matching.h"
 #include "surface/elements/quads/quad_shape.h"
 #include "surface/elements/quads/space_quads.h"
@@ -50,7 +51,7 @@ class Pairing {
     const Incidence around(vertices_, with_first);
     int n = 0;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(cells_.size()); ++t) {
-      if (++n % steps_between_checks == 0) monitor_.checkpoint();
+      if (++n % work_sizes::searches == 0) monitor_.checkpoint();
       for (int k = 0; k < 3; ++k) {
         const std::int32_t a = cells_[t][k], b = cells_[t][(k + 1) % 3];
         if (a < b) continue;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "support/incidence.h"
+#include "support/work_sizes.h"
 #include "surface/elements/quads/quad_shape.h"
 #include "surface/elements/quads/space_quads.h"
 #include "surface/elements/quads/thresholds.h"
@@ -57,7 +58,7 @@ class Smoothing {
       if (!how.moving.empty() &&
           std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return how.moving[v] != 0; }))
         continue;
-      if (cells_.size() % steps_between_checks == 0) monitor.checkpoint();
+      if (cells_.size() % work_sizes::searches == 0) monitor.checkpoint();
       cells_.push_back(cell), frames_.add(cell);
       for (int k = 0; k < n; ++k) count[cell[k]] += weight(n);
     }
@@ -73,7 +74,7 @@ class Smoothing {
       before_ = quads_.places();
       const double kept = pass + plain_passes < how_.passes ? how_.momentum : 0;
       for (std::size_t i = 0; i < movers_.size(); ++i) {
-        if (i % steps_between_checks == 0) monitor_.checkpoint();
+        if (i % work_sizes::searches == 0) monitor_.checkpoint();
         Mover& m = movers_[i];
         m.step = kept * m.step + m.share * sum_[m.vertex];
         quads_.move(m.vertex, m.step);
@@ -95,7 +96,7 @@ class Smoothing {
   void propose() {
     std::fill(sum_.begin(), sum_.end(), Quads::no_way());
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (c % steps_between_checks == 0) monitor_.checkpoint();
+      if (c % work_sizes::searches == 0) monitor_.checkpoint();
       if (corners_of(cells_[c]) == 4)
         propose_square(c, cells_[c]);
       else

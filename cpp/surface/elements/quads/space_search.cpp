@@ -31,7 +31,7 @@ class LiftedQuads {
         quads_(quads),
         by_angles_(!work.isotropic()) {}
 
-  [[nodiscard]] double poor() const noexcept { return by_angles_ ? poor_jacobian_in_metric : poor_in_space; }
+  [[nodiscard]] double poor() const noexcept { return by_angles_ ? poor_jacobian_in_metric : thresholds::quads::poor; }
   [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return quads_.patch.cells; }
   [[nodiscard]] std::size_t vertices() const noexcept { return quads_.patch.uv.size(); }
   [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return quads_.patch.fixed[v] != 0; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thresholds of the room, with their units, their reasons and the tests that support them.
+// All of tests/cpp/surface/quads rests on them: matching_test, smoothing_test, cleanup_test and quadrilaterals_test, in this order.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +28,6 @@ inline constexpr double min_angle_in_curve = 110, min_angle_of_curves = 150;
 inline constexpr double pair_bonus = 0.7;
 /// Triangles on an alternating path or circle.
 inline constexpr std::size_t longest_path = 10;
-/// Searches, and cells: work between two looks for a stop.
-inline constexpr int steps_between_checks = 4096;
 
 // Smoothing
 /// Weight of a triangle's proposals beside a quadrilateral's.
@@ -37,31 +36,21 @@ inline constexpr double triangle_weight = 0.5;
 inline constexpr int plain_passes = 2;
 /// Quality. Vertices of worse cells are moved one by one.
 inline constexpr double poor = 0.6;
-/// Units. First steps and last steps of the search for a better place.
-inline constexpr double first_step = 0.2, last_step = 0.02;
 /// Passes over the worst cells.
 inline constexpr int worst_passes = 5;
 
-
 // In space (space_search)
-/// Scaled Jacobian, the sine of the worst angle, and quality. Worse quadrilaterals are moved in space: angles of 37 and 143
-/// degrees.
-inline constexpr double poor_in_space = 0.6;
 /// Scaled Jacobian, if sizes differ by direction: right angles of the metric need not be right in space.
 inline constexpr double poor_jacobian_in_metric = 0.01;
 /// Scaled Jacobian below which two triangles are better: angles of 12 and 168 degrees.
 inline constexpr double least_jacobian = 0.2;
 
 // Walks of triangles
-/// Quality of the cells that a walk leaves behind; smoothing improves them.
-inline constexpr double min_on_walk = 0.15;
 
 // Clean-up
 /// Passes of smoothing around changes, before the next pass.
 inline constexpr int passes_after_changes = 3;
 /// Quality. Changes of the topology may leave so poor cells, which smoothing improves.
 inline constexpr double min_after_change = 0.15;
-/// Metric length of edges that a change makes.
-inline constexpr double shortest_edge = 0.5, longest_edge = 1.6;
 
 }  // namespace carreau::thresholds::quads

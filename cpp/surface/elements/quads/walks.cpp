@@ -112,7 +112,7 @@ class Walks {
     if (side < 0) return false;
     const int apex = common_side(last, triangle);
     const MixedCell joined{triangle[side], last[(apex + 2) % 3], triangle[(side + 1) % 3], triangle[(side + 2) % 3]};
-    if (joined[1] == joined[3] || quality(joined) < min_on_walk) return false;
+    if (joined[1] == joined[3] || quality(joined) < min_after_change) return false;
     now.push_back(joined);
     for (const std::int32_t c : way) touched_[c] = 1, cells_[c] = none;
     for (std::size_t k = 0; k < now.size(); ++k) cells_[way[k]] = now[k];
@@ -129,7 +129,7 @@ class Walks {
                                         triangle[(apex + 2) % 3]};
     if (std::find(p.begin(), p.begin() + 4, p[4]) != p.begin() + 4) return {};
     std::optional<MixedCell> behind;
-    double best = min_on_walk;
+    double best = min_after_change;
     for (int out = 0; out < 3; ++out) {
       if (side_of(next, {p[out + 1], p[out]}) < 0) continue;
       for (const int s : {out, (out + 4) % 5}) {  // first corner of the triangle: that side is its first or second

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/local_search.h"
+#include "metric/unit_edge.h"
 #include "support/incidence.h"
 #include "surface/elements/quads/quad_patch.h"
 #include "surface/elements/quads/thresholds.h"
@@ -76,7 +77,7 @@ class WorstQuads {
     if (start >= good_) return false;
     const typename Quads::Place home = quads_.place(v);
     const typename Quads::Frame frame = quads_.about(v);
-    const Vec2 way = search_along_compass(start, thresholds::quads::first_step, thresholds::quads::last_step, [&](const Vec2& there, double best) {
+    const Vec2 way = search_along_compass(start, unit_edge::first_step, unit_edge::last_step, [&](const Vec2& there, double best) {
       quads_.try_at(v, home, Quads::way(frame, there));
       return worst_around(best);
     });

@@ -10,6 +10,7 @@
 #include "predicates/predicates.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/invalid_report.h"
 #include "surface/elements/base/mender.h"
@@ -49,7 +50,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
   }
 
   void tell_invalid(QuadraticReport& report) {
-    (void)find_below(least_jacobian);
+    (void)find_below(rounding_of::sizes);
     tell(report);
   }
 

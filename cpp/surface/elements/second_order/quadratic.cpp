@@ -9,6 +9,7 @@
 
 #include "cad/batches.h"
 #include "periodic/thresholds.h"
+#include "support/rounding_of.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/thresholds.h"
@@ -279,7 +280,7 @@ void follow_masters(const ElementWork& work, const std::vector<std::vector<char>
   for (const FacePair& pair : work.periodic->pairs) {
     const auto slave = static_cast<std::size_t>(pair.slave);
     if (fixed_vertices[slave].empty()) continue;
-    follow_master(work.cad(), pair, fixed_vertices[slave], fixed_mids[slave], thresholds::periodic::exact_images * work.periodic->gap,
+    follow_master(work.cad(), pair, fixed_vertices[slave], fixed_mids[slave], rounding_of::places * work.periodic->gap,
                   work.result.mesh);
     find_invalid(work, slave, report);
   }

@@ -12,6 +12,7 @@
 #include "model/bucket_sort.h"
 #include "support/incidence.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/remesh/base/thresholds.h"
 
 namespace carreau {
@@ -235,7 +236,7 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
     double way = infinity;
     for (int i = 0; i < 3; ++i) {
       const int opposite = (i + 2) % 3;
-      if (!(end[opposite] < -on_side)) continue;
+      if (!(end[opposite] < -rounding_of::places)) continue;
       const double p = std::max(start[opposite], 0.0), share = p / (p - end[opposite]);
       if (share < way) way = share, side = i;
     }
@@ -265,7 +266,7 @@ std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) con
     w[0] = 1 - w[1] - w[2];
     const int least = w[0] <= w[1] && w[0] <= w[2] ? 0 : w[1] <= w[2] ? 1 : 2;
     const std::int32_t next = here.beyond[(least + 1) % 3];
-    if (w[least] >= -on_side || (next == before && next >= 0)) {  // a fold whose two sides both end before it: on the edge
+    if (w[least] >= -rounding_of::places || (next == before && next >= 0)) {  // a fold whose two sides both end before it: on the edge
       double sum = 0;
       for (double& each : w) sum += each = std::max(each, 0.0);
       const auto& uv = uv_[here.face];
@@ -290,7 +291,7 @@ std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, 
     if (at.regular && is_near()) return at;
     if (!at.regular) at = from;
   }
-  for (int step = 0; step < max_newton_steps; ++step) {
+  for (int step = 0; step < rounding_of::newton_steps; ++step) {
     if (!at.regular) return {};
     const Vec3 d = target - at.xyz;
     const double e = dot(at.su, at.su), f = dot(at.su, at.sv), g = dot(at.sv, at.sv), det = e * g - f * f;

@@ -70,7 +70,7 @@ double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_
       if (norm(looks[i].normal) > 0 && norm(looks[j].normal) > 0)
         most = std::max(most, norm(looks[i].normal - looks[j].normal) / norm(looks[i].flat - looks[j].flat));
     }
-  return (1 + variation) * most;
+  return 2 * most;
 }
 
 // The distance of the tangent plane, and the bend of the surface away from it beside the place that was found. Otherwise the distance of a

@@ -2,8 +2,6 @@
 // Thresholds of this room, with their units, their reasons and the tests that support them.
 #pragma once
 
-#include <cstddef>
-
 namespace carreau::thresholds::bounds {
 
 // In brackets: the tests that rest on it, all of tests/cpp/measure.
@@ -13,10 +11,6 @@ namespace carreau::thresholds::bounds {
 inline constexpr double near_foot = 1e-4;
 
 // Bounds of A0 and A1 (triangle_bound, deviation_bounds)
-/// Factor on the largest observed second difference. Bounds assume that second derivatives along the sides differ from a constant by no
-/// more over a part of a triangle. Heights of parts count a sixteenth of the height of the triangle, so once costs a tenth.
-/// [TriangleBound.SphereInClosedForm]
-inline constexpr double variation = 1;
 /// Least share of a triangle's bend that its quarters have: a difference of zero does not bound derivatives.
 inline constexpr double min_of_parent = 0.5;
 /// Share of the largest observed deviation by which a bound may exceed it before the triangle is cut. The bound of a sphere exceeds it by
@@ -35,9 +29,5 @@ inline constexpr int max_cuts = 10, max_parts = 150;
 inline constexpr int max_parts_beyond = 16;
 /// Ratio of these to the parts that are cut when an edit is only tested. [time only]
 inline constexpr int roughly_parts = 4;
-/// Share of the largest |Su x Sv| of a triangle: where it is less the surface is singular.
-inline constexpr double singular_normal = 1e-9;
-/// Share of the longest side: smaller distances beyond a side are rounding.
-inline constexpr double beyond_side = 1e-12;
 
 }  // namespace carreau::thresholds::bounds

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "support/rounding_of.h"
 #include "surface/remesh/bounds/thresholds.h"
 #include "mesh/triangle_distance.h"
 
@@ -22,11 +23,11 @@ constexpr std::size_t rank_of(int j, int k) noexcept { return static_cast<std::s
 
 /// The largest distance of a function from the linear interpolation of its corners. Its second derivatives along the sides of a triangle,
 /// times their squared lengths, are the sum of a constant and a variable part. The constants are at most m and make 1/2 sum x_i x_j m_ij at
-/// the place with weights x. The variable part is at most `variation` times m. It makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's
+/// the place with weights x. The variable part is at most m, since heights of parts count a sixteenth of the height of the triangle. It makes 1/2 sum x_i x_j (1 + 2 x_k) m_ij by Taylor's
 /// formula at the place for each corner.
 double max_off(double m0, double m1, double m2) noexcept {
   const double largest = std::max({m0, m1, m2}), sides = (m0 + m1 + m2) / 8;
-  return std::min(largest / 6, sides) + variation * std::min(5. / 18 * largest, sides);
+  return std::min(largest / 6, sides) + std::min(5. / 18 * largest, sides);
 }
 
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
@@ -74,7 +75,7 @@ TriangleBound::Bend TriangleBound::bend_of(const BoundPlace& p, const BoundPlace
 
 TriangleBound::TriangleBound(const BoundedTriangle& triangle, std::span<const BoundPlace, lattice_size> places)
     : triangle_(triangle) {
-  for (const BoundPlace& p : places) singular_ = std::max(singular_, singular_normal * norm(p.n));
+  for (const BoundPlace& p : places) singular_ = std::max(singular_, rounding_of::places * norm(p.n));
   std::array<Seen, lattice_size> seen;
   for (std::size_t i = 0; i < lattice_size; ++i) seen[i] = see(places[i], lattice()[i]);
   // The differences of all rows of the lattice count for each of its triangles.
@@ -173,7 +174,7 @@ double TriangleBound::deviation_of(const Part& part) const noexcept {
 
 // Largest distance of the surface beyond the triangle, seen along its normal.
 double TriangleBound::overshoot_of(const Part& part) const noexcept {
-  const double rounding = beyond_side * triangle_.longest;
+  const double rounding = rounding_of::heights * triangle_.longest;
   const Bends& b = part.bends;
   const double off = max_off(b[0].whole, b[1].whole, b[2].whole);
   std::array<double, 3> beyond{};
@@ -207,7 +208,7 @@ bool TriangleBound::goes_on_beside(const Part& part, double overshoot) const noe
     double weight = 0;
     const double off = max_off(part.bends[0].across[i], part.bends[1].across[i], part.bends[2].across[i]);
     for (const Seen& c : part.corner) {
-      beyond = beyond || c.beyond[i] + off > beyond_side * triangle_.longest;
+      beyond = beyond || c.beyond[i] + off > rounding_of::heights * triangle_.longest;
       weight = std::max(weight, i == 0 ? 1 - c.at.x() - c.at.y() : i == 1 ? c.at.x() : c.at.y());
     }
     if (beyond && triangle_.open_side[i]) return false;
@@ -235,7 +236,7 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
     const auto bend = [&](std::size_t side) { return part.bends[side % 3].*of; };
     // At a pole the lengths of normals, and their errors, are proportional to the distance from it.
     return singular == 0 ? max_off(bend(0), bend(1), bend(2))
-                         : (1 + variation) * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
+                         : 2 * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
   };
   if (largest >= right) return turned;
   // The interpolated normal is in the cone of the normals at the corners.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/stepped_tasks.h"
+#include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/certify/edit_bounds.h"
 #include "surface/remesh/certify/thresholds.h"
 #include "surface/remesh/edits/judgement.h"
@@ -101,7 +102,7 @@ class Certifier::Work {
 
   [[nodiscard]] bool costs_too_much(double mean_before) const {
     const double mean = shapes_mean();
-    return mean < std::min(min_mean, mean_before) && (mean_before >= min_mean || mean < mean_before - max_mean_lost);
+    return mean < std::min(thresholds::remesh::good_shape, mean_before) && (mean_before >= thresholds::remesh::good_shape || mean < mean_before - max_mean_lost);
   }
 
   // Triangles that share a vertex. The worst group is last: no edit may help it.
@@ -264,7 +265,7 @@ class Certifier::Work {
   }
   [[nodiscard]] bool is_too_long(const Quad& q) const {
     const double length = mesh_.length(q.c, q.d);
-    return length > longest_swapped && length > mesh_.length(q.a, q.b);
+    return length > thresholds::remesh::never_longer && length > mesh_.length(q.a, q.b);
   }
 
   bool swap(const Quad& q) {
@@ -374,9 +375,9 @@ class Certifier::Work {
   void tidy_all(std::vector<std::int32_t> worked) {
     std::erase_if(worked, [&](std::int32_t v) { return v >= static_cast<std::int32_t>(mesh_.vertices()); });
     changed_ = std::move(worked);
-    good_ = good_shape_at_last;
+    good_ = thresholds::remesh::good_shape;
     for (int pass = 0; pass < tidy_passes_at_last; ++pass) tidy();
-    good_ = good_shape;
+    good_ = thresholds::remesh::good_enough;
   }
 
   void tidy_edge(std::int32_t v, std::int32_t w) {
@@ -413,7 +414,7 @@ class Certifier::Work {
   std::vector<double> share_;  // by triangle
   std::vector<std::int32_t> touched_, changed_;  // triangles and vertices, by edits of the group at work
   bool boldly_ = false;
-  double good_ = good_shape;  // shapes that are as good stay
+  double good_ = thresholds::remesh::good_enough;  // shapes that are as good stay
   std::int64_t end_ = 0;  // evaluations after which the group at work is given up
   std::set<std::vector<Corners>> failed_;  // groups that nothing helps
   Certification report_;

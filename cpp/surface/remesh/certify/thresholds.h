@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thresholds of this room, with their units, their reasons and the tests that support them.
+// tests/cpp/surface/remesh/certification_test rests on them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 namespace carreau::thresholds::certify {
@@ -26,18 +26,13 @@ inline constexpr double min_shape = 0.3;
 inline constexpr double min_shape_of_move = 0.5;
 /// Lengths. Shorter edges are not split. A bend beyond the tolerance over half of that length is a feature of another size.
 inline constexpr double shortest_split = 0.3;
-/// Lengths. A swap does not make a longer edge from shorter ones.
-inline constexpr double longest_swapped = 1.8;
-/// Mean shape. Edits do not lower a better mesh below this: in a coarse mesh a few edits are a large part.
-inline constexpr double min_mean = 0.95;
 /// The loss for a mesh that is worse: edits do not repair a surface that bends within a size everywhere.
 inline constexpr double max_mean_lost = 0.04;
 /// Shares of the size: steps of moves; directions of them.
 inline constexpr double steps[] = {0.15, 0.3};
 inline constexpr int directions = 6;
-/// Shape. New triangles below are swapped and moved, at last triangles below the second value. Gains below `min_shape_gain` do not count;
-/// passes.
-inline constexpr double good_shape = 0.7, good_shape_at_last = 0.95, min_shape_gain = 0.01;
+/// Shape. Gains below do not count. Passes over triangles below remesh::good_enough, at last below remesh::good_shape.
+inline constexpr double min_shape_gain = 0.01;
 inline constexpr int tidy_passes = 2, tidy_passes_at_last = 5;
 
 /// Evaluations of the surface, for each triangle of the mesh and for each triangle of a group beyond tolerances. Triangles that stay beyond

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "metric/metric2.h"
+#include "metric/unit_edge.h"
 #include "surface/remesh/base/thresholds.h"
 
 namespace carreau {
@@ -33,7 +34,7 @@ bool evens_degrees(const CrossPatchMesh& mesh, std::int32_t a, std::int32_t b, s
 }
 
 bool swap_edge(CrossPatchMesh& mesh, const Quad& q, bool for_degrees) {
-  if (const double l = mesh.length(q.c, q.d); l > longest && l > mesh.length(q.a, q.b)) return false;
+  if (const double l = mesh.length(q.c, q.d); l > unit_edge::longest && l > mesh.length(q.a, q.b)) return false;
   Change change;
   judge_swap(mesh, q, &CrossPatchMesh::judge_shape, change);
   const auto& [before, after] = change;
@@ -87,7 +88,7 @@ CollapseShapes shapes_after_collapse(const CrossPatchMesh& mesh, std::int32_t go
     for (const std::int32_t w : t) {
       if (w == gone) continue;
       const double l = mesh.length(kept, w);
-      if (l > never_longer || (!dense && l > longest && 1 / l < short_one)) return {};
+      if (l > never_longer || (!dense && l > unit_edge::longest && 1 / l < short_one)) return {};
     }
   }
   if (!adjacent) return {};

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "metric/unit_edge.h"
 #include "surface/remesh/base/thresholds.h"
 
 namespace carreau {
@@ -19,7 +20,7 @@ using Quad = CrossPatchMesh::Quad;
 
 int is_out_of_range(const CrossPatchMesh& mesh, std::int32_t v, std::int32_t w) {
   const double l = mesh.length(v, w);
-  return l < shortest || l > longest ? 1 : 0;
+  return l < unit_edge::shortest || l > unit_edge::longest ? 1 : 0;
 }
 
 // Returns whether the collapse makes, or has, a triangle with all corners on sharp lines.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "metric/unit_edge.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/edits/edge_edits.h"
 #include "surface/remesh/edits/vertex_moves.h"
@@ -58,7 +59,7 @@ class Remesher {
       if (mesh_.triangles()[t][0] >= 0 && shape_of({0, static_cast<std::int32_t>(t)}) < below)
         for (const std::int32_t v : mesh_.triangles()[t]) mark(v, active);
     report_.rounds = max_rounds_of_degrees;
-    last_passes(max_polish_passes);
+    last_passes(max_rounds_of_degrees);
     return report_;
   }
 
@@ -77,7 +78,7 @@ class Remesher {
       move_all();
       if (report_.collapses + report_.splits == before) break;
     }
-    last_passes(thorough_ ? max_last_passes_thorough : max_last_passes);
+    last_passes(thorough_ ? max_last_passes_thorough : max_rounds);
     return report_;
   }
 
@@ -203,7 +204,7 @@ class Remesher {
   // `dense`: where triangles are smaller than equilateral triangles of unit length, though no edge is short, as long as triangles stay
   // no larger in the mean.
   void collapse_edges(bool dense) {
-    const double below = dense ? short_when_dense : shortest;
+    const double below = dense ? short_when_dense : unit_edge::shortest;
     for (const LongEdge& e : edges([&](double l) { return l < below; }, std::less<>())) {
       monitor_.checkpoint();
       if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < below)) continue;
@@ -224,10 +225,10 @@ class Remesher {
   }
 
   void split_long() {
-    for (const LongEdge& e : edges([](double l) { return l > longest; }, std::greater<>())) {
+    for (const LongEdge& e : edges([](double l) { return l > unit_edge::longest; }, std::greater<>())) {
       monitor_.checkpoint();
       const auto quad = quad_between(e.v, e.w);
-      if (!quad || !(mesh_.length(e.v, e.w) > longest)) continue;
+      if (!quad || !(mesh_.length(e.v, e.w) > unit_edge::longest)) continue;
       const auto middle = split_edge(mesh_, *quad);
       if (!middle) continue;
       remade(*middle);
@@ -336,7 +337,7 @@ bool is_bad(const CrossPatchMesh& mesh, const EditableMesh::Triangle& t) {
   bool bad = shape.worst < good_enough;
   for (int i = 0; i < 3; ++i) {
     const double l = mesh.length(t[i], t[(i + 1) % 3]);
-    bad = bad || l < shortest || l > longest;
+    bad = bad || l < unit_edge::shortest || l > unit_edge::longest;
   }
   return bad;
 }

@@ -6,6 +6,7 @@
 
 #include "mesh/quality.h"
 #include "metric/metric2.h"
+#include "metric/unit_edge.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/edits/judgement.h"
 
@@ -93,7 +94,7 @@ int VertexMover::out_of_range(const Vec3& at, double h) const {
   int out = 0;
   for (const Side& s : sides_) {
     const double l = length_between_sizes(norm(s.a - at), h, s.h_a);
-    out += l < shortest || l > longest ? 1 : 0;
+    out += l < unit_edge::shortest || l > unit_edge::longest ? 1 : 0;
   }
   return out;
 }

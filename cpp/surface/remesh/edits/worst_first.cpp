@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "metric/unit_edge.h"
 #include "support/infinity.h"
 #include "support/stepped_tasks.h"
 #include "surface/remesh/base/thresholds.h"
@@ -81,7 +82,7 @@ class WorstFirst {
   void move(std::int32_t v) {
     if (!forgets_ && tried_[v] >= changed_[v]) return;
     bool moved = false;
-    for (double step = first_worst_step; step > last_worst_step;)
+    for (double step = unit_edge::first_step; step > unit_edge::last_step;)
       if (step_uphill(v, step))
         moved = true;
       else

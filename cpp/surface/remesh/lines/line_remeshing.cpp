@@ -122,7 +122,7 @@ class LineRemesher {
     return change.keeps_surface() ? cost : std::nullopt;
   }
 
-  [[nodiscard]] double min_shape() const { return std::max(min_line_shape, mesh_.budget.floor); }
+  [[nodiscard]] double min_shape() const { return std::max(thresholds::remesh::min_shape, mesh_.budget.floor); }
 
   // Returns whether the previous shapes are kept.
   [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }

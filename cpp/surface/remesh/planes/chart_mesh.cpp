@@ -7,6 +7,7 @@
 
 #include "plane/plane_mesher.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/remesh/planes/thresholds.h"
 
 namespace carreau {
@@ -46,7 +47,7 @@ std::optional<double> one_size(const ChartInput& input) {
   for (const std::int32_t t : input.triangles)
     for (const std::int32_t v : input.atlas.at(t).vertex)
       least = std::min(least, input.size[v]), most = std::max(most, input.size[v]);
-  return most <= (1 + same_size) * least ? std::optional(least) : std::nullopt;
+  return most <= (1 + rounding_of::sizes) * least ? std::optional(least) : std::nullopt;
 }
 
 ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& monitor) {

@@ -7,6 +7,7 @@
 
 #include "predicates/clamped_int.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/remesh/planes/thresholds.h"
 
 namespace carreau {
@@ -120,12 +121,12 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
     if (step == max_steps) t = straight_to(p, t);
     const std::array<double, 3> w = weights_in(corners(t), p);
     std::int32_t next = -1;
-    double least = -on_side;
+    double least = -rounding_of::places;
     for (int k = 0; k < 3; ++k)
       if (const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3]; w[k] < least && u != before && is_shown(u))
         least = w[k], next = u;
     if (next < 0) {
-      if (roughly || (w[0] >= -on_side && w[1] >= -on_side && w[2] >= -on_side)) return foot_in(t, w);
+      if (roughly || (w[0] >= -rounding_of::places && w[1] >= -rounding_of::places && w[2] >= -rounding_of::places)) return foot_in(t, w);
       break;
     }
     before = t, t = next;
@@ -173,7 +174,7 @@ std::int32_t ChartPlane::straight_to(const Vec2& p, std::int32_t first) const {
     std::int32_t next = -1;
     double way = infinity;
     for (int k = 0; k < 3; ++k) {
-      if (there[k] >= -on_side || here[k] <= there[k]) continue;
+      if (there[k] >= -rounding_of::places || here[k] <= there[k]) continue;
       const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3];
       if (const double to_side = here[k] / (here[k] - there[k]); u != before && is_shown(u) && to_side < way)
         way = to_side, next = u;
@@ -218,8 +219,8 @@ Metric2 ChartPlane::metric(const Foot& at) const {
   const auto& n = atlas_.corner[at.triangle];
   Vec3 normal = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
   // Opposite normals at the corners of a folded triangle cancel out, and a triangle without area has no weights.
-  if (!(norm(normal) > min_normal)) normal = atlas_.normal[at.triangle];
-  if (!(norm(normal) > min_normal)) return {1, 0, 1};
+  if (!(norm(normal) > rounding_of::places)) normal = atlas_.normal[at.triangle];
+  if (!(norm(normal) > rounding_of::places)) return {1, 0, 1};
   const double up = std::max(dot(normal, axis_), thresholds::planes::min_cosine * norm(normal));
   const double p = dot(normal, first_) / up, q = dot(normal, second_) / up;
   return {1 + p * p, p * q, 1 + q * q};

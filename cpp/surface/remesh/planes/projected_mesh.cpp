@@ -13,6 +13,7 @@
 #include "support/error.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
+#include "support/work_sizes.h"
 #include "surface/remesh/division/place_packet.h"
 #include "surface/remesh/planes/borders.h"
 #include "surface/remesh/planes/chart_mesh.h"
@@ -222,7 +223,7 @@ MadeChart made_of(const ChartInput& input, Cad& cad, Monitor& monitor) {
     std::optional<ChartMesh> mesh = mesh_chart(input, monitor);
     if (!mesh) return {"it is folded", {}, {}, {}};
     for (std::size_t k = 0; k < mesh->inner.size(); ++k) {
-      if (k % between_checkpoints == 0) monitor.checkpoint();
+      if (k % work_sizes::evaluations == 0) monitor.checkpoint();
       made.inner.push_back(lifted(input.atlas, input.plane, mesh->feet[k], mesh->inner[k], cad));
     }
     made.border = std::move(mesh->border), made.triangles = std::move(mesh->triangles);

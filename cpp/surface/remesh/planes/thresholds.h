@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thresholds of this room, with their units, their reasons and the tests that support them.
+// tests/cpp/geometry/discrete/projected_meshes_test and tests/cpp/surface/remesh/sheets_test rest on them.
 #pragma once
 
 #include <cstddef>
@@ -40,8 +41,6 @@ inline constexpr int sweeps = 12, last_sweeps = 3;
 /// Cosine: if all normals of a chart are as near, the metric of the plane serves for the chart. Lengths are off by 1 %
 /// at most.
 inline constexpr double flat_cosine = 0.99;
-/// Relative difference below which sizes are equal.
-inline constexpr double same_size = 1e-6;
 /// Control space of a chart with one size: error of lengths, samples a vertex, least number of samples. More accuracy
 /// is useless, since the normals of the chart's triangles are as inaccurate.
 inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
@@ -55,11 +54,5 @@ inline constexpr int max_cells = 1 << 20, max_steps = 64, max_straight_steps = 1
 inline constexpr std::size_t max_around = 64;
 /// Rings of triangles beyond the border of a chart in its raster: cuts are straightened.
 inline constexpr int rings_beyond = 2;
-
-/// Length. A mean of unit normals that is shorter has no direction: the normals cancel out. [rounding]
-inline constexpr double min_normal = 1e-9;
-
-/// Vertices that are lifted between two looks for a stop [time only].
-inline constexpr std::size_t between_checkpoints = 256;
 
 }  // namespace carreau::thresholds::planes

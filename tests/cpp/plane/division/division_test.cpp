@@ -68,7 +68,7 @@ class Divided : public ::testing::TestWithParam<Large> {};
 TEST_P(Divided, IsAsGoodAsInOnePiece) {
   const PlaneCase c = GetParam().make(GetParam().size);
   const ControlSpace space = control_space(c);
-  ASSERT_GT(space.measure(), plane::min_divided);
+  ASSERT_GT(space.measure(), plane::triangles_a_piece);
   const auto mesh = cut(c.domain, space);
   ASSERT_TRUE(mesh);
   EXPECT_EQ(find_plane_defects(c.domain, *mesh), Defects{});
@@ -146,7 +146,7 @@ TEST(Division, IsTheSameForAnyNumberOfProcesses) {
 TEST(Division, LeavesStripsAlone) {
   const PlaneCase c = strip(20'000, 6);
   const ControlSpace space = control_space(c);
-  ASSERT_GT(space.measure(), plane::min_divided);
+  ASSERT_GT(space.measure(), plane::triangles_a_piece);
   Monitor monitor;
   PlaneMesherOptions options;
   options.threads = 3;
