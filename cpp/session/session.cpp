@@ -207,20 +207,8 @@ void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   }
 }
 
-// If required, leaves out faces of `known` whose curves cannot be made.
-void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
+PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
   State& s = *state_;
-  CheckedCad whole_cad(*s.cad);
-  run.progress(Phase::model, 0, 0);
-  const bool measured = s.parameters.integer("measure") != 0;
-  constexpr double share_of_mesh = 0.75;  // measuring evaluates the geometry about as often as meshing
-  PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
-  if (has_discrete(known) && !s.triangles)
-    throw InvalidModel("the model has faces given by triangles, and no triangles");
-  if (part != nullptr) refuse_parts_of(known, s.parameters);
-  if (has_discrete(known) && !known.periodicities.empty())
-    throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
-  if (is_discrete(known)) return make_discrete_mesh(known, whole_cad, making, measuring, run);
   leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
@@ -238,7 +226,6 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
   options.team = s.team.get();
-  options.parts = part != nullptr;
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -248,7 +235,27 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)),
                      s.parameters.real("eps_match"), &wide_gaps);
   for (const std::string& gap : wide_gaps) s.monitor.message(Level::warning, gap);
+  return {std::move(model), std::move(supports), std::move(topology), std::move(options), background};
+}
 
+// If required, leaves out faces of `known` whose curves cannot be made.
+void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
+  State& s = *state_;
+  CheckedCad whole_cad(*s.cad);
+  run.progress(Phase::model, 0, 0);
+  const bool measured = s.parameters.integer("measure") != 0;
+  constexpr double share_of_mesh = 0.75;  // measuring evaluates the geometry about as often as meshing
+  PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
+  if (has_discrete(known) && !s.triangles)
+    throw InvalidModel("the model has faces given by triangles, and no triangles");
+  if (part != nullptr) refuse_parts_of(known, s.parameters);
+  if (has_discrete(known) && !known.periodicities.empty())
+    throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
+  if (is_discrete(known)) return make_discrete_mesh(known, whole_cad, making, measuring, run);
+  PreparedModel prepared = prepare(known, whole_cad);
+  auto& [model, supports, topology, options, background] = prepared;
+  PartCad cad(whole_cad, parts_of(model));
+  options.parts = part != nullptr;
   PartMonitor patches(making, 0, has_discrete(known) ? share_of_patches : 1), triangles(making, share_of_patches, 1);
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches);
   std::shared_ptr<const PartResults> parts;

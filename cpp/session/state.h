@@ -15,6 +15,15 @@
 
 namespace carreau {
 
+/// A model whose references are known, and the options of its mesh.
+struct PreparedModel {
+  Model model;
+  ModelSupports supports;
+  Topology topology;
+  CompositeOptions options;
+  std::shared_ptr<BackgroundField> background;
+};
+
 struct Session::State {
   explicit State(Monitor& m) : monitor(m) {}
 
