@@ -425,6 +425,42 @@ CARREAU_API carreau_status carreau_mesh_vertex_entities(carreau_mesh* mesh, int6
 CARREAU_API carreau_status carreau_mesh_edge_parameters(carreau_mesh* mesh, int64_t capacity, double out_t[], int32_t out_faces[],
                                                         int32_t out_ics[]);
 
+/* ---- Meshes that follow their geometry ---- */
+
+/* How carreau_mesh_carry matches faces and curves of both models. ANY: by references; by names or shapes where references have no
+ * counterparts of equal neighbours, or where they are twice as far apart as like shapes. NAME: faces by unique names, curves by their faces.
+ * SHAPE: by neighbours, boundary length and place in the box of the model. */
+enum { CARREAU_MATCH_ANY = 0, CARREAU_MATCH_REFERENCE = 1, CARREAU_MATCH_NAME = 2, CARREAU_MATCH_SHAPE = 3 };
+
+/* Carries the mesh of another session to the geometry of `session`, whose topology is equal. The mesh of `session` gets the vertices,
+ * triangles and elements of the old mesh, with the new references. Vertices of curves keep their share of the arc length. Vertices of faces keep
+ * (u, v) if the domain stays within 1e-6 of its box, else they relax by mean-value weights while the boundary is fixed, which changes
+ * smoothly with the geometry. Triangles that turn over in (u, v) are smoothed, and a face where one stays turned fails with that triangle as its reason.
+ * Elements of second order get new nodes. Faces of the new mesh are in the order of the new model. Both sessions evaluate their callbacks.
+ *
+ * Two meshes of geometries whose parameter differs by 2 d give the derivatives of vertices, (x(p + d) - x(p - d)) / (2 d).
+ * Errors: as carreau_mesh_generate; MODEL (the topologies differ: the face or curve without a counterpart), ARGUMENT (a mesh of a file, of this
+ * session or across patches, faces given as triangles, cracks, no such match), PARTIAL. */
+CARREAU_API carreau_status carreau_mesh_carry(carreau_session* session, carreau_mesh* old_mesh, int32_t match);
+
+/* Kinds of marks: rows of two vertices, or numbers of elements in the order of the mesh, faces in order, quadrilaterals before triangles. */
+enum { CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2 };
+
+/* Refine the mesh of a session on its surfaces, and replace it. New vertices halve edges: on curves by arc length, on faces on the way in
+ * (u, v), as far from both ends in space, on elements of second order at their nodes. Old vertices keep their numbers and places, except
+ * that repairs of elements of second order may move vertices inside faces. A triangle with marked edges loses its longest edge too, and edges
+ * around new vertices are swapped where shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved.
+ * Errors: ARGUMENT (no such edge or element, sizes not positive, a mesh that is periodic, across patches or of triangles), SEQUENCE
+ * (no mesh yet), LIMIT, CALLBACK, CANCELLED, MEMORY. The mesh stays then. */
+
+/* Halves all edges, `times` times: each element becomes four. */
+CARREAU_API carreau_status carreau_mesh_halve(carreau_session* session, int32_t times);
+/* Halves n marked edges (n x 2 vertices) or all edges of n marked elements (n numbers from 0). */
+CARREAU_API carreau_status carreau_mesh_refine(carreau_session* session, int32_t kind, int64_t n, const int32_t marks[]);
+/* Halves edges until none is longer than sqrt(2) of the size at its ends; `sizes` are model lengths at the n vertices of the mesh; of elements
+ * of second order at the corners, which come first. */
+CARREAU_API carreau_status carreau_mesh_refine_sizes(carreau_session* session, int64_t n, const double sizes[]);
+
 /* ---- Points of added geometries ---- */
 
 /* Evaluates a face at n places (u, v). Errors: SEQUENCE (no geometry was added), ARGUMENT. */
