@@ -461,6 +461,31 @@ CARREAU_API carreau_status carreau_mesh_refine(carreau_session* session, int32_t
  * of second order at the corners, which come first. */
 CARREAU_API carreau_status carreau_mesh_refine_sizes(carreau_session* session, int64_t n, const double sizes[]);
 
+/* ---- Elements of order 3 and 4 ---- */
+
+/* Places of nodes on the edges of elements: k / p, or the points of Gauss-Lobatto's quadrature. */
+enum { CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1 };
+
+/* Makes elements of order 2 to 4 over the elements of the session's mesh, which stays: best over a mesh of order 2 (parameter element), whose
+ * sizes were chosen for curved elements. They last until the mesh changes. Nodes of curves divide the arc length, other nodes are
+ * closest points of chords and of the polynomials that the edges imply. Bernstein coefficients of the Jacobian prove the elements valid; in
+ * elements that are not, inner nodes move, then nodes of inner edges. *out_invalid (may be NULL) counts the elements that stay
+ * invalid; a warning names the first. Errors: ARGUMENT (order, places, a mesh across patches or of triangles), SEQUENCE (no mesh yet),
+ * CALLBACK, CANCELLED, MEMORY. */
+CARREAU_API carreau_status carreau_raise_order(carreau_session* session, int32_t order, int32_t places, int64_t* out_invalid);
+
+/* Give the numbers of these elements: all nodes, vertices of the mesh first, triangles, quadrilaterals, edges of curves. Each may be NULL. The
+ * nodes, n x 3. The elements with `corners` corners, 3, 4, or 2 (edges of curves): rows of (p + 1)(p + 2) / 2, (p + 1)^2 or p + 1 nodes from 0, in
+ * the order of Gmsh's types 21, 23, 36, 37, 26, 27, and unless NULL the references of faces or curves. Write a file: .msh (Gmsh 4.1), .vtu (Lagrange
+ * cells), .mesh (MFEM v1.0, discontinuous nodes, positive references). Files have the nodes that their formats require, on the same polynomials.
+ * Errors: SEQUENCE (carreau_raise_order did not succeed since the last mesh), ARGUMENT (capacity in rows, corners, suffix, references), FILE. */
+CARREAU_API carreau_status carreau_raised_count(carreau_session* session, int64_t* out_nodes, int64_t* out_triangles, int64_t* out_quads,
+                                                int64_t* out_edges);
+CARREAU_API carreau_status carreau_raised_nodes(carreau_session* session, int64_t capacity, double out_xyz[]);
+CARREAU_API carreau_status carreau_raised_elements(carreau_session* session, int32_t corners, int64_t capacity, int32_t out_nodes[],
+                                                   int32_t out_references[]);
+CARREAU_API carreau_status carreau_raised_write(carreau_session* session, const char* path);
+
 /* ---- Points of added geometries ---- */
 
 /* Evaluates a face at n places (u, v). Errors: SEQUENCE (no geometry was added), ARGUMENT. */

@@ -348,7 +348,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;
   s.last_failed = false;
-  s.shapes.reset(), s.quality.reset();
+  s.shapes.reset(), s.quality.reset(), s.raised.reset();
   if (s.monitor.hears(Level::summary)) describe_result(s.result, shapes(), s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_evaluation(s.result.mesh, *s.delivered, s.monitor);

@@ -14,6 +14,7 @@
 #include "association/refine_mesh.h"
 #include "cad/cad.h"
 #include "fields/fields.h"
+#include "high_order/high_order_mesh.h"
 #include "io/mesh_files.h"
 #include "measure/mesh_evaluation.h"
 #include "mesh/flat_mesh.h"
@@ -100,6 +101,12 @@ class Session {
 
   /// Refines mesh() on its surfaces (association/refine_mesh.h), and replaces it. Throws InvalidArgument like carry_mesh(), and LimitError.
   void refine_mesh(const RefineRequest& request);
+
+  /// Makes elements of a higher order over mesh() (high_order/raise_order.h), until the mesh changes. Throws InvalidArgument like carry_mesh().
+  const HighOrderMesh& raise_order(int order, NodePlaces places);
+  /// Throws InvalidArgument without them.
+  [[nodiscard]] const HighOrderMesh& raised() const;
+  [[nodiscard]] bool has_raised() const noexcept;
 
   /// Like make_mesh(), by all processes of the team: patches stay in the processes that made them. The parts form the mesh of
   /// make_mesh(), with equal numbers, which no process holds. mesh() does not change. Throws InvalidArgument without a team, and for

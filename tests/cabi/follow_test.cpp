@@ -40,9 +40,9 @@ std::int32_t curve_of(std::int32_t face, std::int32_t ic, double t, std::int32_t
 }
 
 /// A session of a shape.
-class Run {
+class ShapeRun {
  public:
-  explicit Run(Shape shape, double size = 0.2, const char* element = "p1") : shape_(std::move(shape)) {
+  explicit ShapeRun(Shape shape, double size = 0.2, const char* element = "p1") : shape_(std::move(shape)) {
     EXPECT_EQ(carreau_session_create(&session), CARREAU_OK);
     auto cad = sized<carreau_cad>();
     cad.user = &shape_, cad.surface = surface_of, cad.curve_interval = interval_of, cad.curve = curve_of, cad.reentrant = 1;
@@ -51,9 +51,9 @@ class Run {
     EXPECT_EQ(carreau_set_real(session, "hphydef", size), CARREAU_OK);
     EXPECT_EQ(carreau_set_text(session, "element", element), CARREAU_OK);
   }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-  ~Run() { carreau_session_free(session); }
+  ShapeRun(const ShapeRun&) = delete;
+  ShapeRun& operator=(const ShapeRun&) = delete;
+  ~ShapeRun() { carreau_session_free(session); }
 
   carreau_mesh* mesh() const {
     carreau_mesh* handle = nullptr;
@@ -137,11 +137,11 @@ Shape roof(double width, double rise, bool renumbered) {
           }};
 }
 
-void expect_sound(const Run& run, bool closed = false) { EXPECT_TRUE(defects_of(run.mesh(), closed).empty()) << defects_of(run.mesh(), closed); }
+void expect_sound(const ShapeRun& run, bool closed = false) { EXPECT_TRUE(defects_of(run.mesh(), closed).empty()) << defects_of(run.mesh(), closed); }
 
 TEST(Carry, SameGeometryGivesTheSameMesh) {
   for (const char* element : {"p1", "q1.0", "p2"}) {
-    const Run a(cylinder(1), 0.2, element), b(cylinder(1), 0.2, element);
+    const ShapeRun a(cylinder(1), 0.2, element), b(cylinder(1), 0.2, element);
     a.generate();
     ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_REFERENCE), CARREAU_OK) << b.error();
     const MeshData p = a.data(), q = b.data();
@@ -157,9 +157,9 @@ TEST(Carry, SameGeometryGivesTheSameMesh) {
 // x = r (cos u, sin u), so that dx/dr is the unit vector of each vertex, whatever the parametrisation.
 TEST(Carry, DerivativesByTheRadiusOfACylinder) {
   for (const bool by_length : {false, true}) {
-    const Run a(cylinder(1, 1, by_length)), up(cylinder(1 + 1e-4, 1, by_length)), down(cylinder(1 - 1e-4, 1, by_length));
+    const ShapeRun a(cylinder(1, 1, by_length)), up(cylinder(1 + 1e-4, 1, by_length)), down(cylinder(1 - 1e-4, 1, by_length));
     a.generate();
-    for (const Run* run : {&up, &down}) ASSERT_EQ(carreau_mesh_carry(run->session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << run->error();
+    for (const ShapeRun* run : {&up, &down}) ASSERT_EQ(carreau_mesh_carry(run->session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << run->error();
     const MeshData at = a.data(), p = up.data(), q = down.data();
     EXPECT_EQ(at.triangles, p.triangles);
     for (std::size_t v = 0; v < at.vertex_count(); ++v)
@@ -170,15 +170,15 @@ TEST(Carry, DerivativesByTheRadiusOfACylinder) {
 
 // On the hole dx/dr is the outward unit vector, on the sides 0; means of neighbours stay between them. Second order in the step.
 TEST(Carry, DerivativesByTheRadiusOfAHole) {
-  const Run a(plate(0.4));
+  const ShapeRun a(plate(0.4));
   a.generate();
   const MeshData at = a.data();
   std::vector<double> last;
   double differences[2] = {0, 0};
   for (int step = 0; step < 3; ++step) {
     const double d = 0.02 / (1 << step);
-    const Run up(plate(0.4 + d)), down(plate(0.4 - d));
-    for (const Run* run : {&up, &down}) {
+    const ShapeRun up(plate(0.4 + d)), down(plate(0.4 - d));
+    for (const ShapeRun* run : {&up, &down}) {
       ASSERT_EQ(carreau_mesh_carry(run->session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << run->error();
       expect_sound(*run);
     }
@@ -202,14 +202,16 @@ TEST(Carry, DerivativesByTheRadiusOfAHole) {
 }
 
 TEST(Carry, LargeChangesStayValidOrAreReported) {
-  const Run a(plate(0.3), 0.1);
+  const ShapeRun a(plate(0.3), 0.1);
   a.generate();
-  const Run b(plate(0.6), 0.1);
+  const ShapeRun b(plate(0.6), 0.1);
   ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
   expect_sound(b);
-  EXPECT_NEAR(b.quality().area, 4 - pi * 0.36, 0.02);
+  const MeshData carried = b.data();
+  const auto edges = double(std::count(carried.edge_refs.begin(), carried.edge_refs.end(), 5));
+  EXPECT_NEAR(b.quality().area, 4 - edges / 2 * 0.36 * std::sin(2 * pi / edges), 1e-6);  // a regular polygon is cut out
   // The hole leaves the plate: the face fails with its triangle.
-  const Run c(plate(0.3, 0.9), 0.1);
+  const ShapeRun c(plate(0.3, 0.9), 0.1);
   const carreau_status status = carreau_mesh_carry(c.session, a.mesh(), CARREAU_MATCH_ANY);
   EXPECT_EQ(status, CARREAU_ERR_DOMAIN);
   EXPECT_NE(c.error().find("turned"), std::string::npos) << c.error();
@@ -217,7 +219,7 @@ TEST(Carry, LargeChangesStayValidOrAreReported) {
 
 TEST(Carry, PolesAndSeamsOfASphereFollow) {
   for (const char* element : {"p1", "p2", "q1.0"}) {
-    const Run a(sphere(1, 1, 1), 0.3, element), b(sphere(2, 1.5, 1), 0.3, element);
+    const ShapeRun a(sphere(1, 1, 1), 0.3, element), b(sphere(2, 1.5, 1), 0.3, element);
     a.generate();
     ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
     expect_sound(b, true);
@@ -232,7 +234,7 @@ TEST(Carry, PolesAndSeamsOfASphereFollow) {
 }
 
 TEST(Carry, RenumberedFacesAreFound) {
-  const Run a(roof(1, 0.5, false), 0.25), b(roof(1.2, 0.6, true), 0.25);
+  const ShapeRun a(roof(1, 0.5, false), 0.25), b(roof(1.2, 0.6, true), 0.25);
   a.generate();
   EXPECT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_REFERENCE), CARREAU_ERR_MODEL);
   EXPECT_NE(b.error().find("curve"), std::string::npos) << b.error();
@@ -250,7 +252,7 @@ TEST(Carry, RenumberedFacesAreFound) {
 }
 
 TEST(Carry, NamesErrors) {
-  const Run a(cylinder(1)), b(plate(0.3)), c(cylinder(1));
+  const ShapeRun a(cylinder(1)), b(plate(0.3)), c(cylinder(1));
   EXPECT_EQ(carreau_mesh_carry(a.session, nullptr, CARREAU_MATCH_ANY), CARREAU_ERR_ARGUMENT);
   a.generate();
   EXPECT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_ERR_MODEL);
@@ -267,7 +269,7 @@ TEST(Carry, NamesErrors) {
 
 TEST(Refine, HalvedElementsAreFourAndLieOnTheSurface) {
   for (const char* element : {"p1", "p2", "q1.0", "q2.0"}) {
-    const Run run(sphere(1, 1, 1), 0.4, element);
+    const ShapeRun run(sphere(1, 1, 1), 0.4, element);
     run.generate();
     const MeshData before = run.data();
     std::map<int, std::int64_t> count;
@@ -287,7 +289,7 @@ TEST(Refine, HalvedElementsAreFourAndLieOnTheSurface) {
 }
 
 TEST(Refine, CurvesAreHalvedByLength) {
-  const Run run(cylinder(2));
+  const ShapeRun run(cylinder(2));
   run.generate();
   const auto n = static_cast<std::int64_t>(run.data().edge_count());
   ASSERT_EQ(carreau_mesh_halve(run.session, 2), CARREAU_OK) << run.error();
@@ -307,7 +309,7 @@ TEST(Refine, CurvesAreHalvedByLength) {
 }
 
 TEST(Refine, MarkedElementsKeepTheMeshConformingAndItsQuality) {
-  const Run run(sphere(1, 1, 1), 0.3);
+  const ShapeRun run(sphere(1, 1, 1), 0.3);
   run.generate();
   const double before = run.quality().q2_min;
   for (int level = 0; level < 5; ++level) {
@@ -323,7 +325,7 @@ TEST(Refine, MarkedElementsKeepTheMeshConformingAndItsQuality) {
 
 TEST(Refine, MarkedEdgesAreGone) {
   for (const char* element : {"p1", "q1.0", "p2"}) {
-    const Run run(plate(0.4), 0.25, element);
+    const ShapeRun run(plate(0.4), 0.25, element);
     run.generate();
     const MeshData before = run.data();
     const std::int32_t marks[4] = {before.triangles[0], before.triangles[1], before.triangles[4], before.triangles[5]};
@@ -342,7 +344,7 @@ TEST(Refine, MarkedEdgesAreGone) {
 }
 
 TEST(Refine, SizesAreReached) {
-  const Run run(plate(0.4), 0.3);
+  const ShapeRun run(plate(0.4), 0.3);
   run.generate();
   const MeshData before = run.data();
   std::vector<double> sizes;
@@ -359,7 +361,7 @@ TEST(Refine, SizesAreReached) {
 }
 
 TEST(Refine, NamesErrorsAndKeepsTheMesh) {
-  const Run run(plate(0.4));
+  const ShapeRun run(plate(0.4));
   EXPECT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_ERR_SEQUENCE);
   run.generate();
   const MeshData before = run.data();

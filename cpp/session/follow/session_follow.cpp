@@ -6,9 +6,11 @@
 #include "association/carry_mesh.h"
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
+#include "high_order/raise_order.h"
 #include "session/gluing.h"
 #include "session/options.h"
 #include "session/state.h"
+#include "support/format_point.h"
 #include "support/part_monitor.h"
 
 namespace carreau {
@@ -92,6 +94,37 @@ void Session::refine_mesh(const RefineRequest& request) {
   CompositeOptions options = meshed.options;
   keep_result(std::move(same), std::move(supports), std::move(topology), std::move(options), std::move(result), nullptr, meshed.background, run);
   run.progress(Phase::idle, 0, 1);
+}
+
+const HighOrderMesh& Session::raised() const {
+  if (!state_->raised) throw InvalidArgument("there are no elements of a higher order: make them first");
+  return *state_->raised;
+}
+
+bool Session::has_raised() const noexcept { return state_->raised.has_value(); }
+
+const HighOrderMesh& Session::raise_order(int order, NodePlaces places) {
+  State& s = *state_;
+  (void)mesh();
+  require_faces_with_uv(s.result, s.meshed, "raised in order");
+  PartMonitor run(s.monitor, 0, 1);
+  CheckedCad whole_cad(*s.meshed.cad);
+  PartCad cad(whole_cad, parts_of(s.meshed.model));
+  const CurveModel model{s.meshed.model, s.meshed.topology, s.meshed.supports.of_face, cad};
+  HighOrderMesh made = carreau::raise_order(model, s.result, order, places, run);
+  made.names = names();
+  if (!made.invalid.empty()) {
+    const auto n = static_cast<std::size_t>(made.invalid.front());
+    const std::size_t triangles = made.triangle_refs.size();
+    const auto p = static_cast<std::size_t>(order);
+    const std::int32_t corner = n < triangles ? made.triangles[n * (p + 1) * (p + 2) / 2] : made.quads[(n - triangles) * (p + 1) * (p + 1)];
+    const int face = n < triangles ? made.triangle_refs[n] : made.quad_refs[n - triangles];
+    s.monitor.message(Level::warning, Where{.face = face}.prefix() + std::to_string(made.invalid.size()) + " elements of order " + std::to_string(order) +
+                                          " are invalid, the first one at " + format_point(made.nodes[corner]));
+  }
+  s.raised = std::move(made);
+  run.progress(Phase::idle, 0, 1);
+  return *s.raised;
 }
 
 }  // namespace carreau
