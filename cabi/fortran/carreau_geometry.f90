@@ -27,6 +27,10 @@ module carreau_geometry
   public :: carreau_triangles_measure, carreau_triangles_refine, carreau_triangles_distances, &
     carreau_triangles_bounds
   public :: carreau_geometry_points, carreau_geometry_curve
+  public :: carreau_mesh_carry, carreau_mesh_halve, carreau_mesh_refine, carreau_mesh_refine_sizes
+  integer(c_int32_t), parameter, public :: CARREAU_MATCH_ANY = 0, CARREAU_MATCH_REFERENCE = 1, CARREAU_MATCH_NAME = 2, &
+    CARREAU_MATCH_SHAPE = 3
+  integer(c_int32_t), parameter, public :: CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2
   public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
@@ -527,6 +531,44 @@ contains
     status = c_mesh_edge_parameters(mesh%handle, edges, t, faces, ics)
     if (status /= CARREAU_OK) deallocate (t, faces, ics)
   end subroutine carreau_mesh_edge_parameters
+
+  ! ---- Meshes that follow their geometry ----
+
+  subroutine carreau_mesh_carry(session, old_mesh, status, match)
+    type(carreau_session), intent(in) :: session
+    type(carreau_mesh), intent(in) :: old_mesh
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: match
+    integer(c_int32_t) :: by
+    by = CARREAU_MATCH_ANY
+    if (present(match)) by = match
+    status = c_mesh_carry(session%handle, old_mesh%handle, by)
+  end subroutine carreau_mesh_carry
+
+  subroutine carreau_mesh_halve(session, times, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: times
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_halve(session%handle, times)
+  end subroutine carreau_mesh_halve
+
+  !> marks: pairs of vertices, or elements, from 1
+  subroutine carreau_mesh_refine(session, kind, marks, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: kind, marks(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n
+    n = size(marks, kind=c_int64_t)
+    if (kind == CARREAU_MARK_EDGES) n = n/2
+    status = c_mesh_refine(session%handle, kind, n, marks - 1)
+  end subroutine carreau_mesh_refine
+
+  subroutine carreau_mesh_refine_sizes(session, sizes, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: sizes(:)
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_refine_sizes(session%handle, size(sizes, kind=c_int64_t), sizes)
+  end subroutine carreau_mesh_refine_sizes
 
   ! ---- Points of built-in geometries ----
 

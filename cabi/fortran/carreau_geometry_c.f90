@@ -388,6 +388,46 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_mesh_edge_parameters
 
+    !> Carries the mesh of another session to the geometry of `session`, whose topology is equal.
+    function c_mesh_carry(session, old_mesh, match) result(status) bind(c, name="carreau_mesh_carry")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session, old_mesh
+      integer(c_int32_t), value :: match
+      integer(c_int32_t) :: status
+    end function c_mesh_carry
+
+    !> Halves all edges, `times` times: each element becomes four.
+    function c_mesh_halve(session, times) result(status) bind(c, name="carreau_mesh_halve")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: times
+      integer(c_int32_t) :: status
+    end function c_mesh_halve
+
+    !> Halves n marked edges (n x 2 vertices) or all edges of n marked elements (n numbers from 0).
+    function c_mesh_refine(session, kind, n, marks) result(status) bind(c, name="carreau_mesh_refine")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), intent(in) :: marks(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_refine
+
+    !> Halves edges until none is longer than sqrt(2) of the size at its ends; `sizes` are model lengths at the n
+    !! vertices of the mesh; of elements of second order at the corners, which come first.
+    function c_mesh_refine_sizes(session, n, sizes) result(status) bind(c, name="carreau_mesh_refine_sizes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: sizes(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_refine_sizes
+
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")
       import :: c_double, c_int32_t, c_int64_t, c_ptr

@@ -425,6 +425,67 @@ CARREAU_API carreau_status carreau_mesh_vertex_entities(carreau_mesh* mesh, int6
 CARREAU_API carreau_status carreau_mesh_edge_parameters(carreau_mesh* mesh, int64_t capacity, double out_t[], int32_t out_faces[],
                                                         int32_t out_ics[]);
 
+/* ---- Meshes that follow their geometry ---- */
+
+/* How carreau_mesh_carry matches faces and curves of both models. ANY: by references; by names or shapes where references have no
+ * counterparts of equal neighbours, or where they are twice as far apart as like shapes. NAME: faces by unique names, curves by their faces.
+ * SHAPE: by neighbours, boundary length and place in the box of the model. */
+enum { CARREAU_MATCH_ANY = 0, CARREAU_MATCH_REFERENCE = 1, CARREAU_MATCH_NAME = 2, CARREAU_MATCH_SHAPE = 3 };
+
+/* Carries the mesh of another session to the geometry of `session`, whose topology is equal. The mesh of `session` gets the vertices,
+ * triangles and elements of the old mesh, with the new references. Vertices of curves keep their share of the arc length. Vertices of faces keep
+ * (u, v) if the domain stays within 1e-6 of its box, else they relax by mean-value weights while the boundary is fixed, which changes
+ * smoothly with the geometry. Triangles that turn over in (u, v) are smoothed, and a face where one stays turned fails with that triangle as its reason.
+ * Elements of second order get new nodes. Faces of the new mesh are in the order of the new model. Both sessions evaluate their callbacks.
+ *
+ * Two meshes of geometries whose parameter differs by 2 d give the derivatives of vertices, (x(p + d) - x(p - d)) / (2 d).
+ * Errors: as carreau_mesh_generate; MODEL (the topologies differ: the face or curve without a counterpart), ARGUMENT (a mesh of a file, of this
+ * session or across patches, faces given as triangles, cracks, no such match), PARTIAL. */
+CARREAU_API carreau_status carreau_mesh_carry(carreau_session* session, carreau_mesh* old_mesh, int32_t match);
+
+/* Kinds of marks: rows of two vertices, or numbers of elements in the order of the mesh, faces in order, quadrilaterals before triangles. */
+enum { CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2 };
+
+/* Refine the mesh of a session on its surfaces, and replace it. New vertices halve edges: on curves by arc length, on faces on the way in
+ * (u, v), as far from both ends in space, on elements of second order at their nodes. Old vertices keep their numbers and places, except
+ * that repairs of elements of second order may move vertices inside faces. A triangle with marked edges loses its longest edge too, and edges
+ * around new vertices are swapped where shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved.
+ * Errors: ARGUMENT (no such edge or element, sizes not positive, a mesh that is periodic, across patches or of triangles), SEQUENCE
+ * (no mesh yet), LIMIT, CALLBACK, CANCELLED, MEMORY. The mesh stays then. */
+
+/* Halves all edges, `times` times: each element becomes four. */
+CARREAU_API carreau_status carreau_mesh_halve(carreau_session* session, int32_t times);
+/* Halves n marked edges (n x 2 vertices) or all edges of n marked elements (n numbers from 0). */
+CARREAU_API carreau_status carreau_mesh_refine(carreau_session* session, int32_t kind, int64_t n, const int32_t marks[]);
+/* Halves edges until none is longer than sqrt(2) of the size at its ends; `sizes` are model lengths at the n vertices of the mesh; of elements
+ * of second order at the corners, which come first. */
+CARREAU_API carreau_status carreau_mesh_refine_sizes(carreau_session* session, int64_t n, const double sizes[]);
+
+/* ---- Elements of order 3 and 4 ---- */
+
+/* Places of nodes on the edges of elements: k / p, or the points of Gauss-Lobatto's quadrature. */
+enum { CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1 };
+
+/* Makes elements of order 2 to 4 over the elements of the session's mesh, which stays: best over a mesh of order 2 (parameter element), whose
+ * sizes were chosen for curved elements. They last until the mesh changes. Nodes of curves divide the arc length, other nodes are
+ * closest points of chords and of the polynomials that the edges imply. Bernstein coefficients of the Jacobian prove the elements valid; in
+ * elements that are not, inner nodes move, then nodes of inner edges. *out_invalid (may be NULL) counts the elements that stay
+ * invalid; a warning names the first. Errors: ARGUMENT (order, places, a mesh across patches or of triangles), SEQUENCE (no mesh yet),
+ * CALLBACK, CANCELLED, MEMORY. */
+CARREAU_API carreau_status carreau_raise_order(carreau_session* session, int32_t order, int32_t places, int64_t* out_invalid);
+
+/* Give the numbers of these elements: all nodes, vertices of the mesh first, triangles, quadrilaterals, edges of curves. Each may be NULL. The
+ * nodes, n x 3. The elements with `corners` corners, 3, 4, or 2 (edges of curves): rows of (p + 1)(p + 2) / 2, (p + 1)^2 or p + 1 nodes from 0, in
+ * the order of Gmsh's types 21, 23, 36, 37, 26, 27, and unless NULL the references of faces or curves. Write a file: .msh (Gmsh 4.1), .vtu (Lagrange
+ * cells), .mesh (MFEM v1.0, discontinuous nodes, positive references). Files have the nodes that their formats require, on the same polynomials.
+ * Errors: SEQUENCE (carreau_raise_order did not succeed since the last mesh), ARGUMENT (capacity in rows, corners, suffix, references), FILE. */
+CARREAU_API carreau_status carreau_raised_count(carreau_session* session, int64_t* out_nodes, int64_t* out_triangles, int64_t* out_quads,
+                                                int64_t* out_edges);
+CARREAU_API carreau_status carreau_raised_nodes(carreau_session* session, int64_t capacity, double out_xyz[]);
+CARREAU_API carreau_status carreau_raised_elements(carreau_session* session, int32_t corners, int64_t capacity, int32_t out_nodes[],
+                                                   int32_t out_references[]);
+CARREAU_API carreau_status carreau_raised_write(carreau_session* session, const char* path);
+
 /* ---- Points of added geometries ---- */
 
 /* Evaluates a face at n places (u, v). Errors: SEQUENCE (no geometry was added), ARGUMENT. */

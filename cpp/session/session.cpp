@@ -192,23 +192,8 @@ void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   }
 }
 
-// If required, leaves out faces of `known` whose curves cannot be made.
-void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
+PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
   State& s = *state_;
-  CheckedCad whole_cad(*s.cad);
-  run.progress(Phase::model, 0, 0);
-  const bool measured = s.parameters.integer("measure") != 0;
-  constexpr double share_of_mesh = 0.75;  // measuring evaluates the geometry about as often as meshing
-  PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
-  if (has_discrete(known) && !s.triangles)
-    throw InvalidModel("the model has faces given by triangles, and no triangles");
-  if (has_discrete(known) && !known.periodicities.empty())
-    throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
-  if (is_discrete(known)) {
-    make_discrete_mesh(known, whole_cad, making, measuring, run);
-    if (part != nullptr) *part = part_of_mesh();
-    return;
-  }
   leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
@@ -226,7 +211,6 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
   options.team = s.team.get();
-  options.parts = part != nullptr && !has_discrete(known) && !measured;
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -236,7 +220,30 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)),
                      s.parameters.real("eps_match"), &wide_gaps);
   for (const std::string& gap : wide_gaps) s.monitor.message(Level::warning, gap);
+  return {std::move(model), std::move(supports), std::move(topology), std::move(options), background};
+}
 
+// If required, leaves out faces of `known` whose curves cannot be made.
+void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
+  State& s = *state_;
+  CheckedCad whole_cad(*s.cad);
+  run.progress(Phase::model, 0, 0);
+  const bool measured = s.parameters.integer("measure") != 0;
+  constexpr double share_of_mesh = 0.75;  // measuring evaluates the geometry about as often as meshing
+  PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
+  if (has_discrete(known) && !s.triangles)
+    throw InvalidModel("the model has faces given by triangles, and no triangles");
+  if (has_discrete(known) && !known.periodicities.empty())
+    throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
+  if (is_discrete(known)) {
+    make_discrete_mesh(known, whole_cad, making, measuring, run);
+    if (part != nullptr) *part = part_of_mesh();
+    return;
+  }
+  PreparedModel prepared = prepare(known, whole_cad);
+  auto& [model, supports, topology, options, background] = prepared;
+  PartCad cad(whole_cad, parts_of(model));
+  options.parts = part != nullptr && !has_discrete(known) && !measured;
   PartMonitor patches(making, 0, has_discrete(known) ? share_of_patches : 1), triangles(making, share_of_patches, 1);
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches);
   std::shared_ptr<const PartResults> parts;
@@ -360,7 +367,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;
   s.last_failed = false;
-  s.shapes.reset(), s.quality.reset();
+  s.shapes.reset(), s.quality.reset(), s.raised.reset();
   if (s.monitor.hears(Level::summary)) describe_result(s.result, shapes(), s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_evaluation(s.result.mesh, *s.delivered, s.monitor);

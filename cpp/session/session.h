@@ -10,8 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "association/match_models.h"
+#include "association/refine_mesh.h"
 #include "cad/cad.h"
 #include "fields/fields.h"
+#include "high_order/high_order_mesh.h"
 #include "io/mesh_files.h"
 #include "measure/mesh_evaluation.h"
 #include "mesh/flat_mesh.h"
@@ -37,6 +40,7 @@ namespace discrete {
 class DiscreteCad;
 }
 struct PartResults;
+struct PreparedModel;
 
 /// Independent of any other session; used by one thread at a time.
 class Session {
@@ -89,6 +93,20 @@ class Session {
   /// everything that used them again. DomainError when none is left. Reports progress between `from` and `to`, the
   /// share of this run in a longer one.
   void make_mesh(double from = 0, double to = 1);
+
+  /// The mesh of another session on this session's geometry, whose topology is equal (association/carry_mesh.h): `elements` and sizes are of the
+  /// other mesh. Replaces the mesh like make_mesh(). Throws InvalidArgument without that mesh, and for meshes across patches and of triangles;
+  /// InvalidModel where the topologies differ.
+  void carry_mesh(const Session& from, MatchBy by);
+
+  /// Refines mesh() on its surfaces (association/refine_mesh.h), and replaces it. Throws InvalidArgument like carry_mesh(), and LimitError.
+  void refine_mesh(const RefineRequest& request);
+
+  /// Makes elements of a higher order over mesh() (high_order/raise_order.h), until the mesh changes. Throws InvalidArgument like carry_mesh().
+  const HighOrderMesh& raise_order(int order, NodePlaces places);
+  /// Throws InvalidArgument without them.
+  [[nodiscard]] const HighOrderMesh& raised() const;
+  [[nodiscard]] bool has_raised() const noexcept;
 
   /// Like make_mesh(), by all processes of the team: patches stay in the processes that made them. The parts form the mesh of
   /// make_mesh(), with equal numbers, which no process holds; mesh() does not change. With options that need the whole mesh
@@ -175,6 +193,8 @@ class Session {
   [[nodiscard]] const QualitySummary& shapes() const;
   void make_mesh_alone(double from, double to, PartMesh* part);
   void make_mesh_of(Model& known, Monitor& run, PartMesh* part);
+  /// Finds supports, references and the topology of `known`, which loses the faces that the host fails on if required.
+  PreparedModel prepare(Model& known, Cad& whole_cad);
   PartMesh part_of(const Model& model, CompositeResult result);
   PartMesh part_of_mesh();
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);

@@ -15,6 +15,15 @@
 
 namespace carreau {
 
+/// A model whose references are known, and the options of its mesh.
+struct PreparedModel {
+  Model model;
+  ModelSupports supports;
+  Topology topology;
+  CompositeOptions options;
+  std::shared_ptr<BackgroundField> background;
+};
+
 struct Session::State {
   explicit State(Monitor& m) : monitor(m) {}
 
@@ -39,6 +48,7 @@ struct Session::State {
   std::shared_ptr<const PartResults> parts;  // of `result`; null: it is of one kind
   Meshed meshed;
   bool has_mesh = false;
+  std::optional<HighOrderMesh> raised;  // over `result`
   std::unique_ptr<Projector> projector;  // of the geometry and the model; null: it is to be made
   Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
   bool last_failed = false;                        // the last make_mesh() has thrown

@@ -96,6 +96,24 @@ inline EdgeParameters edge_parameters(const Mesh& mesh) {
   return out;
 }
 
+/// Carries the mesh of another session to the geometry of this one; `match` is CARREAU_MATCH_....
+inline Outcome carry_mesh(Session& session, const Mesh& old_mesh, int match = CARREAU_MATCH_ANY) {
+  return session.outcome(carreau_mesh_carry(session.get(), old_mesh.get(), match));
+}
+/// Halves all edges of the mesh.
+inline void halve_mesh(Session& session, int times = 1) { session.done(carreau_mesh_halve(session.get(), times)); }
+/// Halves these edges, by vertices, or all edges of these elements.
+inline void refine_edges(Session& session, std::span<const std::array<std::int32_t, 2>> edges) {
+  session.done(carreau_mesh_refine(session.get(), CARREAU_MARK_EDGES, detail::count_of(edges.size()), detail::flat(edges)));
+}
+inline void refine_elements(Session& session, std::span<const std::int32_t> elements) {
+  session.done(carreau_mesh_refine(session.get(), CARREAU_MARK_ELEMENTS, detail::count_of(elements.size()), elements.data()));
+}
+/// Halves edges until they fit the sizes at vertices.
+inline void refine_to_sizes(Session& session, std::span<const double> sizes) {
+  session.done(carreau_mesh_refine_sizes(session.get(), detail::count_of(sizes.size()), sizes.data()));
+}
+
 /// Points of a face at places (u, v).
 inline std::vector<Point3> geometry_points(Session& session, int face, std::span<const Point2> uv) {
   std::vector<Point3> out(uv.size());

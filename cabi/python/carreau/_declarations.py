@@ -136,6 +136,12 @@ GRID_PLOT3D = 1
 GRID_HEIGHTS = 2
 GRID_SCAN = 3
 GRID_NODES = 4
+MATCH_ANY = 0
+MATCH_REFERENCE = 1
+MATCH_NAME = 2
+MATCH_SHAPE = 3
+MARK_EDGES = 1
+MARK_ELEMENTS = 2
 NODE_INSIDE = 0
 NODE_FREE = 1
 NODE_IMPOSED = 2
@@ -1127,6 +1133,10 @@ CARREAU = {
     "carreau_project": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles, Int32s, Doubles, Doubles, Doubles]),
     "carreau_mesh_vertex_entities": (c_int32, [c_void_p, c_int64, Int32s, Int32s]),
     "carreau_mesh_edge_parameters": (c_int32, [c_void_p, c_int64, Doubles, Int32s, Int32s]),
+    "carreau_mesh_carry": (c_int32, [c_void_p, c_void_p, c_int32]),
+    "carreau_mesh_halve": (c_int32, [c_void_p, c_int32]),
+    "carreau_mesh_refine": (c_int32, [c_void_p, c_int32, c_int64, Int32s]),
+    "carreau_mesh_refine_sizes": (c_int32, [c_void_p, c_int64, Doubles]),
     "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
     "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_remesh": (c_int32, [c_void_p, POINTER(carreau_remesh_input), POINTER(carreau_remesh_summary)]),

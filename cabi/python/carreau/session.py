@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from ctypes import byref, c_void_p
+from typing import Any, Callable, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _declarations as c
 from ._geometries import Geometries
@@ -41,6 +45,37 @@ class Session(SessionBase, Geometries):
         self._runs += 1
         del self._sizes[:-1]
         return self.mesh
+
+    def _followed(self, function: Callable[..., int], *arguments: Any) -> Mesh:
+        try:
+            self._run(function, *arguments)
+        except PartialError as partial:
+            log.warning("%s", partial)
+        self._runs += 1
+        del self._sizes[:-1]
+        return self.mesh
+
+    def carry(self, old: Mesh, match: str = "any") -> Mesh:
+        """The mesh of another session on this session's geometry, of equal topology: match by "reference", "name" or "shape"."""
+        by = {"any": c.MATCH_ANY, "reference": c.MATCH_REFERENCE, "name": c.MATCH_NAME, "shape": c.MATCH_SHAPE}
+        if match not in by:
+            raise ValueError(f"match is {match!r}; it must be one of {', '.join(by)}")
+        return self._followed(lib().mesh_carry, old._handle, by[match])
+
+    def halve(self, times: int = 1) -> Mesh:
+        """Halves all edges of the mesh on its surfaces: each element becomes four."""
+        return self._followed(lib().mesh_halve, times)
+
+    def refine(self, *, edges: Optional[ArrayLike] = None, elements: Optional[ArrayLike] = None, sizes: Optional[ArrayLike] = None) -> Mesh:
+        """Halves marked edges (n, 2), all edges of marked elements, or edges longer than sizes at vertices allow, on the surfaces."""
+        if (edges is not None) + (elements is not None) + (sizes is not None) != 1:
+            raise ValueError("one of edges, elements and sizes is needed")
+        if sizes is not None:
+            values = np.ascontiguousarray(sizes, dtype=float).ravel()
+            return self._followed(lib().mesh_refine_sizes, len(values), values)
+        kind = c.MARK_ELEMENTS if edges is None else c.MARK_EDGES
+        marks = np.ascontiguousarray(elements if edges is None else edges, dtype=np.int32).reshape(-1, 2 if kind == c.MARK_EDGES else 1)
+        return self._followed(lib().mesh_refine, kind, len(marks), marks)
 
     @property
     def mesh(self) -> Mesh:

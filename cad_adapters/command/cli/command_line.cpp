@@ -113,6 +113,15 @@ void CommandLine::add_mesh() {
   mesh->add_option("--dump-failed", mesh_.dump_failed,
                    "Folder for the domains (.mesh) and fields (.exr) of failed faces")
       ->type_name(kind::file);
+  mesh->add_option("--carry-from", mesh_.carry_from, "Geometry before a change: carries its mesh here, with its triangles")
+      ->check(not_empty)
+      ->type_name(kind::file);
+  mesh->add_option("--match", mesh_.match, "Of --carry-from, faces by: reference, name, shape, or any (default)")
+      ->check(CLI::IsMember({"any", "reference", "name", "shape"}))
+      ->needs("--carry-from");
+  mesh->add_option("--halvings", mesh_.halvings, "Times that all edges of the mesh are halved on the surface")
+      ->check(CLI::Range(0, 12))
+      ->type_name(kind::number);
   add_parts_option(mesh, mesh_);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Print errors only");

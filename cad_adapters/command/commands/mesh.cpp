@@ -111,6 +111,22 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   throw Failure(sentence);
 }
 
+/// Meshes the geometry before a change, and carries its mesh to the geometry of the session.
+carreau_status carry(const MeshOptions& options, carreau_session* session, SizeMap& map, Progress& progress) {
+  const std::vector<std::string> words{"any", "reference", "name", "shape"};
+  const auto match = std::find(words.begin(), words.end(), options.match) - words.begin();
+  progress.line("reading " + options.carry_from);
+  const std::unique_ptr<CadInput> before = open_input(options.carry_from, options, [](double) {});
+  const SessionHandle other = make_session();
+  set_parameters(other.get(), options, *before, map);
+  require(other.get(), before->give_to(other.get()));
+  prescribe_curve_edges(other.get(), options, *before);
+  require(other.get(), carreau_mesh_generate(other.get()));
+  carreau_mesh* mesh = nullptr;
+  require(other.get(), carreau_session_mesh(other.get(), &mesh));
+  return carreau_mesh_carry(session, mesh, static_cast<std::int32_t>(match));
+}
+
 /// The mesh of the session, or the part of this process.
 void take_mesh(MeshRun& run, const Ranks* ranks, const Ranks::Part& part) {
   run.quality.struct_size = sizeof run.quality;
@@ -149,7 +165,12 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
     for (const std::string& kink : input.kinks()) progress.warning(kink);
   const std::clock_t start = std::clock();
   const auto make = [&] {
-    return options.parts ? ranks->generate_parts(run.session, part) : adaptation.run(run.session, input.diagonal());
+    if (options.parts) return ranks->generate_parts(run.session, part);
+    const carreau_status status =
+        options.carry_from.empty() ? adaptation.run(run.session, input.diagonal()) : carry(options, run.session, map, progress);
+    if (options.halvings == 0 || (status != CARREAU_OK && status != CARREAU_ERR_PARTIAL)) return status;
+    const carreau_status halved = carreau_mesh_halve(run.session, options.halvings);
+    return halved == CARREAU_OK ? status : halved;
   };
   generate(run.session, options, input, map, adaptation, make, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -257,7 +278,9 @@ std::vector<std::string> with_group_tables(const MeshOptions& options, std::vect
 
 /// Files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
-  if (!options.dump_failed.empty()) throw Failure("--parts and --dump-failed exclude each other: no process has the whole mesh.");
+  for (const auto& [given, name] : {std::pair{!options.dump_failed.empty(), "--dump-failed"}, {!options.carry_from.empty(), "--carry-from"},
+                                    {options.halvings > 0, "--halvings"}})
+    if (given) throw Failure(std::string("--parts and ") + name + " exclude each other: no process has the whole mesh.");
   for (const std::string& path : options.outputs)
     if (!is_one_of(suffix_of(path), {".meshb", ".pvtu"}))
       throw Failure("'" + path + "' is made of the whole mesh: --parts writes .meshb and .pvtu.");
@@ -294,7 +317,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
-  read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
+  read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes, options.carry_from});
   read.insert(read.end(), options.more_inputs.begin(), options.more_inputs.end());
   if (given.parts) refuse_with_parts(given);  // on all ranks
   if (ranks != nullptr) suffixes.emplace_back(".pvtu");

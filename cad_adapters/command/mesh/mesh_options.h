@@ -52,6 +52,9 @@ struct MeshOptions : InputChoice {
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
   std::vector<std::string> periodic;          ///< "x", "1,0,0", "rotate:...", "slave=master"
+  std::string carry_from;                     ///< geometry before a change, whose mesh is carried; empty: none
+  std::string match = "any";                  ///< of its faces: any, reference, name or shape
+  int halvings = 0;                           ///< of all edges, after meshing
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "association/carry_mesh.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "association/harmonic_map.h"
+#include "association/mesh_curves.h"
+#include "association/thresholds.h"
+#include "cad/batches.h"
+#include "predicates/predicates.h"
+#include "support/error.h"
+#include "support/format_point.h"
+#include "support/infinity.h"
+#include "surface/carry/carry_faces.h"
+#include "surface/elements/base/curve_middles.h"
+#include "surface/elements/base/invalid_report.h"
+#include "surface/elements/second_order/quadratic.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::association;
+
+class Carrier {
+ public:
+  Carrier(const MeshOfModel& from, const CurveModel& to, const ModelMatch& match, const SizeRules& rules, const CompositeOptions& options,
+          Monitor& monitor, CompositeResult& out)
+      : from_(from), to_(to), match_(match), rules_(rules), options_(options), monitor_(monitor), out_(out) {
+    curves_from_ = curves_of_mesh(from.model, from.result.mesh, from.result.curve_parameters);
+  }
+
+  CarryReport run() {
+    const SurfaceMesh& old = from_.result.mesh;
+    SurfaceMesh& mesh = out_.mesh;
+    mesh.vertices = old.vertices, mesh.vertex_ref.assign(old.vertices.size(), 0);
+    out_.vertex_size = from_.result.vertex_size;
+    carry_curves();
+    const std::size_t faces = to_.model.faces.size();
+    mesh.faces.resize(faces), out_.interfaces.resize(faces), out_.spaces.resize(faces);
+    CompositeResult known;  // curve_sides() looks at the mesh of a result
+    known.mesh = old;
+    const ElementWork work{from_.model, curves_from_, rules_, options_, known, monitor_};
+    for (std::size_t f = 0; f < faces; ++f) {
+      monitor_.checkpoint();
+      carry_face(work, f);
+      monitor_.progress(Phase::patches, to_.model.faces[match_.face[f]].ref, static_cast<double>(f + 1) / static_cast<double>(faces));
+    }
+    if (report_.failed > 0) drop_unused_vertices();
+    if (!old.mid_vertices.empty()) make_nodes();
+    return report_;
+  }
+
+ private:
+  void carry_curves() {
+    const SurfaceMesh& old = from_.result.mesh;
+    SurfaceMesh& mesh = out_.mesh;
+    const std::size_t n = to_.topology.curves.size();
+    mesh.curves.resize(n), curves_to_.resize(n), out_.curve_size.resize(n);
+    for (std::size_t c = 0; c < n; ++c) {
+      const auto d = static_cast<std::size_t>(match_.curve[c]);
+      const Curve& curve = to_.topology.curves[d];
+      const CurveMesh& before = old.curves[c];
+      const bool back = match_.reversed[c] != 0;
+      CurveMesh& after = mesh.curves[d];
+      after.ref = curve.ref, after.loose = before.loose;
+      const FaceCurve& first = to_.model.faces[curve.uses.front().face].curves[curve.uses.front().curve];
+      after.part_of = first.shown_as;
+      for (const CurveUse& use : curve.uses)
+        after.uses.push_back({use.face, to_.model.faces[use.face].curves[use.curve].type == CurveType::internal});
+      after.vertices = before.vertices;
+      if (back) std::reverse(after.vertices.begin(), after.vertices.end());
+      const Vec3 &p = to_.topology.points[curve.end1].position, &q = to_.topology.points[curve.end2].position;
+      DiscreteCurve& discrete = curves_to_[d] = undivided_curve(to_, d, p, q);
+      if (!discrete.indivisible) {
+        const std::vector<double>& r = curves_from_[c].r;
+        std::vector<double> inside(r.begin() + 1, r.end() - 1), t;
+        if (back) {
+          std::reverse(inside.begin(), inside.end());
+          for (double& share : inside) share = 1 - share;
+        }
+        for (const double share : inside) t.push_back(parameter_at(to_, curve.uses.front(), share));
+        place_vertices_at(discrete, inside, t, to_);
+        out_.curve_size[d] = from_.result.curve_size[c];
+        if (back) std::reverse(out_.curve_size[d].begin(), out_.curve_size[d].end());
+      }
+      if (after.vertices.size() == discrete.xyz.size() || after.vertices.size() == 1)
+        for (std::size_t k = 0; k < after.vertices.size(); ++k) mesh.vertices[after.vertices[k]] = discrete.xyz[k];
+      mesh.vertex_ref[after.vertices.front()] = to_.topology.points[curve.end1].ref;
+      mesh.vertex_ref[after.vertices.back()] = to_.topology.points[curve.end2].ref;
+    }
+    for (const DiscreteCurve& curve : curves_to_) out_.gaps.push_back({curve.gap, curve.gap_use});
+    out_.curve_parameters = parameters_of_curves(to_, curves_to_);
+  }
+
+  /// Uses of the old curve in a face, and uses of the new curve that may be theirs.
+  struct Seam {
+    std::size_t curve;
+    std::vector<std::int32_t> from, to;
+  };
+
+  [[nodiscard]] std::vector<Seam> uses_in_face(std::size_t f) const {
+    std::vector<Seam> seams;
+    std::vector<int> curves = from_.model.topology.curve_of[f];
+    std::sort(curves.begin(), curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+    const auto list = [](const Curve& curve, int face) {
+      std::vector<std::int32_t> uses;
+      for (std::size_t u = 0; u < curve.uses.size(); ++u)
+        if (curve.uses[u].face == face) uses.push_back(static_cast<std::int32_t>(u));
+      return uses;
+    };
+    for (const int c : curves)
+      seams.push_back({static_cast<std::size_t>(c), list(from_.model.topology.curves[c], static_cast<int>(f)),
+                       list(to_.topology.curves[match_.curve[c]], match_.face[f])});
+    return seams;
+  }
+
+  /// Places of the vertices on the boundary.
+  struct Boundary {
+    std::vector<char> known;
+    std::vector<Vec2> uv;
+    double mismatch = infinity;  // sum of distances of places of one corner
+    double area = 0;             // twice, in (u, v)
+  };
+
+  // `turned`: bits of seams whose two uses have changed places.
+  [[nodiscard]] Boundary boundary(std::size_t f, const std::vector<CurveSide>& sides, const std::vector<Seam>& seams, unsigned turned) const {
+    const FaceMesh& face = from_.result.mesh.faces[f];
+    Boundary found{std::vector<char>(face.uv.size(), 0), std::vector<Vec2>(face.uv.size(), Vec2{0, 0}), 0, 0};
+    std::map<std::pair<std::size_t, std::int32_t>, std::int32_t> use_of;
+    unsigned bit = 1;
+    for (const Seam& seam : seams) {
+      const bool swap = seam.from.size() == 2 && (turned & bit) != 0;
+      if (seam.from.size() == 2) bit <<= 1;
+      for (std::size_t i = 0; i < seam.from.size() && i < seam.to.size(); ++i) use_of[{seam.curve, seam.from[i]}] = seam.to[swap ? 1 - i : i];
+    }
+    for (const CurveSide& side : sides) {
+      const auto use = use_of.find({static_cast<std::size_t>(side.curve), side.use});
+      if (use == use_of.end()) continue;
+      const CurveMesh& before = from_.result.mesh.curves[side.curve];
+      const DiscreteCurve& after = curves_to_[match_.curve[side.curve]];
+      const std::vector<Vec2>& places = after.uv_of_use[use->second];
+      const auto place = [&](std::int32_t k) { return places[match_.reversed[side.curve] != 0 ? after.segments() - k : k]; };
+      const bool forward = before.vertices[side.segment] == face.vertex[side.a];
+      const Vec2 at_a = place(side.segment + (forward ? 0 : 1)), at_b = place(side.segment + (forward ? 1 : 0));
+      for (const auto& [v, at] : {std::pair(side.a, at_a), std::pair(side.b, at_b)}) {
+        if (found.known[v] != 0) found.mismatch += norm(found.uv[v] - at);
+        found.known[v] = 1, found.uv[v] = at;
+      }
+    }
+    for (const auto* list : {&face.triangles, &face.flattened})
+      for (const auto& t : *list)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::int32_t a = t[i], b = t[(i + 1) % 3];
+          // Sides inside, known at both ends, come twice and cancel.
+          if (found.known[a] != 0 && found.known[b] != 0) found.area += found.uv[a].x() * found.uv[b].y() - found.uv[a].y() * found.uv[b].x();
+        }
+    return found;
+  }
+
+  [[nodiscard]] Boundary best_boundary(std::size_t f, const ElementWork& work) const {
+    const std::vector<CurveSide> sides = curve_sides(work, f);
+    const std::vector<Seam> seams = uses_in_face(f);
+    const auto doubled = std::min<std::ptrdiff_t>(
+        max_seams, std::count_if(seams.begin(), seams.end(), [](const Seam& seam) { return seam.from.size() == 2; }));
+    Boundary best;
+    for (unsigned turned = 0; turned < 1U << doubled; ++turned) {
+      Boundary now = boundary(f, sides, seams, turned);
+      const double least = best.mismatch - 1e-9 * (1 + best.mismatch);
+      if (now.mismatch < least || (now.mismatch <= best.mismatch + 1e-9 && now.area > 0 && best.area <= 0)) best = std::move(now);
+    }
+    return best;
+  }
+
+  void place_points(const Face& before, const Face& after, const FaceMesh& mesh, Boundary& places) const {
+    for (std::size_t i = 0; i < before.points.size() && i < after.points.size(); ++i)
+      for (std::size_t v = 0; v < mesh.uv.size(); ++v)
+        if (places.known[v] == 0 && mesh.uv[v] == before.points[i].uv) {
+          places.known[v] = 1, places.uv[v] = after.points[i].uv;
+          out_.mesh.vertex_ref[mesh.vertex[v]] = after.points[i].ref;
+        }
+  }
+
+  [[nodiscard]] static bool agree(const FaceMesh& before, const Boundary& places) {
+    Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+    for (const Vec2& p : before.uv) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (std::size_t v = 0; v < before.uv.size(); ++v)
+      if (places.known[v] != 0)
+        for (int i = 0; i < 2; ++i)
+          if (std::abs(places.uv[v][i] - before.uv[v][i]) > same_domain * (high[i] - low[i])) return false;
+    return true;
+  }
+
+  void carry_face(const ElementWork& work, std::size_t f) {
+    const FaceMesh& before = from_.result.mesh.faces[f];
+    const Face& model = to_.model.faces[match_.face[f]];
+    FaceMesh& after = out_.mesh.faces[match_.face[f]];
+    after.ref = model.ref, after.name = model.name, after.rgb = model.rgb, after.part_of = model.part_of;
+    after.status = before.status, after.why = before.why;
+    if (before.triangles.empty()) return;
+    after.status = FaceStatus::meshed, after.why.clear();
+    Boundary places = best_boundary(f, work);
+    place_points(from_.model.model.faces[f], model, before, places);
+    after.vertex = before.vertex;
+    const bool same = agree(before, places);
+    std::vector<std::array<std::int32_t, 3>> all = before.triangles;
+    all.insert(all.end(), before.flattened.begin(), before.flattened.end());
+    after.uv = places.uv;
+    if (same)
+      for (std::size_t v = 0; v < after.uv.size(); ++v) {
+        if (places.known[v] == 0) after.uv[v] = before.uv[v];
+      }
+    else
+      map_harmonically(before.uv, all, places.known, after.uv);
+    ++(same ? report_.kept : report_.relaxed);
+    const bool flipped = places.area < 0;
+    std::vector<std::int32_t> identity(before.uv.size());
+    std::iota(identity.begin(), identity.end(), 0);
+    carry_elements(before, identity, flipped, after);
+    after.flattened = before.flattened;
+    if (flipped)
+      for (auto& [a, b, c] : after.flattened) std::swap(b, c);
+    settle(after, places);
+  }
+
+  // Corners of quadrilaterals are triangles too: elements stay convex.
+  static std::vector<std::array<std::int32_t, 3>> judged(const FaceMesh& face) {
+    std::vector<std::array<std::int32_t, 3>> all = face.triangles;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(face.quads); ++k) {
+      const auto [a, b, c, d] = face.quad(k);
+      all.push_back({a, b, d}), all.push_back({b, c, d});
+    }
+    all.insert(all.end(), face.flattened.begin(), face.flattened.end());
+    return all;
+  }
+
+  void settle(FaceMesh& face, const Boundary& places) {
+    const std::vector<std::array<std::int32_t, 3>> all = judged(face);
+    const std::vector<std::int32_t> turned = untangle(all, places.known, face.uv);
+    std::vector<std::size_t> asked;
+    std::vector<Vec2> uv;
+    for (std::size_t v = 0; v < face.uv.size(); ++v)
+      if (places.known[v] == 0 || is_point(face, v)) asked.push_back(v), uv.push_back(face.uv[v]);
+    for_batches(to_.cad, face.ref, want_position, uv, monitor_,
+                [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
+                  for (std::size_t k = 0; k < here.size(); ++k) out_.mesh.vertices[face.vertex[asked[first + k]]] = jets[k].s;
+                });
+    if (turned.empty()) return;
+    ++report_.failed;
+    const auto t = static_cast<std::size_t>(turned.front());
+    const std::int32_t at = all[t][0];
+    face.status = FaceStatus::failed;
+    face.why = Where{.face = face.shown_ref(), .uv = face.uv[at]}.prefix() + std::to_string(turned.size()) +
+               (turned.size() == 1 ? " triangle of the carried mesh stays" : " triangles of the carried mesh stay") + " turned, the first one triangle " +
+               std::to_string(std::min(t, face.triangles.size() - 1)) + " of the face at " + format_point(out_.mesh.vertices[face.vertex[at]]);
+    monitor_.message(Level::error, face.why);
+    face.triangles.clear(), face.flattened.clear(), face.quads = 0;
+    face.uv.clear(), face.vertex.clear();
+  }
+
+  // A vertex inside of the face that the model imposes.
+  [[nodiscard]] bool is_point(const FaceMesh& face, std::size_t v) const {
+    const auto& points = to_.model.faces[static_cast<std::size_t>(&face - out_.mesh.faces.data())].points;
+    return std::any_of(points.begin(), points.end(), [&](const FacePoint& point) { return point.uv == face.uv[v]; });
+  }
+
+  // Vertices inside of faces that have failed.
+  void drop_unused_vertices() {
+    SurfaceMesh& mesh = out_.mesh;
+    std::vector<std::int32_t> number(mesh.vertices.size(), -1);
+    const auto all = [&mesh](const auto& use) {
+      for (FaceMesh& face : mesh.faces) std::for_each(face.vertex.begin(), face.vertex.end(), use);
+      for (CurveMesh& curve : mesh.curves) std::for_each(curve.vertices.begin(), curve.vertices.end(), use);
+    };
+    all([&](std::int32_t& v) { number[v] = 0; });
+    std::int32_t n = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] < 0) continue;
+      mesh.vertices[n] = mesh.vertices[v], mesh.vertex_ref[n] = mesh.vertex_ref[v], out_.vertex_size[n] = out_.vertex_size[v];
+      number[v] = n++;
+    }
+    mesh.vertices.resize(n), mesh.vertex_ref.resize(n), out_.vertex_size.resize(n);
+    all([&](std::int32_t& v) { v = number[v]; });
+  }
+
+  void make_nodes() {
+    const ElementWork work{to_, curves_to_, rules_, options_, out_, monitor_};
+    const QuadraticReport made = make_quadratic(work);
+    for (const InvalidElements& invalid : made.invalid)
+      monitor_.message(Level::warning, mark_invalid(out_.mesh.faces[invalid.face], invalid.uv, invalid.count));
+  }
+
+  const MeshOfModel& from_;
+  const CurveModel& to_;
+  const ModelMatch& match_;
+  const SizeRules& rules_;
+  const CompositeOptions& options_;
+  Monitor& monitor_;
+  CompositeResult& out_;
+  std::vector<DiscreteCurve> curves_from_, curves_to_;  // by curve of either topology
+  CarryReport report_;
+};
+
+}  // namespace
+
+CarryReport carry_mesh(const MeshOfModel& from, const CurveModel& to, const ModelMatch& match, const SizeRules& rules,
+                       const CompositeOptions& options, Monitor& monitor, CompositeResult& out) {
+  return Carrier(from, to, match, rules, options, monitor, out).run();
+}
+
+}  // namespace carreau

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this folder: their meaning, unit, reason and evidence.
+#pragma once
+
+namespace carreau::thresholds::high_order {
+
+/// Least Jacobian over its mean below which an element is not valid, and at which repairs stop: of second order too.
+inline constexpr double least_jacobian = 1e-6, good_jacobian = 0.1;
+/// Share of the edge. A closest point that is farther from its chord lies on another sheet of the surface: the place on the way in (u, v) holds.
+inline constexpr double max_sagitta = 0.5;
+/// First and last step of a node, shares of the box of its element in (u, v), and rounds over the invalid elements.
+inline constexpr double first_step = 0.15, last_step = 0.01;
+inline constexpr int max_rounds = 4;
+
+}  // namespace carreau::thresholds::high_order

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes that follow their geometry through the C interface: carried to changed geometries, refined.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "abi_fixture.h"
+#include "carreau_geometry.h"
+
+namespace abi_tests {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using Point = std::array<double, 3>;
+using Place = std::array<double, 2>;
+
+/// A geometry of functions.
+struct Shape {
+  std::function<Point(int, double, double)> surface;
+  std::function<Place(int, int, double)> curve;  // t from 0 to 1
+  std::function<void(carreau_session*)> model;
+};
+
+std::int32_t surface_of(std::int32_t face, double u, double v, std::int32_t, double* S, double*, double*, double*, double*, double*, void* user) {
+  const Point p = static_cast<const Shape*>(user)->surface(face, u, v);
+  std::copy(p.begin(), p.end(), S);
+  return 0;
+}
+std::int32_t interval_of(std::int32_t, std::int32_t, double* a, double* b, void*) {
+  *a = 0, *b = 1;
+  return 0;
+}
+std::int32_t curve_of(std::int32_t face, std::int32_t ic, double t, std::int32_t, double* C, double*, double*, void* user) {
+  const Place p = static_cast<const Shape*>(user)->curve(face, ic, t);
+  C[0] = p[0], C[1] = p[1];
+  return 0;
+}
+
+/// A session of a shape.
+class ShapeRun {
+ public:
+  explicit ShapeRun(Shape shape, double size = 0.2, const char* element = "p1") : shape_(std::move(shape)) {
+    EXPECT_EQ(carreau_session_create(&session), CARREAU_OK);
+    auto cad = sized<carreau_cad>();
+    cad.user = &shape_, cad.surface = surface_of, cad.curve_interval = interval_of, cad.curve = curve_of, cad.reentrant = 1;
+    EXPECT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+    shape_.model(session);
+    EXPECT_EQ(carreau_set_real(session, "hphydef", size), CARREAU_OK);
+    EXPECT_EQ(carreau_set_text(session, "element", element), CARREAU_OK);
+  }
+  ShapeRun(const ShapeRun&) = delete;
+  ShapeRun& operator=(const ShapeRun&) = delete;
+  ~ShapeRun() { carreau_session_free(session); }
+
+  carreau_mesh* mesh() const {
+    carreau_mesh* handle = nullptr;
+    EXPECT_EQ(carreau_session_mesh(session, &handle), CARREAU_OK) << error();
+    return handle;
+  }
+  void generate() const { ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error(); }
+  [[nodiscard]] MeshData data() const { return data_of(mesh()); }
+  [[nodiscard]] std::string error() const { return carreau_last_error(session); }
+  [[nodiscard]] std::int64_t cells(std::int32_t kind) const {
+    std::int64_t n = 0;
+    EXPECT_EQ(carreau_mesh_cell_count(mesh(), kind, &n), CARREAU_OK);
+    return n;
+  }
+  [[nodiscard]] carreau_quality quality() const {
+    auto q = sized<carreau_quality>();
+    EXPECT_EQ(carreau_mesh_quality(mesh(), &q), CARREAU_OK);
+    return q;
+  }
+
+  carreau_session* session = nullptr;
+
+ private:
+  Shape shape_;
+};
+
+Place on_box(int ic, double t, double u0, double v0, double u1, double v1) {
+  switch (ic) {
+    case 1: return {u0 + t * (u1 - u0), v0};
+    case 2: return {u1, v0 + t * (v1 - v0)};
+    case 3: return {u1 + t * (u0 - u1), v1};
+    default: return {u0, v1 + t * (v0 - v1)};
+  }
+}
+
+void add_face(carreau_session* session, int face, const std::vector<std::array<int, 3>>& curves) {
+  EXPECT_EQ(carreau_model_add_face(session, face, 1), CARREAU_OK);
+  for (const auto& [ref, end1, end2] : curves) EXPECT_EQ(carreau_model_add_curve(session, face, CARREAU_BOUNDARY, ref, end1, end2), CARREAU_OK);
+}
+
+/// u is the angle times the radius if `by_length`: the domain changes then.
+Shape cylinder(double radius, double height = 1, bool by_length = false) {
+  const double around = by_length ? 2 * pi * radius : 2 * pi;
+  return {[=](int, double u, double v) -> Point {
+            const double angle = by_length ? u / radius : u;
+            return {radius * std::cos(angle), radius * std::sin(angle), v};
+          },
+          [=](int, int ic, double t) { return on_box(ic, t, 0, 0, around, height); },
+          [](carreau_session* s) { add_face(s, 1, {{1, 1, 1}, {2, 1, 2}, {3, 2, 2}, {2, 2, 1}}); }};
+}
+
+Shape sphere(double a, double b, double c) {
+  return {[=](int, double u, double v) -> Point { return {a * std::cos(u) * std::cos(v), b * std::sin(u) * std::cos(v), c * std::sin(v)}; },
+          [](int, int ic, double t) { return on_box(ic, t, 0, -pi / 2, 2 * pi, pi / 2); },
+          [](carreau_session* s) { add_face(s, 1, {{1, 1, 1}, {2, 1, 2}, {3, 2, 2}, {2, 2, 1}}); }};
+}
+
+/// A square of side 2 with a hole in the plane.
+Shape plate(double radius, double x = 0) {
+  return {[](int, double u, double v) -> Point { return {u, v, 0}; },
+          [=](int, int ic, double t) {
+            return ic < 5 ? on_box(ic, t, -1, -1, 1, 1) : Place{x + radius * std::cos(2 * pi * t), -radius * std::sin(2 * pi * t)};
+          },
+          [](carreau_session* s) { add_face(s, 1, {{1, 1, 2}, {2, 2, 3}, {3, 3, 4}, {4, 4, 1}, {5, 5, 5}}); }};
+}
+
+/// Two rectangles with a common side, bent along it; `renumbered`: other references and another order of faces.
+Shape roof(double width, double rise, bool renumbered) {
+  const int left = renumbered ? 2 : 1;
+  return {[=](int face, double u, double v) -> Point {
+            return face == left ? Point{-width * (1 - u), 3 * v, rise * u} : Point{width * u, 3 * v, rise * (1 - u) + 0.1 * u * (1 - u)};
+          },
+          [](int, int ic, double t) { return on_box(ic, t, 0, 0, 1, 1); },
+          [=](carreau_session* s) {
+            const std::vector<std::array<int, 3>> of_left{{1, 1, 2}, {2, 2, 3}, {3, 3, 4}, {4, 4, 1}}, of_right{{5, 2, 5}, {6, 5, 6}, {7, 6, 3}, {2, 3, 2}};
+            const std::vector<std::array<int, 3>> other_right{{1, 11, 12}, {2, 12, 13}, {3, 13, 14}, {4, 14, 11}}, other_left{{7, 15, 11}, {4, 11, 14}, {6, 14, 16}, {5, 16, 15}};
+            if (renumbered)
+              add_face(s, 1, other_right), add_face(s, 2, other_left);
+            else
+              add_face(s, 1, of_left), add_face(s, 2, of_right);
+          }};
+}
+
+void expect_sound(const ShapeRun& run, bool closed = false) { EXPECT_TRUE(defects_of(run.mesh(), closed).empty()) << defects_of(run.mesh(), closed); }
+
+TEST(Carry, SameGeometryGivesTheSameMesh) {
+  for (const char* element : {"p1", "q1.0", "p2"}) {
+    const ShapeRun a(cylinder(1), 0.2, element), b(cylinder(1), 0.2, element);
+    a.generate();
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_REFERENCE), CARREAU_OK) << b.error();
+    const MeshData p = a.data(), q = b.data();
+    EXPECT_EQ(p.triangles, q.triangles);
+    EXPECT_EQ(p.vertex_refs, q.vertex_refs);
+    ASSERT_EQ(p.xyz.size(), q.xyz.size());
+    if (element[0] != 'p' || element[1] == '1')
+      for (std::size_t i = 0; i < p.xyz.size(); ++i) EXPECT_NEAR(p.xyz[i], q.xyz[i], 1e-12);
+    expect_sound(b);
+  }
+}
+
+// x = r (cos u, sin u), so that dx/dr is the unit vector of each vertex, whatever the parametrisation.
+TEST(Carry, DerivativesByTheRadiusOfACylinder) {
+  for (const bool by_length : {false, true}) {
+    const ShapeRun a(cylinder(1, 1, by_length)), up(cylinder(1 + 1e-4, 1, by_length)), down(cylinder(1 - 1e-4, 1, by_length));
+    a.generate();
+    for (const ShapeRun* run : {&up, &down}) ASSERT_EQ(carreau_mesh_carry(run->session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << run->error();
+    const MeshData at = a.data(), p = up.data(), q = down.data();
+    EXPECT_EQ(at.triangles, p.triangles);
+    for (std::size_t v = 0; v < at.vertex_count(); ++v)
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((p.xyz[3 * v + k] - q.xyz[3 * v + k]) / 2e-4, k < 2 ? at.xyz[3 * v + k] : 0, 1e-8);
+    expect_sound(up);
+  }
+}
+
+// On the hole dx/dr is the outward unit vector, on the sides 0; means of neighbours stay between them. Second order in the step.
+TEST(Carry, DerivativesByTheRadiusOfAHole) {
+  const ShapeRun a(plate(0.4));
+  a.generate();
+  const MeshData at = a.data();
+  std::vector<double> last;
+  double differences[2] = {0, 0};
+  for (int step = 0; step < 3; ++step) {
+    const double d = 0.02 / (1 << step);
+    const ShapeRun up(plate(0.4 + d)), down(plate(0.4 - d));
+    for (const ShapeRun* run : {&up, &down}) {
+      ASSERT_EQ(carreau_mesh_carry(run->session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << run->error();
+      expect_sound(*run);
+    }
+    const MeshData p = up.data(), q = down.data();
+    std::vector<double> derivative;
+    for (std::size_t i = 0; i < at.xyz.size(); ++i) derivative.push_back((p.xyz[i] - q.xyz[i]) / (2 * d));
+    for (std::size_t v = 0; v < at.vertex_count(); ++v) {
+      const double x = at.xyz[3 * v], y = at.xyz[3 * v + 1], r = std::hypot(x, y), dx = derivative[3 * v], dy = derivative[3 * v + 1];
+      EXPECT_LT(std::hypot(dx, dy), 1 + 1e-9);
+      if (std::abs(r - 0.4) < 1e-9) {
+        EXPECT_NEAR(dx, x / r, 1e-5);
+        EXPECT_NEAR(dy, y / r, 1e-5);
+      } else if (std::max(std::abs(x), std::abs(y)) > 1 - 1e-12) {
+        EXPECT_NEAR(std::hypot(dx, dy), 0, 1e-9);
+      }
+    }
+    for (std::size_t i = 0; i < last.size(); ++i) differences[step - 1] = std::max(differences[step - 1], std::abs(derivative[i] - last[i]));
+    last = derivative;
+  }
+  EXPECT_LT(differences[1], 0.3 * differences[0] + 1e-9);
+}
+
+TEST(Carry, LargeChangesStayValidOrAreReported) {
+  const ShapeRun a(plate(0.3), 0.1);
+  a.generate();
+  const ShapeRun b(plate(0.6), 0.1);
+  ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
+  expect_sound(b);
+  const MeshData carried = b.data();
+  const auto edges = double(std::count(carried.edge_refs.begin(), carried.edge_refs.end(), 5));
+  EXPECT_NEAR(b.quality().area, 4 - edges / 2 * 0.36 * std::sin(2 * pi / edges), 1e-6);  // a regular polygon is cut out
+  // The hole leaves the plate: the face fails with its triangle.
+  const ShapeRun c(plate(0.3, 0.9), 0.1);
+  const carreau_status status = carreau_mesh_carry(c.session, a.mesh(), CARREAU_MATCH_ANY);
+  EXPECT_EQ(status, CARREAU_ERR_DOMAIN);
+  EXPECT_NE(c.error().find("turned"), std::string::npos) << c.error();
+}
+
+TEST(Carry, PolesAndSeamsOfASphereFollow) {
+  for (const char* element : {"p1", "p2", "q1.0"}) {
+    const ShapeRun a(sphere(1, 1, 1), 0.3, element), b(sphere(2, 1.5, 1), 0.3, element);
+    a.generate();
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
+    expect_sound(b, true);
+    const MeshData p = a.data(), q = b.data();
+    EXPECT_EQ(p.triangles, q.triangles);
+    const std::size_t n = element[1] == '2' ? 0 : p.vertex_count();
+    for (std::size_t v = 0; v < n; ++v) {
+      const Point on{q.xyz[3 * v] / 2, q.xyz[3 * v + 1] / 1.5, q.xyz[3 * v + 2]};
+      EXPECT_NEAR(on[0] * on[0] + on[1] * on[1] + on[2] * on[2], 1, 1e-12);
+    }
+  }
+}
+
+TEST(Carry, RenumberedFacesAreFound) {
+  const ShapeRun a(roof(1, 0.5, false), 0.25), b(roof(1.2, 0.6, true), 0.25);
+  a.generate();
+  EXPECT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_REFERENCE), CARREAU_ERR_MODEL);
+  EXPECT_NE(b.error().find("curve"), std::string::npos) << b.error();
+  EXPECT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_NAME), CARREAU_ERR_MODEL);
+  for (const int match : {CARREAU_MATCH_ANY, CARREAU_MATCH_SHAPE}) {
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), match), CARREAU_OK) << b.error();
+    expect_sound(b);
+    const MeshData p = a.data(), q = b.data();
+    ASSERT_EQ(p.vertex_count(), q.vertex_count());
+    for (std::size_t v = 0; v < p.vertex_count(); ++v) {  // each vertex on the sheet of its image
+      EXPECT_NEAR(q.xyz[3 * v], 1.2 * p.xyz[3 * v], 0.02);
+      EXPECT_NEAR(q.xyz[3 * v + 1], p.xyz[3 * v + 1], 0.02);
+    }
+  }
+}
+
+TEST(Carry, NamesErrors) {
+  const ShapeRun a(cylinder(1)), b(plate(0.3)), c(cylinder(1));
+  EXPECT_EQ(carreau_mesh_carry(a.session, nullptr, CARREAU_MATCH_ANY), CARREAU_ERR_ARGUMENT);
+  a.generate();
+  EXPECT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_ERR_MODEL);
+  EXPECT_NE(b.error().find("topologies differ"), std::string::npos) << b.error();
+  EXPECT_EQ(carreau_mesh_carry(a.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_carry(c.session, a.mesh(), 9), CARREAU_ERR_ARGUMENT);
+  carreau_mesh* file = nullptr;
+  ASSERT_EQ(carreau_mesh_create(&file), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_carry(c.session, file, CARREAU_MATCH_ANY), CARREAU_ERR_ARGUMENT);
+  carreau_mesh_free(file);
+}
+
+// ---- Refinement ----
+
+TEST(Refine, HalvedElementsAreFourAndLieOnTheSurface) {
+  for (const char* element : {"p1", "p2", "q1.0", "q2.0"}) {
+    const ShapeRun run(sphere(1, 1, 1), 0.4, element);
+    run.generate();
+    const MeshData before = run.data();
+    std::map<int, std::int64_t> count;
+    for (int kind = 1; kind <= 4; ++kind) count[kind] = run.cells(kind);
+    const double error_before = 4 * pi - run.quality().area;
+    ASSERT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_OK) << run.error();
+    expect_sound(run, true);
+    for (int kind = 1; kind <= 4; ++kind) EXPECT_EQ(run.cells(kind), 4 * count[kind]) << element << kind;
+    const MeshData after = run.data();
+    for (std::size_t v = 0; v < after.vertex_count(); ++v) EXPECT_NEAR(std::hypot(after.xyz[3 * v], after.xyz[3 * v + 1], after.xyz[3 * v + 2]), 1, 1e-12);
+    if (element[1] == '1') {
+      for (std::size_t i = 0; i < before.xyz.size(); ++i) EXPECT_EQ(before.xyz[i], after.xyz[i]);
+      EXPECT_NEAR(4 * pi - run.quality().area, error_before / 4, 0.02 * error_before);
+    }
+    EXPECT_EQ(after.sizes.size(), after.vertex_count());
+  }
+}
+
+TEST(Refine, CurvesAreHalvedByLength) {
+  const ShapeRun run(cylinder(2));
+  run.generate();
+  const auto n = static_cast<std::int64_t>(run.data().edge_count());
+  ASSERT_EQ(carreau_mesh_halve(run.session, 2), CARREAU_OK) << run.error();
+  const MeshData data = run.data();
+  EXPECT_EQ(data.edge_count(), 4 * n);
+  std::map<int, std::pair<double, double>> spread;
+  for (std::size_t e = 0; e < data.edge_count(); ++e) {
+    double length = 0;
+    for (std::size_t k = 0; k < 3; ++k) length += std::pow(data.xyz[3 * data.edges[2 * e + 1] + k] - data.xyz[3 * data.edges[2 * e] + k], 2);
+    auto& [low, high] = spread.try_emplace(data.edge_refs[e], 1e9, 0).first->second;
+    low = std::min(low, length), high = std::max(high, length);
+  }
+  for (const auto& [ref, range] : spread) EXPECT_NEAR(range.first, range.second, 1e-5 * range.second) << ref;
+  std::vector<double> t(2 * data.edge_count());
+  ASSERT_EQ(carreau_mesh_edge_parameters(run.mesh(), std::int64_t(data.edge_count()), t.data(), nullptr, nullptr), CARREAU_OK);
+  for (const double at : t) EXPECT_TRUE(at >= 0 && at <= 1);
+}
+
+TEST(Refine, MarkedElementsKeepTheMeshConformingAndItsQuality) {
+  const ShapeRun run(sphere(1, 1, 1), 0.3);
+  run.generate();
+  const double before = run.quality().q2_min;
+  for (int level = 0; level < 5; ++level) {
+    const MeshData data = run.data();
+    std::vector<std::int32_t> marks;
+    for (std::size_t t = 0; t < data.triangle_count(); ++t)
+      if (data.xyz[3 * data.triangles[3 * t]] > 0.9 && data.xyz[3 * data.triangles[3 * t] + 1] > 0) marks.push_back(std::int32_t(t));
+    ASSERT_EQ(carreau_mesh_refine(run.session, CARREAU_MARK_ELEMENTS, std::int64_t(marks.size()), marks.data()), CARREAU_OK) << run.error();
+    expect_sound(run, true);
+    EXPECT_GT(run.quality().q2_min, std::min(0.25, 0.5 * before)) << level;
+  }
+}
+
+TEST(Refine, MarkedEdgesAreGone) {
+  for (const char* element : {"p1", "q1.0", "p2"}) {
+    const ShapeRun run(plate(0.4), 0.25, element);
+    run.generate();
+    const MeshData before = run.data();
+    const std::int32_t marks[4] = {before.triangles[0], before.triangles[1], before.triangles[4], before.triangles[5]};
+    const int marked = element[0] == 'q' ? 1 : 2;
+    ASSERT_EQ(carreau_mesh_refine(run.session, CARREAU_MARK_EDGES, marked, marks), CARREAU_OK) << run.error();
+    expect_sound(run);
+    const MeshData after = run.data();
+    for (std::size_t t = 0; t < after.triangle_count(); ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (int k = 0; k < marked; ++k) {
+          const std::set<std::int32_t> edge{after.triangles[3 * t + i], after.triangles[3 * t + (i + 1) % 3]};
+          EXPECT_NE(edge, (std::set<std::int32_t>{marks[2 * k], marks[2 * k + 1]}));
+        }
+    EXPECT_GT(after.vertex_count(), before.vertex_count());
+  }
+}
+
+TEST(Refine, SizesAreReached) {
+  const ShapeRun run(plate(0.4), 0.3);
+  run.generate();
+  const MeshData before = run.data();
+  std::vector<double> sizes;
+  for (std::size_t v = 0; v < before.vertex_count(); ++v) sizes.push_back(before.xyz[3 * v] > 0 ? 0.05 : 0.3);
+  ASSERT_EQ(carreau_mesh_refine_sizes(run.session, std::int64_t(sizes.size()), sizes.data()), CARREAU_OK) << run.error();
+  expect_sound(run);
+  const MeshData data = run.data();
+  for (std::size_t t = 0; t < data.triangle_count(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = std::size_t(data.triangles[3 * t + i]), b = std::size_t(data.triangles[3 * t + (i + 1) % 3]);
+      if (data.xyz[3 * a] < 0.3 || data.xyz[3 * b] < 0.3) continue;
+      EXPECT_LT(std::hypot(data.xyz[3 * a] - data.xyz[3 * b], data.xyz[3 * a + 1] - data.xyz[3 * b + 1]), 0.0708);
+    }
+}
+
+TEST(Refine, NamesErrorsAndKeepsTheMesh) {
+  const ShapeRun run(plate(0.4));
+  EXPECT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_ERR_SEQUENCE);
+  run.generate();
+  const MeshData before = run.data();
+  const std::int32_t far[2] = {0, 1 << 20};
+  const double wrong[1] = {-1};
+  EXPECT_EQ(carreau_mesh_refine(run.session, CARREAU_MARK_EDGES, 1, far), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(run.error().find("1048576"), std::string::npos);
+  EXPECT_EQ(carreau_mesh_refine(run.session, CARREAU_MARK_ELEMENTS, 2, far), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_refine(run.session, 7, 0, far), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_refine_sizes(run.session, 1, wrong), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_halve(run.session, -1), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(before, run.data());
+}
+
+}  // namespace
+}  // namespace abi_tests
