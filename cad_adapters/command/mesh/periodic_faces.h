@@ -13,8 +13,21 @@ namespace command {
 /// Throws Failure for words that are no periodicity, before anything is read.
 void check_periodic(const MeshOptions& options);
 
-/// Hands the periodicities to a session that has the model.
-void set_periodic(carreau_session* session, const MeshOptions& options);
+/// Hands the periodicities and mirror planes to a session that has the model. Throws Failure if a face lies across a mirror plane, or if
+/// the geometry lies on one side of it.
+void set_periodic(carreau_session* session, const MeshOptions& options, const CadInput& input);
+
+/// Throws Failure if a face of the mesh has no image under a reflection of --mirror.
+void require_mirrored(carreau_mesh* mesh, const MeshOptions& options, const CadInput& input, const std::vector<FaceResult>& faces);
+
+/// The arrays of carreau_mesh_periodic.
+struct PeriodicPairs {
+  std::vector<std::int32_t> dimension, ref;
+  std::vector<double> map;
+  std::vector<std::int64_t> count;
+  std::vector<std::int32_t> node;
+};
+PeriodicPairs pairs_of(carreau_mesh* mesh);
 
 /// Pairs of nodes as text: a line "# dimension slave master count" with the map for each pair of entities, then lines "slave master" of
 /// nodes, from 1.
