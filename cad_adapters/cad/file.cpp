@@ -2,11 +2,13 @@
 // Files: read, added to sessions, closed.
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
 #include <string_view>
 
+#include "changes/mirror.h"
 #include "handle.h"
 
 using namespace carreau_occ;
@@ -124,6 +126,21 @@ void imprint(carreau_cad_file& file, double tolerance, carreau_cad_progress_fn p
   });
 }
 
+void mirror(carreau_cad_file& file, const double* point, const double* normal) {
+  host_of(file);
+  required(point, "point"), required(normal, "normal");
+  MirrorPlane plane;
+  std::copy(point, point + 3, plane.point.begin());
+  std::copy(normal, normal + 3, plane.normal.begin());
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(point, point + 3, finite) || !std::all_of(normal, normal + 3, finite) || !(std::hypot(normal[0], normal[1], normal[2]) > 0))
+    throw Failure(CARREAU_ERR_ARGUMENT, "the normal of a mirror plane has no length, or a number is not finite");
+  const std::scoped_lock lock(reading);
+  ShapeFile shape = file.shape;
+  mirror_shape(shape, plane);
+  replace_shape(file, std::move(shape));
+}
+
 void name_solids(carreau_cad_file& file, std::int64_t n, const char* const* names, const std::int32_t* colours) {
   host_of(file);
   TopTools_IndexedMapOfShape solids;
@@ -204,6 +221,10 @@ carreau_status carreau_cad_read_bytes(carreau_cad_file* file, const void* bytes,
 
 carreau_status carreau_cad_imprint(carreau_cad_file* file, double tolerance, carreau_cad_progress_fn progress, void* user) {
   return guarded_call(file, [&] { imprint(*file, tolerance, progress, user); });
+}
+
+carreau_status carreau_cad_mirror(carreau_cad_file* file, const double point[], const double normal[]) {
+  return guarded_call(file, [&] { mirror(*file, point, normal); });
 }
 
 carreau_status carreau_cad_name_solids(carreau_cad_file* file, int64_t n, const char* const names[],

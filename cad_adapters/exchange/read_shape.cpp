@@ -21,6 +21,7 @@
 
 #include "faults.h"
 #include "changes/imprint.h"
+#include "changes/mirror.h"
 #include "changes/small_features.h"
 #include "natural_bounds.h"
 #include "shape_file.h"
@@ -277,6 +278,17 @@ void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& pro
     file.losses.push_back(std::string("the parts are not imprinted: OpenCASCADE: ") + failure.GetMessageString());
   }
   if (indicator->stopped()) throw std::runtime_error("the parts are not imprinted: the host stopped the call");
+}
+
+void mirror_shape(ShapeFile& file, const MirrorPlane& plane) {
+  const Silence silence;
+  ShapeFile changed = file;
+  try {
+    guarded([&] { mirror(changed, plane); });
+  } catch (const Standard_Failure& failure) {
+    throw std::runtime_error(std::string("the body cannot be cut by the mirror plane or completed at it: OpenCASCADE: ") + failure.GetMessageString());
+  }
+  file = std::move(changed);
 }
 
 }  // namespace carreau_occ

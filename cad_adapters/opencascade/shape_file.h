@@ -13,6 +13,7 @@
 
 namespace carreau_occ {
 
+struct MirrorPlane;
 struct SmallFeature;
 
 /// A shape, and the data of its file about its parts.
@@ -72,5 +73,8 @@ std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const Re
 /// Parts that touch share faces and edges from now on: see changes/imprint.h. Throws std::runtime_error with a sentence when it is
 /// stopped; when OpenCASCADE fails the shape stays as it is, and a loss reports the reason.
 void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& progress = {});
+
+/// Cuts or completes the file at the plane: see changes/mirror.h. Throws std::runtime_error with a sentence.
+void mirror_shape(ShapeFile& file, const MirrorPlane& plane);
 
 }  // namespace carreau_occ

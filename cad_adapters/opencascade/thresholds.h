@@ -28,4 +28,12 @@ inline constexpr double match_share = 0.06;
 /// loses a piece changes more. [Imprint.VolumesStay]
 inline constexpr double imprint_volume = 1e-4;
 
+// Mirror planes (mirror)
+
+/// Share of the diagonal. Files give places with six digits at least; a face that reaches less far beyond the plane ends on it.
+/// [CommandMirror.*]
+inline constexpr double in_mirror = 1e-6;
+/// Share of the diagonal by which the other half may miss the image of the half that stays: tolerances of usual files. [CommandMirror.*]
+inline constexpr double symmetric = 1e-5;
+
 }  // namespace carreau_occ::thresholds

@@ -19,6 +19,13 @@ inline constexpr int max_corners = 24;
 /// Share of the extent of (u, v) by which an affine map of parameters may miss. Its guesses are good beginnings beyond that, too.
 inline constexpr double affine_share = 1e-3;
 
+/// Share of the gap. An image this near to its surface is taken as it is: the two differ by rounding.
+inline constexpr double exact_images = 1e-9;
+
+/// Share of the gap. Corners this near to the image of their partner, and vertices this near to a mirror plane, move there: files give places
+/// with six digits at least.
+inline constexpr double rounding_of_places = 1e-3;
+
 // Curves (shared_curves)
 
 }  // namespace carreau::thresholds::periodic

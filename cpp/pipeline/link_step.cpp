@@ -141,7 +141,7 @@ class Linker {
 }  // namespace
 
 void link_periodic(CompositeRun& run) {
-  if (!run.periodic.empty() && !run.options.parts) Linker(run).run();
+  if (!run.periodic.empty()) Linker(run).run();
 }
 
 }  // namespace carreau

@@ -7,7 +7,6 @@
 
 #include "periodic/shared_curves.h"
 #include "pipeline/base/run.h"
-#include "pipeline/parts/shares.h"
 #include "support/format.h"
 #include "surface/assembly/shared_chords.h"
 #include "surface/carry/carry_patch.h"
@@ -33,7 +32,7 @@ void drop_patch(CompositeRun& run, int face, const std::string& why) {
   if (mesh.status != FaceStatus::failed) {
     mesh.status = FaceStatus::failed;
     mesh.why = why;
-    if (run.options.crossing_rounds == 0 || run.options.parts) run.report(Level::error, why);
+    if (run.options.crossing_rounds == 0) run.report(Level::error, why);
   }
   run.patches[face].reset();
   run.keeper[face] = no_process;
@@ -103,7 +102,6 @@ void carry_patches(CompositeRun& run) {
     keep_sources(run, pair.master, std::move(carried.finer));
     run.patches[pair.slave] = std::move(carried.mesh);
   }
-  if (run.options.parts) share_sentences(*run.options.team, why);
   for (const FacePair& pair : run.periodic.pairs)
     if (!why[pair.slave].empty()) fail_pair(run, pair, why[pair.slave]);
   fail_partners(run);

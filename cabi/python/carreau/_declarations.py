@@ -1154,6 +1154,7 @@ CARREAU_CAD = {
     "carreau_cad_read": (c_int32, [c_void_p, c_char_p, POINTER(carreau_cad_options)]),
     "carreau_cad_read_bytes": (c_int32, [c_void_p, c_void_p, c_int64, c_char_p, POINTER(carreau_cad_options)]),
     "carreau_cad_imprint": (c_int32, [c_void_p, c_double, carreau_cad_progress_fn, c_void_p]),
+    "carreau_cad_mirror": (c_int32, [c_void_p, Doubles, Doubles]),
     "carreau_cad_name_solids": (c_int32, [c_void_p, c_int64, POINTER(c_char_p), Int32s]),
     "carreau_cad_add": (c_int32, [c_void_p, c_void_p]),
     "carreau_cad_set_face_size": (c_int32, [c_void_p, c_char_p, c_double]),

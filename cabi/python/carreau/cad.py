@@ -77,6 +77,13 @@ class CadFile:
         """Makes parts that touch share faces and edges. Numbers of faces change. A fuse that fails is in losses."""
         self._listening(progress, lambda hears: int(cad_lib().cad_imprint(self._handle, tolerance, hears, None)))
 
+    def mirror(self, point: Sequence[float], normal: Sequence[float]) -> None:
+        """Cuts faces across the plane, or adds the other half of a body on one side of it. Numbers of faces change."""
+        planes = [np.array(each, np.float64) for each in (point, normal)]
+        if any(each.shape != (3,) for each in planes):
+            raise ArgumentError("a point and a normal of three numbers are required")
+        self._call(cad_lib().cad_mirror, *planes)
+
     def name_solids(self, names: Sequence[str], colours: Sequence[int] = ()) -> None:
         """Names all solids; colours: of each, 0xRRGGBB, -1: none; empty: none has one."""
         texts = (c_char_p * len(names))(*[each.encode() for each in names])

@@ -17,7 +17,7 @@ module carreau_cad
   public :: carreau_cad_small_feature, carreau_cad_small_feature_at, carreau_cad_entity_name
   public :: carreau_cad_tree_row, carreau_cad_tree_at, carreau_cad_contact, carreau_cad_count_contacts, carreau_cad_contact_at
   public :: carreau_cad_set_size, carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
-  public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
+  public :: carreau_cad_mirror, carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
   public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
   public :: carreau_cad_measure_gaps, carreau_cad_point, carreau_cad_curve_point, carreau_cad_curves
   public :: carreau_cad_parts, carreau_cad_whole_face, carreau_cad_whole_edge
@@ -263,6 +263,14 @@ contains
     if (present(user)) handed = user
     status = c_cad_imprint(file%handle, tolerance, listener, handed)
   end subroutine carreau_cad_imprint
+
+  !> Cuts faces across the plane, or adds the other half of a body on one side of it.
+  subroutine carreau_cad_mirror(file, point, normal, status)
+    type(carreau_cad_file), intent(in) :: file
+    real(c_double), intent(in) :: point(3), normal(3)
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_mirror(file%handle, point, normal)
+  end subroutine carreau_cad_mirror
 
   !> names: of each solid; colours: of each, 0xRRGGBB, -1: none
   subroutine carreau_cad_name_solids(file, names, status, colours)

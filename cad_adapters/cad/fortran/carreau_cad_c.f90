@@ -182,6 +182,15 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_imprint
 
+    !> Makes the body symmetric about the plane of a point and a normal (3 numbers each, any length but 0).
+    function c_cad_mirror(file, point, normal) result(status) bind(c, name="carreau_cad_mirror")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: file
+      real(c_double), intent(in) :: point(*), normal(*)
+      integer(c_int32_t) :: status
+    end function c_cad_mirror
+
     !> Names the solids, and unnamed faces, of a file whose format has no names (BREP). n: the number of solids
     !! (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours, 0xRRGGBB in sRGB, -1:
     !! none; NULL: all none.

@@ -103,6 +103,13 @@ CARREAU_CAD_API carreau_status carreau_cad_read_bytes(carreau_cad_file* file, co
 CARREAU_CAD_API carreau_status carreau_cad_imprint(carreau_cad_file* file, double tolerance,
                                                    carreau_cad_progress_fn progress, void* user);
 
+/* Makes the body symmetric about the plane of a point and a normal (3 numbers each, any length but 0). If it has faces on both
+ * sides, its faces that lie across the plane are cut by it. Otherwise faces in the plane go, and the mirror images of all
+ * others come: in each solid, or shell of no solid, after its faces and in their order. Both halves share their edges in
+ * the plane. carreau_model_add_periodicity with the reflection makes meshes symmetric. Numbers change, and sizes that were set are
+ * gone; names and colours follow. Errors: ARGUMENT, MEMORY, FILE (no face off the plane; OpenCASCADE cannot cut a face: which one). */
+CARREAU_CAD_API carreau_status carreau_cad_mirror(carreau_cad_file* file, const double point[], const double normal[]);
+
 /* Names the solids, and unnamed faces, of a file whose format has no names (BREP). n: the number of
  * solids (carreau_cad_content.solids). names: n texts; NULL and "" name nothing. colours: n colours, 0xRRGGBB in sRGB,
  * -1: none; NULL: all none. Sizes that were set are gone. Errors: ARGUMENT, MEMORY. */

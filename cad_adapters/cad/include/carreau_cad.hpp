@@ -92,6 +92,10 @@ class CadFile {
       return carreau_cad_imprint(get(), tolerance, all.progress, all.user);
     });
   }
+  /// Cuts faces across the plane, or adds the other half of a body on one side of it.
+  void mirror(const std::array<double, 3>& point, const std::array<double, 3>& normal) {
+    done(carreau_cad_mirror(get(), point.data(), normal.data()));
+  }
   /// Names all solids; colours: none, or 0xRRGGBB of each, -1: none.
   void name_solids(const std::vector<std::string>& names, const std::vector<std::int32_t>& colours = {}) {
     std::vector<const char*> texts;

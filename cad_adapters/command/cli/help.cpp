@@ -33,7 +33,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
     {"--depth", "Curvature"},         {"--element", "Elements"},    {"--cross-patch", "Elements"},
-    {"--sharp-angle", "Elements"},    {"--periodic", "Elements"},   {"--halvings", "Elements"},
+    {"--sharp-angle", "Elements"},    {"--periodic", "Elements"},   {"--mirror", "Elements"},       {"--halvings", "Elements"},
     {"--carry-from", "Last mesh"},    {"--match", "Last mesh"},     {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
     {"--use", "Last mesh"},           {"--transfer", "Last mesh"},  {"--formula", "Field by a formula"},
     {"--iterations", "Field by a formula"},                         {"--convergence", "Field by a formula"},

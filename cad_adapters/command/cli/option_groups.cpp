@@ -113,6 +113,9 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--periodic", options.periodic,
                            "Equal faces: x, y, z, A,B,C, rotate:POINT:AXIS:DEGREES, mirror:POINT:NORMAL, 7=3; repeatable"))
       ->type_name("MAP");
+  repeated(app->add_option("--mirror", options.cad.mirror,
+                           "Symmetric mesh about x, y, z, NORMAL or POINT:NORMAL; half a body becomes whole; repeatable"))
+      ->type_name("PLANE");
   app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
       ->type_name(kind::file);

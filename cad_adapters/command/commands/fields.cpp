@@ -102,7 +102,7 @@ carreau_status make_mesh(carreau_session* session, const FieldsOptions& options,
   set_parameters(session, options.mesh, input, map);
   require(session, input.give_to(session));
   prescribe_curve_edges(session, options.mesh, input);
-  set_periodic(session, options.mesh);
+  set_periodic(session, options.mesh, input);
   if (options.raw) return CARREAU_OK;
   const carreau_status status = carreau_mesh_generate(session);
   if (!map.failure().empty()) throw Failure(map.failure());

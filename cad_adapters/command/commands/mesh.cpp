@@ -95,7 +95,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   require(session, input.give_to(session));
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
-  set_periodic(session, options);
+  set_periodic(session, options, input);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -139,6 +139,7 @@ void take_mesh(MeshRun& run, const Ranks* ranks, const Ranks::Part& part) {
   }
   run.faces = faces_of(run.mesh);
   for (FaceResult& face : run.faces) face.why = in_terms_of_file(run.input, face.why);
+  if (part == nullptr) require_mirrored(run.mesh, run.options, run.input, run.faces);
 }
 
 /// Warns of problems of a mesh in parts.
@@ -314,7 +315,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   std::vector<std::string> suffixes = engine.empty() ? mesh_suffixes : volume_suffixes;
   if (engine.empty()) suffixes.insert(suffixes.end(), {".exr", ".html"});
   suffixes.emplace_back(group_table_suffix);
-  if (!options.periodic.empty()) suffixes.emplace_back(".txt");  // pairs
+  if (!options.periodic.empty() || !options.cad.mirror.empty()) suffixes.emplace_back(".txt");  // pairs
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes, options.carry_from});

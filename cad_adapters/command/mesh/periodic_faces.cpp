@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/periodic_faces.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/failure.h"
+#include "files/periodic_pairs.h"
 #include "files/session_handle.h"
+#include "inputs/base/mirror_plane.h"
 
 namespace command {
 
@@ -20,6 +24,14 @@ namespace {
 
 using Numbers = std::vector<double>;
 using Transform = std::array<double, 12>;
+
+constexpr int faces_listed = 10;  // in a message
+
+std::string number_text(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
 
 /// One of three ways to give a periodicity.
 struct Periodic {
@@ -31,19 +43,6 @@ struct Periodic {
 [[noreturn]] void reject_text(const std::string& text) {
   throw Failure("--periodic '" + text +
                 "': x, y, z, a translation A,B,C, rotate:POINT:AXIS:DEGREES, mirror:POINT:NORMAL or a pair of faces SLAVE=MASTER is required.");
-}
-
-std::optional<Numbers> parse_numbers(std::string_view text) {
-  Numbers numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    double value = 0;
-    const auto [rest, error] = std::from_chars(text.data() + begin, text.data() + end, value);
-    if (error != std::errc() || rest != text.data() + end || !std::isfinite(value)) return {};
-    numbers.push_back(value);
-    begin = end + 1;
-  }
-  return numbers;
 }
 
 // Rodrigues' formula about an axis through a point.
@@ -80,22 +79,22 @@ Periodic parse_rotation(const std::string& text) {
   return periodic;
 }
 
-// The reflection in the plane through a point.
-Periodic parse_mirror(const std::string& text) {
-  const std::size_t first = text.find(':'), second = text.find(':', first + 1);
-  if (second == text.npos) reject_text(text);
-  const std::string_view whole = text;
-  const auto point = parse_numbers(whole.substr(first + 1, second - first - 1)), normal = parse_numbers(whole.substr(second + 1));
-  if (!point || !normal || point->size() != 3 || normal->size() != 3) reject_text(text);
-  const Numbers &p = *point, &n = *normal;
+Transform reflection(const MirrorPlane& plane) {
+  const std::array<double, 3>&p = plane.point, &n = plane.normal;
   const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], height = p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
-  if (!(square > 0)) reject_text(text);
-  Periodic periodic;
-  periodic.map.emplace();
+  Transform map{};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) (*periodic.map)[4 * i + k] = (i == k ? 1 : 0) - 2 * n[i] * n[k] / square;
-    (*periodic.map)[4 * i + 3] = 2 * height * n[i] / square;
+    for (std::size_t k = 0; k < 3; ++k) map[4 * i + k] = (i == k ? 1 : 0) - 2 * n[i] * n[k] / square;
+    map[4 * i + 3] = 2 * height * n[i] / square;
   }
+  return map;
+}
+
+Periodic parse_mirror(const std::string& text) {
+  const auto plane = parse_plane(std::string_view(text).substr(text.find(':') + 1));
+  if (!plane) reject_text(text);
+  Periodic periodic;
+  periodic.map = reflection(*plane);
   return periodic;
 }
 
@@ -127,13 +126,105 @@ Periodic parse_periodic(const std::string& text) {
   return periodic;
 }
 
+// Signed heights of the curves of a face over a plane.
+std::array<double, 2> heights_of(const CadInput& input, std::int32_t face, const MirrorPlane& plane) {
+  constexpr int places = 8;
+  double low = 0, high = 0;
+  const auto curves = static_cast<std::int32_t>(input.curves(face).size());
+  for (std::int32_t ic = 1; ic <= curves; ++ic)
+    for (int i = 0; i <= places; ++i) {
+      double u = 0, v = 0;
+      Place place;
+      if (!input.on_curve(face, ic, static_cast<double>(i) / places, u, v) || !input.locate(face, u, v, place)) continue;
+      const double height = height_over(plane, place.x, place.y, place.z);
+      low = std::min(low, height), high = std::max(high, height);
+    }
+  return {low, high};
+}
+
+// CAD files were cut and completed when they were read; other geometries must have both halves.
+void require_halves(const CadInput& input, const MirrorPlane& plane) {
+  constexpr double share = 1e-6;  // of the diagonal
+  const double near = share * input.diagonal();
+  double low = 0, high = 0;
+  for (const std::int32_t face : input.face_numbers()) {
+    const auto [below, above] = heights_of(input, face, plane);
+    if (below < -near && above > near)
+      throw Failure("--mirror: face " + std::to_string(face) + " lies across the plane, from " + number_text(below) + " to " + number_text(above) +
+                    " over it. Only faces of CAD files are cut: the geometry must give its two halves as faces.");
+    low = std::min(low, below), high = std::max(high, above);
+  }
+  if (low >= -near || high <= near)
+    throw Failure("--mirror: the geometry lies on one side of the plane. Only CAD files get their other half: the geometry must give both halves.");
+}
+
+using Faces = std::map<std::int32_t, Transform>;
+
+Transform product(const Transform& a, const Transform& b) {
+  Transform c{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t m = 0; m < 3; ++m) c[4 * i + k] += a[4 * i + m] * b[4 * m + k];
+    c[4 * i + 3] += a[4 * i + 3];
+  }
+  return c;
+}
+
+bool is_near(const Transform& a, const Transform& b, double diagonal) {
+  constexpr double turn = 1e-6, share = 1e-3;
+  for (std::size_t i = 0; i < 12; ++i)
+    if (std::abs(a[i] - b[i]) > (i % 4 == 3 ? share * diagonal : turn)) return false;
+  return true;
+}
+
 }  // namespace
+
+void require_mirrored(carreau_mesh* mesh, const MeshOptions& options, const CadInput& input, const std::vector<FaceResult>& faces) {
+  const std::vector<MirrorPlane> planes = mirror_planes(options.cad.mirror);
+  if (planes.empty()) return;
+  const Transform identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  std::map<std::int32_t, Faces> classes;  // by master: its images, with their maps
+  std::map<std::int32_t, std::int32_t> master_of;
+  const PeriodicPairs pairs = pairs_of(mesh);
+  for (std::size_t i = 0; i < pairs.dimension.size(); ++i) {
+    if (pairs.dimension[i] != 2) continue;
+    const std::int32_t slave = pairs.ref[2 * i], master = pairs.ref[2 * i + 1];
+    classes[master].emplace(master, identity);
+    std::copy_n(pairs.map.begin() + static_cast<std::ptrdiff_t>(12 * i), 12, classes[master][slave].begin());
+    master_of[slave] = master_of[master] = master;
+  }
+  std::string without;
+  int count = 0;
+  for (const FaceResult& face : faces) {
+    if (face.triangles == 0) continue;  // failed, with its own sentence
+    for (const MirrorPlane& plane : planes) {
+      const auto master = master_of.find(face.ref);
+      bool found = false;
+      if (master != master_of.end()) {
+        const Faces& all = classes.at(master->second);
+        const Transform image = product(reflection(plane), all.at(face.ref));
+        for (const auto& [other, map] : all) found = found || is_near(image, map, input.diagonal());
+      }
+      if (found) continue;
+      if (++count <= faces_listed) without += (count > 1 ? ", " : "") + std::to_string(face.ref);
+      break;
+    }
+  }
+  if (count == 0) return;
+  throw Failure("--mirror: the body is not symmetric about the plane. " + std::to_string(count) + (count == 1 ? " face has" : " faces have") +
+                " no mirror image: " + without + (count > faces_listed ? ", ..." : "") + ".");
+}
 
 void check_periodic(const MeshOptions& options) {
   for (const std::string& each : options.periodic) (void)parse_periodic(each);
+  (void)mirror_planes(options.cad.mirror);
 }
 
-void set_periodic(carreau_session* session, const MeshOptions& options) {
+void set_periodic(carreau_session* session, const MeshOptions& options, const CadInput& input) {
+  for (const MirrorPlane& plane : mirror_planes(options.cad.mirror)) {
+    require_halves(input, plane);
+    require(session, carreau_model_add_periodicity(session, nullptr, nullptr, 0, reflection(plane).data()));
+  }
   for (const std::string& each : options.periodic) {
     const Periodic given = parse_periodic(each);
     if (given.direction)
@@ -145,13 +236,8 @@ void set_periodic(carreau_session* session, const MeshOptions& options) {
 }
 
 std::string pairs_text(carreau_mesh* mesh) {
-  std::int64_t pairs = 0, nodes = 0;
-  require(mesh, carreau_mesh_periodic_count(mesh, &pairs, &nodes));
-  const auto n = static_cast<std::size_t>(pairs);
-  std::vector<std::int32_t> dimension(n), ref(2 * n), node(2 * static_cast<std::size_t>(nodes));
-  std::vector<double> map(12 * n);
-  std::vector<std::int64_t> count(n);
-  require(mesh, carreau_mesh_periodic(mesh, pairs, nodes, dimension.data(), ref.data(), map.data(), count.data(), node.data()));
+  const auto [dimension, ref, map, count, node] = pairs_of(mesh);
+  const std::size_t n = dimension.size();
   std::string text = "# pairs of nodes, from 1: slave master; each block: dimension, slave, master, number of pairs, map 3 x 4\n";
   std::size_t next = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -2,6 +2,7 @@
 #include "pipeline/base/run.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gradation/gradation.h"
 #include "support/ranks/team.h"
@@ -43,7 +44,7 @@ bool work_on_parts(const CompositeOptions& options, const SizeRules& rules) {
 
 CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topology,
                            const ModelSupports& given_supports, Cad& given_cad, const CompositeOptions& given_options,
-                           Monitor& given_monitor)
+                           PeriodicModel given_periodic, Monitor& given_monitor)
     : model(given_model),
       topology(given_topology),
       supports(given_supports),
@@ -51,12 +52,12 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
       options(given_options),
       monitor(given_monitor),
       rules(model, topology, cad, enlarged(options.size, enlargement_for(options.element))),
-      curve_model{model, topology, supports.of_face, cad} {
+      curve_model{model, topology, supports.of_face, cad},
+      periodic(std::move(given_periodic)) {
   options.size = enlarged(options.size, enlargement_for(options.element));
-  options.parts = options.parts && work_on_parts(options, rules) && model.periodicities.empty();
+  options.parts = options.parts && work_on_parts(options, rules) && periodic.empty();
   if (options.max_triangles <= 0) options.max_triangles = limit_by_memory() * (options.parts ? options.team->size() : 1);
   result.report.diag = supports.diag;
-  periodic = find_periodic(curve_model, supports.diag);
   for (const std::string& remark : periodic.remarks) report(Level::warning, remark);
   if (periodic.empty()) return;
   if (!rules.constant()) slave_sizes.emplace(curve_model, periodic.pairs);

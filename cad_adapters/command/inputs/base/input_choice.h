@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace command {
 
@@ -49,6 +50,7 @@ struct CadChoice {
   double min_feature = 0;        ///< length below which features are removed; 0: none
   std::string unit = {};         ///< of the mesh; empty: millimetres
   double scale = 1;              ///< of all coordinates
+  std::vector<std::string> mirror = {};  ///< planes about which the body is or becomes symmetric: see mirror_planes()
 };
 
 struct InputChoice {

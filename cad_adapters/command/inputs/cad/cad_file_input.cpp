@@ -7,6 +7,7 @@
 
 #include "base/failure.h"
 #include "files/session_handle.h"
+#include "inputs/base/mirror_plane.h"
 #include "inputs/built/known_suffixes.h"
 #include "inputs/cad/cad_file.h"
 #include "inputs/cad/cad_library.h"
@@ -43,6 +44,8 @@ CadFileHandle read_cad(const std::string& path, const CadChoice& choice, const R
   if (status != CARREAU_OK && std::string(cad_library().last_error(file.get())).find("is not a STEP, IGES or BREP") != std::string::npos)
     throw Failure(unknown_geometry(path));
   require(file.get(), status);
+  for (const MirrorPlane& plane : mirror_planes(choice.mirror))
+    require(file.get(), cad_library().mirror(file.get(), plane.point.data(), plane.normal.data()));
   return file;
 }
 

@@ -5,14 +5,22 @@
 //                    pipe with a hole in it
 //   fcc.step         the unit cube without spheres of radius .3 around its corners and the middles of its faces
 //   inclusions.step  the unit cube without forty spheres, of which six faces cut some; mismatch.step: the cube without one at one face
+//   block.step       a block of 2 x 1 x .8 about the origin with three bores, symmetric about all planes; half.step: where x > 0; quarter.step: where
+//                    x and y > 0; open.step: half.step without its face at x = 0; uneven.step: the block with a fourth bore
+//   ball.step, rod.step  a ball of radius 1 and a rod of length 2 along x, about (.3, .1, 0)
 //   shifted.step     the cube without half a sphere at each of two faces: the circles on both begin at different places
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,7 +110,48 @@ void make_shifted(const std::string& path) {
   write(cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), spheres), path);
 }
 
+TopoDS_Shape bore(double x, const gp_Dir& axis, double radius) {
+  const gp_Pnt begin(x - 3 * axis.X(), -3 * axis.Y(), -3 * axis.Z());
+  return BRepPrimAPI_MakeCylinder(gp_Ax2(begin, axis), radius, 6.).Shape();
+}
+
+TopoDS_Shape block(bool uneven) {
+  TopTools_ListOfShape bores;
+  bores.Append(bore(0, gp_Dir(0, 0, 1), 0.2));
+  for (const double x : {-0.6, 0.6}) bores.Append(bore(x, gp_Dir(0, 1, 0), 0.15));
+  if (uneven) bores.Append(bore(0.85, gp_Dir(0, 0, 1), 0.05));
+  return cut(BRepPrimAPI_MakeBox(gp_Pnt(-1, -0.5, -0.4), gp_Pnt(1, 0.5, 0.4)).Shape(), bores);
+}
+
+// The shell of a solid without its faces at x = 0.
+TopoDS_Shape opened(const TopoDS_Shape& solid) {
+  const BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  for (TopExp_Explorer e(solid, TopAbs_FACE); e.More(); e.Next()) {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(e.Current(), properties);
+    if (std::abs(properties.CentreOfMass().X()) > 1e-9) builder.Add(shell, e.Current());
+  }
+  return shell;
+}
+
+void make_symmetric(const std::string& folder) {
+  write(block(false), folder + "/block.step");
+  write(block(true), folder + "/uneven.step");
+  TopTools_ListOfShape left, low;
+  left.Append(BRepPrimAPI_MakeBox(gp_Pnt(-2, -2, -2), gp_Pnt(0, 2, 2)).Shape());
+  low.Append(BRepPrimAPI_MakeBox(gp_Pnt(-2, -2, -2), gp_Pnt(2, 0, 2)).Shape());
+  const TopoDS_Shape half = cut(block(false), left);
+  write(half, folder + "/half.step");
+  write(cut(half, low), folder + "/quarter.step");
+  write(opened(half), folder + "/open.step");
+  write(BRepPrimAPI_MakeSphere(gp_Pnt(0.3, 0.1, 0), 1.).Shape(), folder + "/ball.step");
+  write(BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-0.7, 0.1, 0), gp_Dir(1, 0, 0)), 0.4, 2.).Shape(), folder + "/rod.step");
+}
+
 void make(const std::string& folder) {
+  make_symmetric(folder);
   write(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), folder + "/cube.step");
   write(BRepPrimAPI_MakeCylinder(1., 1., std::numbers::pi / 3).Shape(), folder + "/sector.step");
   write(pipe_sector(60), folder + "/annulus.step");
