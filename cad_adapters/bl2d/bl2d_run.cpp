@@ -105,8 +105,6 @@ class Step {
     require(session, carreau_set_real(session, "hphymin", smallest * diagonal));
     require(session, carreau_set_real(session, "hphymax", diagonal));
     require(session, carreau_set_integer(session, "flag", 1));  // edges of curves are in the files
-    for (const char* check : {"CheckCloseEdges", "CheckAdjacentEdges"})
-      require(session, carreau_set_integer(session, check, 20));
     for (const Setting& setting : env_.settings)
       require(session, carreau_set_word(session, setting.name.c_str(), setting.value.c_str()),
               env_.path + ", line " + std::to_string(setting.line) + ": ");
