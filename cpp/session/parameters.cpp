@@ -106,8 +106,9 @@ constexpr std::array kTable = {
     text_row("format", "mesh",
              "mesh|meshb|vtu|stl|msh|msh2|bl2d|inp|bdf|unv|su2|off|obj|ply|vtk|tri|smesh|poly|vol|geo|exr", "format and suffix of exported files"),
     integer_row("frontal", 0, 1, 1, "placement of points: 1 frontal, 0 algebraic (on edges)"),
-    integer_row("geo_guarantee", 0, 1, 0,
-                "1: geometric sizes a little smaller, so that nearly every edge and triangle keeps geo_rule"),
+    integer_row("geo_guarantee", 0, 2, 0,
+                "1: geometric sizes a little smaller, so that nearly every edge and triangle keeps geo_rule; 2: also the planes of triangles "
+                "keep angle_mesh"),
     integer_row("geo_metric", 0, 1, 0, "geometric sizes: 0 by the smallest radius, 1 by both principal radii"),
     text_row("geo_rule", "angle", "angle|chord|both|radii",
              "geometric sizes from: angle_mesh, eps_chord, the smaller of both, or the principal radii (RR-2928)"),
