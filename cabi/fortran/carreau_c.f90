@@ -1283,7 +1283,7 @@ module carreau_c
     end function c_write_exr
 
     !> Cuts a curve into edges of equal length in the metric, as near to 1 as a whole number of edges allows (RR-2818
-    !! sec. 4).
+    !! sec. 4; if all metrics are isotropic, by the closed forms of sec. 5, without lss).
     function c_curve_split(session, curve, capacity, abscissae, edges, length) result(status) &
         bind(c, name="carreau_curve_split")
       import :: c_curve, c_double, c_int32_t, c_int64_t, c_ptr

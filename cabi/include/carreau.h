@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* clang-format off */
-/* carreau.h: meshes of surfaces made of parametric patches, driven by callbacks. C99, and C++ as well.
+/* carreau.h: meshes of surfaces made of parametric patches, driven by callbacks. C89 with <stdint.h>, C99, and C++.
  *
  * In ten lines:
  *   carreau_session* session = NULL;
@@ -93,6 +93,7 @@ enum {
 #define CARREAU_STATUS_ROW(symbol, value, meaning) symbol = value,
   CARREAU_STATUS_TABLE(CARREAU_STATUS_ROW)
 #undef CARREAU_STATUS_ROW
+  CARREAU_STATUS_END = 100 /* above every status; C89 allows no comma at the end of a list */
 };
 
 /* Return "CARREAU_ERR_FILE" and the meaning above, or "CARREAU_UNKNOWN_STATUS" and "unknown status". Both are static.
@@ -1139,10 +1140,11 @@ typedef struct carreau_curve {
 } carreau_curve;
 
 /* Cuts a curve into edges of equal length in the metric, as near to 1 as a whole number of edges allows (RR-2818 sec.
- * 4). *out_edges is n. *out_length is the length of the whole curve in the metric, so that each edge has out_length /
- * n. out_abscissae gets n + 1 usual lengths from the first point, or nothing when capacity is 0: request n first. Each
- * may be NULL. The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT
- * (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
+ * 4; if all metrics are isotropic, by the closed forms of sec. 5, without lss). *out_edges is n. *out_length is the length
+ * of the whole curve in the metric, so that each edge has out_length / n. out_abscissae gets n + 1 usual lengths from the
+ * first point, or nothing when capacity is 0: request n first. Each may be NULL. The session only keeps the sentence of an
+ * error; its geometry and mesh are not touched. Errors: ARGUMENT (also a metric that is not positive definite, points that
+ * coincide, capacity below n + 1), LIMIT. */
 CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
                                                double out_abscissae[], int64_t* out_edges, double* out_length);
 

@@ -4,7 +4,6 @@
 
 #include "arguments.h"
 #include "curve/metric_curve.h"
-#include "curve/unit_discretisation.h"
 #include "guard.h"
 #include "metric_rows.h"
 
@@ -12,6 +11,7 @@ using carreau::InvalidArgument;
 using carreau::Metric2;
 using carreau::Metric3;
 using carreau::MetricLaw;
+using carreau::MetricSplit;
 using carreau::Vec2;
 using carreau::Vec3;
 using namespace carreau::abi;
@@ -27,23 +27,17 @@ std::vector<T> rows(const double* values, std::int64_t n, int width, const char*
   return result;
 }
 
-struct Split {
-  std::vector<double> cuts;
-  double length = 0;
-};
-
 template <typename V, typename M>
-Split split(const carreau_curve& curve, int point_width, int metric_width) {
+MetricSplit split(const carreau_curve& curve, int point_width, int metric_width) {
   const std::vector<double> abscissae(required(curve.abscissae, "curve->abscissae"),
                                       curve.abscissae + curve.metric_count);
   const carreau::MetricCurve<V, M> measured(
       rows<V>(curve.points, curve.point_count, point_width, "curve->points"), abscissae,
       rows<M>(curve.metrics, curve.metric_count, metric_width, "curve->metrics"), static_cast<MetricLaw>(curve.law));
-  const carreau::MetricLengthTable gradation = measured.gradation(curve.lss != 0 ? curve.lss : 0.5);
-  return {carreau::split_equally(gradation, carreau::unit_edge_count(gradation.length())), gradation.length()};
+  return measured.split(curve.lss != 0 ? curve.lss : 0.5);
 }
 
-Split split(const carreau_curve& curve) {
+MetricSplit split(const carreau_curve& curve) {
   if (curve.law < 0 || curve.law > 2)
     throw InvalidArgument("curve->law is " + std::to_string(curve.law) +
                           "; it must be 0 (linear), 1 (geometric) or 2 (sinusoidal)");
@@ -63,7 +57,7 @@ Split split(const carreau_curve& curve) {
 carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
                                    double* out_abscissae, int64_t* out_edges, double* out_length) {
   return guarded(session, [&] {
-    const Split result = split(read_struct(curve, "curve"));
+    const MetricSplit result = split(read_struct(curve, "curve"));
     if (out_abscissae != nullptr && capacity != 0) {
       check_capacity(capacity, result.cuts.size(), "abscissae");
       std::copy(result.cuts.begin(), result.cuts.end(), out_abscissae);

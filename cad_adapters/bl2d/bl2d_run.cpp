@@ -94,7 +94,7 @@ class Step {
     require(session_.get(), carreau_set_background_mesh(session_.get(), mesh.c_str(), sizes.c_str()));
   }
 
-  /// Prescribed sizes apply, however small or large.
+  /// The defaults of the library are BL2D's, also a largest size of a fifth of the diagonal. Small sizes apply as they are.
   void set_parameters() {
     carreau_session* const session = session_.get();
     constexpr double smallest = 1e-9;
@@ -103,13 +103,13 @@ class Step {
     require(session, carreau_plane_has_sizes(session, &sized));
     require(session, carreau_set_integer(session, "hphy_flag", sized != 0 || number_ > 0 ? 2 : 1));
     require(session, carreau_set_real(session, "hphymin", smallest * diagonal));
-    require(session, carreau_set_real(session, "hphymax", diagonal));
     require(session, carreau_set_integer(session, "flag", 1));  // edges of curves are in the files
-    for (const char* check : {"CheckCloseEdges", "CheckAdjacentEdges"})
-      require(session, carreau_set_integer(session, check, 20));
-    for (const Setting& setting : env_.settings)
-      require(session, carreau_set_word(session, setting.name.c_str(), setting.value.c_str()),
+    for (const Setting& setting : env_.settings) {
+      // BL2D's own names.
+      const std::string name = setting.name == "hmin" || setting.name == "hmax" ? "hphy" + setting.name.substr(1) : setting.name;
+      require(session, carreau_set_word(session, name.c_str(), setting.value.c_str()),
               env_.path + ", line " + std::to_string(setting.line) + ": ");
+    }
   }
 
   void write(const std::string& name) {

@@ -32,6 +32,17 @@ std::size_t interval_of(const std::vector<double>& s, double at) noexcept {
   return std::clamp<std::size_t>(above, 1, s.size() - 1) - 1;
 }
 
+/// Entries of a multiple of the unit matrix may differ by this share, which is rounding.
+constexpr double isotropy = 1e-13;
+/// Returns the factor of a multiple of the unit matrix, or 0.
+double isotropic_factor(const Metric2& m) noexcept {
+  return std::max(std::abs(m.b), std::abs(m.c - m.a)) <= isotropy * m.a ? m.a : 0;
+}
+double isotropic_factor(const Metric3& m) noexcept {
+  const double off = std::max({std::abs(m.xy), std::abs(m.xz), std::abs(m.yz), std::abs(m.yy - m.xx), std::abs(m.zz - m.xx)});
+  return off <= isotropy * m.xx ? m.xx : 0;
+}
+
 }  // namespace
 
 template <typename V, typename M>
@@ -95,9 +106,23 @@ MetricLengthTable MetricCurve<V, M>::gradation(double lss) const {
 }
 
 template <typename V, typename M>
-std::vector<double> MetricCurve<V, M>::split(double lss) const {
+std::vector<double> MetricCurve<V, M>::isotropic_sizes() const {
+  std::vector<double> sizes;
+  for (const M& metric : metrics_) {
+    const double factor = isotropic_factor(metric);
+    if (factor == 0) return {};
+    sizes.push_back(1 / std::sqrt(factor));
+  }
+  return sizes;
+}
+
+template <typename V, typename M>
+MetricSplit MetricCurve<V, M>::split(double lss) const {
+  if (const std::vector<double> sizes = isotropic_sizes(); !sizes.empty() && lss > 0) {
+    return {split_by_sizes(s_, sizes, law_), normalised_length(s_, sizes, law_)};
+  }
   const MetricLengthTable measured = gradation(lss);
-  return split_equally(measured, unit_edge_count(measured.length()));
+  return {split_equally(measured, unit_edge_count(measured.length())), measured.length()};
 }
 
 template class MetricCurve<Vec2, Metric2>;

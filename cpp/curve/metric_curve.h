@@ -13,6 +13,12 @@
 
 namespace carreau {
 
+/// A curve in edges of equal metric length.
+struct MetricSplit {
+  std::vector<double> cuts;  ///< usual abscissae, from 0 to the length of the curve
+  double length = 0;         ///< of the whole curve in the metric
+};
+
 /// A polyline of points (two or more) and metrics known at usual abscissae along it, from 0 to the polyline's length.
 /// (Vec2, Metric2) or (Vec3, Metric3).
 template <typename V, typename M>
@@ -28,10 +34,13 @@ class MetricCurve {
   [[nodiscard]] M metric_at(double s) const;
   /// Length in the metric, and the points that were evaluated for it.
   [[nodiscard]] MetricLengthTable gradation(double lss = 0.5) const;
-  /// Abscissae of unit_edge_count() edges of equal metric length (algorithm (A) of RR-2818 sec. 4.1).
-  [[nodiscard]] std::vector<double> split(double lss = 0.5) const;
+  /// Length in the metric, and the abscissae of unit_edge_count() edges of equal metric length (algorithm (A) of RR-2818
+  /// sec. 4.1). If all metrics are isotropic, both come from the closed forms of sec. 5, and lss has no effect.
+  [[nodiscard]] MetricSplit split(double lss = 0.5) const;
 
  private:
+  /// The sizes of metrics that are multiples of the unit matrix, or nothing.
+  [[nodiscard]] std::vector<double> isotropic_sizes() const;
   [[nodiscard]] std::size_t edge_at(double s) const noexcept;
 
   std::vector<V> points_;

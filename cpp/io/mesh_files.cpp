@@ -7,6 +7,7 @@
 
 #include "io/files.h"
 #include "io/mesh_writers.h"
+#include "io/plane/bl2d_steps.h"
 #include "support/error.h"
 
 namespace carreau {
@@ -21,6 +22,7 @@ struct Format {
   const char* suffix;
   MeshFormat format;
   FlatMesh (*read)(std::string_view content, const std::string& name);
+  bool writes = true;
 };
 constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".meshb", MeshFormat::meshb, read_medit},
                               {".vtu", MeshFormat::vtu, read_mesh_vtu},    {".stl", MeshFormat::stl, read_mesh_stl},
@@ -31,14 +33,16 @@ constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".me
                               {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply},
                               {".vtk", MeshFormat::vtk, read_mesh_vtk},    {".tri", MeshFormat::tri, read_mesh_tri},
                               {".smesh", MeshFormat::smesh, nullptr},      {".poly", MeshFormat::poly, nullptr},
-                              {".vol", MeshFormat::vol, nullptr},          {".geo", MeshFormat::geo, nullptr}};
+                              {".vol", MeshFormat::vol, nullptr},          {".geo", MeshFormat::geo, nullptr},
+                              {".smo", MeshFormat::bl2d, read_mesh_smo, false}, {".mc", MeshFormat::bl2d, read_mesh_smo, false},
+                              {".ms", MeshFormat::bl2d, read_mesh_ms, false}};
 
 /// The format of a name's suffix. Throws InvalidArgument.
 const Format& known_format(const std::string& path, bool reading) {
   const std::string suffix = suffix_of(path);
   std::string known;
   for (const Format& format : formats) {
-    if (reading && format.read == nullptr) continue;
+    if (reading ? format.read == nullptr : !format.writes) continue;
     if (suffix == format.suffix) return format;
     known.append(known.empty() ? "" : ", ").append(format.suffix);
   }

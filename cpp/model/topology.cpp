@@ -46,7 +46,9 @@ class TopologyBuilder {
     if (wide_ == 0) return "";
     return std::to_string(wide_) + (wide_ == 1 ? " curve or end of one is" : " curves or ends of them are") +
            " up to " + format_number(widest_) + " away from where another face has them (first " + widest_place_ +
-           "); the mesh joins them, since eps_match is " + format_number(apart_);
+           "); the mesh joins them, since " +
+           (apart_ < infinity ? "eps_match is " + format_number(apart_)
+                              : "the file gives them one reference; eps_match rejects gaps above its value");
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "io/model/env.h"
 #include "session/file_adaptation.h"
 #include "session/session.h"
+#include "support/short_number.h"
 
 namespace carreau {
 
@@ -85,7 +86,25 @@ class EnvRunner {
         session_.parameters().set(name, (folder_ / file).string());
   }
 
+  // The action and the variables that the file has set for it.
+  void describe(const EnvPair& pair) {
+    Monitor& monitor = session_.monitor();
+    if (!monitor.hears(Level::debug)) return;
+    std::string text = at(pair).prefix() + "call " + pair.value, separator = " with ";
+    for (const ParameterInfo& info : parameter_table()) {
+      const Parameters& values = session_.parameters();
+      if (!values.is_set(info.name)) continue;
+      text += separator + info.name + " " +
+              (info.type == ParameterType::text      ? "'" + values.text(info.name) + "'"
+               : info.type == ParameterType::integer ? std::to_string(values.integer(info.name))
+                                                     : short_number(values.real(info.name)));
+      separator = ", ";
+    }
+    monitor.message(Level::debug, text);
+  }
+
   void call(const EnvPair& pair) {
+    describe(pair);
     if (pair.value == actions[0]) {
       if (load_pardom_) load_pardom_(beside_env(".pardom"));
       find_beside_env({"background_mesh", "background_sol"});

@@ -47,6 +47,24 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
 void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                                    std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 
+/// An imposed point at which a curve without a reference was cut.
+struct PointOnCurve {
+  std::size_t face = 0;  ///< index
+  int curve = 0;         ///< the host's rank, from 1
+  double t = 0;
+  int ref = 0;  ///< of the point
+};
+
+/// Cuts curves at imposed points of their faces that lie on them (within 2e-5 of diag), in all uses of one reference, and
+/// removes these points. A point at an end of a curve is the corner there. Prescribed edges are not cut: their points
+/// stay, and the face fails. The cut of a model with references has the reference of the point, if no corner has it.
+/// Otherwise results show it. Returns the points of curves whose references are sought. Throws the host's exceptions.
+std::vector<PointOnCurve> put_points_on_curves(Model& model, ModelSupports& supports, Cad& host, const Gluing& options,
+                                               Monitor& monitor);
+/// Gives these points their references when the references of the model have been found.
+void name_points_on_curves(Model& model, const std::vector<PointOnCurve>& points);
+bool has_corner(const Model& model, int ref);
+
 /// The curves of a mesh, in the order of the topology. `gaps` as CompositeResult has them.
 std::vector<Interface> list_interfaces(const Model& model, const Topology& topology, const std::vector<CurveGap>& gaps,
                                        const GlueReport& report);

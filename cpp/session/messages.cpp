@@ -91,6 +91,21 @@ void describe(const std::vector<WholeFace>& all, const Extent& extent, const Com
                                       short_text(r.seconds_lift) + ")");
 }
 
+/// A line for each curve and face, for a verbosity of 100 (RT-0232 sec. 3.3).
+void describe_entities(const SurfaceMesh& mesh, Monitor& monitor) {
+  for (const CurveMesh& curve : mesh.curves) {
+    double length = 0;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+      length += norm(mesh.vertices[curve.vertices[i]] - mesh.vertices[curve.vertices[i - 1]]);
+    const std::size_t edges = curve.vertices.empty() ? 0 : curve.vertices.size() - 1;
+    monitor.message(Level::debug, "curve " + std::to_string(curve.ref) + ": " + std::to_string(edges) +
+                                      (edges == 1 ? " edge" : " edges") + ", length " + short_number(length));
+  }
+  for (const WholeFace& each : whole_faces(mesh))
+    monitor.message(Level::debug, "face " + std::to_string(each.face.ref) + ": " + std::to_string(each.triangles) +
+                                      (each.triangles == 1 ? " triangle" : " triangles"));
+}
+
 }  // namespace
 
 void describe_result(const CompositeResult& result, const QualitySummary& q, Monitor& monitor) {
@@ -100,6 +115,7 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
             static_cast<std::int64_t>(mesh.edge_count()), static_cast<std::int64_t>(mesh.loose_edge_count())},
            result.report, q, monitor);
   if (const std::string strips = describe_strips(mesh); !strips.empty()) monitor.message(Level::summary, strips);
+  if (monitor.hears(Level::debug)) describe_entities(mesh, monitor);
 }
 
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor) {

@@ -68,6 +68,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   size.geo_rule = criterion_of(parameters.text("geo_rule"));
   size.eps_chord = parameters.real("eps_chord", diag);
   size.geo_guarantee = parameters.integer("geo_guarantee") != 0;
+  size.guarantee_triangles = parameters.integer("geo_guarantee") == 2;
   size.geo_anisotropic = parameters.integer("geo_metric") != 0;
   size.anisotropy_max = parameters.real("anisotropy_max");
   size.metric_combination =

@@ -38,7 +38,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, certify, effort, measure, measure_bounds,
+// the figure is hphymin in the text, hinterpol_flag is hinterp_flag in sec. 3.1.3: all four words are read. Ours: max_triangles, certify, effort, measure, measure_bounds,
 // measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials, sol_field, stagger_strips, patches, sharp_angle, and the
 // parameters of metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination). effort sets the rows
 // by_effort().
@@ -97,16 +97,18 @@ constexpr std::array kTable = {
     real_row("eps_glue_open", 0, infinity, 0,
              "curves that stay open are one within this and a tenth of their lengths, model length (0: eps_glue)"),
     real_row("eps_match", 0, infinity, 0,
-             "curves of one reference, and ends at one point, may be so far apart, model length (0: a hundredth of diag)"),
+             "curves of one reference, and ends at one point, may be so far apart, model length (0: a hundredth of diag; x.pardom: any, warned)"),
     real_row("eps_smooth", 1e-6, 1, 0.01,
              "plane domains: polylines by which their curves are compared, distance as a share of the edge"),
     text_row("failing_faces", "stop", "stop|leave_out",
              "a face whose geometry fails or whose curves break a rule: ends the run, or is left out of the mesh"),
     integer_row("flag", 0, 1, 0, "1: exported files hold the edges of the curves too"),
-    text_row("format", "mesh", "mesh|meshb|vtu|stl|msh|msh2|exr", "format and suffix of exported files"),
+    text_row("format", "mesh",
+             "mesh|meshb|vtu|stl|msh|msh2|bl2d|inp|bdf|unv|su2|off|obj|ply|vtk|tri|smesh|poly|vol|geo|exr", "format and suffix of exported files"),
     integer_row("frontal", 0, 1, 1, "placement of points: 1 frontal, 0 algebraic (on edges)"),
-    integer_row("geo_guarantee", 0, 1, 0,
-                "1: geometric sizes a little smaller, so that nearly every edge and triangle keeps geo_rule"),
+    integer_row("geo_guarantee", 0, 2, 0,
+                "1: geometric sizes a little smaller, so that nearly every edge and triangle keeps geo_rule; 2: also the planes of triangles "
+                "keep angle_mesh"),
     integer_row("geo_metric", 0, 1, 0, "geometric sizes: 0 by the smallest radius, 1 by both principal radii"),
     text_row("geo_rule", "angle", "angle|chord|both|radii",
              "geometric sizes from: angle_mesh, eps_chord, the smaller of both, or the principal radii (RR-2928)"),
@@ -167,6 +169,7 @@ constexpr std::array kByEffort = {EffortRow{"certify", {0, 1, 2}}, EffortRow{"cr
 
 int index_of(std::string_view name) {
   if (name == "hphymmin") name = "hphymin";
+  if (name == "hinterp_flag") name = "hinterpol_flag";
   const auto row =
       std::lower_bound(kTable.begin(), kTable.end(), name,
                        [](const ParameterInfo& info, std::string_view n) { return std::string_view(info.name) < n; });

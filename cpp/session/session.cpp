@@ -20,6 +20,7 @@
 #include "session/options.h"
 #include "session/state.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "support/part_monitor.h"
 #include "surface/discrete/beside_patches.h"
 #include "surface/discrete/discrete_run.h"
@@ -75,7 +76,12 @@ void Session::set_model(Model model) {
 }
 
 void Session::load_pardom(const std::string& path) {
-  Model model = read_pardom(path);
+  int line_of_rest = 0;
+  Model model = read_pardom(path, &line_of_rest);
+  if (line_of_rest != 0)
+    state_->monitor.message(Level::warning, path + ", line " + std::to_string(line_of_rest) +
+                                                ": the text after the last surface is ignored (ns is " +
+                                                std::to_string(model.faces.size()) + ")");
   set_model(std::move(model));
   state_->model_from_file = true;
 }
@@ -216,9 +222,11 @@ PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, leaves_out(s.parameters) ? &known : nullptr, s.monitor);
   std::vector<std::string> wide_gaps;
+  // RT-0232 sec. 3.2 has no limit for the references of a file; a tolerance that is set is one.
+  const bool limited = !s.model_from_file || s.parameters.is_set("eps_match") || s.parameters.is_set("eps_glue");
   Topology topology =
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)),
-                     s.parameters.real("eps_match"), &wide_gaps);
+                     limited ? s.parameters.real("eps_match") : infinity, &wide_gaps);
   for (const std::string& gap : wide_gaps) s.monitor.message(Level::warning, gap);
   return {std::move(model), std::move(supports), std::move(topology), std::move(options), background};
 }

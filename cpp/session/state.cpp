@@ -44,6 +44,7 @@ void Session::State::glue_model(Model& known, ModelSupports& supports, Cad& whol
                        .eps_open = std::min(parameters.real("eps_glue_open"), supports.diag / 100),
                        .eps_face = parameters.real("eps_glue_face"),
                        .angle_smo = std::min(parameters.real("angle_smo"), parameters.real("angle_mesh"))};
+  const std::vector<PointOnCurve> on_curves = put_points_on_curves(known, supports, whole_cad, options, monitor);
   GlueReport found;
   bool any = is_mixed(known) && !geometries_to_glue(known).empty();
   if (any) find_references_of_geometries(known, supports, whole_cad, options, remarks, found, monitor);
@@ -58,6 +59,7 @@ void Session::State::glue_model(Model& known, ModelSupports& supports, Cad& whol
     found.pairs.insert(found.pairs.end(), among_all.pairs.begin(), among_all.pairs.end());
     found.open = among_all.open;
     any = true;
+    name_points_on_curves(known, on_curves);
     if (all && model_from_file) check_model(known), write_glued(known, remarks);
   }
   if (!any) return;

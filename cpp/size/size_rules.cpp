@@ -48,6 +48,7 @@ GeometricLimits geometric_limits(const SizeParameters& size) noexcept {
   const bool by_radius = rule == GeometricCriterion::radii && !size.geo_anisotropic;  // the angle's equation
   if (rule == GeometricCriterion::angle || rule == GeometricCriterion::both || by_radius)
     limits.edge_angle_deg = size.enlargement * size.angle_mesh;
+  if (size.guarantee_triangles) limits.triangle_angle_deg = limits.edge_angle_deg;
   if (rule == GeometricCriterion::chord || rule == GeometricCriterion::both) limits.deviation = size.enlargement * size.enlargement * size.eps_chord;
   limits.shortest_divided = std::numbers::sqrt2 * size.hgeomin;  // a half of it is as far from unit length
   return limits;
@@ -65,7 +66,7 @@ GeometricRule geometric_rule(const SizeParameters& p) noexcept {
   GeometricRule rule{
       .criterion = p.geo_rule, .anisotropic = p.geo_anisotropic, .angle_deg = p.angle_mesh, .eps0 = p.eps_chord};
   if (p.geo_guarantee) {
-    rule.angle_factor = guaranteed_angle_factor;
+    rule.angle_factor = p.guarantee_triangles ? triangle_angle_factor : guaranteed_angle_factor;
     rule.chord_factor = guaranteed_chord_factor;
   }
   rule.angle_factor *= p.enlargement, rule.chord_factor *= p.enlargement;

@@ -48,6 +48,7 @@ struct SizeParameters {
   GeometricCriterion geo_rule = GeometricCriterion::angle;
   double eps_chord = 0;          ///< A0, model length; > 0 if geo_rule is chord or both
   bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor or guaranteed_chord_factor (thresholds.h)
+  bool guarantee_triangles = false;  ///< geo_guarantee, and planes of triangles keep the angle as edges do (RT-0232 sec. 3.3)
   bool geo_anisotropic = false;  ///< sizes by both principal radii
   double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
   MetricCombination metric_combination = MetricCombination::intersection;
@@ -60,6 +61,7 @@ struct SizeParameters {
 /// Limits that a geometric rule sets to a mesh (HDR sec. 4.3); infinity: no limit.
 struct GeometricLimits {
   double edge_angle_deg = infinity;  ///< of edges with tangent planes at their ends
+  double triangle_angle_deg = infinity;  ///< of planes of triangles with tangent planes at their corners
   double deviation = infinity;       ///< A0 of triangles, model length
   double shortest_divided = 0;       ///< edges below it are as short as hgeomin permits, whatever they exceed
 

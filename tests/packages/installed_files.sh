@@ -10,7 +10,7 @@ need() {
     [ -e "$path" ] || { echo "missing: $path"; fail=1; }
   done
 }
-need include/carreau.h include/carreau_geometry.h include/carreau_atlas.h include/carreau_remesh.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
+need lib/libcarreau_f77.a include/carreau.h include/carreau_geometry.h include/carreau_atlas.h include/carreau_remesh.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
   share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md share/doc/carreau/docs/third_party.md share/doc/carreau/docs/third_party_notices.txt
 if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \

@@ -11,7 +11,7 @@ from ._calls import Path
 from .errors import ArgumentError
 from .formulas import size_function
 from .session import Session, parameters
-from .sources import SessionSource, Source
+from .sources import PardomSource, SessionSource, Source
 
 #: A model length, or a share of the diagonal of the geometry: "1%".
 Length = Union[float, str]
@@ -147,9 +147,13 @@ def _set_anisotropic(session: Session, ratio: float) -> None:
 
 def _set_choices(session: Session, source: Source, diagonal: float, env: Optional[Path], asked: Mapping[str, Any]) -> None:
     usual_ratio = session["narrow_ratio"]
+    # The program blsurf and this function make one mesh of one blsurf.env.
+    as_blsurf = env is not None and isinstance(source, PardomSource)
     for name, value in CHOICES.items():
-        session[name] = value
-    session["narrow_ratio"] = NARROW_RATIO
+        if not as_blsurf or name in ("flag", "failing_faces"):
+            session[name] = value
+    if not as_blsurf:
+        session["narrow_ratio"] = NARROW_RATIO
     if source.glue[0] > 0:
         session["glue_open"], session["eps_glue"], session["eps_glue_open"] = 1, *source.glue
     if source.match > 0:

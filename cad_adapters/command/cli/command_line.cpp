@@ -80,6 +80,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_refine();
   add_info();
   add_areas();
+  add_curve();
   add_check();
   add_picture();
   add_report();
@@ -289,6 +290,28 @@ void CommandLine::add_areas() {
   areas->add_flag("--json", areas_.json, "Print JSON");
 }
 
+void CommandLine::add_curve() {
+  CLI::App* curve = add("curve", "Join points by splines, cut curves into edges of a size or metric, draw them");
+  curve->add_option("INPUT", curve_.input, "Text of points, or a mesh with edges (BL2D's .smo, .mc, .ms; .mesh, .vtu, ...)")
+      ->required()
+      ->type_name(kind::file);
+  curve->add_option("-o,--output", curve_.outputs, "Files .mesh, .mc (BL2D's C), .svg (drawing); repeat for several")->type_name(kind::file);
+  curve->add_option("--size", curve_.size, "Length of edges; 2% of the diagonal by default")->type_name(kind::length);
+  curve->add_option("--sizes", curve_.sizes, "File of sizes or metrics at the points, a line each, or BL2D's .h, .hc, .hg")
+      ->type_name(kind::file)
+      ->excludes("--size");
+  curve->add_option("--law", curve_.law, "Sizes between points: linear, geometric or sinusoidal; linear by default")
+      ->check(CLI::IsMember({"linear", "geometric", "sinusoidal"}))
+      ->capture_default_str();
+  curve->add_option("--join", curve_.join, "Points are joined by a spline or by segments (straight); by default meshes by segments")
+      ->check(CLI::IsMember({"spline", "straight"}));
+  curve->add_option("--deviation", curve_.tolerance, "Distance of the polyline of a spline, as a share of its edges; 0.01 by default")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->type_name(kind::number)
+      ->capture_default_str();
+  curve->add_flag("--json", curve_.json, "Print JSON");
+}
+
 void CommandLine::add_check() {
   CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
   check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
@@ -466,6 +489,7 @@ int CommandLine::run_command() {
     return info(info_);
   }
   if (app_.got_subcommand("areas")) return areas(areas_);
+  if (app_.got_subcommand("curve")) return curve(curve_);
   if (app_.got_subcommand("check")) return check(check_);
   if (app_.got_subcommand("picture")) {
     parse_picture_size(picture_size_, picture_);

@@ -67,6 +67,18 @@ struct AreasOptions {
 /// Prints areas and volumes of the surfaces of a molecule, in closed form. 0; throws Failure.
 int areas(const AreasOptions& options);
 
+struct CurveOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string size, sizes;  ///< one length; a file of sizes or metrics at the points of the input
+  std::string law = "linear", join;
+  double tolerance = 0.01;
+  bool json = false;
+};
+
+/// Joins points by splines, cuts curves in a metric, and draws them (RR-2818). 0; throws Failure.
+int curve(const CurveOptions& options);
+
 struct CheckOptions {
   std::string mesh;
   bool closed = false, allow_crossings = false, faces = false, json = false;

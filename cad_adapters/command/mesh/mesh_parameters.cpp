@@ -329,13 +329,12 @@ std::vector<std::string> contradicting_face_sizes(const MeshOptions& options, co
   return sentences;
 }
 
-void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map) {
-  const double diagonal = input.diagonal();
-  refuse_contradictions(options, lengths_of(options, diagonal));
-  set_face_sizes(options, input);
-  set_sizes_on(options, input);
-  const bool sizes_by_face = (!options.face_sizes.empty() || !options.sizes_on.empty()) && !input.answers_face_sizes();
-  set(session, "threads", threads_of(options));
+namespace {
+
+/// The program blsurf and this command make one mesh of one blsurf.env.
+bool has_defaults_of_blsurf(const MeshOptions& options) { return !options.env.empty() && suffix_of(options.input) == ".pardom"; }
+
+void set_own_choices(carreau_session* session, const CadInput& input) {
   // Zones narrower than 6 % of their edges would have triangles of no shape (Q2 below .1). More cuts add bad triangles
   // to coarse meshes without removing any.
   set(session, "CheckCloseEdges", 20);
@@ -350,9 +349,25 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "effort", 1);
   // Faces too narrow for the cuts above (slivers below the tolerance of a file, fillets of a micrometre) hold flat
   // triangles only.
-  const double usual_ratio = real(session, "narrow_ratio");
   require(session, carreau_set_text(session, "narrow_faces", "collapse"));
   set(session, "narrow_ratio", narrower_than_cuts);
+}
+
+}  // namespace
+
+void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map) {
+  const double diagonal = input.diagonal();
+  refuse_contradictions(options, lengths_of(options, diagonal));
+  set_face_sizes(options, input);
+  set_sizes_on(options, input);
+  const bool sizes_by_face = (!options.face_sizes.empty() || !options.sizes_on.empty()) && !input.answers_face_sizes();
+  set(session, "threads", threads_of(options));
+  const double usual_ratio = real(session, "narrow_ratio");
+  const bool as_blsurf = has_defaults_of_blsurf(options);
+  if (as_blsurf)
+    set(session, "eps_match", diagonal);  // references of the file hold whatever the gap, with a warning
+  else
+    set_own_choices(session, input);
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));
@@ -366,6 +381,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);
   if (!options.env.empty()) require(session, carreau_read_env(session, options.env.c_str()));
+  if (as_blsurf && is_set(session, "eps_glue") && real(session, "eps_match") == diagonal) set(session, "eps_match", 0.);
   // A request for narrow faces uses the library's ratio, unless another is given.
   const char* narrow_faces = nullptr;
   require(session, carreau_get_text(session, "narrow_faces", &narrow_faces));

@@ -85,19 +85,33 @@ std::vector<EnvPair> read_env_text(std::string_view text, const std::string& nam
   text = without_byte_order_mark(text);
   std::vector<EnvPair> pairs;
   Where where{.file = name, .line = 0};
+  Word variable, word;
+  int line_of_variable = 0;  // 0: a name comes next
+  const auto without_value = [&] {
+    throw FileError({.file = name, .line = line_of_variable}, shown(variable.text) + " has no value");
+  };
   while (!text.empty()) {
     ++where.line;
     const std::size_t end = std::min(text.find('\n'), text.size());
     EnvLine line(text.substr(0, end), where);
     text.remove_prefix(std::min(end + 1, text.size()));
-    Word variable, value;
-    while (line.next(variable)) {
-      if (variable.quoted)
-        throw FileError(where, "the name of a variable was expected, not the text " + shown(variable.text));
-      if (!line.next(value)) throw FileError(where, shown(variable.text) + " has no value on its line");
-      pairs.push_back({variable.text, value.text, value.quoted, where.line});
+    while (line.next(word)) {
+      if (line_of_variable == 0) {
+        if (word.quoted)
+          throw FileError(where, "the name of a variable was expected, not the text " + shown(word.text));
+        variable = word;
+        line_of_variable = where.line;
+        continue;
+      }
+      // A value may stand on a later line (RT-0232 sec. 3.3: words between blanks), but an action is none.
+      if (where.line > line_of_variable && word.text == "call" && !word.quoted) without_value();
+      pairs.push_back({variable.text, word.text, word.quoted, line_of_variable});
+      line_of_variable = 0;
+      // BLSURF leaves the program there: anything may follow.
+      if (variable.text == "call" && word.text == "exit") return pairs;
     }
   }
+  if (line_of_variable != 0) without_value();
   return pairs;
 }
 

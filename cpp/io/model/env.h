@@ -11,13 +11,12 @@ namespace carreau {
 struct EnvPair {
   std::string name, value;
   bool quoted = false;  ///< the value stood in quotes, '…' or "…" (and so is text even when empty)
-  int line = 0;
+  int line = 0;  ///< of the name
 };
 
-/// Blanks, tabs and `=` separate words; a name and its value stand on one line, which may hold several pairs. A quote
-/// is doubled within its own quotes. `!` starts a comment that ends with the line, except within quotes. Throws
-/// FileError with file and line: a name without a value, a quote that does not close, a character that is not
-/// printable.
+/// Blanks, tabs, `=` and ends of lines separate words. A quote is doubled within its own quotes. `!` starts a comment that
+/// ends with the line, except within quotes. The reader ignores everything after `call exit`. Throws FileError with file
+/// and line: a name without a value, a quote that does not close, a character that is not printable.
 std::vector<EnvPair> read_env_text(std::string_view text, const std::string& name);
 std::vector<EnvPair> read_env(const std::string& path);
 

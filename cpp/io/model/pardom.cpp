@@ -44,6 +44,8 @@ class PardomReader {
   PardomReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   Model read();
+  /// Line of the first text that is neither read nor a comment; 0: none.
+  [[nodiscard]] int line_of_rest() const;
 
  private:
   [[noreturn]] void fail(const std::string& sentence, int line) const {
@@ -200,21 +202,32 @@ Model PardomReader::read() {
   const int ns = count({"ns"}, "surfaces", 8);
   if (ns == 0) fail("the file describes no surface: ns is 0");
   for (int i = 1; i <= ns; ++i) model.faces.push_back(face(i));
-  if (const std::string_view found = word(); !found.empty())
-    fail("nothing was expected after the last surface (ns is " + std::to_string(ns) + "), but there is " +
-         shown(found));
   return model;
+}
+
+int PardomReader::line_of_rest() const {
+  int line = next_line_;
+  for (std::size_t at = pos_; at < text_.size(); ++at) {
+    if (text_[at] == '!') at = std::min(text_.find_first_of("\r\n", at), text_.size());
+    if (at == text_.size()) break;
+    if (!is_space(text_[at])) return line;
+    if (text_[at] == '\n') ++line;
+  }
+  return 0;
 }
 
 }  // namespace
 
-Model read_pardom_text(std::string_view text, const std::string& name) {
-  return PardomReader(without_byte_order_mark(text), name).read();
+Model read_pardom_text(std::string_view text, const std::string& name, int* line_of_rest) {
+  PardomReader reader(without_byte_order_mark(text), name);
+  Model model = reader.read();
+  if (line_of_rest != nullptr) *line_of_rest = reader.line_of_rest();
+  return model;
 }
 
-Model read_pardom(const std::string& path) {
+Model read_pardom(const std::string& path, int* line_of_rest) {
   constexpr std::size_t limit = std::size_t{1} << 28;
-  return read_pardom_text(read_file(path, limit), path);
+  return read_pardom_text(read_file(path, limit), path, line_of_rest);
 }
 
 namespace {

@@ -190,7 +190,7 @@ void FaceJob::lift(Monitor& monitor) {
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
   if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor, team_);
-  const bool kept = options_.size.geo_guarantee && !input_.isotropic;
+  const bool kept = options_.size.geo_guarantee && (!input_.isotropic || options_.size.guarantee_triangles);
   const std::vector<int> doubtful = refine_in_space(
       input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor, team_);
   check_agreement(doubtful, monitor);

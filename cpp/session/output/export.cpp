@@ -60,6 +60,7 @@ class FaceAppender {
     edges_.clear();
     mid_rank_.assign(face.mid_uv.size(), -1);
     if (!goes_on) flat_.faces.push_back(whole_of(face.shown_ref()));
+    number_nodes(face);
     if (of_cells_) append_cells(face);
     for (std::size_t t = 0; t < face.triangles.size(); ++t, ++first) {
       if (plane_ && face.is_spread(t)) continue;  // no triangle of (u, v)
@@ -86,6 +87,30 @@ class FaceAppender {
     const auto whole =
         std::find_if(wholes_.begin(), wholes_.end(), [&](const WholeFace& w) { return w.face.ref == ref; });
     return whole->face;
+  }
+
+  // Numbers the nodes of a face in the order of the mesh, so that all exports of one face number them alike.
+  void number_nodes(const FaceMesh& face) {
+    std::vector<std::array<std::int32_t, 2>> corners, mids;  // number in the mesh, number in the face
+    const auto add = [&](const std::array<std::int32_t, 3>& t) {
+      for (const std::int32_t local : t) corners.push_back({face.vertex[local], local});
+    };
+    for (std::size_t t = 0; t < face.triangles.size(); ++t)
+      if (!plane_ || !face.is_spread(t)) add(face.triangles[t]);
+    if (plane_ && !of_cells_)
+      for (const auto& t : face.flattened) add(t);
+    std::sort(corners.begin(), corners.end());
+    for (const auto& [global, local] : corners) (void)vertex(face, local);
+    if (!of_cells_) return;
+    const auto first_mid = static_cast<std::int32_t>(face.uv.size());
+    std::size_t t = 0;
+    for (const Cell& cell : local_cells(face)) {
+      for (int i = corner_count(cell.kind); i < node_count(cell.kind) && (!plane_ || !face.is_spread(t)); ++i)
+        mids.push_back({face.mid_vertex[cell.nodes[i] - first_mid], cell.nodes[i] - first_mid});
+      t += corner_count(cell.kind) == 4 ? 2 : 1;
+    }
+    std::sort(mids.begin(), mids.end());
+    for (const auto& [global, local] : mids) (void)mid(face, local);
   }
 
   std::int32_t vertex(const FaceMesh& face, std::int32_t local) {

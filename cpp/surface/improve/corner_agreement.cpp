@@ -11,7 +11,17 @@ namespace carreau {
 
 KeptAgreement::KeptAgreement(const GeometricLimits& kept)
     : sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180) : infinity),
+      least_cosine_(std::isfinite(kept.triangle_angle_deg) ? std::cos(kept.triangle_angle_deg * std::numbers::pi / 180) : -1),
       deviation_(kept.deviation) {}
+
+bool KeptAgreement::leans(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept {
+  if (least_cosine_ < 0) return false;
+  const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double least = least_cosine_ * norm(n);
+  for (const Vec3& normal : normals)
+    if (dot(normal, normal) > 0 && dot(n, normal) < least) return true;
+  return false;
+}
 
 double KeptAgreement::share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept {
   double angles = 0, offsets = 0, middle = 0;  // angles by their sines

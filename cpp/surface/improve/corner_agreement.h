@@ -29,9 +29,11 @@ class KeptAgreement {
   [[nodiscard]] double share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept;
   /// Sine of the angle that is kept between an edge and the tangent planes at its ends; infinity: any.
   [[nodiscard]] double sine() const noexcept { return sine_; }
+  /// True if the plane of a triangle makes a larger angle than is kept with a tangent plane at its corners.
+  [[nodiscard]] bool leans(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept;
 
  private:
-  double sine_, deviation_;
+  double sine_, least_cosine_, deviation_;
 };
 
 }  // namespace carreau

@@ -40,7 +40,9 @@ class Refinement {
     depth_.assign(mesh_.plane.triangles.size(), 0);
     // A bend needs two or three halvings. More divisions show a surface that is rough at every scale.
     constexpr std::size_t max_divisions = 32;
-    left_ = Budget(static_cast<std::int64_t>(max_divisions * wrong.size()));
+    // A division adds two triangles: guaranteed planes at most double the mesh.
+    const std::size_t most = std::isfinite(kept_.triangle_angle_deg) ? mesh_.plane.triangles.size() / 2 : max_divisions * wrong.size();
+    left_ = Budget(static_cast<std::int64_t>(std::min(most, max_divisions * wrong.size())));
     std::vector<int> still = improve_ring_by_ring(
         wrong, {}, left_, monitor_, [this](int t) { return !is_sound(t); }, [this](int t) { return mend(t); },
         [this](int t) {
@@ -129,7 +131,12 @@ class Refinement {
   [[nodiscard]] bool looks_far(const Triangle& t) const {
     if (!kept_.any()) return false;
     return agreement_.share({position(t[0]), position(t[1]), position(t[2])},
-                            {mesh_.normal[t[0]], mesh_.normal[t[1]], mesh_.normal[t[2]]}) > 1;
+                            {mesh_.normal[t[0]], mesh_.normal[t[1]], mesh_.normal[t[2]]}) > 1 ||
+           leans(t);
+  }
+  [[nodiscard]] bool leans(const Triangle& t) const {
+    return agreement_.leans({position(t[0]), position(t[1]), position(t[2])},
+                            {mesh_.normal[t[0]], mesh_.normal[t[1]], mesh_.normal[t[2]]});
   }
 
   /// Beyond a side; none where that is imposed.
@@ -153,7 +160,9 @@ class Refinement {
       else if (quad(t, i) && excess(t, a, b) > 1)
         return false;
     }
-    if (as_short_as_allowed || !std::isfinite(kept_.deviation)) return true;
+    if (as_short_as_allowed) return true;
+    if (leans(c)) return false;
+    if (!std::isfinite(kept_.deviation)) return true;
     const auto& uv = mesh_.plane.vertices;
     return deviation(t, jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]])).s) <= kept_.deviation;
   }

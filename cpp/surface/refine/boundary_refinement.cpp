@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "predicates/predicates.h"
 #include "support/infinity.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
@@ -369,13 +370,27 @@ class Refiner {
   // Returns the reason why a domain cannot be meshed; empty if it can.
   [[nodiscard]] std::string why_not(int f) const {
     const PlaneDomain& plane = result_.domain[f]->plane;
-    if (const std::optional<EdgeConflict> conflict = find_a_crossing(plane))
+    if (const std::optional<EdgeConflict> conflict = find_a_crossing(plane)) {
+      const PlaneEdge &first = plane.edges[conflict->first], &second = plane.edges[conflict->second];
       return Where{.face = model_.faces[f].ref, .uv = conflict->uv}.prefix() +
-             "the discretised boundary meets itself: " + name_of(plane.edges[conflict->first], f) + " and " +
-             name_of(plane.edges[conflict->second], f);
+             (!cross(plane, first, second) ? "the discretised boundary meets itself: "
+              : first.kind == PlaneEdgeKind::internal || second.kind == PlaneEdgeKind::internal
+                  ? "discretised curves cross: "
+                  : "the discretised boundary crosses itself: ") +
+             name_of(first, f) + " and " + name_of(second, f);
+    }
     const std::vector<std::string> defects =
         find_loop_defects(plane, [&](const PlaneEdge& edge) { return name_of(edge, f); });
     return defects.empty() ? std::string() : Where{.face = model_.faces[f].ref}.prefix() + defects.front();
+  }
+
+  /// Each edge has an end on either side of the other.
+  [[nodiscard]] static bool cross(const PlaneDomain& plane, const PlaneEdge& first, const PlaneEdge& second) {
+    const auto divides = [&](const PlaneEdge& line, const PlaneEdge& other) {
+      const auto side = [&](int v) { return orientation(plane.vertices[line.a], plane.vertices[line.b], plane.vertices[v]); };
+      return (side(other.a) > 0 && side(other.b) < 0) || (side(other.a) < 0 && side(other.b) > 0);
+    };
+    return divides(first, second) && divides(second, first);
   }
 
   [[nodiscard]] std::string name_of(const PlaneEdge& edge, int face) const {

@@ -55,7 +55,7 @@ struct Measured {
 template <typename Curve>
 void expect_equal_edges(const Measured<Curve>& measured, double lss) {
   const Curve& curve = measured.curve;
-  const std::vector<double> cuts = curve.split(lss);
+  const std::vector<double> cuts = curve.split(lss).cuts;
   const double l = dense_length(curve, 0, measured.length);
   const auto n = static_cast<double>(cuts.size() - 1);
   EXPECT_NEAR(curve.gradation(lss).length(), l, 0.002 * l);
@@ -113,6 +113,46 @@ TEST(MetricCurve, Figures29To31HaveEqualEdgesOnACurve) {
   }
 }
 
+// RR-2818 sec. 5: closed forms between isotropic metrics. Counts change where l^2 = n (n + 1) (sec. 4.5).
+TEST(MetricCurve, IsotropicMetricsHaveClosedForms) {
+  int cases = 0, trapezoids_wrong = 0;
+  for (const MetricLaw law : laws)
+    for (int n = 1; n <= 50; ++n)
+      for (const double ratio : {0.03, 0.5, 1., 7.})
+        for (const double side : {-1e-6, 1e-6}) {
+          // Sizes 1 and `ratio` over a bent line of length d have the length d I; d makes l a threshold, nearly.
+          const double l = std::sqrt(n * (n + 1.)) * (1 + side);
+          const double inverse = ratio == 1 ? 1
+                                 : law == MetricLaw::linear    ? std::log(ratio) / (ratio - 1)
+                                 : law == MetricLaw::geometric ? (ratio - 1) / (ratio * std::log(ratio))
+                                                               : 1 / std::sqrt(ratio);
+          const double d = l / inverse;
+          const Metric2 first{1, 0, 1}, last{1 / (ratio * ratio), 0, 1 / (ratio * ratio)};
+          const PlaneMetricCurve curve({{0, 0}, {d / 3, 0}, {d / 3, 2 * d / 3}}, {0, d}, {first, last}, law);
+          const carreau::MetricSplit split = curve.split();
+          EXPECT_NEAR(split.length, l, 1e-12 * l);
+          ASSERT_EQ(static_cast<int>(split.cuts.size()) - 1, side < 0 ? n : n + 1) << "ratio " << ratio;
+          ++cases;
+          if (carreau::unit_edge_count(curve.gradation().length()) != (side < 0 ? n : n + 1)) ++trapezoids_wrong;
+          // Cuts of the linear law: 1 + x s grows by the same factor from cut to cut.
+          if (law != MetricLaw::linear || ratio == 1) continue;
+          const double x = (ratio - 1) / d, edges = static_cast<double>(split.cuts.size()) - 1;
+          for (std::size_t j = 0; j < split.cuts.size(); ++j)
+            EXPECT_NEAR(1 + x * split.cuts[j], std::pow(ratio, static_cast<double>(j) / edges), 1e-11 * std::max(1., ratio));
+        }
+  EXPECT_EQ(cases, 1200);
+  RecordProperty("trapezoids_wrong", trapezoids_wrong);
+}
+
+// A rotation leaves rounding errors in metrics, which stay isotropic; other metrics do not.
+TEST(MetricCurve, IsotropyIsUpToRounding) {
+  const auto edges = [](const Metric2& m) { return PlaneMetricCurve({{0, 0}, {3, 4}}, {0, 5}, {m, m}, MetricLaw::linear).split().length; };
+  EXPECT_DOUBLE_EQ(edges(triplet(33, 0.3, 0.3)), 5 / 0.3);
+  EXPECT_NEAR(edges(triplet(std::atan2(4, 3) * 180 / std::numbers::pi, 0.3, 0.2)), 5 / 0.3, 1e-12);
+  const PlaneMetricCurve curve({{0, 0}, {5, 0}}, {0, 5}, {Metric2{}, Metric2{}}, MetricLaw::linear);
+  EXPECT_THROW(curve.split(-1), carreau::InvalidArgument);
+}
+
 /// A helix of slope 1/2 with sizes along fixed directions and a third one across them.
 Measured<SpaceMetricCurve> helix(MetricLaw law) {
   std::vector<Vec3> points;
@@ -147,8 +187,8 @@ TEST(MetricCurve, APlaneOfSpaceIsThePlane) {
   const Metric2 p = triplet(30, 0.7, 0.25), q = triplet(-50, 1.1, 0.15);
   const double total = std::hypot(3., 4.);
   for (const MetricLaw law : laws) {
-    const auto flat = PlaneMetricCurve({{0, 0}, {3, 4}}, {0, total}, {p, q}, law).split();
-    const auto lifted = SpaceMetricCurve({n, n + 3 * e1 + 4 * e2}, {0, total}, {lift(p), lift(q)}, law).split();
+    const auto flat = PlaneMetricCurve({{0, 0}, {3, 4}}, {0, total}, {p, q}, law).split().cuts;
+    const auto lifted = SpaceMetricCurve({n, n + 3 * e1 + 4 * e2}, {0, total}, {lift(p), lift(q)}, law).split().cuts;
     ASSERT_EQ(flat.size(), lifted.size());
     for (std::size_t i = 0; i < flat.size(); ++i) EXPECT_NEAR(flat[i], lifted[i], 1e-9 * total);
   }
@@ -178,7 +218,7 @@ TEST(MetricCurve, IsInvariantUnderRotationAndScaling) {
   const PlaneMetricCurve after(
       {turn(points[0]), turn(points[1]), turn(points[2]), turn(points[3])}, {0, 3 * k, total * k},
       {triplet(10 + d, k, 0.2 * k), triplet(70 + d, 0.4 * k, 0.3 * k), triplet(0, k, k)}, MetricLaw::linear);
-  const auto p = before.split(), q = after.split();
+  const auto p = before.split().cuts, q = after.split().cuts;
   ASSERT_EQ(p.size(), q.size());
   for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(k * p[i], q[i], 1e-6 * total * k);
 }
@@ -221,7 +261,8 @@ TEST(MetricCurve, RejectsMeaninglessInput) {
   EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1, 2, 1}}, law), InvalidArgument);
   EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, std::nan("")}}, {0, 1}, {m, m}, law), InvalidArgument);
   EXPECT_THROW(SpaceMetricCurve({{0, 0, 0}, {1, 0, 0}}, {0, 1}, {Metric3{}, {1, 0, 0, 1, 2, 1}}, law), InvalidArgument);
-  EXPECT_THROW((void)PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1e30, 0, 1e30}}, law).split(),
+  EXPECT_THROW((void)PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1e30, 0, 2e30}}, law).split(), carreau::LimitError);
+  EXPECT_THROW((void)PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {{1e30, 0, 1e30}, {1e30, 0, 1e30}}, law).split(),
                carreau::LimitError);
 }
 

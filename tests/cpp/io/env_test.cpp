@@ -45,6 +45,22 @@ TEST(Env, TakesSeveralPairsOnALine) {
   EXPECT_EQ(pairs[1].value, "2");
 }
 
+// RT-0232 sec. 3.3: a sequence of words between blanks; the ends of lines have no meaning for Fortran's input.
+TEST(Env, ANameAndItsValueMayStandOnTwoLines) {
+  const auto pairs = read_env_text("hphydef ! a size\n\n  = 0.5\ncall\ninimesh\n", "e");
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[0].name, "hphydef");
+  EXPECT_EQ(pairs[0].value, "0.5");
+  EXPECT_EQ(pairs[0].line, 1);
+  EXPECT_EQ(pairs[1].value, "inimesh");
+}
+
+TEST(Env, AnythingMayFollowTheExit) {
+  const auto pairs = read_env_text("verb 0 call exit and 'the rest\n\x01 is a note", "e");
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[1].value, "exit");
+}
+
 TEST(Env, KeepsBlanksAndExclamationMarksWithinQuotes) {
   const auto pairs = read_env_text("pref \"my mesh! = 1\"\noption ''\npref 'l''\xC3\xA9t\xC3\xA9'! note", "e");
   ASSERT_EQ(pairs.size(), 3u);
@@ -61,8 +77,8 @@ TEST(Env, CommentsMayHoldAnything) {
 }
 
 TEST(Env, NamesTheLineOfEveryViolation) {
-  EXPECT_EQ(error_of("verb 1\nhphydef\ncall exit"), "blsurf.env, line 2: 'hphydef' has no value on its line");
-  EXPECT_EQ(error_of("verb 1 hphydef ! 2"), "blsurf.env, line 1: 'hphydef' has no value on its line");
+  EXPECT_EQ(error_of("verb 1\nhphydef\ncall exit"), "blsurf.env, line 2: 'hphydef' has no value");
+  EXPECT_EQ(error_of("verb 1 hphydef ! 2"), "blsurf.env, line 1: 'hphydef' has no value");
   EXPECT_EQ(error_of("\npref 'abc\n'"), "blsurf.env, line 2: the quote that opens 'abc' is not closed on its line");
   EXPECT_EQ(error_of("pref \""), "blsurf.env, line 1: the quote that opens '' is not closed on its line");
   EXPECT_EQ(error_of("pref 'a'b"), "blsurf.env, line 1: a blank is missing after the quote that closes 'a'");
@@ -76,7 +92,7 @@ TEST(Env, ReadsAFileAndNamesIt) {
   const TemporaryFolder folder;
   const std::string path = folder.file("blsurf.env");
   write_file(path, "call inimesh\ncall");
-  EXPECT_EQ(sentence_of<FileError>([&] { read_env(path); }), path + ", line 2: 'call' has no value on its line");
+  EXPECT_EQ(sentence_of<FileError>([&] { read_env(path); }), path + ", line 2: 'call' has no value");
 }
 
 }  // namespace

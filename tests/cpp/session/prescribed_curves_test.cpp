@@ -207,7 +207,7 @@ TEST(PrescribedCurves, ThatCrossFailTheirFaceWithASentence) {
     run.session.make_mesh();
     FAIL() << "it was meshed";
   } catch (const DomainError& error) {
-    EXPECT_NE(std::string(error.what()).find("the discretised boundary meets itself"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("the discretised boundary crosses itself"), std::string::npos)
         << error.what();
   }
   EXPECT_TRUE(run.monitor.says("the edges prescribed on it stay"));
