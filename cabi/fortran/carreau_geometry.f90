@@ -31,6 +31,7 @@ module carreau_geometry
   integer(c_int32_t), parameter, public :: CARREAU_MATCH_ANY = 0, CARREAU_MATCH_REFERENCE = 1, CARREAU_MATCH_NAME = 2, &
     CARREAU_MATCH_SHAPE = 3
   integer(c_int32_t), parameter, public :: CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2
+  public :: carreau_model_embed_point, carreau_model_embed_polyline
   public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
@@ -499,6 +500,29 @@ contains
     parameters = reshape(flat, [int(dimension), n])
     closest = reshape(points, [3, n])
   end subroutine carreau_project
+
+  !> Embeds a point of space in the nearest face; ref is its reference.
+  subroutine carreau_model_embed_point(session, xyz, name, ref, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: xyz(3)
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(out) :: ref, status
+    ref = 0
+    status = c_model_embed_point(session%handle, xyz, trim(name)//c_null_char, ref)
+  end subroutine carreau_model_embed_point
+
+  !> Embeds a polyline xyz(3, n) in the faces that it lies on; ref names its edges.
+  subroutine carreau_model_embed_polyline(session, xyz, name, ref, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: xyz(:, :)
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(out) :: ref, status
+    ref = 0
+    status = CARREAU_ERR_ARGUMENT
+    if (size(xyz, 1) /= 3) return
+    status = c_model_embed_polyline(session%handle, size(xyz, 2, c_int64_t), reshape(xyz, [size(xyz)]), &
+      trim(name)//c_null_char, ref)
+  end subroutine carreau_model_embed_polyline
 
   !> Entities that vertices lie on: 0 points, 1 curves, 2 faces, and their references
   subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)

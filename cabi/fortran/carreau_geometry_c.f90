@@ -362,6 +362,31 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_project
 
+    !> Embeds a point of space, 3 numbers, in the face nearest to it: the mesh has a vertex there.
+    function c_model_embed_point(session, xyz, name, ref) result(status) bind(c, name="carreau_model_embed_point")
+      import :: c_char, c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), intent(in) :: xyz(*)
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t), intent(inout) :: ref
+      integer(c_int32_t) :: status
+    end function c_model_embed_point
+
+    !> Embeds a polyline of n points of space, n x 3, in the faces that it lies on: the projection of its segments to
+    !! the model becomes internal curves, whose edges the mesh has.
+    function c_model_embed_polyline(session, n, xyz, name, ref) result(status) &
+        bind(c, name="carreau_model_embed_polyline")
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xyz(*)
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t), intent(inout) :: ref
+      integer(c_int32_t) :: status
+    end function c_model_embed_polyline
+
     !> Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on
     !! edges included: a point (0, corners and imposed points), a curve (1, free edges too) or a face (2), by the
     !! references that carreau_project takes.

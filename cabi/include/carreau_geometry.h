@@ -412,6 +412,24 @@ CARREAU_API carreau_status carreau_project(carreau_session* session, int32_t dim
                                            int32_t out_references[], double out_parameters[], double out_closest[],
                                            double out_distances[]);
 
+/* Embeds a point of space, 3 numbers, in the face nearest to it: the mesh has a vertex there. Within the parameter embed_tolerance a point of
+ * the model replaces it, or a curve gets it as an end of two parts. `name` names the point in files with groups; NULL or "": none. The
+ * reference of the point, of the model and of the vertex, is stored in *out_ref, which may be NULL. The model must have the references of its
+ * curves.
+ * Errors: SEQUENCE (no geometry, no model, no references), ARGUMENT (farther from the faces than embed_tolerance: the sentence has the
+ * distance; a face given by triangles), MODEL, CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. The model does not change then. */
+CARREAU_API carreau_status carreau_model_embed_point(carreau_session* session, const double xyz[], const char* name, int32_t* out_ref);
+
+/* Embeds a polyline of n points of space, n x 3, in the faces that it lies on: the projection of its segments to the model becomes internal
+ * curves, whose edges the mesh has. It crosses borders of faces, seams and internal curves, which are cut there; vertices where it turns by
+ * more than 15 degrees on the surface are points. It is closed when the last point equals the first. Points must be within embed_tolerance of
+ * the faces; ends within embed_tolerance of a point or curve of the model join it. If the projection jumps from one face to another, the
+ * shortest way over their common curve joins both. One reference names all edges in results; *out_ref, which may be NULL, receives it.
+ * Errors as carreau_model_embed_point(), and ARGUMENT for segments that leave the surface, run along a curve of the model, or pass a
+ * singular point of a face. */
+CARREAU_API carreau_status carreau_model_embed_polyline(carreau_session* session, int64_t n, const double xyz[], const char* name,
+                                                        int32_t* out_ref);
+
 /* Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on edges included: a point (0,
  * corners and imposed points), a curve (1, free edges too) or a face (2), by the references that carreau_project takes. Vertices on several
  * curves have the first one. (u, v) of each corner are in carreau_mesh_corner_uv. Mesh of a session only. Either array may be NULL. Errors:

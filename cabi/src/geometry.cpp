@@ -65,7 +65,11 @@ void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, 
     session.set_model(std::move(merged)), draft = {}, draft_changed = false;
   else
     draft = std::move(merged), draft_changed = true;
-  added.push_back({kind, std::move(cad), range});
+  std::vector<int> curves(std::size_t(range.last_face - range.first_face + 1));
+  for (const carreau::Face& face : model().faces)
+    if (face.ref >= range.first_face && face.ref <= range.last_face)
+      curves[std::size_t(face.ref - range.first_face)] = int(face.curves.size());
+  added.push_back({kind, std::move(cad), range, std::move(curves)});
   update_cad();
 }
 
@@ -86,7 +90,8 @@ void carreau_session::update_cad() {
   std::vector<CadAssembly::Part> parts;
   for (const AddedGeometry& geometry : added) {
     const GeometryRange& range = geometry.range;
-    parts.push_back({geometry.cad, range.first_face, range.last_face, range.first_point, range.last_point});
+    parts.push_back({geometry.cad, range.first_face, range.last_face, range.first_point, range.last_point,
+                     host ? geometry.curves : std::vector<int>{}});
   }
   session.set_cad(std::make_shared<CadAssembly>(host, std::move(parts)));
 }

@@ -114,6 +114,7 @@ struct AddedGeometry {
   int kind = 0;  // CARREAU_GEOMETRY_...
   std::shared_ptr<Cad> cad;
   GeometryRange range;
+  std::vector<int> curves = {};  // by face: their number, as the geometry was added
 };
 
 /// Callbacks in the form that the engine calls. Throws InvalidArgument.

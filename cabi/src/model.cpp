@@ -98,6 +98,12 @@ carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_re
       throw InvalidArgument(carreau::Where{.face = face_ref},
                             "the type of a curve is " + std::to_string(type) +
                                 "; it must be 1 (CARREAU_BOUNDARY) or 2 (CARREAU_INTERNAL)");
+    for (const AddedGeometry& geometry : session->added)
+      if (!session->begun && !session->host && geometry.kind != CARREAU_GEOMETRY_CALLBACKS && face_ref >= geometry.range.first_face &&
+          face_ref <= geometry.range.last_face)
+        throw InvalidArgument(carreau::Where{.face = face_ref},
+                              "its geometry evaluates no other curve: register callbacks that do, by carreau_set_cad, or embed a polyline by "
+                              "carreau_model_embed_polyline");
     face_of(session->edited_model(), face_ref)
         .curves.push_back({.type = carreau::CurveType(type), .ref = ref, .end1 = end1, .end2 = end2});
   });

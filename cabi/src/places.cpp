@@ -91,6 +91,26 @@ carreau_status carreau_project(carreau_session* session, int32_t dimension, int3
   });
 }
 
+carreau_status carreau_model_embed_point(carreau_session* session, const double xyz[], const char* name, int32_t* out_ref) {
+  return guarded(session, [&] {
+    prepare_places(*session, 0, 0, 1);
+    required(xyz, "xyz");
+    const int ref = session->session.embed_point({xyz[0], xyz[1], xyz[2]}, name != nullptr ? name : "");
+    if (out_ref != nullptr) *out_ref = ref;
+  });
+}
+
+carreau_status carreau_model_embed_polyline(carreau_session* session, int64_t n, const double xyz[], const char* name, int32_t* out_ref) {
+  return guarded(session, [&] {
+    prepare_places(*session, 0, 0, n);
+    if (n > 0) required(xyz, "xyz");
+    std::vector<Vec3> points(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    const int ref = session->session.embed_polyline(points, name != nullptr ? name : "");
+    if (out_ref != nullptr) *out_ref = ref;
+  });
+}
+
 carreau_status carreau_mesh_vertex_entities(carreau_mesh* mesh, int64_t capacity, int32_t out_dimensions[], int32_t out_references[]) {
   return guarded(mesh, [&] {
     check_capacity(capacity, Counts(*mesh).vertices, "vertices");

@@ -43,9 +43,9 @@ Cad& CadAssembly::host_of(int face) const {
 }
 
 template <typename Ask>
-auto CadAssembly::of_face(int face, Ask&& ask) {
+auto CadAssembly::of_face(int face, int ic, Ask&& ask) {
   const Part* const part = part_of_face(face);
-  if (part == nullptr) return ask(host_of(face), face);
+  if (part == nullptr || (!part->curves.empty() && ic > part->curves[static_cast<std::size_t>(face - part->first_face)])) return ask(host_of(face), face);
   return asked(*part, [&] { return ask(*part->cad, face - part->first_face + 1); });
 }
 
@@ -56,25 +56,25 @@ void CadAssembly::each(Visit&& visit) const {
 }
 
 void CadAssembly::surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
-  of_face(face, [&](Cad& cad, int own) { cad.surface(own, want, uv, out); });
+  of_face(face, 0, [&](Cad& cad, int own) { cad.surface(own, want, uv, out); });
 }
 Interval CadAssembly::curve_interval(int face, int ic) {
-  return of_face(face, [&](Cad& cad, int own) { return cad.curve_interval(own, ic); });
+  return of_face(face, ic, [&](Cad& cad, int own) { return cad.curve_interval(own, ic); });
 }
 CurveJet CadAssembly::curve(int face, int ic, unsigned want, double t) {
-  return of_face(face, [&](Cad& cad, int own) { return cad.curve(own, ic, want, t); });
+  return of_face(face, ic, [&](Cad& cad, int own) { return cad.curve(own, ic, want, t); });
 }
 std::optional<double> CadAssembly::surface_size(int face, Vec2 uv) {
-  return of_face(face, [&](Cad& cad, int own) { return cad.surface_size(own, uv); });
+  return of_face(face, 0, [&](Cad& cad, int own) { return cad.surface_size(own, uv); });
 }
 std::optional<double> CadAssembly::curve_size(int face, int ic, double t) {
-  return of_face(face, [&](Cad& cad, int own) { return cad.curve_size(own, ic, t); });
+  return of_face(face, ic, [&](Cad& cad, int own) { return cad.curve_size(own, ic, t); });
 }
 std::optional<double> CadAssembly::surface_radius(int face, Vec2 uv) {
-  return of_face(face, [&](Cad& cad, int own) { return cad.surface_radius(own, uv); });
+  return of_face(face, 0, [&](Cad& cad, int own) { return cad.surface_radius(own, uv); });
 }
 std::optional<double> CadAssembly::curve_radius(int face, int ic, double t) {
-  return of_face(face, [&](Cad& cad, int own) { return cad.curve_radius(own, ic, t); });
+  return of_face(face, ic, [&](Cad& cad, int own) { return cad.curve_radius(own, ic, t); });
 }
 
 std::optional<double> CadAssembly::point_size(int point) {
@@ -114,11 +114,11 @@ unsigned CadAssembly::curve_gives() const noexcept {
 }
 
 void CadAssembly::set_parameter_box(int face, Vec2 low, Vec2 high) {
-  of_face(face, [&](Cad& cad, int own) { cad.set_parameter_box(own, low, high); });
+  of_face(face, 0, [&](Cad& cad, int own) { cad.set_parameter_box(own, low, high); });
 }
 
 void CadAssembly::set_boundary(int face, std::vector<BoundaryCurve> boundary) {
-  of_face(face, [&](Cad& cad, int own) { cad.set_boundary(own, std::move(boundary)); });
+  of_face(face, 0, [&](Cad& cad, int own) { cad.set_boundary(own, std::move(boundary)); });
 }
 
 }  // namespace carreau

@@ -17,6 +17,8 @@ class CadAssembly final : public Cad {
   struct Part {
     std::shared_ptr<Cad> cad;
     int first_face = 1, last_face = 0, first_point = 1, last_point = 0;
+    /// By face: the number of curves that the part evaluates. The host evaluates the others, by references of the assembly. Empty: all.
+    std::vector<int> curves = {};
   };
   /// `host` may be null. Ranges of parts ascend and do not overlap.
   CadAssembly(std::shared_ptr<Cad> host, std::vector<Part> parts) : host_(std::move(host)), parts_(std::move(parts)) {}
@@ -39,9 +41,9 @@ class CadAssembly final : public Cad {
  private:
   [[nodiscard]] const Part* part_of_face(int face) const noexcept;
   [[nodiscard]] Cad& host_of(int face) const;
-  /// Calls ask(cad, face) with the part that has the face.
+  /// Calls ask(cad, face) with the part that has the face, or with the host for a curve beyond the part's own.
   template <typename Ask>
-  auto of_face(int face, Ask&& ask);
+  auto of_face(int face, int ic, Ask&& ask);
   template <typename Visit>
   void each(Visit&& visit) const;
 

@@ -200,7 +200,10 @@ LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample
     const Symmetric2 form{dot(jet.su, jet.su), dot(jet.su, jet.sv), dot(jet.sv, jet.sv)};
     const Symmetric2 hessian{form.xx + dot(r, jet.suu), form.xy + dot(r, jet.suv), form.yy + dot(r, jet.svv)};
     const RestrictedStep step = restricted_step(unit, w, {dot(r, jet.su), dot(r, jet.sv)}, hessian, form);
-    if (norm(step.d) < 1e-4) break;
+    if (norm(step.d) < 1e-4) {  // the expansion holds over such a step, and the distance is a bound for others
+      best = step.to, least = std::max(0.0, least - 2 * step.gain);
+      break;
+    }
     w = step.to;
   }
   return {leaf.region.low + Vec2(best.cwiseProduct(leaf.region.size())), std::sqrt(least)};

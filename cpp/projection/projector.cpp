@@ -352,4 +352,9 @@ void Projector::project(int dimension, int ref, std::span<const Vec3> x, std::sp
            monitor);
 }
 
+double Projector::diagonal(int threads, Monitor& monitor) {
+  state_->prepare(threads, monitor);
+  return state_->diagonal;
+}
+
 }  // namespace carreau

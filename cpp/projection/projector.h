@@ -42,6 +42,9 @@ class Projector {
   /// the trees. Throws InvalidArgument for an unknown entity, and the exceptions of the geometry.
   void project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out, int threads, Monitor& monitor);
 
+  /// The diagonal of the box of faces and curves.
+  [[nodiscard]] double diagonal(int threads, Monitor& monitor);
+
  private:
   struct State;
   std::unique_ptr<State> state_;

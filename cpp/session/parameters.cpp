@@ -87,6 +87,7 @@ constexpr std::array kTable = {
                 "-1 as RT-0232"),
     text_row("element", "p1", "p1|p2|q1.0|q1.1|q2.0|q2.1",
              "type of the elements: triangles (p) or quadrilaterals (q; .1: no triangle), of order 1 or 2 (curved)"),
+    diag_row("embed_tolerance", kPositive, 1e-3, "embedded places are so far from faces at most, and join nearer curves and points, model length"),
     diag_row("eps_chord", kPositive, 1.0 / 5000,
              "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),
     real_row("eps_collapse", 0, infinity, 0, "curves shorter than this are removed, model length (0: none)"),

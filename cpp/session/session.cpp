@@ -32,13 +32,14 @@ Session::~Session() = default;
 
 void Session::set_cad(std::shared_ptr<Cad> cad) {
   if (auto alone = std::dynamic_pointer_cast<const discrete::DiscreteCad>(cad)) state_->triangles = std::move(alone);
-  state_->cad = std::move(cad);
-  state_->projector.reset();
+  state_->host = std::move(cad);
+  state_->update_cad();
+  state_->forget_trees();
 }
 
 void Session::set_triangles(std::shared_ptr<const discrete::DiscreteCad> triangles) {
   state_->triangles = std::move(triangles);
-  state_->projector.reset();
+  state_->forget_trees();
 }
 
 void Session::set_metric_callbacks(std::shared_ptr<PrescriptionSource> source) {
@@ -70,7 +71,7 @@ void Session::set_model(Model model) {
   if (leaves_out(state_->parameters)) leave_out_defects(model);
   state_->check_model(model);
   state_->model = std::move(model);
-  state_->projector.reset();
+  state_->forget_trees();
   state_->glued = {};
   state_->model_from_file = state_->model_from_env = false;
 }
@@ -82,6 +83,7 @@ void Session::load_pardom(const std::string& path) {
     state_->monitor.message(Level::warning, path + ", line " + std::to_string(line_of_rest) +
                                                 ": the text after the last surface is ignored (ns is " +
                                                 std::to_string(model.faces.size()) + ")");
+  state_->embedded.clear(), state_->update_cad();
   set_model(std::move(model));
   state_->model_from_file = true;
 }
@@ -93,7 +95,8 @@ void Session::load_pardom_of_env(const std::string& path) {
 
 void Session::clear_model() noexcept {
   state_->model = {};
-  state_->projector.reset();
+  state_->embedded.clear(), state_->cad = state_->host;
+  state_->forget_trees();
   state_->glued = {};
 }
 
@@ -178,7 +181,7 @@ PartMesh Session::make_part() {
 // `part`: receives the part of this process; null: makes the mesh of the session.
 void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   State& s = *state_;
-  s.projector.reset();  // the model may be glued, and the host's data may have changed
+  s.forget_trees();  // the model may be glued, and the host's data may have changed
   if (part == nullptr) s.tried_parameters = s.parameters, s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");

@@ -26,6 +26,11 @@ void write_glued(const Model& model, std::vector<std::string>& remarks) {
 
 }  // namespace
 
+void Session::State::update_cad() {
+  cad = host;
+  if (host && !embedded.empty()) cad = std::make_shared<EmbeddedCad>(host, embedded);
+}
+
 std::vector<PrescriptionSource*> Session::State::sources(BackgroundField* of_this_run) const {
   std::vector<PrescriptionSource*> all;
   for (PrescriptionSource* source :

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "embedding/embedder.h"
 #include "mesh/quality.h"
 #include "session/gluing.h"
 #include "session/meshed.h"
@@ -28,7 +29,9 @@ struct Session::State {
   explicit State(Monitor& m) : monitor(m) {}
 
   Monitor& monitor;
-  std::shared_ptr<Cad> cad;
+  std::shared_ptr<Cad> host, cad;  // the geometry, without and with embedded curves
+  EmbeddedCurves embedded;
+  std::unique_ptr<Embedder> embedder;  // of `host` and the model; null: it is to be made
   std::shared_ptr<const discrete::DiscreteCad> triangles;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
@@ -56,6 +59,11 @@ struct Session::State {
   std::vector<Interface> interfaces;               // of `result`
   std::vector<WholeFace> whole_faces;              // of `result`
   std::optional<QualitySummary> shapes, quality;   // of `result`, after the first call: without edges, and all
+
+  /// Puts the embedded curves beside the host's.
+  void update_cad();
+  /// The geometry or the model has changed.
+  void forget_trees() noexcept { projector.reset(), embedder.reset(); }
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const;

@@ -356,4 +356,50 @@ TEST(Errors, LibrariesOnTopSetErrorsOfTheSession) {
   EXPECT_EQ(carreau_set_error(nullptr, CARREAU_ERR_FILE, "?"), CARREAU_ERR_ARGUMENT);
 }
 
+// ---- Curves of callbacks on faces of other geometries ----
+
+std::int32_t unit_interval(std::int32_t, std::int32_t, double* a, double* b, void*) {
+  *a = 0, *b = 1;
+  return 0;
+}
+/// The line v = 1/2 of face 1, its curve 5.
+std::int32_t line_of_a_patch(std::int32_t face, std::int32_t ic, double t, std::int32_t, double* C, double* Ct, double* Ctt, void* user) {
+  auto& calls = *static_cast<int*>(user);
+  ++calls;
+  if (face != 1 || ic != 5) return 7;
+  C[0] = 0.1 + 0.8 * t, C[1] = 0.5;
+  if (Ct != nullptr) Ct[0] = 0.8, Ct[1] = 0;
+  if (Ctt != nullptr) Ctt[0] = Ctt[1] = 0;
+  return 0;
+}
+
+TEST(Geometries, CallbacksEvaluateMoreCurvesOfABezierPatch) {
+  Session session;
+  add_saddle(session, 2, 1, 0);
+  EXPECT_EQ(carreau_model_add_curve(session, 1, CARREAU_INTERNAL, 0, 0, 0), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(std::string(carreau_last_error(session)).find("carreau_model_embed_polyline"), std::string::npos);
+  int calls = 0;
+  carreau_cad cad{};
+  cad.struct_size = sizeof cad;
+  cad.user = &calls;
+  cad.surface_order = cad.curve_order = 2;
+  cad.surface = plate, cad.curve_interval = unit_interval, cad.curve = line_of_a_patch;
+  EXPECT_OK(session, carreau_set_cad(session, &cad));
+  EXPECT_OK(session, carreau_model_add_curve(session, 1, CARREAU_INTERNAL, 0, 0, 0));
+  EXPECT_OK(session, carreau_set_real(session, "hphydef", 0.2));
+  EXPECT_OK(session, carreau_mesh_generate(session));
+  EXPECT_GT(calls, 0);
+  carreau_mesh* mesh = nullptr;
+  EXPECT_OK(session, carreau_session_mesh(session, &mesh));
+  std::int64_t n = 0, k = 0;
+  EXPECT_OK(session, carreau_mesh_count(mesh, &n, nullptr, &k, nullptr));
+  std::vector<double> xyz(3 * n);
+  std::vector<std::int32_t> edges(2 * k);
+  EXPECT_OK(session, carreau_mesh_vertices(mesh, n, xyz.data()));
+  EXPECT_OK(session, carreau_mesh_edges(mesh, k, edges.data()));
+  int on_line = 0;  // y = 0
+  for (const std::int32_t v : edges) on_line += std::abs(xyz[3 * std::size_t(v) + 1]) < 1e-12 && std::abs(xyz[3 * std::size_t(v)]) < 0.9;
+  EXPECT_GE(on_line, 16);
+}
+
 }  // namespace

@@ -107,6 +107,36 @@ TEST_F(PlacesTest, NodesKnowTheirEntities) {
   carreau_mesh_free(other);
 }
 
+TEST_F(PlacesTest, EmbedsPlacesOfSpace) {
+  use_paraboloid(0.5);
+  const double point[3] = {0.3, 0.4, 0.125};
+  std::int32_t ref = 0, curve = 0;
+  EXPECT_EQ(carreau_model_embed_point(session, point, "probe", &ref), CARREAU_OK) << error();
+  std::vector<double> line;  // the parabola y = x over the diagonal, from corner to corner
+  for (int k = 0; k <= 20; ++k) {
+    const double x = -2.5 + 0.25 * k;
+    line.insert(line.end(), {x, x, x * x});
+  }
+  ASSERT_EQ(carreau_model_embed_polyline(session, 21, line.data(), "diagonal", &curve), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  EXPECT_EQ(defects_of(mesh()), "");
+  const MeshData data = data_of(mesh());
+  EXPECT_EQ(std::count(data.vertex_refs.begin(), data.vertex_refs.end(), ref), 1);
+  EXPECT_GE(std::count(data.edge_refs.begin(), data.edge_refs.end(), curve), 14);
+  double apart = 0;
+  for (std::size_t e = 0; e < data.edge_count(); ++e)
+    for (const std::int32_t v : {data.edges[2 * e], data.edges[2 * e + 1]})
+      if (data.edge_refs[e] == curve) apart = std::max(apart, std::abs(data.xyz[3 * std::size_t(v)] - data.xyz[3 * std::size_t(v) + 1]));
+  EXPECT_LT(apart, 1e-7);
+  EXPECT_EQ(carreau_model_embed_polyline(session, 0, nullptr, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_embed_polyline(session, 2, nullptr, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  const double far[3] = {0, 0, 1};
+  EXPECT_EQ(carreau_model_embed_point(session, far, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("embed_tolerance"), std::string::npos) << error();
+  ASSERT_EQ(carreau_set_real(session, "embed_tolerance", 2), CARREAU_OK);
+  EXPECT_EQ(carreau_model_embed_point(session, far, nullptr, nullptr), CARREAU_OK) << error();
+}
+
 TEST_F(PlacesTest, NamesErrorsAndRejectsCallsFromCallbacks) {
   const double x[3] = {0, 0, 1}, uv[2] = {0, 0};
   double out[3];

@@ -432,6 +432,13 @@ TEST(Wrapper, EvaluatesAndProjects) {
   EXPECT_EQ(edges.faces, std::vector<std::int32_t>(edges.t.size(), 1));
   const std::array<double, 1> t{side.parameters[1]};
   EXPECT_EQ(carreau::evaluate_curve(session, side.references[1], t, 1).xyz[0], (Point3{1, 0, 0}));
+  const std::array<Point3, 2> line{{{0.2, 0.25, 0.05}, {0.8, 0.25, 0.2}}};  // a ruling
+  const int curve = carreau::embed_polyline(session, line, "line"), point = carreau::embed_point(session, {0.5, 0.6, 0.3});
+  session.generate();
+  const std::vector<std::int32_t> edges_of = session.mesh().edge_refs(), vertices_of = session.mesh().vertex_refs();
+  EXPECT_GE(std::count(edges_of.begin(), edges_of.end(), curve), 2);
+  EXPECT_EQ(std::count(vertices_of.begin(), vertices_of.end(), point), 1);
+  EXPECT_EQ(error_of([&] { carreau::embed_point(session, {0.5, 0.6, 0.5}); }).status(), carreau::Status::argument);
 }
 
 TEST(Wrapper, TakesTrianglesAndPlaneDomains) {

@@ -57,6 +57,21 @@ def test_points_are_projected_to_the_geometry_of_a_mesh():
         session.project(x, ref=77)
 
 
+def test_places_of_space_are_embedded():
+    session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session
+    t = np.linspace(-1, 1, 41)
+    x, y, z = session.evaluate([[0.0, 0.5]], ref=1).xyz[0]
+    line = np.stack([x * np.cos(t) - y * np.sin(t), x * np.sin(t) + y * np.cos(t), np.full(41, z)], axis=1)  # across a seam
+    curve = session.embed_polyline(line, "equator")
+    point = session.embed_point(session.project([[-9, 0.5, 0.5]]).xyz[0])
+    mesh = session.generate()
+    on = mesh.vertices[mesh.edges[mesh.curve_ids == curve].ravel()]
+    assert len(on) > 4 and np.allclose(np.hypot(on[:, 0], on[:, 1]), np.hypot(x, y), atol=1e-2) and np.allclose(on[:, 2], z, atol=1e-2)
+    assert (mesh.vertex_ids == point).sum() == 1
+    with pytest.raises(carreau.CarreauError, match="embed_tolerance"):
+        session.embed_point([0, 0, 0])
+
+
 def test_vertices_know_the_entities_that_they_lie_on():
     mesh = carreau.mesh(torus, domain=TORUS_BOX, size=0.5)
     dimensions, refs = mesh.vertex_entities()

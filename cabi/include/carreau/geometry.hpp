@@ -74,6 +74,19 @@ inline Projected project(Session& session, std::span<const Point3> xyz, int dime
   return out;
 }
 
+/// Embeds a point of space in the nearest face, or in a curve or point within embed_tolerance; returns its reference.
+inline int embed_point(Session& session, const Point3& xyz, const std::string& name = "") {
+  std::int32_t ref = 0;
+  session.done(carreau_model_embed_point(session.get(), xyz.data(), name.c_str(), &ref));
+  return ref;
+}
+/// Embeds a polyline in the faces that it lies on; returns the reference that names its edges.
+inline int embed_polyline(Session& session, std::span<const Point3> xyz, const std::string& name = "") {
+  std::int32_t ref = 0;
+  session.done(carreau_model_embed_polyline(session.get(), detail::count_of(xyz.size()), detail::flat(xyz), name.c_str(), &ref));
+  return ref;
+}
+
 /// The entities that vertices of a mesh lie on: points (dimension 0), curves (1) and faces (2).
 struct VertexEntities {
   std::vector<std::int32_t> dimensions{}, references{};

@@ -289,6 +289,20 @@ class Geometries:
         self._call(lib().project, dimension, ref, n, points, *found)
         return found
 
+    def embed_point(self, xyz: ArrayLike, name: str = "") -> int:
+        """Embeds a point of space in the nearest face: the mesh has a vertex there. Returns its reference."""
+        ref = c_int32()
+        self._call(lib().model_embed_point, doubles(xyz, "xyz", 3), name.encode(), byref(ref))
+        return ref.value
+
+    def embed_polyline(self, xyz: ArrayLike, name: str = "") -> int:
+        """Embeds a polyline (n, 3) in the faces that it lies on, within the parameter embed_tolerance; closed when its last point is its
+        first. The mesh has its edges, whose reference is returned."""
+        points = doubles(xyz, "xyz", None, 3)
+        ref = c_int32()
+        self._call(lib().model_embed_polyline, len(points), points, name.encode(), byref(ref))
+        return ref.value
+
     def clear(self) -> None:
         """Drops all faces and geometries; an earlier mesh stays, and so do the callbacks that it is measured with."""
         self._call(lib().model_clear)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "embedding/embedder.h"
 #include "projection/projector.h"
 #include "session/options.h"
 #include "session/state.h"
@@ -8,17 +9,54 @@
 
 namespace carreau {
 
-Projector& Session::projector(int dimension) {
-  State& s = *state_;
-  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
-  if (s.model.faces.empty()) throw InvalidArgument("the model has no face");
+namespace {
+
+void check_places(const Cad* cad, const Model& model, bool faces_only) {
+  if (cad == nullptr) throw InvalidArgument("no geometry is registered: register the callbacks first");
+  if (model.faces.empty()) throw InvalidArgument("the model has no face");
   const auto lacks_reference = [](const Face& face) {
     return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& curve) { return curve.ref <= 0; });
   };
-  if (dimension < 2 && std::any_of(s.model.faces.begin(), s.model.faces.end(), lacks_reference))
+  if (!faces_only && std::any_of(model.faces.begin(), model.faces.end(), lacks_reference))
     throw InvalidArgument("curves and points of the model have no references yet: a mesh gives them");
+}
+
+}  // namespace
+
+Projector& Session::projector(int dimension) {
+  State& s = *state_;
+  check_places(s.cad.get(), s.model, dimension == 2);
   if (!s.projector) s.projector = std::make_unique<Projector>(s.cad, s.triangles, s.model);
   return *s.projector;
+}
+
+Embedder& Session::embedder() {
+  State& s = *state_;
+  check_places(s.host.get(), s.model, false);
+  if (!s.embedder) s.embedder = std::make_unique<Embedder>(s.host, s.triangles, s.model, s.embedded, threads_of(s.parameters), s.monitor);
+  return *s.embedder;
+}
+
+int Session::embed_point(const Vec3& x, const std::string& name) {
+  Embedder& all = embedder();
+  const int ref = all.embed_point(x, state_->parameters.real("embed_tolerance", all.diagonal()));
+  return keep_embedded(0, ref, name);
+}
+
+int Session::embed_polyline(std::span<const Vec3> points, const std::string& name) {
+  Embedder& all = embedder();
+  const int ref = all.embed_polyline(points, state_->parameters.real("embed_tolerance", all.diagonal()));
+  return keep_embedded(1, ref, name);
+}
+
+int Session::keep_embedded(int dimension, int ref, const std::string& name) {
+  State& s = *state_;
+  if (!name.empty()) s.embedder->set_name(dimension, ref, name);
+  s.model = s.embedder->model();
+  s.embedded = s.embedder->curves();
+  s.update_cad();
+  s.projector.reset();
+  return ref;
 }
 
 void Session::evaluate_places(int dimension, int ref, unsigned want, std::span<const Vec2> parameters, std::span<SurfaceJet> out) {

@@ -62,6 +62,26 @@ AnalyticCad sphere(double r) {
   return cad;
 }
 
+/// Two unit squares at a right angle: points of one of them near their edge are not nearer to the other.
+TEST(Projector, PointsBesideAnEdgeHaveTheNearerFace) {
+  AnalyticCad cad;
+  for (const int face : {1, 2})
+    cad.faces[face] = {[face](Vec2 p) {
+                         SurfaceJet j;
+                         j.s[face] = p.x(), j.s[0] = p.y(), j.su[face] = 1, j.sv[0] = 1;
+                         return j;
+                       },
+                       testing::rectangle({0, 0}, {1, 1})};
+  std::vector<Vec3> x;
+  for (double d = 1e-9; d < 0.1; d *= 3)
+    for (const double along : {0.0, 0.2, 0.5, 1.0}) x.emplace_back(along, d, 0), x.emplace_back(along, 0, d);
+  const std::vector<ProjectedPoint> found = project(cad, x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_LT(found[i].distance, 1e-14) << x[i].transpose();
+    EXPECT_EQ(found[i].ref, i % 2 == 0 ? 1 : 2);
+  }
+}
+
 TEST(Projector, Sphere) {
   const double r = 2;
   std::vector<Vec3> x = random_points(2000, 5);

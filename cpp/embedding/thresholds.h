@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this room, with their meaning, unit, reason and support.
+#pragma once
+
+namespace carreau::thresholds::embedding {
+
+// In brackets: the tests of the threshold, in tests/cpp/embedding.
+
+/// Share of the diagonal. A span of an embedded curve leaves the projection of its chord by at most this. [Embedding.GreatCircle]
+inline constexpr double accuracy = 1e-8;
+/// Share of the diagonal. Bisection of a chord ends here: the projection jumps to another face, or across a seam.
+inline constexpr double jump = 1e-10;
+/// Share of the diagonal. Places that are nearer are one: ends of pieces, crossings, points and curves of the model.
+inline constexpr double same_place = 1e-7;
+/// Degrees. A polyline that turns more at a vertex has a corner there. [Embedding.CornersBecomePoints]
+inline constexpr double corner = 15;
+/// Number of projections for one chord. Chords that need more do not follow the surface.
+inline constexpr int projections_of_chord = 4000;
+/// Number of times that a chord is divided at a curve between two faces.
+inline constexpr int divisions_of_chord = 8;
+/// Number. A curve is searched for its closest point from so many samples.
+inline constexpr int samples_of_curve = 65;
+
+}  // namespace carreau::thresholds::embedding
