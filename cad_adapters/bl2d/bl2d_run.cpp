@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <memory>
@@ -91,7 +92,57 @@ class Step {
     const std::string mesh =
         find_file({before + ".bl2d", before + ".mesh"}, "mesh of step " + std::to_string(number_ - 1));
     const std::string sizes = find_file({before + ".h", before + ".sol"}, "file of sizes at its vertices");
-    require(session_.get(), carreau_set_background_mesh(session_.get(), mesh.c_str(), sizes.c_str()));
+    if (mesh.ends_with(".bl2d"))
+      bound_sizes(mesh, sizes);
+    else
+      require(session_.get(), carreau_set_background_mesh(session_.get(), mesh.c_str(), sizes.c_str()));
+  }
+
+  /// The largest size: hmax of the env file, or a fifth of the diagonal.
+  double largest_size() {
+    for (auto setting = env_.settings.rbegin(); setting != env_.settings.rend(); ++setting)
+      if (setting->name == "hmax" || setting->name == "hphymax") return std::atof(setting->value.c_str());
+    return diagonal_of(session_.get()) / 5;
+  }
+
+  /// Bounds sizes at the vertices, as BL2D does, and not between them: its boundaries depend on it.
+  void bound_sizes(const std::string& mesh_path, const std::string& sizes_path) {
+    carreau_mesh* made = nullptr;
+    if (carreau_mesh_create(&made) != CARREAU_OK) throw Failure("there is no memory for a mesh");
+    const std::unique_ptr<carreau_mesh, decltype(&carreau_mesh_free)> mesh(made, carreau_mesh_free);
+    const auto done = [&](carreau_status status) {
+      if (status != CARREAU_OK) throw Failure(carreau_mesh_last_error(made));
+    };
+    done(carreau_mesh_read(made, mesh_path.c_str()));
+    std::int64_t vertices = 0, triangles = 0;
+    done(carreau_mesh_count(made, &vertices, &triangles, nullptr, nullptr));
+    const auto n = static_cast<std::size_t>(vertices);
+    std::vector<double> xyz(3 * n), of_space(6 * n), uv, sizes, metrics;
+    std::vector<std::int32_t> corners(3 * static_cast<std::size_t>(triangles));
+    done(carreau_mesh_vertices(made, vertices, xyz.data()));
+    done(carreau_mesh_triangles(made, triangles, corners.data()));
+    done(carreau_mesh_read_metrics(made, sizes_path.c_str(), vertices, of_space.data()));
+    const double hmax = largest_size(), least = hmax > 0 ? 1 / (hmax * hmax) : 0;
+    bool isotropic = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      uv.insert(uv.end(), {xyz[3 * i], xyz[3 * i + 1]});
+      const double a = of_space[6 * i], b = of_space[6 * i + 1], c = of_space[6 * i + 3];
+      const double middle = (a + c) / 2, half = std::hypot((a - c) / 2, b);
+      const double high = std::max(middle + half, least), low = std::max(middle - half, least);
+      isotropic = isotropic && half <= 1e-12 * middle;
+      // The eigenvectors stay: M' = mean I + share (M - middle I).
+      const double mean = (high + low) / 2, share = half > 0 ? (high - low) / (2 * half) : 0;
+      metrics.insert(metrics.end(), {mean + share * (a - middle), share * b, mean + share * (c - middle)});
+      sizes.push_back(1 / std::sqrt(mean));
+    }
+    carreau_background background{};
+    background.struct_size = sizeof background;
+    background.dimension = 2;
+    background.vertex_count = vertices, background.triangle_count = triangles;
+    background.vertices = uv.data(), background.triangles = corners.data();
+    background.sizes = isotropic ? sizes.data() : nullptr;
+    background.metrics = isotropic ? nullptr : metrics.data();
+    require(session_.get(), carreau_set_background(session_.get(), &background));
   }
 
   /// The defaults of the library are BL2D's, also a largest size of a fifth of the diagonal. Small sizes apply as they are.

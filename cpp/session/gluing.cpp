@@ -253,7 +253,7 @@ class PointsOnCurves {
     return true;
   }
 
-  // Whether a use of a curve has its direction: by their references, and by their shapes if these are equal.
+  // True if a use runs in the direction of the first use: references at the ends decide, or shapes if these are equal.
   [[nodiscard]] bool runs_along(const Use& own, const Use& use) const {
     const FaceCurve &a = model_.faces[own.face].curves[own.curve], &b = model_.faces[use.face].curves[use.curve];
     if (a.end1 != a.end2) return a.end1 == b.end1;

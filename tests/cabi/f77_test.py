@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The driver of FORTRAN 77: a host in fixed form that is linked by hand, by the names of several compilers.
 
-    f77_test.py <gfortran> <objcopy> <folder of libcarreau.so> <libcarreau_f77.a> <folder with host.f, x.pardom, blsurf.env>
+    f77_test.py <gfortran> <objcopy> <folder of libcarreau.so> <libcarreau_f77.a> <folder with host.f, x.pardom, blsurf.env> [<carreau>]
 """
 import math
 import os
@@ -14,6 +14,7 @@ import tempfile
 import unittest
 
 GFORTRAN, OBJCOPY, LIBRARY, DRIVER, SOURCE = sys.argv[1:6]
+COMMAND = sys.argv[6] if len(sys.argv) > 6 else None
 HOST_NAMES = ("cad_init", "surf0", "surf1", "surf2", "curv_int", "curv0", "curv1", "curv2")
 DRIVER_NAMES = ("crinit", "crrun", "crgetn", "crgetv", "crgett", "crgete", "crerr", "crend")
 
@@ -92,6 +93,26 @@ class Fortran77(unittest.TestCase):
             return text
         self.build(edit=without)
         self.check_mesh()
+
+    @unittest.skipUnless(COMMAND, "the command is not built")
+    def test_the_command_makes_the_same_mesh(self):
+        def mesh(name):
+            with open(os.path.join(self.folder, name)) as file:
+                words = file.read().split()
+            lists = {}
+            for section, width in (("Vertices", 4), ("Triangles", 4)):
+                at = words.index(section)
+                lists[section] = words[at + 2:at + 2 + width * int(words[at + 1])]
+            return lists
+        self.build()
+        subprocess.run([GFORTRAN, "-std=legacy", "-ffixed-form", "-shared", "-fPIC", "host.f", "-Wl,--unresolved-symbols=ignore-all", "-o", "libhost.so"],
+                       cwd=self.folder, check=True)
+        for env in ("", "hphydef 0.5\n", "hphy_flag 0\nhgeo_flag 1\nangle_mesh 12\nhgeomax 0.4\n"):
+            with open(os.path.join(self.folder, "blsurf.env"), "w") as file:
+                file.write(env + "call inimesh\ncall export\ncall exit\n")
+            self.assertEqual(self.run_host().returncode, 0)
+            subprocess.run([COMMAND, "mesh", "x.pardom", "--host", "./libhost.so", "--env", "blsurf.env", "-o", "y.mesh", "-q"], cwd=self.folder, check=True)
+            self.assertEqual(mesh("x.mesh"), mesh("y.mesh"))
 
     def test_errors_have_sentences(self):
         self.build(edit=lambda text: text.replace("SUBROUTINE SURF0", "SUBROUTINE OTHER"))

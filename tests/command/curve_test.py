@@ -103,7 +103,7 @@ class Curve(unittest.TestCase):
         self.assertEqual(row["edges"], round(exact / 0.05))
         for x, y in self.mesh("parabola.mesh")[0]:
             self.assertAlmostEqual(y, x * x, delta=1e-6)
-        straight, = self.curves(points, "--join", "straight")
+        straight, = self.curves(points, "--through", "straight")
         self.assertAlmostEqual(straight["length"], 2 * (math.sqrt(2) + math.sqrt(10)), delta=1e-12)
 
     def test_a_closed_spline_has_no_corner(self):
@@ -131,7 +131,7 @@ class Curve(unittest.TestCase):
     def test_a_loop_of_a_piece_is_reported(self):
         points = self.write("loop.txt", "-20 -20\n0 0\n1 0\n20 -20\n")
         self.assertIn("a piece of its spline crosses itself", self.run_curve(points).stderr)
-        self.assertEqual(self.run_curve(points, "--join", "straight").stderr, "")
+        self.assertEqual(self.run_curve(points, "--through", "straight").stderr, "")
 
     def test_files_of_bl2d(self):
         # The beam of a public run: SMOOTH of eight straight curves with a middle each, in the layout of its files.

@@ -303,7 +303,7 @@ void CommandLine::add_curve() {
   curve->add_option("--law", curve_.law, "Sizes between points: linear, geometric or sinusoidal; linear by default")
       ->check(CLI::IsMember({"linear", "geometric", "sinusoidal"}))
       ->capture_default_str();
-  curve->add_option("--join", curve_.join, "Points are joined by a spline or by segments (straight); by default meshes by segments")
+  curve->add_option("--through", curve_.join, "Curves through the points: spline (default for a text) or straight (for a mesh)")
       ->check(CLI::IsMember({"spline", "straight"}));
   curve->add_option("--deviation", curve_.tolerance, "Distance of the polyline of a spline, as a share of its edges; 0.01 by default")
       ->check(CLI::Range(1e-6, 1.0))

@@ -30,7 +30,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--gradation", "Sizes"},         {"--face-size", "Sizes"},     {"--size-map", "Sizes"},
     {"--size-on", "Sizes"},           {"--near", "Sizes"},          {"--sizes", "Sizes"},
     {"--sol-field", "Sizes"},         {"--curve-edges", "Sizes"},   {"--curve-vertices", "Sizes"},
-    {"--law", "Sizes"},               {"--join", "Splines"},          {"--deviation", "Splines"},
+    {"--law", "Sizes"},               {"--through", "Splines"},       {"--deviation", "Splines"},
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
     {"--depth", "Curvature"},         {"--element", "Elements"},    {"--cross-patch", "Elements"},

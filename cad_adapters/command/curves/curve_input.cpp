@@ -159,6 +159,10 @@ CurveInput read_curves(const std::string& path) {
   CurveInput input = is_mesh ? read_edges(path) : read_points(path);
   if (input.curves.empty()) throw Failure("'" + path + "' has no curve.");
   for (const InputCurve& curve : input.curves)
+    for (std::size_t i = 1; i < curve.nodes.size(); ++i)
+      if (input.points[curve.nodes[i]] == input.points[curve.nodes[i - 1]])
+        throw Failure("'" + path + "': points " + std::to_string(i) + " and " + std::to_string(i + 1) + " of curve " + std::to_string(curve.ref) + " coincide.");
+  for (const InputCurve& curve : input.curves)
     if (curve.nodes.size() < 2) throw Failure("'" + path + "': curve " + std::to_string(curve.ref) + " has one point only.");
   return input;
 }

@@ -50,6 +50,52 @@ TEST_P(Guarantee, AngleOfEdges) {
   }
 }
 
+/// Planes of triangles with tangent planes at their corners, with geo_guarantee 1 (first) and 2.
+struct Planes {
+  GeometricRun edges, triangles;
+
+  Planes(const Surface& surface, double angle, bool by_direction, double gradation)
+      : edges(surface.make(), settings(1, angle, by_direction, gradation)), triangles(surface.make(), settings(2, angle, by_direction, gradation)) {}
+  static std::function<void(Parameters&)> settings(int level, double angle, bool by_direction, double gradation) {
+    return [=](Parameters& p) {
+      p.set("geo_guarantee", level);
+      p.set("angle_mesh", angle);
+      p.set("geo_metric", by_direction ? 1 : 0);
+      p.set("gradation", gradation);
+    };
+  }
+};
+
+// RT-0232 sec. 3.3: angle_mesh is "l'angle limite entre le plan d'un triangle du maillage et chacun des plans tangents aux trois sommets".
+TEST_P(Guarantee, PlanesOfTriangles) {
+  for (const double angle : {8.0, 4.0}) {
+    const Planes run(GetParam(), angle, false, 0);
+    const MeshEvaluation &before = run.edges.session->delivered(), &d = run.triangles.session->delivered();
+    const Delivery& planes = d[Kind::vertex_angle];
+    SCOPED_TRACE(known(before[Kind::vertex_angle], angle) + "; then " + known(planes, angle));
+    EXPECT_EQ(planes.limit, angle);
+    EXPECT_GE(share_within(planes.values, angle), 0.995);
+    EXPECT_LE(planes.spread.max, 1.25 * angle);
+    EXPECT_GE(share_within(d[Kind::edge_angle].values, angle), 0.995);
+    EXPECT_LE(planes.values.size(), 2 * before[Kind::vertex_angle].values.size());
+    EXPECT_EQ(d.folded_triangles, 0);
+    EXPECT_GE(d[Kind::q2].spread.mean, 0.95);
+  }
+}
+
+TEST_P(Guarantee, PlanesOfTrianglesByDirection) {
+  for (const double gradation : {0.0, 1.5}) {
+    const Planes run(GetParam(), 8, true, gradation);
+    const MeshEvaluation &before = run.edges.session->delivered(), &d = run.triangles.session->delivered();
+    const Delivery& planes = d[Kind::vertex_angle];
+    SCOPED_TRACE(known(before[Kind::vertex_angle], 8) + "; then " + known(planes, 8));
+    EXPECT_GE(share_within(planes.values, 8), 0.995);
+    EXPECT_LE(planes.spread.max, 1.25 * 8);
+    EXPECT_LE(planes.values.size(), 3 * before[Kind::vertex_angle].values.size());
+    EXPECT_EQ(d.folded_triangles, 0);
+  }
+}
+
 TEST_P(Guarantee, NormalsAsPredicted) {
   // HDR eq. 4.26: where two edges at an angle alpha make at most eps1 with the tangent plane, the normal of the
   // triangle is off by at most phi, sin(phi) = sin(eps1) sqrt(2 + 2 |cos(alpha)|) / sin(alpha).
