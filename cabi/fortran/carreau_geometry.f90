@@ -30,6 +30,8 @@ module carreau_geometry
   public :: carreau_mesh_carry, carreau_mesh_halve, carreau_mesh_refine, carreau_mesh_refine_sizes
   integer(c_int32_t), parameter, public :: CARREAU_MATCH_ANY = 0, CARREAU_MATCH_REFERENCE = 1, CARREAU_MATCH_NAME = 2, &
     CARREAU_MATCH_SHAPE = 3
+  public :: carreau_raise_order, carreau_raised_count, carreau_raised_nodes, carreau_raised_elements, carreau_raised_write
+  integer(c_int32_t), parameter, public :: CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1
   integer(c_int32_t), parameter, public :: CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2
   public :: carreau_model_embed_point, carreau_model_embed_polyline
   public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
@@ -593,6 +595,82 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_mesh_refine_sizes(session%handle, size(sizes, kind=c_int64_t), sizes)
   end subroutine carreau_mesh_refine_sizes
+
+  ! ---- Elements of order 3 and 4 ----
+
+  subroutine carreau_raise_order(session, order, status, places, invalid)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: order
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: places
+    integer(c_int64_t), intent(out), optional :: invalid
+    integer(c_int32_t) :: at
+    integer(c_int64_t) :: n
+    at = CARREAU_EQUIDISTANT
+    if (present(places)) at = places
+    n = 0
+    status = c_raise_order(session%handle, order, at, n)
+    if (present(invalid)) invalid = n
+  end subroutine carreau_raise_order
+
+  subroutine carreau_raised_count(session, nodes, triangles, quads, edges, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(out) :: nodes, triangles, quads, edges
+    integer(c_int32_t), intent(out) :: status
+    nodes = 0
+    triangles = 0
+    quads = 0
+    edges = 0
+    status = c_raised_count(session%handle, nodes, triangles, quads, edges)
+  end subroutine carreau_raised_count
+
+  !> xyz(3, n)
+  subroutine carreau_raised_nodes(session, xyz, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: nodes, triangles, quads, edges
+    call carreau_raised_count(session, nodes, triangles, quads, edges, status)
+    if (status /= CARREAU_OK) return
+    allocate (xyz(3, nodes))
+    xyz = 0
+    status = c_raised_nodes(session%handle, nodes, xyz)
+    if (status /= CARREAU_OK) deallocate (xyz)
+  end subroutine carreau_raised_nodes
+
+  !> Rows of nodes from 1 of the elements of the mesh's order with 2, 3 or 4 corners, and the references of their entities
+  subroutine carreau_raised_elements(session, order, corners, nodes, references, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: order, corners
+    integer(c_int32_t), allocatable, intent(out) :: nodes(:, :), references(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, triangles, quads, edges
+    integer(c_int32_t) :: width
+    call carreau_raised_count(session, n, triangles, quads, edges, status)
+    if (status /= CARREAU_OK) return
+    n = edges
+    width = order + 1
+    if (corners == 3) then
+      n = triangles
+      width = (order + 1)*(order + 2)/2
+    else if (corners == 4) then
+      n = quads
+      width = (order + 1)**2
+    end if
+    allocate (nodes(width, n), references(n))
+    nodes = 0
+    references = 0
+    status = c_raised_elements(session%handle, corners, n, nodes, references)
+    nodes = nodes + 1
+    if (status /= CARREAU_OK) deallocate (nodes, references)
+  end subroutine carreau_raised_elements
+
+  subroutine carreau_raised_write(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_raised_write(session%handle, path//c_null_char)
+  end subroutine carreau_raised_write
 
   ! ---- Points of built-in geometries ----
 

@@ -453,6 +453,55 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_mesh_refine_sizes
 
+    !> Makes elements of order 2 to 4 over the elements of the session's mesh, which stays: best over a mesh of order 2
+    !! (parameter element), whose sizes were chosen for curved elements.
+    function c_raise_order(session, order, places, invalid) result(status) bind(c, name="carreau_raise_order")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: order, places
+      integer(c_int64_t), intent(inout) :: invalid
+      integer(c_int32_t) :: status
+    end function c_raise_order
+
+    !> Give the numbers of these elements: all nodes, vertices of the mesh first, triangles, quadrilaterals, edges of
+    !! curves.
+    function c_raised_count(session, nodes, triangles, quads, edges) result(status) bind(c, name="carreau_raised_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), intent(inout) :: nodes, triangles, quads, edges
+      integer(c_int32_t) :: status
+    end function c_raised_count
+
+    function c_raised_nodes(session, capacity, xyz) result(status) bind(c, name="carreau_raised_nodes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int32_t) :: status
+    end function c_raised_nodes
+
+    function c_raised_elements(session, corners, capacity, nodes, references) result(status) &
+        bind(c, name="carreau_raised_elements")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: corners
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: nodes(*), references(*)
+      integer(c_int32_t) :: status
+    end function c_raised_elements
+
+    function c_raised_write(session, path) result(status) bind(c, name="carreau_raised_write")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_raised_write
+
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")
       import :: c_double, c_int32_t, c_int64_t, c_ptr

@@ -261,7 +261,7 @@ class Refiner {
     }
   }
 
-  // Where the way from `other` reaches a vertex: a pole has any place of its side.
+  // The place that the way from `other` reaches: a pole has any place of its side.
   struct Box {
     Vec2 low, high;
   };

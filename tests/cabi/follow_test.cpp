@@ -376,5 +376,141 @@ TEST(Refine, NamesErrorsAndKeepsTheMesh) {
   EXPECT_EQ(before, run.data());
 }
 
+// ---- Elements of order 3 and 4 ----
+
+Shape torus(double R, double r) {
+  return {[=](int, double u, double v) -> Point { return {(R + r * std::cos(v)) * std::cos(u), (R + r * std::cos(v)) * std::sin(u), r * std::sin(v)}; },
+          [](int, int ic, double t) { return on_box(ic, t, 0, 0, 2 * pi, 2 * pi); },
+          [](carreau_session* s) { add_face(s, 1, {{1, 1, 1}, {2, 1, 1}, {1, 1, 1}, {2, 1, 1}}); }};
+}
+
+struct Raised {
+  int order = 0;
+  std::vector<double> xyz;
+  std::vector<std::int32_t> triangles, quads, edges;
+  std::int64_t invalid = 0;
+};
+
+Raised raised(const ShapeRun& run, int order, int places = CARREAU_EQUIDISTANT) {
+  Raised out;
+  out.order = order;
+  EXPECT_EQ(carreau_raise_order(run.session, order, places, &out.invalid), CARREAU_OK) << run.error();
+  std::int64_t n = 0, t = 0, q = 0, e = 0;
+  EXPECT_EQ(carreau_raised_count(run.session, &n, &t, &q, &e), CARREAU_OK);
+  out.xyz.resize(3 * n), out.triangles.resize(t * (order + 1) * (order + 2) / 2), out.quads.resize(q * (order + 1) * (order + 1)), out.edges.resize(e * (order + 1));
+  EXPECT_EQ(carreau_raised_nodes(run.session, n, out.xyz.data()), CARREAU_OK);
+  std::vector<std::int32_t> refs(std::size_t(std::max({t, q, e})));
+  if (t > 0) {
+    EXPECT_EQ(carreau_raised_elements(run.session, 3, t, out.triangles.data(), refs.data()), CARREAU_OK);
+    EXPECT_EQ(refs[0], 1);
+  }
+  if (q > 0) EXPECT_EQ(carreau_raised_elements(run.session, 4, q, out.quads.data(), nullptr), CARREAU_OK);
+  EXPECT_EQ(carreau_raised_elements(run.session, 2, e, out.edges.data(), refs.data()), CARREAU_OK);
+  return out;
+}
+
+// Lagrange's polynomial of node i of n + 1 equidistant ones, without the factors behind i.
+double factor(int i, double x) {
+  double value = 1;
+  for (int m = 0; m < i; ++m) value *= (x - m) / (i - m);
+  return value;
+}
+
+// (i, k) of a triangle's node in Gmsh's order, by its barycentric coordinates.
+std::vector<std::array<int, 2>> triangle_nodes(int p, int first = 0) {
+  if (p < 0) return {};
+  if (p == 0) return {{first, first}};
+  std::vector<std::array<int, 2>> all{{first, first}, {first + p, first}, {first, first + p}};
+  for (int i = 1; i < p; ++i) all.push_back({first + i, first});
+  for (int i = 1; i < p; ++i) all.push_back({first + p - i, first + i});
+  for (int i = 1; i < p; ++i) all.push_back({first, first + p - i});
+  for (const auto& inner : triangle_nodes(p - 3, first + 1)) all.push_back(inner);
+  return all;
+}
+
+/// Largest error of `distance` at points of all triangles.
+template <typename Distance>
+double error_of_triangles(const Raised& mesh, const Distance& distance) {
+  const int p = mesh.order;
+  const auto nodes = triangle_nodes(p);
+  double worst = 0;
+  for (std::size_t row = 0; row < mesh.triangles.size(); row += nodes.size())
+    for (int a = 0; a <= 9; ++a)
+      for (int b = 0; a + b <= 9; ++b) {
+        const double s = a / 9.0, t = b / 9.0;
+        Point x{0, 0, 0};
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+          const auto [i, k] = nodes[n];
+          const double w = factor(i, p * s) * factor(k, p * t) * factor(p - i - k, p * (1 - s - t));
+          for (std::size_t c = 0; c < 3; ++c) x[c] += w * mesh.xyz[3 * std::size_t(mesh.triangles[row + n]) + c];
+        }
+        worst = std::max(worst, std::abs(distance(x)));
+      }
+  return worst;
+}
+
+TEST(HighOrder, InterpolationOfSphereAndTorusHasOrderPPlus1) {
+  const auto to_sphere = [](const Point& x) { return std::hypot(x[0], x[1], x[2]) - 1; };
+  const auto to_torus = [](const Point& x) { return std::hypot(std::hypot(x[0], x[1]) - 3, x[2]) - 1; };
+  for (const int order : {2, 3, 4}) {
+    double sphere_error[2], torus_error[2];
+    for (const int level : {0, 1}) {
+      const ShapeRun a(sphere(1, 1, 1), 0.5, "p2"), b(torus(3, 1), 0.8, "p2");
+      for (const ShapeRun* run : {&a, &b}) {
+        run->generate();
+        if (level > 0) ASSERT_EQ(carreau_mesh_halve(run->session, level), CARREAU_OK) << run->error();
+      }
+      const Raised on_sphere = raised(a, order), on_torus = raised(b, order);
+      EXPECT_EQ(on_sphere.invalid + on_torus.invalid, 0);
+      for (std::size_t v = 0; v < on_sphere.xyz.size(); v += 3) EXPECT_NEAR(to_sphere({on_sphere.xyz[v], on_sphere.xyz[v + 1], on_sphere.xyz[v + 2]}), 0, 1e-10);
+      sphere_error[level] = error_of_triangles(on_sphere, to_sphere), torus_error[level] = error_of_triangles(on_torus, to_torus);
+    }
+    RecordProperty("sphere" + std::to_string(order), std::to_string(std::log2(sphere_error[0] / sphere_error[1])));
+    EXPECT_GT(std::log2(sphere_error[0] / sphere_error[1]), order + 1 - 0.35) << order << " " << sphere_error[0] << " " << sphere_error[1];
+    EXPECT_GT(std::log2(torus_error[0] / torus_error[1]), order + 1 - 0.35) << order << " " << torus_error[0] << " " << torus_error[1];
+  }
+}
+
+TEST(HighOrder, NodesOfEdgesAreShared) {
+  for (const char* element : {"p2", "q2.0"})
+    for (const int order : {3, 4}) {
+      const ShapeRun run(cylinder(1), 0.4, element);
+      run.generate();
+      for (const int places : {CARREAU_EQUIDISTANT, CARREAU_GAUSS_LOBATTO}) {
+        const Raised mesh = raised(run, order, places);
+        EXPECT_EQ(mesh.invalid, 0);
+        for (std::size_t v = 0; v < mesh.xyz.size(); v += 3) EXPECT_NEAR(std::hypot(mesh.xyz[v], mesh.xyz[v + 1]), 1, 1e-10);
+        // Each node is one of an element: V - E + F = 0 of a cylinder without its caps counts them.
+        std::set<std::int32_t> used(mesh.triangles.begin(), mesh.triangles.end());
+        used.insert(mesh.quads.begin(), mesh.quads.end());
+        EXPECT_EQ(used.size(), mesh.xyz.size() / 3);
+        const double s = places == CARREAU_EQUIDISTANT ? 1.0 / order : order == 3 ? (1 - std::sqrt(0.2)) / 2 : (1 - std::sqrt(3.0 / 7)) / 2;
+        for (std::size_t row = 0; row < mesh.edges.size(); row += std::size_t(order) + 1) {  // by arc length
+          const auto at = [&](std::size_t i) { return &mesh.xyz[3 * std::size_t(mesh.edges[row + i])]; };
+          const auto arc = [](const double* p, const double* q) {
+            return std::hypot(2 * std::asin(std::min(1.0, std::hypot(p[0] - q[0], p[1] - q[1]) / 2)), p[2] - q[2]);
+          };
+          EXPECT_NEAR(arc(at(0), at(2)), s * arc(at(0), at(1)), 1e-6);
+        }
+      }
+    }
+}
+
+TEST(HighOrder, NamesErrors) {
+  const ShapeRun run(cylinder(1), 0.5);
+  EXPECT_EQ(carreau_raise_order(run.session, 3, 0, nullptr), CARREAU_ERR_SEQUENCE);
+  run.generate();
+  EXPECT_EQ(carreau_raised_count(run.session, nullptr, nullptr, nullptr, nullptr), CARREAU_ERR_SEQUENCE);
+  EXPECT_EQ(carreau_raise_order(run.session, 5, 0, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_raise_order(run.session, 3, 2, nullptr), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_raise_order(run.session, 3, 1, nullptr), CARREAU_OK) << run.error();
+  double xyz[3];
+  EXPECT_EQ(carreau_raised_nodes(run.session, 1, xyz), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_raised_elements(run.session, 5, 1, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_raised_write(run.session, "x.stl"), CARREAU_ERR_ARGUMENT);
+  run.generate();
+  EXPECT_EQ(carreau_raised_write(run.session, "x.msh"), CARREAU_ERR_SEQUENCE);
+}
+
 }  // namespace
 }  // namespace abi_tests

@@ -127,6 +127,34 @@ inline void refine_to_sizes(Session& session, std::span<const double> sizes) {
   session.done(carreau_mesh_refine_sizes(session.get(), detail::count_of(sizes.size()), sizes.data()));
 }
 
+/// Elements of order 2 to 4 over the mesh; `places` is CARREAU_EQUIDISTANT or CARREAU_GAUSS_LOBATTO. Returns the number of invalid ones.
+inline std::int64_t raise_order(Session& session, int order, int places = CARREAU_EQUIDISTANT) {
+  std::int64_t invalid = 0;
+  session.done(carreau_raise_order(session.get(), order, places, &invalid));
+  return invalid;
+}
+/// Nodes, and rows of nodes of elements by kind with the references of faces or curves.
+struct RaisedElements {
+  std::vector<Point3> nodes{};
+  std::vector<std::int32_t> triangles{}, triangle_refs{}, quads{}, quad_refs{}, edges{}, edge_refs{};
+};
+inline RaisedElements raised_elements(Session& session, int order) {
+  std::int64_t n = 0, triangles = 0, quads = 0, edges = 0;
+  session.done(carreau_raised_count(session.get(), &n, &triangles, &quads, &edges));
+  RaisedElements out;
+  const auto size = [](std::int64_t count, int width) { return static_cast<std::size_t>(count) * static_cast<std::size_t>(width); };
+  out.nodes.resize(size(n, 1));
+  out.triangles.resize(size(triangles, (order + 1) * (order + 2) / 2)), out.triangle_refs.resize(size(triangles, 1));
+  out.quads.resize(size(quads, (order + 1) * (order + 1))), out.quad_refs.resize(size(quads, 1));
+  out.edges.resize(size(edges, order + 1)), out.edge_refs.resize(size(edges, 1));
+  session.done(carreau_raised_nodes(session.get(), n, detail::flat(out.nodes)));
+  if (triangles > 0) session.done(carreau_raised_elements(session.get(), 3, triangles, out.triangles.data(), out.triangle_refs.data()));
+  if (quads > 0) session.done(carreau_raised_elements(session.get(), 4, quads, out.quads.data(), out.quad_refs.data()));
+  if (edges > 0) session.done(carreau_raised_elements(session.get(), 2, edges, out.edges.data(), out.edge_refs.data()));
+  return out;
+}
+inline void write_raised(Session& session, const std::string& path) { session.done(carreau_raised_write(session.get(), path.c_str())); }
+
 /// Points of a face at places (u, v).
 inline std::vector<Point3> geometry_points(Session& session, int face, std::span<const Point2> uv) {
   std::vector<Point3> out(uv.size());

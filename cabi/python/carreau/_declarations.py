@@ -142,6 +142,8 @@ MATCH_NAME = 2
 MATCH_SHAPE = 3
 MARK_EDGES = 1
 MARK_ELEMENTS = 2
+EQUIDISTANT = 0
+GAUSS_LOBATTO = 1
 NODE_INSIDE = 0
 NODE_FREE = 1
 NODE_IMPOSED = 2
@@ -1139,6 +1141,11 @@ CARREAU = {
     "carreau_mesh_halve": (c_int32, [c_void_p, c_int32]),
     "carreau_mesh_refine": (c_int32, [c_void_p, c_int32, c_int64, Int32s]),
     "carreau_mesh_refine_sizes": (c_int32, [c_void_p, c_int64, Doubles]),
+    "carreau_raise_order": (c_int32, [c_void_p, c_int32, c_int32, POINTER(c_int64)]),
+    "carreau_raised_count": (c_int32, [c_void_p, POINTER(c_int64), POINTER(c_int64), POINTER(c_int64), POINTER(c_int64)]),
+    "carreau_raised_nodes": (c_int32, [c_void_p, c_int64, Doubles]),
+    "carreau_raised_elements": (c_int32, [c_void_p, c_int32, c_int64, Int32s, Int32s]),
+    "carreau_raised_write": (c_int32, [c_void_p, c_char_p]),
     "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
     "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_remesh": (c_int32, [c_void_p, POINTER(carreau_remesh_input), POINTER(carreau_remesh_summary)]),

@@ -2,21 +2,35 @@
 """Sessions: geometry, parameters and the mesh made of them."""
 from __future__ import annotations
 
-from ctypes import byref, c_void_p
-from typing import Any, Callable, Optional
+from ctypes import byref, c_int64, c_void_p
+from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _declarations as c
 from ._geometries import Geometries
+from ._calls import counted
 from ._library import lib
 from ._session import SessionBase, log, parameters
 from .errors import PartialError
-from .meshes import Mesh
+from .meshes import Ints, Mesh, Reals
 from .progress import Progress
 
-__all__ = ["Session", "parameters"]
+__all__ = ["Raised", "Session", "parameters"]
+
+
+class Raised(NamedTuple):
+    """Elements of one order over a mesh: nodes, rows of nodes in Gmsh's order, references of faces and of curves."""
+    order: int
+    nodes: Reals
+    triangles: Ints
+    triangle_refs: Ints
+    quads: Ints
+    quad_refs: Ints
+    edges: Ints
+    edge_refs: Ints
+    invalid: int
 
 
 class Session(SessionBase, Geometries):
@@ -76,6 +90,28 @@ class Session(SessionBase, Geometries):
         kind = c.MARK_ELEMENTS if edges is None else c.MARK_EDGES
         marks = np.ascontiguousarray(elements if edges is None else edges, dtype=np.int32).reshape(-1, 2 if kind == c.MARK_EDGES else 1)
         return self._followed(lib().mesh_refine, kind, len(marks), marks)
+
+    def raise_order(self, order: int, places: str = "equidistant") -> Raised:
+        """Elements of order 2 to 4 over the mesh, best of order 2; places of nodes: "equidistant" or "gauss-lobatto"."""
+        by = {"equidistant": c.EQUIDISTANT, "gauss-lobatto": c.GAUSS_LOBATTO}
+        if places not in by:
+            raise ValueError(f"places is {places!r}; it must be one of {', '.join(by)}")
+        invalid = counted(lambda out: self._call(lib().raise_order, order, by[places], out))
+        numbers = [c_int64() for _ in range(4)]
+        self._call(lib().raised_count, *map(byref, numbers))
+        counts = [each.value for each in numbers]
+        nodes = np.empty((counts[0], 3))
+        self._call(lib().raised_nodes, len(nodes), nodes)
+        found = []
+        for corners, n, width in ((3, counts[1], (order + 1) * (order + 2) // 2), (4, counts[2], (order + 1) ** 2), (2, counts[3], order + 1)):
+            rows, refs = np.empty((n, width), dtype=np.int32), np.empty(n, dtype=np.int32)
+            self._call(lib().raised_elements, corners, len(rows), rows, refs)
+            found += [rows, refs]
+        return Raised(order, nodes, *found, invalid)
+
+    def write_raised(self, path: str) -> None:
+        """Writes these elements: .msh (Gmsh), .vtu, .mesh (MFEM)."""
+        self._call(lib().raised_write, str(path).encode())
 
     @property
     def mesh(self) -> Mesh:

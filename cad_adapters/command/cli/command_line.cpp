@@ -123,6 +123,8 @@ void CommandLine::add_mesh() {
   mesh->add_option("--halvings", mesh_.halvings, "Times that all edges of the mesh are halved on the surface")
       ->check(CLI::Range(0, 12))
       ->type_name(kind::number);
+  mesh->add_option("--nodes", mesh_.nodes, "Places of nodes of orders 3 and 4: equidistant (default) or gauss-lobatto")
+      ->check(CLI::IsMember({"equidistant", "gauss-lobatto"}));
   add_parts_option(mesh, mesh_);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Print errors only");

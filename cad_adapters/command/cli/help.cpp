@@ -35,6 +35,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
     {"--depth", "Curvature"},         {"--element", "Elements"},    {"--cross-patch", "Elements"},
     {"--sharp-angle", "Elements"},    {"--periodic", "Elements"},   {"--mirror", "Elements"},       {"--halvings", "Elements"},
+    {"--nodes", "Elements"},
     {"--carry-from", "Last mesh"},    {"--match", "Last mesh"},     {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
     {"--use", "Last mesh"},           {"--transfer", "Last mesh"},  {"--formula", "Field by a formula"},
     {"--iterations", "Field by a formula"},                         {"--convergence", "Field by a formula"},

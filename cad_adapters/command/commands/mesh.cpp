@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `carreau mesh`: from geometry to mesh files.
+#include <carreau_geometry.h>
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -77,7 +79,11 @@ bool is_one_of(const std::string& suffix, std::initializer_list<const char*> lis
 }
 
 /// Rejects a format that has no such elements before anything is meshed. In .stl they are straight triangles.
-void refuse_elements(carreau_session* session, const std::vector<std::string>& outputs) {
+void refuse_elements(carreau_session* session, const MeshOptions& options) {
+  const std::vector<std::string>& outputs = options.outputs;
+  for (const std::string& path : outputs)
+    if (options.order > 0 && !is_one_of(suffix_of(path), {".msh", ".vtu", ".mesh", ".html"}))
+      throw Failure("'" + path + "' cannot hold elements of order " + std::to_string(options.order) + ": .msh, .vtu and .mesh (of MFEM) can.");
   const char* element = nullptr;
   require(session, carreau_get_text(session, "element", &element));
   const std::string asked = element;
@@ -153,7 +159,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
   if (const std::string sizes = chosen_sizes(options, input); !sizes.empty()) progress.line(sizes);
-  refuse_elements(run.session, options.outputs);
+  refuse_elements(run.session, options);
   for (const std::string& sentence : sizes_beyond_bounds(options, input.diagonal())) progress.warning(sentence);
   for (const std::string& sentence : contradicting_face_sizes(options, input)) progress.warning(sentence);
   constexpr std::size_t told = 20;
@@ -169,9 +175,11 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
     if (options.parts) return ranks->generate_parts(run.session, part);
     const carreau_status status =
         options.carry_from.empty() ? adaptation.run(run.session, input.diagonal()) : carry(options, run.session, map, progress);
-    if (options.halvings == 0 || (status != CARREAU_OK && status != CARREAU_ERR_PARTIAL)) return status;
-    const carreau_status halved = carreau_mesh_halve(run.session, options.halvings);
-    return halved == CARREAU_OK ? status : halved;
+    if (status != CARREAU_OK && status != CARREAU_ERR_PARTIAL) return status;
+    carreau_status after = options.halvings > 0 ? carreau_mesh_halve(run.session, options.halvings) : CARREAU_OK;
+    if (options.order > 0 && after == CARREAU_OK)
+      after = carreau_raise_order(run.session, options.order, options.nodes == "equidistant" ? CARREAU_EQUIDISTANT : CARREAU_GAUSS_LOBATTO, nullptr);
+    return after == CARREAU_OK ? status : after;
   };
   generate(run.session, options, input, map, adaptation, make, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -241,6 +249,8 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
       write_text(path, run.volume_text(suffix_of(path)));
     else if (suffix_of(path) == ".txt")
       write_text(path, pairs_text(run.mesh));
+    else if (run.options.order > 0)
+      require(run.session, carreau_raised_write(run.session, path.c_str()));
     else
       write_mesh(run.mesh, path);
   }
@@ -280,7 +290,7 @@ std::vector<std::string> with_group_tables(const MeshOptions& options, std::vect
 /// Files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
   for (const auto& [given, name] : {std::pair{!options.dump_failed.empty(), "--dump-failed"}, {!options.carry_from.empty(), "--carry-from"},
-                                    {options.halvings > 0, "--halvings"}})
+                                    {options.halvings > 0, "--halvings"}, {options.order > 0, "--element of order 3 and 4"}})
     if (given) throw Failure(std::string("--parts and ") + name + " exclude each other: no process has the whole mesh.");
   for (const std::string& path : options.outputs)
     if (!is_one_of(suffix_of(path), {".meshb", ".pvtu"}))
@@ -300,9 +310,20 @@ std::string kept_surface(const MeshOptions& options) {
   return path.substr(0, path.size() - suffix_of(path).size()) + ".surface.msh";
 }
 
+/// Elements of order 3 and 4 are made over elements of order 2.
+void choose_order(MeshOptions& options) {
+  const std::string asked = options.element;
+  if (asked.size() != 2 || (asked[1] != '3' && asked[1] != '4')) return;
+  if (options.volume.is_volume || options.adapt.is_adapt || options.parts)
+    throw Failure("Elements " + asked + " are made by `carreau mesh` and `carreau plane` without --parts.");
+  options.order = asked[1] - '0';
+  options.element = asked[0] == 'p' ? "p2" : "q2.0";
+}
+
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
+  choose_order(options);
   options.outputs = with_group_tables(given, adaptation.with_fields(given.outputs));
   check_words(options);  // reports meaningless words before a long reading
   SizeMap map(options.size_map);
