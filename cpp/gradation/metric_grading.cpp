@@ -123,12 +123,12 @@ class MetricGrading : detail::GraphWalk<TangentMetric> {
   }
 
   std::vector<TangentMetric>& sizes_ = values_;  // by place
-  // By vertex: a joined vertex, and the map from there to here.
+  // A joined vertex, and the map from there to here.
   struct Join {
     int vertex = 0;
     Isometry back;
   };
-  std::vector<std::vector<Join>> joins_;
+  std::vector<std::vector<Join>> joins_;  // by vertex
   std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
 };
 
