@@ -210,6 +210,20 @@ void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   }
 }
 
+void Session::find_model_references() {
+  State& s = *state_;
+  CheckedCad whole_cad(*s.cad);
+  Model known = s.model;
+  leave_out_triangles(known);
+  const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
+  auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
+  set_parameter_domains(model, supports, whole_cad);
+  std::vector<std::string> remarks;
+  s.glue_model(model, supports, whole_cad, remarks);
+  for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
+  s.forget_trees();
+}
+
 // If required, leaves out faces of `known` whose curves cannot be made.
 void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   State& s = *state_;

@@ -31,6 +31,7 @@ class CommandLine {
   void add_refine();
   void add_info();
   void add_areas();
+  void add_project();
   void add_picture();
   void add_report();
   void add_check();
@@ -47,6 +48,7 @@ class CommandLine {
   RefineOptions refine_;
   InfoOptions info_;
   AreasOptions areas_;
+  ProjectOptions project_;
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
   std::vector<double> around_;

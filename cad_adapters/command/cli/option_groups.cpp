@@ -113,6 +113,11 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--periodic", options.periodic,
                            "Equal faces: x, y, z, A,B,C, rotate:POINT:AXIS:DEGREES, mirror:POINT:NORMAL, 7=3; repeatable"))
       ->type_name("MAP");
+  repeated(app->add_option("--embed-point", options.embed.points, "Place of a vertex on the surface, within the parameter embed_tolerance; repeatable"))
+      ->type_name("X,Y,Z");
+  repeated(app->add_option("--embed-curve", options.embed.curves, "File of points of a polyline on the surface, which becomes edges; repeatable"))
+      ->type_name(kind::file);
+  app->add_flag("--embed-wires", options.embed.wires, "Edges of no face that lie on faces become edges of their meshes");
   app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
       ->type_name(kind::file);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "inputs/base/embedded_places.h"
 #include "inputs/base/input_choice.h"
 #include "mesh/adaptation.h"
 
@@ -52,6 +53,7 @@ struct MeshOptions : InputChoice {
   std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
   std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
   std::vector<std::string> periodic;          ///< "x", "1,0,0", "rotate:...", "slave=master"
+  EmbedChoice embed;
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores
