@@ -33,7 +33,7 @@ module carreau_geometry
   public :: carreau_raise_order, carreau_raised_count, carreau_raised_nodes, carreau_raised_elements, carreau_raised_write
   integer(c_int32_t), parameter, public :: CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1
   integer(c_int32_t), parameter, public :: CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2
-  public :: carreau_model_embed_point, carreau_model_embed_polyline
+  public :: carreau_model_embed_point, carreau_model_embed_polyline, carreau_model_embed_wires
   public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
@@ -525,6 +525,15 @@ contains
     status = c_model_embed_polyline(session%handle, size(xyz, 2, c_int64_t), reshape(xyz, [size(xyz)]), &
       trim(name)//c_null_char, ref)
   end subroutine carreau_model_embed_polyline
+
+  !> Embeds the wires that lie on faces; count is their number.
+  subroutine carreau_model_embed_wires(session, count, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), intent(out) :: status
+    count = 0
+    status = c_model_embed_wires(session%handle, count)
+  end subroutine carreau_model_embed_wires
 
   !> Entities that vertices lie on: 0 points, 1 curves, 2 faces, and their references
   subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)

@@ -387,6 +387,16 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_model_embed_polyline
 
+    !> Embeds the curves of wires (faces of orientation 0) that lie on other faces, as carreau_model_embed_polyline()
+    !! does, under the names of their wires.
+    function c_model_embed_wires(session, count) result(status) bind(c, name="carreau_model_embed_wires")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function c_model_embed_wires
+
     !> Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on
     !! edges included: a point (0, corners and imposed points), a curve (1, free edges too) or a face (2), by the
     !! references that carreau_project takes.

@@ -414,9 +414,9 @@ CARREAU_API carreau_status carreau_project(carreau_session* session, int32_t dim
 
 /* Embeds a point of space, 3 numbers, in the face nearest to it: the mesh has a vertex there. Within the parameter embed_tolerance a point of
  * the model replaces it, or a curve gets it as an end of two parts. `name` names the point in files with groups; NULL or "": none. The
- * reference of the point, of the model and of the vertex, is stored in *out_ref, which may be NULL. The model must have the references of its
- * curves.
- * Errors: SEQUENCE (no geometry, no model, no references), ARGUMENT (farther from the faces than embed_tolerance: the sentence has the
+ * reference of the point, of the model and of the vertex, is stored in *out_ref, which may be NULL. References of a model
+ * without any are found first.
+ * Errors: SEQUENCE (no geometry, no model), ARGUMENT (farther from the faces than embed_tolerance: the sentence has the
  * distance; a face given by triangles), MODEL, CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. The model does not change then. */
 CARREAU_API carreau_status carreau_model_embed_point(carreau_session* session, const double xyz[], const char* name, int32_t* out_ref);
 
@@ -429,6 +429,11 @@ CARREAU_API carreau_status carreau_model_embed_point(carreau_session* session, c
  * singular point of a face. */
 CARREAU_API carreau_status carreau_model_embed_polyline(carreau_session* session, int64_t n, const double xyz[], const char* name,
                                                         int32_t* out_ref);
+
+/* Embeds the curves of wires (faces of orientation 0) that lie on other faces, as carreau_model_embed_polyline() does, under the names of their
+ * wires. These wires leave the model; *out_count, which may be NULL, receives their number. A warning names each other wire, which stays.
+ * Errors: SEQUENCE (no geometry, no model), MODEL, CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. */
+CARREAU_API carreau_status carreau_model_embed_wires(carreau_session* session, int64_t* out_count);
 
 /* Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on edges included: a point (0,
  * corners and imposed points), a curve (1, free edges too) or a face (2), by the references that carreau_project takes. Vertices on several

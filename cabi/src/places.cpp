@@ -93,7 +93,7 @@ carreau_status carreau_project(carreau_session* session, int32_t dimension, int3
 
 carreau_status carreau_model_embed_point(carreau_session* session, const double xyz[], const char* name, int32_t* out_ref) {
   return guarded(session, [&] {
-    prepare_places(*session, 0, 0, 1);
+    prepare_places(*session, 2, 2, 1);
     required(xyz, "xyz");
     const int ref = session->session.embed_point({xyz[0], xyz[1], xyz[2]}, name != nullptr ? name : "");
     if (out_ref != nullptr) *out_ref = ref;
@@ -102,12 +102,20 @@ carreau_status carreau_model_embed_point(carreau_session* session, const double 
 
 carreau_status carreau_model_embed_polyline(carreau_session* session, int64_t n, const double xyz[], const char* name, int32_t* out_ref) {
   return guarded(session, [&] {
-    prepare_places(*session, 0, 0, n);
+    prepare_places(*session, 2, 2, n);
     if (n > 0) required(xyz, "xyz");
     std::vector<Vec3> points(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
     const int ref = session->session.embed_polyline(points, name != nullptr ? name : "");
     if (out_ref != nullptr) *out_ref = ref;
+  });
+}
+
+carreau_status carreau_model_embed_wires(carreau_session* session, int64_t* out_count) {
+  return guarded(session, [&] {
+    prepare_places(*session, 2, 2, 0);
+    const int wires = session->session.embed_wires();
+    if (out_count != nullptr) *out_count = wires;
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "embedding/thresholds.h"
@@ -129,6 +130,10 @@ Ground Embedder::ground(double tolerance) {
   };
   ground.surface = [this](int face, unsigned want, const Vec2& uv) { return surface_at(*cad_, face, want, uv); };
   ground.border = [this](int face, int other, const Vec3& a, const Vec3& b, Vec3& y) { return border(face, other, a, b, y); };
+  ground.has = [this](int face, int curve) {
+    const std::vector<FaceCurve>& curves = model_.faces[index_of(face)].curves;
+    return std::any_of(curves.begin(), curves.end(), [&](const FaceCurve& each) { return origin(each.ref) == curve; });
+  };
   ground.has_curves = has_curves_, ground.has_points = has_points_;
   ground.diagonal = diagonal_;
   ground.tolerance = tolerance;
@@ -253,6 +258,44 @@ void Embedder::divide(int curve, const Vec3& x, int point) {
   }
 }
 
+void Embedder::rename_point(int from, int to) {
+  for (Face& face : model_.faces) {
+    for (FaceCurve& curve : face.curves)
+      for (int* end : {&curve.end1, &curve.end2})
+        if (*end == from) *end = to;
+    for (FacePoint& point : face.points)
+      if (point.ref == from) point.ref = to;
+  }
+}
+
+// A part of the curve ends at the point, which may have another reference there.
+void Embedder::join_end(int curve, const Vec3& x, int point) {
+  const double near = limit::same_place * diagonal_;
+  for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+    if (!model_.faces[f].left_out.empty() || model_.faces[f].discrete) continue;
+    for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
+      const FaceCurve& use = model_.faces[f].curves[c];
+      if (origin(use.ref) != curve) continue;
+      const Place place = nearest({f, c}, x);
+      if (place.distance > near) continue;
+      const auto [a, b] = interval({f, c});
+      for (const bool at_end : {false, true})
+        if (norm(at({f, c}, at_end ? b : a).xyz - x) <= near) {
+          if (const int ref = at_end ? use.end2 : use.end1; ref != point) rename_point(ref, point);
+          return;
+        }
+      return divide(use.ref, x, point);
+    }
+  }
+}
+
+const FaceCurve* Embedder::part_between(int curve, int point, int other) const {
+  for (const Face& face : model_.faces)
+    for (const FaceCurve& use : face.curves)
+      if (origin(use.ref) == curve && ((use.end1 == point && use.end2 == other) || (use.end1 == other && use.end2 == point))) return &use;
+  return nullptr;
+}
+
 int Embedder::point_at(const End& end, std::size_t face, Vec2& uv) {
   const Face& of = model_.faces[face];
   const double near = limit::same_place * diagonal_;
@@ -373,7 +416,13 @@ void Embedder::place(const Piece& piece, int& whole) {
     FaceCurve added{.type = CurveType::internal};
     added.end1 = point_at(cuts[i].end, f, curve.uv.front());
     added.end2 = point_at(cuts[i + 1].end, f, curve.uv.back());
-    added.ref = ++last_curve_;
+    const FaceCurve* joined = nullptr;
+    if (piece.along != 0) {
+      join_end(piece.along, cuts[i].end.at, added.end1), join_end(piece.along, cuts[i + 1].end.at, added.end2);
+      joined = part_between(piece.along, added.end1, added.end2);
+    }
+    added.ref = joined != nullptr ? joined->ref : ++last_curve_;
+    if (joined != nullptr) whole = joined->shown_as != 0 ? joined->shown_as : joined->ref;
     if (whole == 0) whole = added.ref;
     if (whole != added.ref) added.shown_as = whole;
     Face& face = model_.faces[f];
@@ -401,21 +450,73 @@ int Embedder::embed_point(const Vec3& x, double tolerance) {
   return point;
 }
 
+void Embedder::restore(Content content) {
+  model_ = std::move(content.model), curves_ = std::move(content.curves);
+  origins_ = std::move(content.origins), points_ = std::move(content.points);
+}
+
 int Embedder::embed_polyline(std::span<const Vec3> points, double tolerance) {
-  const Model before = model_;
-  const EmbeddedCurves curves_before = curves_;
-  const std::map<int, int> origins_before = origins_;
-  const std::size_t points_before = points_.size();
+  Content before = content();
   try {
     const Ground on = ground(tolerance);
     int whole = 0;
     for (const Piece& piece : embedding::trace(on, points)) place(piece, whole);
     return whole;
   } catch (...) {
-    model_ = before, curves_ = curves_before, origins_ = origins_before;
-    points_.resize(points_before);
+    restore(std::move(before));
     throw;
   }
+}
+
+// Chords of a curve that leave it by at most a small share of the diagonal.
+std::vector<Vec3> Embedder::points_of(const Use& use) const {
+  const auto [a, b] = interval(use);
+  std::vector<Vec3> points{at(use, a).xyz};
+  const std::function<void(double, double, const Vec3&, int)> add = [&](double from, double to, const Vec3& end, int depth) {
+    const double middle = (from + to) / 2;
+    const Vec3 between = at(use, middle).xyz, start = points.back();
+    if (depth < limit::divisions_of_wire && (depth < 2 || norm(between - (start + end) / 2) > limit::chord_of_wire * diagonal_)) {
+      add(from, middle, between, depth + 1);
+      add(middle, to, end, depth + 1);
+    } else {
+      points.push_back(end);
+    }
+  };
+  add(a, b, at(use, b).xyz, 0);
+  const FaceCurve& curve = model_.faces[use.face].curves[use.curve];
+  if (curve.end1 == curve.end2) points.back() = points.front();
+  return points;
+}
+
+void Embedder::embed_wire(std::size_t wire, double tolerance) {
+  const Face known = model_.faces[wire];
+  for (std::size_t c = 0; c < known.curves.size(); ++c) {
+    const int ref = embed_polyline(points_of({wire, c}), tolerance);
+    const auto name = model_.names.curves.find(known.curves[c].ref);
+    const std::string own = name != model_.names.curves.end() ? name->second : known.name;
+    if (!own.empty()) set_name(1, ref, own);
+  }
+}
+
+int Embedder::embed_wires(double tolerance, std::vector<std::string>& remarks) {
+  int count = 0;
+  for (std::size_t f = 0; f < model_.faces.size();) {
+    if (!model_.faces[f].is_wire() || !model_.faces[f].left_out.empty()) {
+      ++f;
+      continue;
+    }
+    Content before = content();
+    try {
+      embed_wire(f, tolerance);
+      model_.faces.erase(model_.faces.begin() + static_cast<std::ptrdiff_t>(f));
+      ++count;
+    } catch (const InvalidArgument& error) {
+      restore(std::move(before));
+      remarks.push_back("wire " + std::to_string(model_.faces[f].ref) + " is not embedded: " + error.what());
+      ++f;
+    }
+  }
+  return count;
 }
 
 }  // namespace carreau

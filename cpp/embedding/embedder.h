@@ -36,6 +36,9 @@ class Embedder {
   /// Embeds a polyline as curves whose reference in results is returned (trace()). Cuts the curves that it meets: boundaries of faces, internal
   /// curves, itself. Throws like embed_point().
   int embed_polyline(std::span<const Vec3> points, double tolerance);
+  /// Embeds the curves of wires that lie on faces, with the names of their wires, and removes these wires. Returns their number; `remarks` has
+  /// a sentence for each other wire. Throws the exceptions of the geometry.
+  int embed_wires(double tolerance, std::vector<std::string>& remarks);
 
  private:
   struct Use {
@@ -58,11 +61,26 @@ class Embedder {
   bool border(int face, int other, const Vec3& a, const Vec3& b, Vec3& y) const;
   [[nodiscard]] int origin(int curve) const;
   void divide(int curve, const Vec3& x, int point);
+  void join_end(int curve, const Vec3& x, int point);
+  void rename_point(int from, int to);
+  [[nodiscard]] const FaceCurve* part_between(int curve, int point, int other) const;
   int point_at(const embedding::End& end, std::size_t face, Vec2& uv);
   int new_point(const Vec3& x);
   void touch(embedding::End& end, std::size_t face) const;
   std::vector<Cut> cuts_of(const embedding::Piece& piece) const;
   void place(const embedding::Piece& piece, int& whole);
+  [[nodiscard]] std::vector<Vec3> points_of(const Use& use) const;
+  void embed_wire(std::size_t wire, double tolerance);
+
+  /// What an embedding changes.
+  struct Content {
+    Model model;
+    EmbeddedCurves curves;
+    std::map<int, int> origins;
+    std::vector<std::pair<Vec3, int>> points;
+  };
+  [[nodiscard]] Content content() const { return {model_, curves_, origins_, points_}; }
+  void restore(Content content);
 
   std::shared_ptr<Cad> cad_;
   Monitor& monitor_;

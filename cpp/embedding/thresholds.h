@@ -18,6 +18,9 @@ inline constexpr double corner = 15;
 inline constexpr int projections_of_chord = 4000;
 /// Number of times that a chord is divided at a curve between two faces.
 inline constexpr int divisions_of_chord = 8;
+/// Share of the diagonal, and number. Chords of a wire leave it by at most this unless they are divided so often.
+inline constexpr double chord_of_wire = 1e-5;
+inline constexpr int divisions_of_wire = 9;
 /// Number. A curve is searched for its closest point from so many samples.
 inline constexpr int samples_of_curve = 65;
 

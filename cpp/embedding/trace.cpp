@@ -60,7 +60,7 @@ class Tracer {
   static Vec2 slope(const Foot& foot, const Vec3& direction);
   std::vector<Piece> pieces();
   void attach(End& end);
-  void check(const Piece& piece);
+  void check(Piece& piece);
 
   const Ground& ground_;
   std::vector<Item> items_;
@@ -196,7 +196,8 @@ void Tracer::attach(End& end) {
     if (const Ground::Place near = ground_.closest(1, end.at); near.distance <= length(limit::same_place)) end.curve = near.ref;
 }
 
-void Tracer::check(const Piece& piece) {
+// A piece along a curve of another face joins it.
+void Tracer::check(Piece& piece) {
   if (!ground_.has_curves) return;
   int along = 0;
   for (const double share : {0.31, 0.5, 0.77}) {
@@ -205,6 +206,10 @@ void Tracer::check(const Piece& piece) {
     const Ground::Place near = ground_.closest(1, x);
     if (near.distance > length(limit::same_place)) return;
     along = near.ref;
+  }
+  if (!ground_.has(piece.face, along)) {
+    piece.along = along;
+    return;
   }
   throw InvalidArgument("the polyline runs along curve " + std::to_string(along) + " of the model from " + format_point(piece.begin.at) + " to " +
                         format_point(piece.end.at));

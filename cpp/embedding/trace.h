@@ -30,6 +30,8 @@ struct Ground {
   std::function<SurfaceJet(int face, unsigned want, const Vec2& uv)> surface;
   /// The point nearest to the segments a-y-b among the curves that both faces have. Returns false if they have none.
   std::function<bool(int face, int other, const Vec3& a, const Vec3& b, Vec3& y)> border;
+  /// Whether a face has the curve.
+  std::function<bool(int face, int curve)> has;
   bool has_curves = true, has_points = true;
   double diagonal = 0;
   double tolerance = 0;  ///< of ends and vertices from faces, model length
@@ -46,13 +48,15 @@ struct Piece {
   int face = 0;  ///< reference
   EmbeddedCurve curve;
   End begin, end;
+  int along = 0;  ///< reference of a curve of another face along which it runs, as the foot of a sheet on a body; 0: none
 };
 
 /// Throws an InvalidArgument about a place that is too far from the faces.
 [[noreturn]] void report_far(const std::string& which, const Vec3& x, const Ground::Place& nearest, double tolerance);
 
 /// Projects the chords of a polyline to the faces. Closed when the last point equals the first. Throws InvalidArgument for points that are
-/// farther from the faces than the tolerance, for chords that leave the surface or run along a curve, and for singular points.
+/// farther from the faces than the tolerance, for chords that leave the surface or run along a curve of their face,
+/// and for singular points.
 std::vector<Piece> trace(const Ground& ground, std::span<const Vec3> points);
 
 }  // namespace embedding

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "projection/thresholds.h"
+#include "support/infinity.h"
 #include "support/pieces.h"
 
 namespace carreau::projection {
@@ -39,6 +40,54 @@ SurfaceJet interpolated(const std::array<Vec3, 9>& at, const Vec2& w) {
     jet.sv += v.slope[j] * s, jet.suv += v.slope[j] * su, jet.svv += v.bend[j] * s;
   }
   return jet;
+}
+
+/// Coefficients of the polynomial through values at 0, 1/2, 1.
+std::array<Vec3, 3> polynomial_of(const Vec3& p, const Vec3& q, const Vec3& r) {
+  return {p, Vec3(-3 * p + 4 * q - r), Vec3(2 * p - 4 * q + 2 * r)};
+}
+
+std::array<Vec3, 9> terms_of(const std::array<Vec3, 9>& at) {
+  std::array<Vec3, 9> rows, terms;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::array<Vec3, 3> row = polynomial_of(at[3 * j], at[3 * j + 1], at[3 * j + 2]);
+    for (std::size_t i = 0; i < 3; ++i) rows[3 * j + i] = row[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::array<Vec3, 3> column = polynomial_of(rows[i], rows[3 + i], rows[6 + i]);
+    for (std::size_t j = 0; j < 3; ++j) terms[3 * j + i] = column[j];
+  }
+  return terms;
+}
+
+SurfaceJet at_terms(const std::array<Vec3, 9>& c, const Vec2& w) {
+  const double u = w.x(), v = w.y();
+  const Vec3 p = c[0] + u * (c[1] + u * c[2]), q = c[3] + u * (c[4] + u * c[5]), r = c[6] + u * (c[7] + u * c[8]);
+  const Vec3 pu = c[1] + 2 * u * c[2], qu = c[4] + 2 * u * c[5], ru = c[7] + 2 * u * c[8];
+  SurfaceJet jet;
+  jet.s = p + v * (q + v * r), jet.sv = q + 2 * v * r, jet.svv = 2 * r;
+  jet.su = pu + v * (qu + v * ru), jet.suv = qu + 2 * v * ru;
+  jet.suu = 2 * (c[2] + v * (c[5] + v * c[8]));
+  return jet;
+}
+
+/// Around points, `margin` farther, along the lines of the middle of a leaf.
+template <typename Points>
+TurnedBox turned_box(const std::array<Vec3, 9>& at, const Points& points, double margin) {
+  TurnedBox box{at[4], {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  const Vec3 along = at[5] - at[3], across = at[7] - at[1], normal = cross(along, across);
+  if (norm(normal) > 1e-6 * norm(along) * norm(across) && norm(along) > 0 && norm(across) > 0) {
+    box.axes[0] = along / norm(along), box.axes[2] = normal / norm(normal);
+    box.axes[1] = cross(box.axes[2], box.axes[0]);
+  }
+  for (const Vec3& p : points)
+    for (int k = 0; k < 3; ++k) {
+      const double on = dot(Vec3(p - box.origin), box.axes[static_cast<std::size_t>(k)]);
+      box.low[k] = std::min(box.low[k], on), box.high[k] = std::max(box.high[k], on);
+    }
+  const Vec3 by{margin, margin, margin};
+  box.low -= by, box.high += by;
+  return box;
 }
 
 std::array<Vec3, 9> nine_of(const Samples& samples) {
@@ -192,7 +241,7 @@ LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample
   Vec2 w{static_cast<double>(from.rank % 3) / 2, static_cast<double>(from.rank / 3) / 2};
   Vec2 best = w;
   for (int k = 0; k < 6; ++k) {
-    const SurfaceJet jet = interpolated(leaf.at, w);
+    const SurfaceJet jet = at_terms(leaf.terms, w);
     const Vec3 r = jet.s - x;
     const double d = dot(r, r);
     if (k > 0 && !(d < least)) break;
@@ -271,8 +320,10 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
           if (!judgement.known) continue;  // beside the domain
           const double error = limit::error_margin * judgement.error;
           pieces.leaves.push_back({{cell.low, cell.high}, nine_of(samples), error, judgement.size, 0, cell.cut});
-          pieces.leaves.back().cover = cover_of(pieces.leaves.back(), judgement.bulge);
-          pieces.boxes.push_back(box_of(samples, error + limit::error_margin * judgement.bulge));
+          SurfaceLeaf& leaf = pieces.leaves.back();
+          const double margin = error + limit::error_margin * judgement.bulge;
+          leaf.cover = cover_of(leaf, judgement.bulge), leaf.terms = terms_of(leaf.at), leaf.box = turned_box(leaf.at, samples, margin);
+          pieces.boxes.push_back(box_of(samples, margin));
         }
       });
     }
@@ -290,6 +341,7 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
   pieces.triangles = true;
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
+  std::vector<Vec3> places;
   for_pieces(regions.size(), 64, [&](std::size_t first, std::size_t n) {
     monitor.checkpoint();
     uv.clear();
@@ -299,6 +351,8 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
     jets.resize(uv.size());
     evaluate(uv, jets);
     const std::size_t each = uv.size() / n;
+    places.clear();
+    for (const SurfaceJet& jet : jets) places.push_back(jet.s);
     for (std::size_t t = 0; t < n; ++t) {
       const auto at = [&](int i, int j) -> const Vec3& { return jets[t * each + static_cast<std::size_t>(side * j - j * (j - 1) / 2 + i)].s; };
       SurfaceLeaf leaf;
@@ -320,7 +374,8 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
         }
       leaf.size = norm(box.high - box.low);
       const double bulge = (norm(a - 2 * ab + b) + norm(a - 2 * ac + c) + norm(b - 2 * bc + c)) / 16;
-      leaf.cover = cover_of(leaf, bulge);
+      leaf.cover = cover_of(leaf, bulge), leaf.terms = terms_of(leaf.at);
+      leaf.box = turned_box(leaf.at, std::span<const Vec3>(places.data() + t * each, each), leaf.error + bulge);
       const Vec3 by = (leaf.error + bulge) * Vec3(1, 1, 1);
       box.low -= by, box.high += by;
       pieces.leaves.push_back(leaf), pieces.boxes.push_back(box);

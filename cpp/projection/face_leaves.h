@@ -19,6 +19,23 @@
 
 namespace carreau::projection {
 
+/// A box in any direction: nearly flat pieces fill it better than a box along the coordinates.
+struct TurnedBox {
+  Vec3 origin;
+  std::array<Vec3, 3> axes;  ///< orthonormal
+  Vec3 low, high;            ///< along the axes, from the origin
+
+  [[nodiscard]] double squared_distance(const Vec3& x) const noexcept {
+    const Vec3 r = x - origin;
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double at = dot(r, axes[static_cast<std::size_t>(k)]), beyond = at < low[k] ? low[k] - at : at > high[k] ? at - high[k] : 0;
+      square += beyond * beyond;
+    }
+    return square;
+  }
+};
+
 /// A piece of a face, as the biquadratic interpolation of nine places.
 struct SurfaceLeaf {
   Region region;           ///< of (u, v)
@@ -27,6 +44,8 @@ struct SurfaceLeaf {
   double size = 0;         ///< diameter in space
   double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
   bool cut = false;        ///< the boundary of the domain crosses it
+  TurnedBox box = {};
+  std::array<Vec3, 9> terms = {};  ///< of the interpolation: of u^i v^j, from 0 to 1, at 3 j + i
 };
 
 /// The piece of a curve over an edge of its support.

@@ -4,9 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "projection/thresholds.h"
 #include "support/infinity.h"
 
 namespace carreau::projection {
+
+namespace {
+
+namespace limit = thresholds::projection;
+
+}  // namespace
 
 PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal)
     : entities_(&entities), x_(x), diagonal_(diagonal) {
@@ -33,8 +40,11 @@ void PointSearch::look_at(std::int32_t entity, double& bound) {
         for (const std::int32_t k : pieces.tree.things(leaf)) {
           const double least = pieces.boxes[static_cast<std::size_t>(k)].squared_distance(x_);
           if (least > bound * bound) continue;
+          double floor = least;
+          if (static_cast<std::size_t>(k) < pieces.leaves.size()) floor = pieces.leaves[static_cast<std::size_t>(k)].box.squared_distance(x_);
+          if (floor > bound * bound) continue;
           Candidate& candidate = candidates_.emplace_back();
-          candidate.entity = entity, candidate.piece = k;
+          candidate.entity = entity, candidate.piece = k, candidate.floor = std::sqrt(std::max(floor, least));
           if (const CurveLeaf* curve = curve_of(candidate)) {
             const LeafPlace place = nearest_on(*curve, x_);
             candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve->error;
@@ -57,20 +67,14 @@ void PointSearch::refine(double& bound) {
     return a.entity != b.entity ? a.entity < b.entity : a.piece < b.piece;
   };
   const auto drop = [&] {
-    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.distance - c.error > bound; }),
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.least() > bound; }),
                       candidates_.end());
     std::sort(candidates_.begin(), candidates_.end(), ascending);
   };
   drop();
   for (Candidate& candidate : candidates_) {
-    if (curve_of(candidate) != nullptr || candidate.distance - candidate.error > bound) continue;
-    const Pieces& pieces = pieces_of(candidate);
-    const auto k = static_cast<std::size_t>(candidate.piece);
-    if (pieces.boxes[k].squared_distance(x_) > bound * bound) {
-      candidate.distance = infinity;
-      continue;
-    }
-    const SurfaceLeaf& leaf = pieces.leaves[k];
+    if (curve_of(candidate) != nullptr || candidate.least() > bound) continue;
+    const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
     const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
     candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error;
     if (!leaf.cut) bound = std::min(bound, place.distance + leaf.error);  // else the place may lie outside of the domain
@@ -78,11 +82,25 @@ void PointSearch::refine(double& bound) {
   drop();
 }
 
+// The nearest place of a leaf on its border to another leaf is no minimum: from there the descent enters the leaf of the best place.
+bool PointSearch::leads_to_best(const Candidate& c) const {
+  const Pieces& pieces = pieces_of(c);
+  if (c.entity != best_.entity || best_.place.curve >= 0 || curve_of(c) != nullptr || pieces.triangles) return false;
+  const Region& leaf = pieces.leaves[static_cast<std::size_t>(c.piece)].region;
+  const Vec2 size = leaf.size(), &best = best_.place.parameters;
+  bool at_border = false;
+  for (int k = 0; k < 2; ++k) {
+    if (std::abs(best[k] - c.start[k]) > limit::beside_best * size[k]) return false;
+    at_border = at_border || (c.start[k] <= leaf.low[k] && best[k] < leaf.low[k]) || (c.start[k] >= leaf.high[k] && best[k] > leaf.high[k]);
+  }
+  return at_border;
+}
+
 // Begins the descent of the next candidate that may be better than the best place.
 void PointSearch::begin() {
   for (; next_ < candidates_.size(); ++next_) {
     const Candidate& candidate = candidates_[next_];
-    if (best_.entity >= 0 && candidate.distance - candidate.error >= std::sqrt(best_.square) * (1 - 1e-15)) continue;
+    if (best_.entity >= 0 && (candidate.least() >= std::sqrt(best_.square) * (1 - 1e-15) || leads_to_best(candidate))) continue;
     const Pieces& pieces = pieces_of(candidate);
     if (const CurveLeaf* curve = curve_of(candidate)) {
       descent_ = Descent(x_, {{curve->a, 0}, {curve->b, 0}}, candidate.start, norm(curve->to - curve->from), diagonal_);

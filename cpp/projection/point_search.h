@@ -2,6 +2,7 @@
 // The search for the closest point of several entities, one evaluation at a time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,11 +50,15 @@ class PointSearch {
     std::int32_t entity = 0, piece = 0;  // piece: rank among leaves, then curves
     Vec2 start;
     double distance = 0, error = 0;
+    double floor = 0;      // no place is nearer, by the box of the leaf
     NearestSample sample;  // of a leaf of a face
+
+    [[nodiscard]] double least() const noexcept { return std::max(floor, distance - error); }
   };
   void look_at(std::int32_t entity, double& bound);
   void refine(double& bound);
   void begin();
+  [[nodiscard]] bool leads_to_best(const Candidate& c) const;
   [[nodiscard]] const Pieces& pieces_of(const Candidate& c) const { return *entities_->pieces[static_cast<std::size_t>(c.entity)]; }
   [[nodiscard]] const CurveLeaf* curve_of(const Candidate& c) const {
     const Pieces& pieces = pieces_of(c);

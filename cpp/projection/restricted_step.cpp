@@ -114,6 +114,17 @@ double share_inside(const Region& region, const Vec2& p, const Vec2& d) {
 
 RestrictedStep restricted_step(const Region& region, const Vec2& p, const Vec2& gradient, const Symmetric2& hessian, const Symmetric2& form) {
   RestrictedStep step;
+  // Most steps are regular and stay inside: the determinant is large enough that both eigenvalues are.
+  if (const double squares = form.xx * form.yy, a = hessian.xx * form.yy, c = hessian.yy * form.xx, det = hessian.xx * hessian.yy - hessian.xy * hessian.xy;
+      !region.triangle && hessian.xx > 0 && squares > 0 && det * squares > limit::regular_hessian * (a + c) * (a + c)) {
+    const Vec2 d{-(hessian.yy * gradient.x() - hessian.xy * gradient.y()) / det, -(hessian.xx * gradient.y() - hessian.xy * gradient.x()) / det};
+    const Vec2 to = p + d;
+    if (to.x() > region.low.x() && to.x() < region.high.x() && to.y() > region.low.y() && to.y() < region.high.y()) {
+      step.to = to, step.d = d;
+      step.gain = -0.5 * dot(gradient, d);
+      return step;
+    }
+  }
   const Walls walls = walls_at(region, p);
   Vec2 d = descent_direction(gradient, hessian, form, step.full);
   if (!walls.allow(d)) d = direction_along(walls, gradient, hessian, form, step.full);

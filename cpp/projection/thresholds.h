@@ -24,6 +24,10 @@ inline constexpr double smallest_leaf = 1e-3;
 /// Number of cells of a face; more are not cut. A bound of memory.
 inline constexpr std::size_t max_cells = 40'000;
 
+/// Share of the parameters of a leaf. A place on its border that is nearer to the best place leads to it: a leaf differs from its
+/// interpolation by less. [Projector.TeapotAgreesWithEachFaceAlone]
+inline constexpr double beside_best = 0.1;
+
 // Newton's method (descent, restricted_step)
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
 /// then of third order, below rounding. [Projector.Sphere]

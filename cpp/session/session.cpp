@@ -201,7 +201,7 @@ void Session::make_mesh_alone(double from, double to, PartMesh* part) {
   }
 }
 
-PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
+GluedModel Session::glue(Model& known, Cad& whole_cad) {
   State& s = *state_;
   leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
@@ -212,6 +212,21 @@ PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
   set_parameter_domains(model, supports, whole_cad);
   std::vector<std::string> remarks;
   s.glue_model(model, supports, whole_cad, remarks);
+  return {std::move(model), std::move(supports), std::move(remarks)};
+}
+
+void Session::find_model_references() {
+  State& s = *state_;
+  CheckedCad whole_cad(*s.cad);
+  Model known = s.model;
+  const GluedModel glued = glue(known, whole_cad);
+  for (const std::string& remark : glued.remarks) s.monitor.message(Level::warning, remark);
+  s.forget_trees();
+}
+
+PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
+  State& s = *state_;
+  auto [model, supports, remarks] = glue(known, whole_cad);
   PartCad cad(whole_cad, parts_of(model));
   const CurveTraces traces = traces_of(supports);
   if (const double eps = s.parameters.real("eps_collapse"); eps > 0)

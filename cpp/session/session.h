@@ -41,6 +41,7 @@ class DiscreteCad;
 }
 struct PartResults;
 class Embedder;
+struct GluedModel;
 struct PreparedModel;
 
 /// Independent of any other session; used by one thread at a time.
@@ -177,9 +178,12 @@ class Session {
   [[nodiscard]] std::vector<CurveParameters> curve_parameters() const;
   void project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out);
   /// Embeds a point or a polyline of space in the faces of the model (Embedder), within the parameter embed_tolerance; returns the reference
-  /// that results name. `name`: of the point or curve; may be empty. Throws like project(), and changes nothing then.
+  /// that results name. `name`: of the point or curve; may be empty. Finds the references of the model first. Throws like project(), and
+  /// embeds nothing then.
   int embed_point(const Vec3& x, const std::string& name);
   int embed_polyline(std::span<const Vec3> points, const std::string& name);
+  /// Embeds the curves of wires that lie on faces, and removes these wires; a warning names each other wire. Returns their number.
+  int embed_wires();
 
   /// Runs all actions of a blsurf.env until `call exit` or the end of the file (RT-0232 sec. 3.3). `<pref>.pardom` is
   /// read and `<pref>.mesh` written beside the env file; a model given by set_model() or load_pardom() is used instead
@@ -196,11 +200,13 @@ class Session {
  private:
   Projector& projector(int dimension);
   Embedder& embedder();
+  void find_model_references();
   int keep_embedded(int dimension, int ref, const std::string& name);
   [[nodiscard]] const QualitySummary& shapes() const;
   void make_mesh_alone(double from, double to, PartMesh* part);
   void make_mesh_of(Model& known, Monitor& run, PartMesh* part);
   /// Finds supports, references and the topology of `known`, which loses the faces that the host fails on if required.
+  GluedModel glue(Model& known, Cad& whole_cad);
   PreparedModel prepare(Model& known, Cad& whole_cad);
   PartMesh part_of(const Model& model, CompositeResult result);
   PartMesh part_of_mesh();

@@ -16,7 +16,14 @@
 
 namespace carreau {
 
-/// A model whose references are known, and the options of its mesh.
+/// A model whose references are known.
+struct GluedModel {
+  Model model;
+  ModelSupports supports;
+  std::vector<std::string> remarks;
+};
+
+/// With the options of its mesh.
 struct PreparedModel {
   Model model;
   ModelSupports supports;

@@ -79,8 +79,6 @@ program geometries_fortran_test
   call check(abs(distances(1)**2 - 1.3125d0) < 1d-12 .and. abs(closest(3, 1) - 0.125d0) < 1d-12, 'its distance')
   call carreau_project(session, 2, 7, closest, refs, params, xyz, distances, status)
   call check(status == CARREAU_ERR_ARGUMENT, 'no such face')
-  call carreau_model_embed_point(session, [0.2d0, 0.8d0, 0.16d0], 'probe', k, status)
-  call check(status == CARREAU_ERR_SEQUENCE, 'no references yet')
   call carreau_geometry_begin(session, surface, interval, side, status)
   call check(status == CARREAU_OK, carreau_last_error(session))
   call carreau_model_add_face(session, 1, 1, status)
@@ -126,6 +124,8 @@ program geometries_fortran_test
   call check(status == CARREAU_OK .and. k > 12, carreau_last_error(session))
   call carreau_model_embed_polyline(session, reshape([0.2d0, 0.25d0, 0.05d0, 0.8d0, 0.25d0, 0.2d0], [3, 2]), 'line', k, status)
   call check(status == CARREAU_OK .and. k > 8, carreau_last_error(session))
+  call carreau_model_embed_wires(session, count, status)
+  call check(status == CARREAU_OK .and. count == 0, 'no wire')
   call triangles_of_a_tetrahedron(copy)
   call ring_of_arcs
   call carreau_mesh_free(copy)

@@ -118,6 +118,9 @@ TEST_F(PlacesTest, EmbedsPlacesOfSpace) {
     line.insert(line.end(), {x, x, x * x});
   }
   ASSERT_EQ(carreau_model_embed_polyline(session, 21, line.data(), "diagonal", &curve), CARREAU_OK) << error();
+  std::int64_t wires = -1;
+  EXPECT_EQ(carreau_model_embed_wires(session, &wires), CARREAU_OK) << error();
+  EXPECT_EQ(wires, 0);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   EXPECT_EQ(defects_of(mesh()), "");
   const MeshData data = data_of(mesh());

@@ -434,6 +434,7 @@ TEST(Wrapper, EvaluatesAndProjects) {
   EXPECT_EQ(carreau::evaluate_curve(session, side.references[1], t, 1).xyz[0], (Point3{1, 0, 0}));
   const std::array<Point3, 2> line{{{0.2, 0.25, 0.05}, {0.8, 0.25, 0.2}}};  // a ruling
   const int curve = carreau::embed_polyline(session, line, "line"), point = carreau::embed_point(session, {0.5, 0.6, 0.3});
+  EXPECT_EQ(carreau::embed_wires(session), 0);
   session.generate();
   const std::vector<std::int32_t> edges_of = session.mesh().edge_refs(), vertices_of = session.mesh().vertex_refs();
   EXPECT_GE(std::count(edges_of.begin(), edges_of.end(), curve), 2);

@@ -272,7 +272,7 @@ class Command(unittest.TestCase):
         self.assertEqual(run("check", self.mesh, "--closed").returncode, 1)
 
     def test_wrong_command_lines_and_files_give_a_sentence_and_exit_code_2(self):
-        self.fails(sentence="No command given. Commands: mesh, volume, plane, adapt, refine, info, areas, curve, check, picture, report, fields, params, completion.")
+        self.fails(sentence="No command given. Commands: mesh, volume, plane, adapt, refine, info, areas, curve, project, check, picture, report, fields, params, completion.")
         self.fails("draw", sentence="draw")
         self.fails("picture", self.mesh, sentence="--output")
         for size in ("12", "x", "12x", "x12", "15x200", "99999999999x20", "20001x20", "100x100x100", "-20x20", "100 x100"):

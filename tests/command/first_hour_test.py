@@ -70,7 +70,7 @@ class FirstHour(unittest.TestCase):
         self.assertEqual(done.stderr, "carreau: " + sentence + "\n")
 
     def test_each_wrong_word_gets_a_suggestion(self):
-        self.refused("msh", sentence="There is no command 'msh'; did you mean 'mesh'? There are mesh, volume, plane, adapt, refine, info, areas, curve, check, picture, report, fields, params, completion.")
+        self.refused("msh", sentence="There is no command 'msh'; did you mean 'mesh'? There are mesh, volume, plane, adapt, refine, info, areas, curve, project, check, picture, report, fields, params, completion.")
         self.refused("mesh", "a.step", "--sze", "3", "-o", "a.vtu", sentence="carreau mesh has no option '--sze'; did you mean '--size'?")
         self.refused("mesh", "a.step", "--size-mapp=3", "-o", "a.vtu", sentence="carreau mesh has no option '--size-mapp'; did you mean '--size-map'?")
         self.refused("check", "a.mesh", "--zzzzzz", sentence="carreau check has no option '--zzzzzz'.")
@@ -106,7 +106,7 @@ class FirstHour(unittest.TestCase):
             done = run("help", command)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("Usage: carreau " + command, done.stdout)
-        self.refused("help", "pictur", sentence="There is no command 'pictur'; did you mean 'picture'? There are mesh, volume, plane, adapt, refine, info, areas, curve, check, picture, report, fields, "
+        self.refused("help", "pictur", sentence="There is no command 'pictur'; did you mean 'picture'? There are mesh, volume, plane, adapt, refine, info, areas, curve, project, check, picture, report, fields, "
                      "params, completion.")
 
     def json_of(self, *arguments, code=0):

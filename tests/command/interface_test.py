@@ -51,7 +51,7 @@ class Interface(unittest.TestCase):
         return path
 
     def test_each_command_has_a_page_that_the_main_page_names(self):
-        self.assertEqual(commands(), ["mesh", "volume", "plane", "adapt", "refine", "info", "areas", "curve", "check", "picture", "report", "fields", "params", "completion"])
+        self.assertEqual(commands(), ["mesh", "volume", "plane", "adapt", "refine", "info", "areas", "curve", "project", "check", "picture", "report", "fields", "params", "completion"])
         pages = {name for name in os.listdir(MANUAL) if name.startswith("carreau")}
         self.assertEqual(pages, {"carreau.1"} | {f"carreau-{name}.1" for name in commands()})
         with open(os.path.join(MANUAL, "carreau.1")) as file:

@@ -64,6 +64,7 @@ def test_places_of_space_are_embedded():
     line = np.stack([x * np.cos(t) - y * np.sin(t), x * np.sin(t) + y * np.cos(t), np.full(41, z)], axis=1)  # across a seam
     curve = session.embed_polyline(line, "equator")
     point = session.embed_point(session.project([[-9, 0.5, 0.5]]).xyz[0])
+    assert session.embed_wires() == 0
     mesh = session.generate()
     on = mesh.vertices[mesh.edges[mesh.curve_ids == curve].ravel()]
     assert len(on) > 4 and np.allclose(np.hypot(on[:, 0], on[:, 1]), np.hypot(x, y), atol=1e-2) and np.allclose(on[:, 2], z, atol=1e-2)

@@ -86,6 +86,12 @@ inline int embed_polyline(Session& session, std::span<const Point3> xyz, const s
   session.done(carreau_model_embed_polyline(session.get(), detail::count_of(xyz.size()), detail::flat(xyz), name.c_str(), &ref));
   return ref;
 }
+/// Embeds the wires that lie on faces; returns their number.
+inline std::int64_t embed_wires(Session& session) {
+  std::int64_t count = 0;
+  session.done(carreau_model_embed_wires(session.get(), &count));
+  return count;
+}
 
 /// The entities that vertices of a mesh lie on: points (dimension 0), curves (1) and faces (2).
 struct VertexEntities {

@@ -1135,6 +1135,7 @@ CARREAU = {
     "carreau_project": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles, Int32s, Doubles, Doubles, Doubles]),
     "carreau_model_embed_point": (c_int32, [c_void_p, Doubles, c_char_p, POINTER(c_int32)]),
     "carreau_model_embed_polyline": (c_int32, [c_void_p, c_int64, Doubles, c_char_p, POINTER(c_int32)]),
+    "carreau_model_embed_wires": (c_int32, [c_void_p, POINTER(c_int64)]),
     "carreau_mesh_vertex_entities": (c_int32, [c_void_p, c_int64, Int32s, Int32s]),
     "carreau_mesh_edge_parameters": (c_int32, [c_void_p, c_int64, Doubles, Int32s, Int32s]),
     "carreau_mesh_carry": (c_int32, [c_void_p, c_void_p, c_int32]),

@@ -2,7 +2,7 @@
 """The geometries of a session, except for files of CAD."""
 from __future__ import annotations
 
-from ctypes import byref, c_int32
+from ctypes import byref, c_int32, c_int64
 from typing import Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
@@ -302,6 +302,12 @@ class Geometries:
         ref = c_int32()
         self._call(lib().model_embed_polyline, len(points), points, name.encode(), byref(ref))
         return ref.value
+
+    def embed_wires(self) -> int:
+        """Embeds the wires that lie on faces; returns their number."""
+        count = c_int64()
+        self._call(lib().model_embed_wires, byref(count))
+        return count.value
 
     def clear(self) -> None:
         """Drops all faces and geometries; an earlier mesh stays, and so do the callbacks that it is measured with."""

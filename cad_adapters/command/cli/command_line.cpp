@@ -81,6 +81,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_info();
   add_areas();
   add_curve();
+  add_project();
   add_check();
   add_picture();
   add_report();
@@ -314,6 +315,21 @@ void CommandLine::add_curve() {
   curve->add_flag("--json", curve_.json, "Print JSON");
 }
 
+void CommandLine::add_project() {
+  CLI::App* project = add("project", "Print the closest point of a geometry to each point of a file");
+  project->add_option("INPUT", project_.input, geometry_files)->required()->type_name(kind::file);
+  project->add_option("--points", project_.points, "Text file of points, x y z in each line")->required()->check(not_empty)->type_name(kind::file);
+  project->add_option("--on", project_.on, "Entities: faces (default), edges or vertices")->check(CLI::IsMember({"faces", "edges", "vertices"}));
+  project->add_option("--only", project_.number, "Number of the only entity")->check(CLI::Range(1, std::numeric_limits<int>::max()))->type_name(kind::number);
+  project->add_option("--host", project_.host, "Shared library with the routines of cad_m, the geometry of a .pardom")->type_name(kind::file);
+  add_grid_options(project, project_.grid);
+  add_triangles_options(project, project_.triangles);
+  add_domain_option(project, project_.domain);
+  add_cad_options(project, project_.cad);
+  threads(project, project_.threads);
+  project->add_flag("--json", project_.json, "Print JSON");
+}
+
 void CommandLine::add_check() {
   CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
   check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
@@ -492,6 +508,10 @@ int CommandLine::run_command() {
   }
   if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("curve")) return curve(curve_);
+  if (app_.got_subcommand("project")) {
+    check_scope(*app_.get_subcommand("project"), {project_.input}, project_, false);
+    return project(project_);
+  }
   if (app_.got_subcommand("check")) return check(check_);
   if (app_.got_subcommand("picture")) {
     parse_picture_size(picture_size_, picture_);

@@ -32,6 +32,7 @@ class CommandLine {
   void add_info();
   void add_areas();
   void add_curve();
+  void add_project();
   void add_picture();
   void add_report();
   void add_check();
@@ -49,6 +50,7 @@ class CommandLine {
   InfoOptions info_;
   AreasOptions areas_;
   CurveOptions curve_;
+  ProjectOptions project_;
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
   std::vector<double> around_;

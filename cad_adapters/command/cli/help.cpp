@@ -44,6 +44,8 @@ constexpr GroupOf groups_of_options[] = {
     {"--shape", "Error estimate"},    {"--ratio", "Error estimate"}, {"--recovery", "Error estimate"},
     {"--pixels", "Images"},           {"--face", "Images"},         {"--channels", "Images"},
     {"--multi-part", "Images"},       {"--piz", "Images"},          {"--raw", "Images"},
+    {"--points", "Places"},           {"--on", "Places"},           {"--only", "Places"},
+    {"--embed-point", "Places"},      {"--embed-curve", "Places"},  {"--embed-wires", "Places"},
     {"--group", "CAD files"},         {"--group-by", "CAD files"},  {"--imprint", "CAD files"},
     {"--imprint-tolerance", "CAD files"},                           {"--min-feature", "CAD files"},
     {"--unit", "CAD files"},          {"--scale", "CAD files"},

@@ -116,6 +116,11 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--mirror", options.cad.mirror,
                            "Symmetric mesh about x, y, z, NORMAL or POINT:NORMAL; half a body becomes whole; repeatable"))
       ->type_name("PLANE");
+  repeated(app->add_option("--embed-point", options.embed.points, "Place of a vertex on the surface, within the parameter embed_tolerance; repeatable"))
+      ->type_name("X,Y,Z");
+  repeated(app->add_option("--embed-curve", options.embed.curves, "File of points of a polyline on the surface, which becomes edges; repeatable"))
+      ->type_name(kind::file);
+  app->add_flag("--embed-wires", options.embed.wires, "Edges of no face that lie on faces become edges of their meshes");
   app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
       ->type_name(kind::file);

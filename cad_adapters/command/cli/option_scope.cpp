@@ -32,6 +32,7 @@ const std::vector<Scope>& scopes() {
       {"--min-feature", {cad}, "a CAD file"},
       {"--scale", {cad}, "a CAD file"},
       {"--loose-edges", {cad}, "a CAD file"},
+      {"--embed-wires", {cad}, "a CAD file"},
       {"--host", {pardom}, "a .pardom file"},
       {"--probe", {molecule}, "a molecule"},
       {"--radii", {molecule}, "a molecule"},

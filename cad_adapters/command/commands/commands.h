@@ -43,6 +43,17 @@ int info(const InfoOptions& options);
 /// `carreau info` on STEP, IGES and BREP files. Returns the exit code; throws Failure.
 int print_cad_info(const InfoOptions& options);
 
+struct ProjectOptions : InputChoice {
+  std::string input, points;  ///< files
+  std::string on = "faces";   ///< edges, vertices
+  int number = 0;             ///< of the only entity; 0: all
+  int threads = 0;            ///< 0: all cores
+  bool json = false;
+};
+
+/// Prints the closest point of a geometry to each point of a file. 0; throws Failure.
+int project(const ProjectOptions& options);
+
 struct RefineOptions {
   std::string input;
   std::vector<std::string> outputs;

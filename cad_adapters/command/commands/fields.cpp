@@ -103,6 +103,7 @@ carreau_status make_mesh(carreau_session* session, const FieldsOptions& options,
   require(session, input.give_to(session));
   prescribe_curve_edges(session, options.mesh, input);
   set_periodic(session, options.mesh, input);
+  embed(session, options.mesh.embed);
   if (options.raw) return CARREAU_OK;
   const carreau_status status = carreau_mesh_generate(session);
   if (!map.failure().empty()) throw Failure(map.failure());

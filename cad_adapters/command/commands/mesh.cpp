@@ -102,6 +102,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
   set_periodic(session, options, input);
+  embed(session, options.embed);
   const carreau_status status = make();
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -269,6 +270,11 @@ MeshOptions options_of_rank(const MeshOptions& given, const Ranks* ranks) {
 
 std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress) {
   if (options.plane.is_plane) return open_plane(options.input, options.plane);
+  if (options.embed.wires && !options.cad.loose_edges) {
+    MeshOptions with_wires = options;
+    with_wires.cad.loose_edges = true;
+    return opened(with_wires, progress);
+  }
   if (options.more_inputs.empty())
     return open_input(options.input, options, [&](double fraction) { progress.reading(fraction); });
   std::vector<std::string> all{options.input};

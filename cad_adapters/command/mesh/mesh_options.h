@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "inputs/base/embedded_places.h"
 #include "inputs/base/input_choice.h"
 #include "mesh/adaptation.h"
 
@@ -57,6 +58,7 @@ struct MeshOptions : InputChoice {
   std::string carry_from;                     ///< geometry before a change, whose mesh is carried; empty: none
   std::string match = "any";                  ///< of its faces: any, reference, name or shape
   int halvings = 0;                           ///< of all edges, after meshing
+  EmbedChoice embed;
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores

@@ -11,28 +11,31 @@ namespace carreau {
 
 namespace {
 
-void check_places(const Cad* cad, const Model& model, bool faces_only) {
+void check_places(const Cad* cad, const Model& model) {
   if (cad == nullptr) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (model.faces.empty()) throw InvalidArgument("the model has no face");
-  const auto lacks_reference = [](const Face& face) {
+}
+
+bool lacks_references(const Model& model) {
+  return std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
     return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& curve) { return curve.ref <= 0; });
-  };
-  if (!faces_only && std::any_of(model.faces.begin(), model.faces.end(), lacks_reference))
-    throw InvalidArgument("curves and points of the model have no references yet: a mesh gives them");
+  });
 }
 
 }  // namespace
 
 Projector& Session::projector(int dimension) {
   State& s = *state_;
-  check_places(s.cad.get(), s.model, dimension == 2);
+  check_places(s.cad.get(), s.model);
+  if (dimension < 2 && lacks_references(s.model)) throw InvalidArgument("curves and points of the model have no references yet: a mesh gives them");
   if (!s.projector) s.projector = std::make_unique<Projector>(s.cad, s.triangles, s.model);
   return *s.projector;
 }
 
 Embedder& Session::embedder() {
   State& s = *state_;
-  check_places(s.host.get(), s.model, false);
+  check_places(s.host.get(), s.model);
+  if (lacks_references(s.model)) find_model_references();
   if (!s.embedder) s.embedder = std::make_unique<Embedder>(s.host, s.triangles, s.model, s.embedded, threads_of(s.parameters), s.monitor);
   return *s.embedder;
 }
@@ -47,6 +50,15 @@ int Session::embed_polyline(std::span<const Vec3> points, const std::string& nam
   Embedder& all = embedder();
   const int ref = all.embed_polyline(points, state_->parameters.real("embed_tolerance", all.diagonal()));
   return keep_embedded(1, ref, name);
+}
+
+int Session::embed_wires() {
+  Embedder& all = embedder();
+  std::vector<std::string> remarks;
+  const int wires = all.embed_wires(state_->parameters.real("embed_tolerance", all.diagonal()), remarks);
+  for (const std::string& remark : remarks) state_->monitor.message(Level::warning, remark);
+  keep_embedded(1, 0, "");
+  return wires;
 }
 
 int Session::keep_embedded(int dimension, int ref, const std::string& name) {

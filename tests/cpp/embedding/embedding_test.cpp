@@ -232,6 +232,69 @@ TEST(Embedding, Points) {
   EXPECT_NEAR(length_of(mesh.edges(mesh.session.embed_polyline(line, ""))), norm(line[1] - line[0]), 1e-9);
 }
 
+/// Sheets of wakes that stand on a body: their lower sides are edges of both.
+TEST(Embedding, CurvesJoinSheets) {
+  AnalyticCad cad = cube();
+  // One within the upper face, and one that leaves the cube over its edge x = z = 1.
+  for (const int sheet : {7, 8})
+    cad.faces[sheet] = {[sheet](Vec2 p) {
+                          SurfaceJet j;
+                          j.s = {(sheet == 7 ? 0.2 : 0.6) + p.x(), sheet == 7 ? 0.3 : 0.6, 1 + p.y()};
+                          j.su[0] = 1, j.sv[2] = 1;
+                          return j;
+                        },
+                        testing::rectangle({0, 0}, {sheet == 7 ? 0.5 : 1.0, 0.4})};
+  Embedded mesh(cad);
+  const std::vector<Vec3> inside{{0.2, 0.3, 1}, {0.7, 0.3, 1}}, over_edge{{0.6, 0.6, 1}, {1, 0.6, 1}};
+  const int one = mesh.session.embed_polyline(inside, ""), other = mesh.session.embed_polyline(over_edge, "");
+  const auto edges = mesh.edges(one, false);
+  EXPECT_NEAR(length_of(edges), 0.5, 1e-9);
+  EXPECT_NEAR(length_of(mesh.edges(other, false)), 1, 1e-9);  // on the body, and beyond it
+  for (const Vec3& p : {inside[0], inside[1], over_edge[0], over_edge[1]}) EXPECT_EQ(mesh.vertices_at(p), 1U) << p.transpose();
+  double joined = 0;
+  for (const CurveMesh& curve : mesh.session.mesh().curves) {
+    const auto internal = std::count_if(curve.uses.begin(), curve.uses.end(), [](const CurveMeshUse& use) { return use.internal; });
+    if (curve.uses.size() != 2 || internal != 1) continue;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+      joined += norm(mesh.session.mesh().vertices[static_cast<std::size_t>(curve.vertices[i])] -
+                     mesh.session.mesh().vertices[static_cast<std::size_t>(curve.vertices[i - 1])]);
+  }
+  EXPECT_NEAR(joined, 0.9, 1e-9);
+}
+
+TEST(Embedding, WiresThatLieOnFaces) {
+  AnalyticCad cad = cube();
+  // A line over the edge x = z = 1 cannot be a curve of one surface: two wires, and one that leaves the cube.
+  const std::array<Vec3, 6> ends{Vec3(0.5, 0.5, 1), Vec3(1, 0.5, 1), Vec3(1, 0.5, 1), Vec3(1, 0.5, 0.4), Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, 2)};
+  for (std::size_t w = 0; w < 3; ++w)
+    cad.faces[7 + static_cast<int>(w)] = {[a = ends[2 * w], b = ends[2 * w + 1]](Vec2 p) {
+                                            SurfaceJet j;
+                                            j.s = a + p.x() * (b - a), j.su = b - a;
+                                            return j;
+                                          },
+                                          {testing::segment({0, 0}, {1, 0})}};
+  Monitor monitor;
+  Session session(monitor);
+  session.set_cad(std::make_shared<AnalyticCad>(cad));
+  Model model = testing::unglued(cad);
+  for (Face& face : model.faces)
+    if (face.ref > 6) face.orientation = 0, face.name = "wire";
+  session.set_model(model);
+  session.parameters().set("hphydef", 0.2);
+  EXPECT_EQ(session.embed_wires(), 2);
+  EXPECT_EQ(session.model().faces.size(), 7U);
+  session.make_mesh();
+  EXPECT_EQ(find_defects(session.mesh(), {}), std::vector<std::string>{});
+  double length = 0;
+  for (const CurveMesh& curve : session.mesh().curves) {
+    const auto name = session.names().curves.find(curve.shown_ref());
+    if (name == session.names().curves.end() || name->second != "wire") continue;
+    EXPECT_FALSE(curve.loose);
+    length += norm(session.mesh().vertices[static_cast<std::size_t>(curve.vertices.front())] - session.mesh().vertices[static_cast<std::size_t>(curve.vertices.back())]);
+  }
+  EXPECT_NEAR(length, 1.1, 1e-9);
+}
+
 TEST(Embedding, NamesMistakes) {
   Embedded mesh(cube());
   const auto sentence = [&](const std::vector<Vec3>& points) -> std::string {
