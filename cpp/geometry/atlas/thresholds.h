@@ -12,7 +12,7 @@ inline constexpr double flat_neighbour = 0.5;
 inline constexpr double weight_beyond = 0.1;
 /// Degree of heights, and points that each of their coefficients needs.
 inline constexpr int max_degree = 6;
-inline constexpr double points_per_term = 2;
+inline constexpr double points_per_term = 1.7;
 
 /// Parts of the grid on each T: some 1500 places that charts share. Folds are narrow: of the T of joint.off with folds
 /// on this grid, a grid of 24 parts misses two thirds, 48 parts three eighths.
