@@ -37,10 +37,11 @@ class Atlas(unittest.TestCase):
     def tearDown(self):
         shutil.rmtree(self.folder)
 
-    def mesh(self, name, lines, code):
+    def mesh(self, name, lines, code, *options):
         with open(os.path.join(self.folder, name), "w") as file:
             file.write("\n".join(lines) + "\n")
-        done = subprocess.run([PROGRAM, "mesh", name, "--surface", "atlas", "--size", "0.2", "-o", "out.mesh"],
+        done = subprocess.run([PROGRAM, "mesh", name, "--surface", "atlas", "-o", "out.mesh",
+                               *(options or ("--size", "0.2"))],
                               capture_output=True, text=True, timeout=120, cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
@@ -54,6 +55,22 @@ class Atlas(unittest.TestCase):
         text = self.mesh("uneven.off", torus(100, 12, 2, .8), 0)
         self.assertIn("triangles made evenly of 2400, ", text)
         self.check_torus(text)
+
+    def test_curvature_sizes_see_the_torus_and_no_waves(self):
+        text = self.mesh("torus.off", torus(36, 18, 2, .8), 0, "--angle", "12")
+        self.check_torus(text)
+        with open(os.path.join(self.folder, "out.mesh")) as file:
+            words = file.read().split()
+        self.assertLess(int(words[words.index("Triangles") + 1]), 1.25 * 5184)
+        done = subprocess.run([PROGRAM, "check", "out.mesh"], capture_output=True, text=True, timeout=120, cwd=self.folder)
+        self.assertRegex(done.stdout, r"folds +0 edges")
+
+    def test_large_clusters_make_a_surface_without_folds_or_a_message(self):
+        lines = torus(36, 18, 2, .8)
+        self.assertIn("turned over near", self.mesh("torus.off", lines, 2, "--reach", "3", "--size", ".2"))
+        self.check_torus(self.mesh("torus.off", lines, 0, "--border", "cubic", "--size", ".2"))
+        done = subprocess.run([PROGRAM, "mesh", "x.bpt", "--reach", "2", "-o", "y.mesh"], capture_output=True, text=True)
+        self.assertIn("--reach goes with --surface atlas, not with 'x.bpt'", done.stderr)
 
     def check_torus(self, text):
         self.assertIn(" 0 repaired, 0 failed", text)

@@ -107,6 +107,7 @@ void CommandLine::add_mesh() {
       ->required()
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);
+  add_atlas_options(mesh, mesh_.atlas);
   add_grid_options(mesh, mesh_.grid);
   add_triangles_options(mesh, mesh_.triangles);
   add_cad_options(mesh, mesh_.cad);
@@ -152,6 +153,7 @@ void CommandLine::add_volume() {
       ->check(CLI::Range(0.0, 1e6))
       ->type_name(kind::number);
   add_molecule_options(volume, volume_.molecule);
+  add_atlas_options(volume, volume_.atlas);
   add_grid_options(volume, volume_.grid);
   add_triangles_options(volume, volume_.triangles);
   add_cad_options(volume, volume_.cad);
@@ -232,6 +234,7 @@ void CommandLine::add_adapt() {
   adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Replace polygons by splines (plane domain); corner angle 50 degrees")
       ->check(CLI::Range(0.1, 180.0));
   add_molecule_options(adapt, adapt_.molecule);
+  add_atlas_options(adapt, adapt_.atlas);
   add_triangles_options(adapt, adapt_.triangles);
   add_cad_options(adapt, adapt_.cad);
   add_domain_option(adapt, adapt_.domain);
@@ -429,6 +432,7 @@ void CommandLine::add_fields() {
   fields->add_flag("--piz", fields_.piz, "Compress by PIZ instead of ZIP; both are lossless");
   fields->add_flag("--raw", fields_.raw, "Evaluate the geometry only, without a mesh");
   add_molecule_options(fields, fields_.mesh.molecule);
+  add_atlas_options(fields, fields_.mesh.atlas);
   add_grid_options(fields, fields_.mesh.grid);
   add_domain_option(fields, fields_.mesh.domain);
   add_mesh_options(fields, fields_.mesh);

@@ -51,6 +51,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--unit", "CAD files"},          {"--scale", "CAD files"},
     {"--loose-edges", "CAD files"},   {"--sharp", "Triangles"},     {"--corner", "Triangles"},
     {"--given-edges", "Triangles"},   {"--ignore-references", "Triangles"},
+    {"--reach", "Triangles"},         {"--border", "Triangles"},
     {"--surface", "Molecules"},       {"--probe", "Molecules"},     {"--radii", "Molecules"},
     {"--drop-cavities", "Molecules"}, {"--grid", "Grids"},          {"--smooth", "Grids"},
     {"--lengths", "Grids"},           {"--step", "Grids"},          {"--fill", "Grids"},

@@ -152,6 +152,14 @@ void add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
   app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells");
 }
 
+void add_atlas_options(CLI::App* app, AtlasChoice& choice) {
+  app->add_option("--reach", choice.reach, "Edges of an atlas' clusters from their middles: 1 (default), 2 or 3")
+      ->check(CLI::Range(1, 3))
+      ->type_name(kind::number);
+  app->add_option("--border", choice.border, "Outer borders of an atlas' charts: spline (default) or cubic, which covers less")
+      ->check(CLI::IsMember({"spline", "cubic"}));
+}
+
 void add_grid_options(CLI::App* app, GridChoice& choice) {
   app->add_option("--grid", choice.format, "Format of a grid: plot3d, heights, scan or nodes; by the suffix by default")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(grid_formats), std::end(grid_formats))));

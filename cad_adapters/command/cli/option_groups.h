@@ -33,6 +33,7 @@ void radii(CLI::App* app, std::string& path);
 /// Adds the options of sizes, curvature, elements and parameters.
 void add_mesh_options(CLI::App* app, MeshOptions& options);
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
+void add_atlas_options(CLI::App* app, AtlasChoice& choice);
 void add_grid_options(CLI::App* app, GridChoice& choice);
 void add_cad_options(CLI::App* app, CadChoice& choice);
 /// Adds the options of triangles.

@@ -38,6 +38,8 @@ const std::vector<Scope>& scopes() {
       {"--radii", {molecule}, "a molecule"},
       {"--drop-cavities", {molecule}, "a molecule"},
       {"--surface", {molecule, atlas}, "a molecule, or with triangles as --surface atlas"},
+      {"--reach", {atlas}, "--surface atlas"},
+      {"--border", {atlas}, "--surface atlas"},
       {"--smooth", {grid}, "a grid"},
       {"--lengths", {grid}, "a grid"},
       {"--join", {grid}, "a grid"},

@@ -24,7 +24,7 @@ void check_geometry_name(const std::string& path) {
 std::unique_ptr<CadInput> open_input(const std::string& path, const InputChoice& choice,
                                      const ReadingProgress& progress) {
   if (is_formula(path)) return open_formula(path, choice.domain);
-  if (choice.molecule.surface == atlas_surface) return open_atlas(path);
+  if (choice.molecule.surface == atlas_surface) return open_atlas(path, choice.atlas);
   check_geometry_name(path);
   if (needs_host(path)) {
     if (choice.host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");

@@ -99,8 +99,10 @@ void set_physical_sizes(carreau_session* session, const MeshOptions& options, co
 }
 
 void set_geometric_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths,
-                         double diagonal) {
-  set(session, "hgeo_flag", 1);
+                         const CadInput& input) {
+  const double diagonal = input.diagonal();
+  // An atlas answers with radii of its surface alone: bends of its borders inside the surface need no short edges.
+  set(session, "hgeo_flag", input.has_arbitrary_borders() ? 2 : 1);
   if (options.angle > 0) set(session, "angle_mesh", options.angle);
   if (lengths.chord) {
     set(session, "eps_chord", *lengths.chord);
@@ -143,7 +145,7 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
   const bool usual = has_usual_sizes(options) && !input.has_sizes();
   if (usual) set_usual_sizes(session, options, lengths, input.diagonal());
   const bool by_curvature = options.angle > 0 || lengths.chord;
-  if (by_curvature) set_geometric_sizes(session, options, lengths, input.diagonal());
+  if (by_curvature) set_geometric_sizes(session, options, lengths, input);
   const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.sizes_on.empty() || !options.size_map.empty() || input.has_sizes() ||
                            options.adapt.is_adapt || !options.near.empty();
   if (sizes_typed || (options.env.empty() && !by_curvature && !usual))

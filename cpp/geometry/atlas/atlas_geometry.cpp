@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An atlas as a geometry of the engine.
+#include <cmath>
 #include <map>
 
 #include "geometry/atlas/blended_surface.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau::atlas {
 namespace {
@@ -23,6 +25,16 @@ class AtlasCad final : public Cad {
   }
   CurveJet curve(int face, int ic, unsigned, double t) override {
     return surface_->side(chart_of(face), side_of(face, ic), t);
+  }
+  /// The radius of the surface along the curve. A border of charts is an arbitrary cut of a smooth surface, and its
+  /// bends inside the surface need no short edges.
+  std::optional<double> curve_radius(int face, int ic, double t) override {
+    const CurveJet c = surface_->side(chart_of(face), side_of(face, ic), t);
+    const SurfaceJet s = surface_->at(chart_of(face), c.c);
+    const Vec3 along = c.ct.x() * s.su + c.ct.y() * s.sv, normal = cross(s.su, s.sv);
+    const Vec3 bend = c.ct.x() * c.ct.x() * s.suu + 2 * c.ct.x() * c.ct.y() * s.suv + c.ct.y() * c.ct.y() * s.svv;
+    const double curvature = std::abs(dot(bend, normal)), scale = dot(along, along) * norm(normal);
+    return curvature > 0 ? scale / curvature : infinity;
   }
   [[nodiscard]] bool reentrant() const noexcept override { return true; }
 

@@ -3,45 +3,91 @@
 
 #include <cmath>
 
+#include "geometry/atlas/fold_check.h"
+
 namespace carreau::atlas {
+namespace {
+
+SurfaceJet jet_of(const std::array<Jet, 3>& p) {
+  SurfaceJet jet;
+  for (int k = 0; k < 3; ++k) {
+    const Jet& c = p[static_cast<std::size_t>(k)];
+    jet.s[k] = c.f, jet.su[k] = c.u, jet.sv[k] = c.v, jet.suu[k] = c.uu, jet.suv[k] = c.uv, jet.svv[k] = c.vv;
+  }
+  return jet;
+}
+
+}  // namespace
 
 BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering)) {
-  for (const Chart& chart : covering_.charts())
-    primitives_.push_back(primitive_of(fit_heights(covering_.surface(), chart), chart.frame));
+  for (const Chart& chart : covering_.charts()) {
+    heights_.push_back(fine_heights(covering_, chart));
+    primitives_.push_back(primitive_of(coarse_heights(covering_, chart), chart.frame));
+  }
+  const std::vector<Primitive> before = primitives_;
   folds_ = mend_folds(covering_, primitives_);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    is_moved_.push_back(before[i].coefficient != primitives_[i].coefficient);
+  require_no_folds(*this);
+}
+
+template <typename Number>
+std::array<Number, 3> BlendedSurface::onto(std::size_t chart, const std::array<Number, 3>& x) const {
+  const Frame& frame = covering_.charts()[chart].frame;
+  const auto along = [&](const Vec3& axis) {
+    return Number(axis.x() * (x[0] - frame.origin.x()) + axis.y() * (x[1] - frame.origin.y()) +
+                  axis.z() * (x[2] - frame.origin.z()));
+  };
+  const Number missing = heights_[chart].at(Pair<Number>{along(frame.u), along(frame.v)}) - along(frame.normal);
+  return {x[0] + frame.normal.x() * missing, x[1] + frame.normal.y() * missing, x[2] + frame.normal.z() * missing};
+}
+
+template <typename Number>
+std::array<Number, 3> BlendedSurface::placed(std::size_t triple, const Pair<Number>& place, int corner) const {
+  const std::int32_t chart = covering_.triples()[triple].chart[static_cast<std::size_t>(corner)];
+  return primitives_[static_cast<std::size_t>(chart)].at(
+      covering_.from_t(static_cast<std::int32_t>(triple), corner, place));
+}
+
+template <typename Number>
+std::array<Number, 3> BlendedSurface::blended(std::size_t triple, const Pair<Number>& place, int corner,
+                                              const std::array<Number, 3>& own) const {
+  const std::array<Number, 3> weights = Covering::weights(place);
+  std::array<Number, 3> sum, moved;
+  for (int c = 0; c < 3; ++c) {
+    const Number& weight = weights[static_cast<std::size_t>(c)];
+    if (weight.f <= 0) continue;
+    const std::array<Number, 3> p = c == corner ? own : placed(triple, place, c);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weight * p[i];
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (weights[k].f <= 0) continue;
+    const std::array<Number, 3> p = onto(static_cast<std::size_t>(covering_.triples()[triple].chart[k]), sum);
+    for (std::size_t i = 0; i < 3; ++i) moved[i] = moved[i] + weights[k] * p[i];
+  }
+  return moved;
 }
 
 template <typename Number>
 std::array<Number, 3> BlendedSurface::blended(std::size_t chart, const Pair<Number>& place) const {
   const std::array<Number, 3> own = primitives_[chart].at(place);
   const auto on = covering_.on_t(chart, place);
-  if (!on) return own;
-  const std::array<Number, 3> weights = Covering::weights(on->place);
-  const Triple& triple = covering_.triples()[static_cast<std::size_t>(on->corner.triple)];
-  std::array<Number, 3> sum;
-  for (int c = 0; c < 3; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    if (weights[k].f <= 0) continue;
-    const std::array<Number, 3> p = c == on->corner.corner ? own
-                                                           : primitives_[static_cast<std::size_t>(triple.chart[k])].at(
-                                                                 covering_.from_t(on->corner.triple, c, on->place));
-    for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weights[k] * p[i];
-  }
-  return sum;
+  if (!on) return onto(chart, own);
+  return blended(static_cast<std::size_t>(on->corner.triple), on->place, on->corner.corner, own);
+}
+
+SurfaceJet BlendedSurface::at_triple(std::size_t triple, const Vec2& place) const {
+  const Pair<Jet> p = parameters_at<Jet>(place);
+  return jet_of(blended(triple, p, 0, placed(triple, p, 0)));
 }
 
 SurfaceJet BlendedSurface::at(std::size_t chart, const Vec2& m, int order) const {
+  if (order >= 2) return jet_of(blended(chart, parameters_at<Jet>(m)));
+  const std::array<Slope, 3> p = blended(chart, parameters_at<Slope>(m));
   SurfaceJet jet;
-  const auto put = [&](int k, const auto& c) { jet.s[k] = c.f, jet.su[k] = c.u, jet.sv[k] = c.v; };
-  if (order < 2) {
-    const std::array<Slope, 3> p = blended(chart, parameters_at<Slope>(m));
-    for (int k = 0; k < 3; ++k) put(k, p[static_cast<std::size_t>(k)]);
-    return jet;
-  }
-  const std::array<Jet, 3> p = blended(chart, parameters_at<Jet>(m));
   for (int k = 0; k < 3; ++k) {
-    const Jet& c = p[static_cast<std::size_t>(k)];
-    put(k, c), jet.suu[k] = c.uu, jet.suv[k] = c.uv, jet.svv[k] = c.vv;
+    const Slope& c = p[static_cast<std::size_t>(k)];
+    jet.s[k] = c.f, jet.su[k] = c.u, jet.sv[k] = c.v;
   }
   return jet;
 }

@@ -10,7 +10,10 @@
 
 namespace carreau::atlas {
 
-/// S(m) = sum of alpha_j(phi_ij m) P_j(phi_ij m): the point does not depend on the chart of m.
+/// S(m) = sum of alpha_j H_j(x) at x = sum of alpha_j P_j(phi_ij m): the primitives P_j place m in space, and H_j moves
+/// the place along the normal of chart j onto its height field. Transitions are not projections: the P_j of a place
+/// lie apart on the surface, and x is below it by the height of their chord. The point does not depend on the chart
+/// of m.
 class BlendedSurface {
  public:
   explicit BlendedSurface(Covering covering);
@@ -23,6 +26,11 @@ class BlendedSurface {
   /// primitive.
   [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m, int order = 2) const;
 
+  /// Point and derivatives by the place of a T.
+  [[nodiscard]] SurfaceJet at_triple(std::size_t triple, const Vec2& place) const;
+  /// Returns whether the repair of folds moved the primitive of a chart.
+  [[nodiscard]] bool is_moved(std::size_t chart) const { return is_moved_[chart]; }
+
   /// The border of a chart's face: the face holds the points of each T that are nearer to its corner than to the
   /// others. Side k runs from the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is
   /// C1.
@@ -31,9 +39,20 @@ class BlendedSurface {
  private:
   template <typename Number>
   [[nodiscard]] std::array<Number, 3> blended(std::size_t chart, const Pair<Number>& place) const;
+  /// The point at a place of a T; `own` is the point of the primitive at `corner`.
+  template <typename Number>
+  [[nodiscard]] std::array<Number, 3> blended(std::size_t triple, const Pair<Number>& place, int corner,
+                                              const std::array<Number, 3>& own) const;
+  template <typename Number>
+  [[nodiscard]] std::array<Number, 3> placed(std::size_t triple, const Pair<Number>& place, int corner) const;
+  /// x moved along the normal of a chart onto its height field.
+  template <typename Number>
+  [[nodiscard]] std::array<Number, 3> onto(std::size_t chart, const std::array<Number, 3>& x) const;
 
   Covering covering_;
+  std::vector<HeightField> heights_;
   std::vector<Primitive> primitives_;
+  std::vector<bool> is_moved_;
   FoldReport folds_;
 };
 

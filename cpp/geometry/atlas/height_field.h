@@ -1,31 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A quadratic height field over the plane of a chart.
+// Heights over the plane of a chart.
 #pragma once
 
-#include <array>
 #include <span>
+#include <vector>
 
 #include "atlas/covering/covering.h"
 
 namespace carreau::atlas {
 
+/// A polynomial of two variables.
 struct HeightField {
-  /// Coefficients of 1, x, y, x^2, x y, y^2, with x and y in units of `unit`.
-  std::array<double, 6> coefficient{};
+  int degree = 0;
+  /// Coefficients of 1, x, y, x^2, x y, y^2, x^3, ..., y^degree, with x and y in units of `unit`.
+  std::vector<double> coefficient{0.};
   double unit = 1;
 
   template <typename Number>
   [[nodiscard]] Number at(const Pair<Number>& p) const {
     const Number x = p[0] / unit, y = p[1] / unit;
-    const auto& c = coefficient;
-    return c[0] + x * (c[1] + c[3] * x + c[4] * y) + y * (c[2] + c[5] * y);
+    Number sum = 0.0;
+    // Terms x^i y^j by falling i; each row is a polynomial of y.
+    for (int i = degree; i >= 0; --i) {
+      Number row = 0.0;
+      for (int j = degree - i; j >= 0; --j) row = row * y + coefficient[rank(i, j)];
+      sum = sum * x + row;
+    }
+    return sum;
   }
+
+  static std::size_t rank(int i, int j) { return static_cast<std::size_t>((i + j) * (i + j + 1) / 2 + j); }
+  static std::size_t terms(int degree) { return rank(0, degree) + 1; }
 };
 
-/// Fits points (x, y, height) by least squares; coefficients that the points do not determine are small.
-HeightField fit_heights(std::span<const Vec3> points);
+/// A point (x, y, height) with its weight in a sum of squares.
+struct Height {
+  Vec3 at{0, 0, 0};
+  double weight = 1;
+};
 
-/// The heights of a chart's region, at its vertices and at the vertices of its border.
-HeightField fit_heights(const Triangulation& surface, const Chart& chart);
+/// Fits heights by least squares; coefficients that the points do not determine are small.
+HeightField fit_heights(std::span<const Height> points, int degree);
+
+/// The quadratic field of the heights of a chart's region, at its vertices and at the vertices of its border.
+HeightField coarse_heights(const Covering& covering, const Chart& chart);
+
+/// A field of higher degree of these heights, and, with a smaller weight, of neighbours beyond the region whose normals
+/// are not steep over the chart's plane.
+HeightField fine_heights(const Covering& covering, const Chart& chart);
 
 }  // namespace carreau::atlas

@@ -5,6 +5,16 @@
 
 namespace carreau::atlas::thresholds {
 
+/// Cosine between the normal of a vertex beyond a chart's region and the chart's normal, from which the vertex counts for
+/// the chart's heights.
+inline constexpr double flat_neighbour = 0.5;
+
+/// Weight of such a vertex against a vertex of the region.
+inline constexpr double weight_beyond = 0.1;
+/// Degree of heights, and points that each of their coefficients needs.
+inline constexpr int max_degree = 6;
+inline constexpr double points_per_term = 1.7;
+
 /// Parts of the grid on each T: some 1500 places that charts share. Folds are narrow: of the T of joint.off with folds
 /// on this grid, a grid of 24 parts misses two thirds, 48 parts three eighths.
 inline constexpr int grid_of_t = 96;
@@ -28,5 +38,10 @@ inline constexpr int mend_rounds = 24, mend_steps = 30;
 inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.
 inline constexpr double notable_gain = 0.999;
+
+/// The final check: cells of the grid on each T, divisions of a cell that has no bound, divisions of the square around a
+/// pure zone before those, and the factor on derivatives that bounds the area between places.
+inline constexpr int cells_of_t = 32, cell_divisions = 10, square_divisions = 3;
+inline constexpr double fold_safety = 1.5;
 
 }  // namespace carreau::atlas::thresholds

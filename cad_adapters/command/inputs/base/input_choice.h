@@ -26,6 +26,12 @@ struct GridChoice {
   double step = 0;           ///< of heights and scans whose file has no step; 0: 1
 };
 
+/// The clusters of an atlas and the borders of its charts.
+struct AtlasChoice {
+  int reach = 0;       ///< of clusters, edges; 0: not given
+  std::string border;  ///< "spline" or "cubic"; empty: not given
+};
+
 /// Defines which edges of a surface given as triangles are lines.
 struct TrianglesChoice {
   double sharp = 0;          ///< degrees; 0: not given
@@ -56,6 +62,7 @@ struct CadChoice {
 struct InputChoice {
   std::string host;           ///< shared library, of a .pardom
   MoleculeChoice molecule;    ///< of a molecule; its surface also of an atlas
+  AtlasChoice atlas;          ///< with --surface atlas
   GridChoice grid;            ///< of a structured grid
   TrianglesChoice triangles;  ///< of a surface given as triangles
   CadChoice cad;

@@ -45,8 +45,12 @@ MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
   return is_made ? arrays_of(made) : MeshArrays{};
 }
 
-carreau_status build(carreau_atlas* atlas, const MeshArrays& arrays) {
-  return carreau_atlas_build(atlas, nullptr, std::ssize(arrays.vertices), arrays.vertices.front().data(),
+carreau_status build(carreau_atlas* atlas, const MeshArrays& arrays, const AtlasChoice& choice) {
+  carreau_atlas_options options{};
+  options.struct_size = sizeof options;
+  options.border = choice.border == "cubic" ? CARREAU_BORDER_CUBIC : CARREAU_BORDER_SPLINE;
+  options.reach = choice.reach;
+  return carreau_atlas_build(atlas, &options, std::ssize(arrays.vertices), arrays.vertices.front().data(),
                              std::ssize(arrays.triangles), arrays.triangles.front().data(), nullptr);
 }
 
@@ -61,18 +65,18 @@ struct BuiltAtlas {
   std::size_t uneven = 0;  ///< triangles of the file that were meshed evenly first; 0: they were not
 };
 
-BuiltAtlas build(const std::string& path) {
+BuiltAtlas build(const std::string& path, const AtlasChoice& choice) {
   const MeshHandle mesh = read_mesh(path);
   const MeshArrays given = arrays_of(mesh.get());
   if (given.triangles.empty()) throw Failure(path + ": there is no triangle");
   BuiltAtlas built{new_atlas()};
   if (const MeshArrays even = even_triangles(path, mesh.get());
-      !even.triangles.empty() && build(built.atlas.get(), even) == CARREAU_OK) {
+      !even.triangles.empty() && build(built.atlas.get(), even, choice) == CARREAU_OK) {
     built.uneven = given.triangles.size();
     return built;
   }
   built.atlas = new_atlas();
-  if (build(built.atlas.get(), given) != CARREAU_OK)
+  if (build(built.atlas.get(), given, choice) != CARREAU_OK)
     throw Failure(path + ": " + carreau_atlas_last_error(built.atlas.get()));
   return built;
 }
@@ -104,12 +108,12 @@ class AtlasInput final : public BuiltInput {
 
 }  // namespace
 
-std::unique_ptr<CadInput> open_atlas(const std::string& path) {
+std::unique_ptr<CadInput> open_atlas(const std::string& path, const AtlasChoice& choice) {
   if (!is_triangles(path))
     throw Failure(
         "--surface atlas goes with a mesh of triangles (.off, .obj, .ply, .stl, .mesh, .vtu, .msh), not with '" + path +
         "'.");
-  BuiltAtlas built = build(path);
+  BuiltAtlas built = build(path, choice);
   SessionHandle session = make_silent_session();
   require(session.get(), carreau_add_atlas(session.get(), built.atlas.get()));
   return std::make_unique<AtlasInput>(std::move(session), path, std::move(built));

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "inputs/base/input_choice.h"
+
 namespace command {
 
 class CadInput;
@@ -13,6 +15,6 @@ class CadInput;
 inline constexpr const char* atlas_surface = "atlas";
 
 /// Reads the triangles of a mesh file and makes an atlas of them. Throws Failure.
-std::unique_ptr<CadInput> open_atlas(const std::string& path);
+std::unique_ptr<CadInput> open_atlas(const std::string& path, const AtlasChoice& choice);
 
 }  // namespace command

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "../../atlas/shapes.h"
+#include "support/error.h"
 
 namespace carreau::atlas {
 namespace {
@@ -17,10 +19,10 @@ Vec3 unit_normal(const SurfaceJet& jet) {
 
 TEST(HeightField, ReproducesQuadratics) {
   const auto height = [](double x, double y) { return 1 + 2 * x - y + .5 * x * x - x * y + 3 * y * y; };
-  std::vector<Vec3> points;
+  std::vector<Height> points;
   for (int i = -2; i <= 2; ++i)
-    for (int j = -2; j <= 2; ++j) points.emplace_back(i, j, height(i, j));
-  const HeightField field = fit_heights(points);
+    for (int j = -2; j <= 2; ++j) points.push_back({Vec3(i, j, height(i, j))});
+  const HeightField field = fit_heights(points, 2);
   EXPECT_NEAR(field.at(Pair<double>{.3, -.7}), height(.3, -.7), 1e-6);
 }
 
@@ -75,7 +77,7 @@ TEST(BlendedSurface, FoldsAreRepairedAndChartsStillAgree) {
   std::uniform_real_distribution<double> unit(0, 1);
   for (std::size_t i = 0; i < covering.charts().size(); ++i) {
     const Chart& chart = covering.charts()[i];
-    const Primitive fitted = primitive_of(fit_heights(covering.surface(), chart), chart.frame);
+    const Primitive fitted = primitive_of(coarse_heights(covering, chart), chart.frame);
     changed += surface.primitive(i).coefficient != fitted.coefficient;
     // At places that are not on the repair's grid.
     for (int k = 0; k < 200; ++k) {
@@ -95,8 +97,82 @@ TEST(BlendedSurface, SurfacesThatDoNotFoldKeepTheirHeightFields) {
   for (std::size_t i = 0; i < surface.covering().charts().size(); ++i) {
     const Chart& chart = surface.covering().charts()[i];
     EXPECT_EQ(surface.primitive(i).coefficient,
-              primitive_of(fit_heights(surface.covering().surface(), chart), chart.frame).coefficient);
+              primitive_of(coarse_heights(surface.covering(), chart), chart.frame).coefficient);
   }
+}
+
+TEST(HeightField, ReproducesPolynomialsOfItsDegree) {
+  const auto height = [](double x, double y) { return x * x * x * x * x * y - 2 * std::pow(y, 6) + x - 3; };
+  std::vector<Height> points;
+  for (int i = -5; i <= 5; ++i)
+    for (int j = -5; j <= 5; ++j) points.push_back({Vec3(.2 * i, .2 * j, height(.2 * i, .2 * j)), i % 2 == 0 ? 1 : .1});
+  const HeightField field = fit_heights(points, 6);
+  EXPECT_NEAR(field.at(Pair<double>{.3, -.7}), height(.3, -.7), 1e-5);
+}
+
+/// The largest angle between normals of the surface and true ones, over the angle of the longest chord, and the
+/// largest principal curvature that 99 % of the places do not exceed.
+template <typename Normal>
+std::pair<double, double> faults_of(const Triangulation& given, Normal&& normal_at) {
+  const BlendedSurface surface{Covering(given)};
+  const Covering& covering = surface.covering();
+  const auto angle = [](const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); };
+  double chord = 0, worst = 0;
+  for (const auto& t : covering.surface().triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = [&](std::size_t c) { return covering.surface().vertices[static_cast<std::size_t>(t[c % 3])]; };
+      chord = std::max(chord, angle(normal_at(at(k)), normal_at(at(k + 1))));
+    }
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<double> curvatures;
+  for (std::size_t i = 0; i < covering.charts().size(); ++i)
+    for (int k = 0; k < 100; ++k) {
+      const Annulus& a = covering.charts()[i].annulus;
+      const SurfaceJet jet = surface.at(i, value_of(a.at(unit(random), a.period() * unit(random))));
+      const Vec3 n = unit_normal(jet);
+      worst = std::max(worst, angle(n, normal_at(jet.s)));
+      const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv), d = e * g - f * f;
+      const double l = dot(jet.suu, n), m = dot(jet.suv, n), p = dot(jet.svv, n);
+      const double mean = (e * p - 2 * f * m + g * l) / (2 * d), gauss = (l * p - m * m) / d;
+      curvatures.push_back(std::abs(mean) + std::sqrt(std::max(0., mean * mean - gauss)));
+    }
+  std::sort(curvatures.begin(), curvatures.end());
+  return {worst / chord, curvatures[curvatures.size() * 99 / 100]};
+}
+
+Vec3 normal_of_sphere(const Vec3& p) { return p / norm(p); }
+
+TEST(BlendedSurface, NormalsAreWithinATenthOfTheAngleOfChords) {
+  EXPECT_LT(faults_of(test::icosphere(2), normal_of_sphere).first, .1);
+  EXPECT_LT(faults_of(test::icosphere(3), normal_of_sphere).first, .1);
+  EXPECT_LT(faults_of(test::torus(1, .4, 48, 24),
+                      [](const Vec3& p) -> Vec3 {
+                        const double inwards = 1 - 1 / std::hypot(p.x(), p.y());
+                        return normal_of_sphere({p.x() * inwards, p.y() * inwards, p.z()});
+                      })
+                .first,
+            .1);
+  Triangulation ellipsoid = test::icosphere(3);
+  for (Vec3& p : ellipsoid.vertices) p = Vec3(2 * p.x(), p.y(), .7 * p.z());
+  EXPECT_LT(faults_of(ellipsoid,
+                      [](const Vec3& p) -> Vec3 { return normal_of_sphere({p.x() / 4, p.y(), p.z() / .49}); })
+                .first,
+            .1);
+}
+
+TEST(BlendedSurface, CurvaturesSeeNoWaves) {
+  EXPECT_LT(faults_of(test::icosphere(3), normal_of_sphere).second, 1.05);
+}
+
+/// Charts of large clusters disagree by more than the repair can move them.
+TEST(BlendedSurface, FoldsThatRemainAreRejectedWithAPlace) {
+  for (const int hops : {2, 3}) try {
+      const BlendedSurface surface{Covering(test::torus(2, .8, 40, 36), {.hops = hops})};
+      FAIL() << hops;
+    } catch (const DomainError& e) {
+      EXPECT_NE(std::string(e.what()).find("the blended surface is turned over near ("), std::string::npos) << e.what();
+    }
 }
 
 TEST(BlendedSurface, DerivativesMatchDifferences) {
