@@ -53,6 +53,13 @@ void report_prescribed(CompositeRun& run) {
   }
 }
 
+LayerCurves layer_curves(const Model& model, const Topology& topology, const std::vector<CurveLayers>& given,
+                         const CompositeOptions& options) {
+  if (!given.empty() && options.element != Element::p1 && options.element != Element::q1_0)
+    throw InvalidArgument("layers along curves need the element p1 or q1.0");
+  return {model, topology, given};
+}
+
 bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
@@ -65,6 +72,8 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
+  else if (run.options.independent && !run.layers.empty())
+    run.report(Level::warning, "no cross-patch remeshing: layers grow from curves");
   else if (run.options.independent && !run.periodic.empty())
     run.report(Level::warning, "no cross-patch remeshing: faces are periodic");
   else if (run.options.independent)
@@ -76,11 +85,12 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
 }  // namespace
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
-                               const CompositeOptions& options, Monitor& monitor) {
+                               const CompositeOptions& options, Monitor& monitor, MeshLayers* layers) {
   const auto start = std::chrono::steady_clock::now();
   CompositeRun run(model, topology, supports, cad, options, monitor);
   if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
-  if (run.options.parts) refuse_parts(run.options, run.rules);
+  if (layers != nullptr) run.layers = layer_curves(model, topology, layers->given, options);
+  if (run.options.parts) refuse_parts(run.options, run.rules, run.layers);
   grade_sizes(run);
   discretise_curves(run);
   find_narrow(run);
@@ -96,6 +106,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   report_prescribed(run);
   link_periodic(run);
   if (options.cracks) open_cracks(run.result);
+  if (layers != nullptr) layers->cells = std::move(run.layer_cells);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

@@ -32,12 +32,14 @@ std::string own_counts(const CompositeRun& run, int rank) {
 
 }  // namespace
 
-void refuse_parts(const CompositeOptions& options, const SizeRules& rules) {
+void refuse_parts(const CompositeOptions& options, const SizeRules& rules, const LayerCurves& layers) {
   std::string what;
   if (options.element != Element::p1)
     what = "other elements than p1 (parameter element)";
   else if (options.independent)
     what = "cross-patch remeshing (parameter patches)";
+  else if (!layers.empty())
+    what = "layers along curves";
   else if (options.cracks)
     what = "cracks (parameter cracks)";
   else if (options.gradation > 0 && !(rules.constant() && options.proximity == 0))

@@ -10,7 +10,7 @@
 namespace carreau {
 
 /// Throws InvalidArgument if an option requires the whole mesh. Callers check before they mesh.
-void refuse_parts(const CompositeOptions& options, const SizeRules& rules);
+void refuse_parts(const CompositeOptions& options, const SizeRules& rules, const LayerCurves& layers);
 
 /// Rejects narrow faces that are to vanish, before a face is meshed.
 void refuse_narrow_parts(const NarrowModel& narrow);
