@@ -66,6 +66,7 @@ module carreau
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
   public :: carreau_clear_background, carreau_session_background, carreau_add_attractor, carreau_clear_attractors
+  public :: carreau_layers_report, carreau_add_layers, carreau_clear_layers, carreau_session_layers
   public :: carreau_estimate, carreau_transfer, carreau_adapt
   public :: carreau_mesh_read_metrics, carreau_set_background_fields, carreau_transfer_files
   public :: carreau_string
@@ -152,6 +153,12 @@ module carreau
     integer(c_int64_t) :: asked = 0, outside = 0
     real(c_double) :: farthest = 0
   end type carreau_background_report
+
+  type :: carreau_layers_report
+    integer(c_int64_t) :: cells = 0
+    integer(c_int32_t) :: rows = 0, fewest_rows = 0
+    real(c_double) :: first_min = 0, first_mean = 0, first_max = 0, growth_min = 0, growth_mean = 0, growth_max = 0
+  end type carreau_layers_report
 
   !> Zeros stand for the defaults in carreau.h.
   ! The order of members is older than the order in C.
@@ -2126,6 +2133,40 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_clear_attractors(session%handle)
   end subroutine carreau_clear_attractors
+
+  subroutine carreau_add_layers(session, curves, first, ratio, count, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: curves(:), count
+    real(c_double), intent(in) :: first, ratio
+    integer(c_int32_t), intent(out) :: status
+    status = c_add_layers(session%handle, size(curves, kind=c_int64_t), curves, first, ratio, count)
+  end subroutine carreau_add_layers
+
+  subroutine carreau_clear_layers(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_clear_layers(session%handle)
+  end subroutine carreau_clear_layers
+
+  subroutine carreau_session_layers(session, index, report, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_layers_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    type(c_layers_report) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_session_layers(session%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    report%cells = c%cells
+    report%rows = c%rows
+    report%fewest_rows = c%fewest_rows
+    report%first_min = c%first_min
+    report%first_mean = c%first_mean
+    report%first_max = c%first_max
+    report%growth_min = c%growth_min
+    report%growth_mean = c%growth_mean
+    report%growth_max = c%growth_max
+  end subroutine carreau_session_layers
 
   subroutine carreau_session_background(session, report, status)
     type(carreau_session), intent(in) :: session

@@ -94,6 +94,14 @@ module carreau_c
     real(c_double) :: farthest = 0
   end type c_background_report
 
+  !> One set of layers of the last mesh.
+  type, bind(c) :: c_layers_report
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: cells = 0
+    integer(c_int32_t) :: rows = 0, fewest_rows = 0
+    real(c_double) :: first_min = 0, first_mean = 0, first_max = 0, growth_min = 0, growth_mean = 0, growth_max = 0
+  end type c_layers_report
+
   !> How sizes are found from a field.
   type, bind(c) :: c_estimator
     integer(c_size_t) :: struct_size = 0
@@ -810,6 +818,38 @@ module carreau_c
       type(c_ptr), value :: session
       integer(c_int32_t) :: status
     end function c_clear_attractors
+
+    !> Lets rows of cells grow from curves into their faces in the next meshes: the first row is `first` high (model
+    !! length), each other row `ratio` (1 to 10) times as high as the row below.
+    function c_add_layers(session, curve_count, curves, first, ratio, count) result(status) &
+        bind(c, name="carreau_add_layers")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: curve_count
+      integer(c_int32_t), intent(in) :: curves(*)
+      real(c_double), value :: first, ratio
+      integer(c_int32_t), value :: count
+      integer(c_int32_t) :: status
+    end function c_add_layers
+
+    !> Removes all layers.
+    function c_clear_layers(session) result(status) bind(c, name="carreau_clear_layers")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_clear_layers
+
+    !> Gives the report on the set `index`, from 0 in the order of carreau_add_layers.
+    function c_session_layers(session, index, report) result(status) bind(c, name="carreau_session_layers")
+      import :: c_int32_t, c_int64_t, c_layers_report, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: index
+      type(c_layers_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_session_layers
 
     !> Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there.
     function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")

@@ -679,6 +679,34 @@ CARREAU_API carreau_status carreau_add_attractor(carreau_session* session, int64
 /* Removes all attractors. Errors: BUSY. */
 CARREAU_API carreau_status carreau_clear_attractors(carreau_session* session);
 
+/* ---- Layers: rows of cells along curves ---- */
+
+/* Lets rows of cells grow from curves into their faces in the next meshes: the first row is `first` high (model length),
+ * each other row `ratio` (1 to 10) times as high as the row below. There are `count` rows, fewer where they would be
+ * higher than the edges of the curve are long, or would meet other rows or boundaries. Corners beyond 240 degrees get a
+ * fan of cells, corners below 60 degrees none. Halves of the cells are triangles of a mesh of p1, cells of a mesh of q1.0;
+ * other elements are rejected. curves: curve_count references; the call copies them.
+ * Errors: ARGUMENT (no curve, numbers out of range), SEQUENCE. carreau_mesh_generate returns ARGUMENT for a reference that
+ * no face has, and for a curve with two sets of layers. */
+CARREAU_API carreau_status carreau_add_layers(carreau_session* session, int64_t curve_count, const int32_t curves[],
+                                              double first, double ratio, int32_t count);
+
+/* Removes all layers. Errors: BUSY. */
+CARREAU_API carreau_status carreau_clear_layers(carreau_session* session);
+
+/* One set of layers of the last mesh. The height of a cell is its area over the mean of its two edges along the row; the
+ * growth is its height over the height of the cell below. Fans at corners count for cells and rows only. */
+typedef struct carreau_layers_report {
+  size_t struct_size;
+  int64_t cells;                              /* in all faces */
+  int32_t rows, fewest_rows;                  /* rows above an edge of a curve: largest and smallest number */
+  double first_min, first_mean, first_max;    /* heights of cells in the first row, model length */
+  double growth_min, growth_mean, growth_max; /* 0 if there is one row */
+} carreau_layers_report;
+/* Gives the report on the set `index`, from 0 in the order of carreau_add_layers. Errors: ARGUMENT (index), SEQUENCE (no
+ * mesh yet). */
+CARREAU_API carreau_status carreau_session_layers(carreau_session* session, int64_t index, carreau_layers_report* out_report);
+
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
 
 /* The source of the error estimate: the interpolation error, by second derivatives; the angles between edges and the

@@ -214,6 +214,35 @@ carreau_status carreau_clear_attractors(carreau_session* session) {
   return guarded(session, [&] { session->session.clear_attractors(); });
 }
 
+carreau_status carreau_add_layers(carreau_session* session, int64_t curve_count, const int32_t* curves, double first,
+                                  double ratio, int32_t count) {
+  return guarded(session, [&] {
+    const std::size_t n = checked_count(curve_count, "curve_count");
+    if (n > 0) required(curves, "curves");
+    session->session.add_layers({.curves = {curves, curves + n}, .first = first, .ratio = ratio, .count = count});
+  });
+}
+
+carreau_status carreau_clear_layers(carreau_session* session) {
+  return guarded(session, [&] { session->session.clear_layers(); });
+}
+
+carreau_status carreau_session_layers(carreau_session* session, int64_t index, carreau_layers_report* out_report) {
+  return guarded(session, [&] {
+    mesh_of(*session);
+    const std::vector<carreau::LayerFigures>& all = session->session.layer_figures();
+    if (index < 0 || static_cast<std::size_t>(index) >= all.size())
+      throw InvalidArgument("index is " + std::to_string(index) + ", but the mesh has " + std::to_string(all.size()) + " sets of layers");
+    const carreau::LayerFigures& figures = all[static_cast<std::size_t>(index)];
+    carreau_layers_report result{};
+    result.cells = figures.cells;
+    result.rows = figures.rows, result.fewest_rows = figures.fewest_rows;
+    result.first_min = figures.first_min, result.first_mean = figures.first_mean, result.first_max = figures.first_max;
+    result.growth_min = figures.growth_min, result.growth_mean = figures.growth_mean, result.growth_max = figures.growth_max;
+    write_struct(result, out_report, "out_report");
+  });
+}
+
 carreau_status carreau_clear_background(carreau_session* session) {
   return guarded(session, [&] { session->session.set_background(nullptr); });
 }

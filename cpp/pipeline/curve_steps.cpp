@@ -121,6 +121,7 @@ void discretise_curves(CompositeRun& run) {
       if (edges > most) refuse_triangles(Where{.curve = run.topology.curves[c].ref}, static_cast<double>(edges), most);
     }
   }
+  place_rows_on_sides(run.layers, run.curve_model, run.curves);
   share_vertices(run.periodic, run.curve_model, run.curves);
   keep_to_curves(run);
   separate_coincident_curves(run.curve_model, run.curves);

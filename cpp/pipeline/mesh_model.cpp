@@ -59,6 +59,13 @@ Topology with_places(Topology topology, const std::vector<std::pair<int, Vec3>>&
   return topology;
 }
 
+LayerCurves layer_curves(const Model& model, const Topology& topology, const std::vector<CurveLayers>& given,
+                         const CompositeOptions& options) {
+  if (!given.empty() && options.element != Element::p1 && options.element != Element::q1_0)
+    throw InvalidArgument("layers along curves need the element p1 or q1.0");
+  return {model, topology, given};
+}
+
 bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
@@ -71,6 +78,8 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
+  else if (run.options.independent && !run.layers.empty())
+    run.report(Level::warning, "no cross-patch remeshing: layers grow from curves");
   else if (run.options.independent && !run.periodic.empty() && run.options.element != Element::p1)
     run.report(Level::warning, "no cross-patch remeshing: faces are periodic, and elements other than p1 cross no periodic border");
   else if (run.options.independent)
@@ -82,12 +91,14 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
 }  // namespace
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
-                               const CompositeOptions& options, Monitor& monitor) {
+                               const CompositeOptions& options, Monitor& monitor, MeshLayers* layers) {
   const auto start = std::chrono::steady_clock::now();
   PeriodicModel periodic = find_periodic({model, topology, supports.of_face, cad}, supports.diag);
   const Topology placed = periodic.placed.empty() ? Topology{} : with_places(topology, periodic.placed);
   const Topology& used = periodic.placed.empty() ? topology : placed;
   CompositeRun run(model, used, supports, cad, options, std::move(periodic), monitor);
+  if (layers != nullptr) run.layers = layer_curves(model, topology, layers->given, options);
+  if (run.options.parts && !run.layers.empty()) run.make_whole();
   const auto agree = [&] {
     if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
   };
@@ -107,6 +118,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   report_prescribed(run);
   link_periodic(run);
   if (options.cracks) open_cracks(run.result);
+  if (layers != nullptr) layers->cells = std::move(run.layer_cells);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

@@ -25,6 +25,7 @@ void begin_again(CompositeRun& run) {
 void mesh_discretised(CompositeRun& run) {
   refine_boundaries(run);
   if (run.may_have_rounds()) run.cut_curves = run.curves;
+  run.layer_cells.clear();
   mesh_patches(run);
   assemble_patches(run);
 }
@@ -53,13 +54,14 @@ void even_out_sampled(CompositeRun& run) {
                    run.result, run.monitor);
 }
 
-// Periodic faces stay as they are: faces without control space do.
+// Periodic faces and faces with layers stay as they are: faces without control space do.
 void even_out(CompositeRun& run) {
   if (run.slope() == 0) return;
   std::vector<std::optional<ControlSpace>> kept(run.model.faces.size());
   const auto exchange = [&] {
-    for (std::size_t f = 0; f < kept.size() && !run.periodic.empty(); ++f)
-      if (run.periodic.is_periodic[f] != 0) std::swap(kept[f], run.result.spaces[f]);
+    for (std::size_t f = 0; f < kept.size(); ++f)
+      if ((!run.periodic.empty() && run.periodic.is_periodic[f] != 0) || (f < run.layer_cells.size() && !run.layer_cells[f].empty()))
+        std::swap(kept[f], run.result.spaces[f]);
   };
   exchange();
   even_out_sampled(run);
@@ -136,7 +138,7 @@ void MeshRounds::put_aside() {
     run_.known.rely_on(&spaces_);
     return;
   }
-  best_.emplace(Kept{std::move(before), run_.curves, run_.cut_curves, run_.finer});
+  best_.emplace(Kept{std::move(before), run_.curves, run_.cut_curves, run_.finer, run_.layer_cells});
   run_.known.rely_on(&best_->result.spaces);
 }
 
@@ -161,6 +163,7 @@ void MeshRounds::restore() {
     run_.result = std::move(best_->result);
     run_.curves = std::move(best_->curves), run_.cut_curves = std::move(best_->cut_curves);
     run_.finer = std::move(best_->finer);
+    run_.layer_cells = std::move(best_->layer_cells);
     best_.reset();
   }
   run_.trying = false;

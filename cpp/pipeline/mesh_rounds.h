@@ -30,6 +30,7 @@ class MeshRounds {
     CompositeResult result;
     std::vector<DiscreteCurve> curves, cut_curves;
     std::vector<std::vector<EdgeSizes::Source>> finer;
+    std::vector<std::vector<LayerCell>> layer_cells;
   };
 
   void mesh();

@@ -82,6 +82,10 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
 void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
   CompositeRun& run = work.run;
   run.patches[f] = std::move(outcome.patch);
+  if (!outcome.layers.empty() || !run.layer_cells.empty()) {
+    run.layer_cells.resize(run.model.faces.size());
+    run.layer_cells[f] = std::move(outcome.layers);
+  }
   run.keeper[f] = outcome.elsewhere ? outcome.elsewhere->rank : all_have;
   if (!outcome.remark.empty()) run.remarks[f] = outcome.remark;
   work.left -= outcome.elsewhere ? outcome.elsewhere->triangles : static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
@@ -110,7 +114,7 @@ void make_jobs(PatchJobs& work) {
     PatchInput input = input_of(work, f, grow_from);
     if (keep_known(work, f, input, grow_from)) continue;
     run.known.keep(f, input, std::move(grow_from));
-    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.options, reentrant));
+    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.layers, run.options, reentrant));
     work.face_of.push_back(f);
   }
 }

@@ -118,6 +118,25 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
   if (monitor.hears(Level::debug)) describe_entities(mesh, monitor);
 }
 
+void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor) {
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const LayerFigures& l = layers[i];
+    const std::string name = "layers" + (layers.size() > 1 ? " " + std::to_string(i + 1) : std::string());
+    if (l.cells == 0) {
+      monitor.message(Level::warning, name + ": no row has room");
+      continue;
+    }
+    monitor.message(Level::summary,
+                    name + ": " + std::to_string(l.cells) + " cells in " +
+                        (l.fewest_rows < l.rows ? std::to_string(l.fewest_rows) + " to " : std::string()) + std::to_string(l.rows) +
+                        " rows; first height " + format_number(l.first_mean) + " (" + format_number(l.first_min) + " to " +
+                        format_number(l.first_max) + ")" +
+                        (l.growth_max > 0 ? ", growth " + format_number(l.growth_mean) + " (" + format_number(l.growth_min) + " to " +
+                                                format_number(l.growth_max) + ")"
+                                          : std::string()));
+  }
+}
+
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor) {
   describe(part.faces, {part.vertices, part.triangles, part.curve_edges, part.loose_edges}, report, part.quality, monitor);
 }

@@ -2,11 +2,14 @@
 // Messages of a session before and after a run. Private to session/.
 #pragma once
 
+#include <span>
+
 #include "measure/mesh_evaluation.h"
 #include "mesh/quality.h"
 #include "model/model.h"
 #include "pipeline/parts/part_mesh.h"
 #include "support/monitor.h"
+#include "surface/layers/layer_figures.h"
 #include "surface/result.h"
 #include "surface/supports.h"
 
@@ -21,6 +24,9 @@ void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor);
 
 /// A summary of a run in a few lines.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
+
+/// A line for each set of layers along curves: heights of the first row, growth, rows.
+void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor);
 
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor);
 

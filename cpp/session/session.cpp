@@ -58,6 +58,18 @@ void Session::add_attractor(const Attractor& attractor) {
   state_->attractors = std::move(all);
 }
 void Session::clear_attractors() noexcept { state_->attractors = nullptr; }
+void Session::add_layers(CurveLayers layers) {
+  if (layers.curves.empty()) throw InvalidArgument("layers require a curve");
+  if (!(layers.first > 0) || !std::isfinite(layers.first))
+    throw InvalidArgument("the first height of layers must be positive and finite; it is " + format_number(layers.first));
+  if (!(layers.ratio >= 1 && layers.ratio <= 10))
+    throw InvalidArgument("the ratio of layers must be between 1 and 10; it is " + format_number(layers.ratio));
+  if (layers.count < 1 || layers.count > 1000)
+    throw InvalidArgument("the number of layers must be between 1 and 1000; it is " + std::to_string(layers.count));
+  state_->layers.push_back(std::move(layers));
+}
+void Session::clear_layers() noexcept { state_->layers.clear(); }
+const std::vector<LayerFigures>& Session::layer_figures() const noexcept { return state_->layer_figures; }
 const BackgroundReport& Session::background_report() const noexcept { return state_->background_report; }
 
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
@@ -271,7 +283,9 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   PartCad cad(whole_cad, parts_of(model));
   options.parts = part != nullptr && !has_discrete(known) && !measured;
   PartMonitor patches(making, 0, has_discrete(known) ? share_of_patches : 1), triangles(making, share_of_patches, 1);
-  CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches);
+  MeshLayers layers{s.layers};
+  CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches, &layers);
+  std::vector<LayerFigures> figures = measure_layers(result.mesh, layers.cells, layers.given.size());
   std::shared_ptr<const PartResults> parts;
   if (has_discrete(known)) {
     CompositeOptions options_here = options;
@@ -292,6 +306,8 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
     if (part != nullptr) s.tried_parameters = s.parameters;
     keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
                 std::move(parts), background, measuring);
+  s.layer_figures = std::move(figures);
+  describe_layers(s.layer_figures, s.monitor);
     if (part != nullptr) *part = part_of_mesh();
   }
   run.progress(Phase::idle, 0, 1);
@@ -394,6 +410,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   s.has_mesh = true;
   s.last_failed = false;
   s.shapes.reset(), s.quality.reset(), s.raised.reset();
+  s.layer_figures.clear();
   if (s.monitor.hears(Level::summary)) describe_result(s.result, shapes(), s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_evaluation(s.result.mesh, *s.delivered, s.monitor);

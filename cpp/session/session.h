@@ -33,6 +33,8 @@
 #include "support/monitor.h"
 #include "support/ranks/crew.h"
 #include "support/ranks/team.h"
+#include "surface/layers/layer_curves.h"
+#include "surface/layers/layer_figures.h"
 
 namespace carreau {
 
@@ -69,6 +71,12 @@ class Session {
   /// InvalidArgument, and changes nothing then.
   void add_attractor(const Attractor& attractor);
   void clear_attractors() noexcept;
+  /// Rows of cells along curves in the next meshes; clear_layers() removes all. Throws InvalidArgument, and changes
+  /// nothing then.
+  void add_layers(CurveLayers layers);
+  void clear_layers() noexcept;
+  /// Measures of the layers of the last make_mesh(), in the order of add_layers().
+  [[nodiscard]] const std::vector<LayerFigures>& layer_figures() const noexcept;
   /// Use of the background mesh in the last make_mesh(); zero when there was none.
   [[nodiscard]] const BackgroundReport& background_report() const noexcept;
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. If the

@@ -43,6 +43,8 @@ struct Session::State {
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
   std::shared_ptr<Attractors> attractors;  // null: none
+  std::vector<CurveLayers> layers;
+  std::vector<LayerFigures> layer_figures;  // of `result`
   std::shared_ptr<TeamLink> team_link;
   std::unique_ptr<Team> team;  // of team_link; null: this process is alone
   bool is_together = false;    // in a run of the team

@@ -138,6 +138,35 @@ TEST_F(Adaptation, SizesOfABackgroundMeshAreFollowed) {
   EXPECT_EQ(background_report().asked, 0);
 }
 
+// The square has sides of length 2; two of them have rows of heights .01, .012, ...
+TEST_F(Adaptation, LayersGrowFromCurves) {
+  const std::int32_t sides[1] = {1}, unknown[1] = {77};
+  EXPECT_EQ(carreau_add_layers(nullptr, 1, sides, 0.01, 1.2, 8), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_layers(session, 1, nullptr, 0.01, 1.2, 8), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_layers(session, 0, sides, 0.01, 1.2, 8), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_layers(session, -1, sides, 0.01, 1.2, 8), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_layers(session, 1, sides, 0, 1.2, 8), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_layers(session, 1, sides, 0.01, 0.9, 8), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_add_layers(session, 1, sides, 0.01, 1.2, 0), CARREAU_ERR_ARGUMENT);
+  auto report = abi_tests::sized<carreau_layers_report>();
+  EXPECT_EQ(carreau_session_layers(session, 0, &report), CARREAU_ERR_SEQUENCE);
+  ASSERT_EQ(carreau_add_layers(session, 1, sides, 0.01, 1.2, 8), CARREAU_OK) << error();
+  (void)run();
+  EXPECT_EQ(carreau_session_layers(session, 1, &report), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_session_layers(session, 0, &report), CARREAU_OK) << error();
+  EXPECT_EQ(report.rows, 8);
+  EXPECT_EQ(report.fewest_rows, 8);
+  EXPECT_NEAR(report.first_min, 0.01, 1e-4);
+  EXPECT_NEAR(report.first_max, 0.01, 1e-4);
+  EXPECT_NEAR(report.growth_mean, 1.2, 1e-3);
+  EXPECT_EQ(report.cells % 8, 0);
+  ASSERT_EQ(carreau_clear_layers(session), CARREAU_OK);
+  ASSERT_EQ(carreau_add_layers(session, 1, unknown, 0.01, 1.2, 8), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("77"), std::string::npos) << error();
+  ASSERT_EQ(carreau_clear_layers(session), CARREAU_OK);
+}
+
 // Sizes .02 + .36 (x + 1) from the side x = -1 of the square, up to .2 at x = -.5.
 TEST_F(Adaptation, AttractorsPrescribeSizes) {
   const double vertices[6] = {-1, -1, 0, -1, 1, 0};

@@ -49,6 +49,7 @@ program model_fortran_test
   type(carreau_session) :: session, other
   type(carreau_mesh) :: mesh, copy
   type(carreau_face) :: face
+  type(carreau_layers_report) :: layers
   integer(c_int32_t), allocatable :: refs(:), turned(:), of_faces(:), corner_faces(:, :), edge_refs(:)
   integer(c_int32_t), allocatable :: dimensions(:), pairs(:, :), nodes(:, :)
   integer(c_int64_t), allocatable :: counts(:)
@@ -139,6 +140,12 @@ program model_fortran_test
   call carreau_add_attractor(session, reshape([0d0, 0d0, 0d0], [3, 1]), reshape([1, 1, 2], [3, 1]), 0.05d0, 0.2d0, 0.5d0, status)
   call check(status == CARREAU_ERR_ARGUMENT, 'an index out of range')
   call carreau_clear_attractors(session, status)
+  call carreau_add_layers(session, [1], 0.01d0, 1.2d0, 3, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call generate
+  call carreau_session_layers(session, 1_c_int64_t, layers, status)
+  call check(status == CARREAU_OK .and. layers%rows == 3, 'rows of layers')
+  call carreau_clear_layers(session, status)
   call carreau_reset_parameter(session, 'hphymax', status)
   call check(status == CARREAU_OK, carreau_last_error(session))
 

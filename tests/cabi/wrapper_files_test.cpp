@@ -143,6 +143,10 @@ TEST_F(WrapperFiles, TakesBackgroundsFromFilesAndArrays) {
   EXPECT_GT(mesh_by([] {}), plain);
   session.clear_attractors();
   EXPECT_EQ(mesh_by([] {}), plain);
+  session.add_layers(std::vector<std::int32_t>{1}, 0.01, 1.2, 3);
+  EXPECT_GT(mesh_by([] {}), plain);
+  EXPECT_EQ(session.layers_report().rows, 3);
+  session.clear_layers();
   const double m = 1 / 0.09;
   session.set_vertex_metrics(std::vector<carreau::Tensor3>(static_cast<std::size_t>(session.mesh().vertex_count()), {m, 0, 0, m, 0, m}));
   session.generate();

@@ -256,6 +256,11 @@ def test_estimates_and_transfers():
     session.add_attractor([[0, 0, 0]], [[0, 0, 0]], 0.01, 0.2, 0.5)
     fine = session.generate()
     session.clear_attractors()
+    session.add_layers([1], 0.002, ratio=1.3, count=4)
+    session.generate()
+    report = session.layers()
+    assert report.rows == 4 and abs(report.first_mean - 0.002) < 1e-4 and abs(report.growth_mean - 1.3) < 0.01
+    session.clear_layers()
     assert len(fine.triangles) > len(session.generate().triangles)
     session.set_background(mesh.vertices, mesh.triangles, sizes=np.full(len(mesh.vertices), 0.2))
     assert len(session.generate().triangles) < len(mesh.triangles) and session.background.outside == 0

@@ -273,6 +273,15 @@ class Session {
                                detail::count_of(elements.size()), detail::flat(elements), size, surrounding, reach));
   }
   void clear_attractors() { done(carreau_clear_attractors(get())); }
+  /// Rows of cells along curves, by their references: carreau_add_layers.
+  void add_layers(std::span<const std::int32_t> curves, double first, double ratio, std::int32_t count) {
+    done(carreau_add_layers(get(), detail::count_of(curves.size()), detail::data_or_null(curves), first, ratio, count));
+  }
+  void clear_layers() { done(carreau_clear_layers(get())); }
+  /// Of the layers of the last mesh, from 0 in the order of add_layers().
+  [[nodiscard]] carreau_layers_report layers_report(std::int64_t index = 0) {
+    return filled([index](carreau_session* session, carreau_layers_report* out) { return carreau_session_layers(session, index, out); });
+  }
   void clear_background() { done(carreau_clear_background(get())); }
   [[nodiscard]] carreau_background_report background_report() { return filled(carreau_session_background); }
 

@@ -342,6 +342,21 @@ class carreau_background_report(Structure):
     ]
 
 
+class carreau_layers_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("cells", c_int64),
+        ("rows", c_int32),
+        ("fewest_rows", c_int32),
+        ("first_min", c_double),
+        ("first_mean", c_double),
+        ("first_max", c_double),
+        ("growth_min", c_double),
+        ("growth_mean", c_double),
+        ("growth_max", c_double),
+    ]
+
+
 class carreau_estimator(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1018,6 +1033,9 @@ CARREAU = {
     "carreau_session_background": (c_int32, [c_void_p, POINTER(carreau_background_report)]),
     "carreau_add_attractor": (c_int32, [c_void_p, c_int64, Doubles, c_int64, Int32s, c_double, c_double, c_double]),
     "carreau_clear_attractors": (c_int32, [c_void_p]),
+    "carreau_add_layers": (c_int32, [c_void_p, c_int64, Int32s, c_double, c_double, c_int32]),
+    "carreau_clear_layers": (c_int32, [c_void_p]),
+    "carreau_session_layers": (c_int32, [c_void_p, c_int64, POINTER(carreau_layers_report)]),
     "carreau_estimate": (c_int32, [c_void_p, POINTER(carreau_estimator), c_int64, Doubles, Doubles, Doubles]),
     "carreau_transfer": (c_int32, [c_void_p, c_int32, c_int64, Doubles, c_int64, Doubles, POINTER(c_int64)]),
     "carreau_set_background_fields": (c_int32, [c_void_p, c_char_p, c_char_p]),

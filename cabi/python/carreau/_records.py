@@ -79,6 +79,20 @@ class BackgroundReport(NamedTuple):
     farthest: float
 
 
+class LayersReport(NamedTuple):
+    """One set of layers of the last mesh."""
+
+    cells: int
+    rows: int
+    fewest_rows: int
+    first_min: float
+    first_mean: float
+    first_max: float
+    growth_min: float
+    growth_mean: float
+    growth_max: float
+
+
 class AdaptationReport(NamedTuple):
     """The outcome of a loop."""
 
@@ -440,6 +454,7 @@ RECORDS: dict[type, Any] = {
     c.carreau_report: Report,
     c.carreau_interface: Interface,
     c.carreau_background_report: BackgroundReport,
+    c.carreau_layers_report: LayersReport,
     c.carreau_adaptation_report: AdaptationReport,
     c.carreau_part_counts: PartCounts,
     c.carreau_cell_quality: CellQuality,

@@ -13,7 +13,7 @@ from ._arrays import doubles, int32s, view
 from ._callbacks import Named, each_place
 from ._calls import Path, address, asked, counted, file_name, record, require_mesh, struct
 from ._library import lib
-from ._records import AdaptationReport, BackgroundReport, Delivered, Measure
+from ._records import AdaptationReport, BackgroundReport, Delivered, LayersReport, Measure
 from ._run import Host
 from .errors import ArgumentError, PartialError
 from .progress import Progress
@@ -102,6 +102,20 @@ class Studies:
     def clear_attractors(self) -> None:
         """Removes all attractors."""
         self._call(lib().clear_attractors)
+
+    def add_layers(self, curves: ArrayLike, first: float, ratio: float = 1.2, count: int = 10) -> None:
+        """Lets rows of cells grow from curves (references): the first row is `first` high, each other row `ratio` times as
+        high as the row below it."""
+        refs = int32s(np.atleast_1d(np.asarray(curves)), "curves", None)
+        self._call(lib().add_layers, len(refs), refs, first, ratio, count)
+
+    def clear_layers(self) -> None:
+        """Removes all layers."""
+        self._call(lib().clear_layers)
+
+    def layers(self, index: int = 0) -> LayersReport:
+        """Measures of a set of layers of the last mesh, in the order of add_layers()."""
+        return asked(c.carreau_layers_report, lambda out: self._call(lib().session_layers, index, out))  # type: ignore[no-any-return]
 
     def clear_background(self) -> None:
         """Removes the sizes of the functions above."""

@@ -8,6 +8,24 @@ namespace carreau {
 
 namespace {
 
+void put_layers(PacketWriter& packet, const std::vector<LayerCell>& layers) {
+  packet.put(static_cast<std::int64_t>(layers.size()));
+  for (const LayerCell& cell : layers) {
+    for (const std::int32_t v : cell.corners) packet.put(std::int64_t{v});
+    packet.put(std::int64_t{cell.layers}), packet.put(std::int64_t{cell.row});
+  }
+}
+
+std::vector<LayerCell> layers_of(PacketReader& packet) {
+  std::vector<LayerCell> layers;
+  for (std::int64_t n = packet.integer(); n > 0; --n) {
+    LayerCell& cell = layers.emplace_back();
+    for (std::int32_t& v : cell.corners) v = static_cast<std::int32_t>(packet.integer());
+    cell.layers = static_cast<std::int32_t>(packet.integer()), cell.row = static_cast<std::int32_t>(packet.integer());
+  }
+  return layers;
+}
+
 void put(PacketWriter& packet, const PatchMesh& patch) {
   packet.put(patch.plane.vertices);
   put_triangles(packet, patch.plane.triangles);
@@ -39,6 +57,7 @@ LimitError limit_of(PacketReader& packet) {
 void FaceOutcome::put(PacketWriter& packet) const {
   packet.put(patch.has_value());
   if (patch) carreau::put(packet, *patch);
+  put_layers(packet, layers);
   packet.put(elsewhere.has_value());
   if (elsewhere) packet.put(std::int64_t{elsewhere->rank}), packet.put(elsewhere->triangles);
   packet.put(space.has_value());
@@ -54,6 +73,7 @@ void FaceOutcome::put(PacketWriter& packet) const {
 FaceOutcome FaceOutcome::from(PacketReader& packet) {
   FaceOutcome outcome;
   if (packet.flag()) outcome.patch = patch_of(packet);
+  outcome.layers = layers_of(packet);
   if (packet.flag()) {
     const auto rank = static_cast<int>(packet.integer());
     outcome.elsewhere = PatchElsewhere{rank, packet.integer()};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "control_space/control_space.h"
+#include "mesh/layer_cell.h"
 #include "support/error.h"
 #include "support/ranks/packet.h"
 #include "surface/patch.h"
@@ -20,6 +21,7 @@ struct PatchElsewhere {
 
 struct FaceOutcome {
   std::optional<PatchMesh> patch;          ///< empty: the face failed
+  std::vector<LayerCell> layers = {};      ///< their halves are the last triangles of the patch
   std::optional<PatchElsewhere> elsewhere = {};  ///< set: the patch stays with a process, and is empty for all others
   std::optional<ControlSpace> space;       ///< the metric of the mesh; empty when it could not be sampled
   std::string failure;                     ///< the reason why the domain could not be meshed; empty when it was

@@ -39,7 +39,7 @@ bool same_domain(const FaceDomain& p, const FaceDomain& q) {
 void KnownPatches::keep(std::size_t face, const PatchInput& input, std::vector<EdgeSizes::Source> grow_from) {
   if (face >= known_.size()) return;
   if (known_[face] && known_[face]->mesh) room_ += known_[face]->mesh->plane.triangles.size();
-  known_[face] = Known{*input.domain, input.curve_xyz, std::move(grow_from), {}, {}};
+  known_[face] = Known{*input.domain, input.curve_xyz, std::move(grow_from), {}, {}, {}};
 }
 
 void KnownPatches::keep(std::size_t face, const FaceOutcome& outcome) {
@@ -52,6 +52,7 @@ void KnownPatches::keep(std::size_t face, const FaceOutcome& outcome) {
   room_ -= n;
   known_[face]->mesh = outcome.patch;
   known_[face]->remark = outcome.remark;
+  known_[face]->layers = outcome.layers;
 }
 
 std::optional<FaceOutcome> KnownPatches::find(std::size_t face, const PatchInput& input,
@@ -66,6 +67,7 @@ std::optional<FaceOutcome> KnownPatches::find(std::size_t face, const PatchInput
   outcome.patch = known.mesh;
   outcome.space = (*spaces_)[face];
   outcome.remark = known.remark;
+  outcome.layers = known.layers;
   return outcome;
 }
 

@@ -38,6 +38,7 @@ class KnownPatches {
     std::vector<EdgeSizes::Source> grow_from;
     std::optional<PatchMesh> mesh;  // empty: the face failed
     std::string remark;
+    std::vector<LayerCell> layers;
   };
   std::vector<std::optional<Known>> known_;
   const std::vector<std::optional<ControlSpace>>* spaces_ = nullptr;

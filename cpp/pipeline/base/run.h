@@ -17,6 +17,7 @@
 #include "periodic/periodic_model.h"
 #include "pipeline/base/known_patches.h"
 #include "surface/grade/size_grading.h"
+#include "surface/layers/layer_curves.h"
 #include "surface/narrow/narrow_faces.h"
 #include "surface/options.h"
 #include "surface/refine/boundary_refinement.h"
@@ -69,6 +70,8 @@ struct CompositeRun {
   CurveModel curve_model;
   PeriodicModel periodic;                  ///< empty: no periodicity
   std::optional<SlaveSizes> slave_sizes;  ///< joined to the rules
+  LayerCurves layers;
+  std::vector<std::vector<LayerCell>> layer_cells;  ///< mesh_patches(); MeshLayers::cells
 
   GradedModel graded;                             ///< grade_sizes()
   double begin = 0;                               ///< share of the run that was over before the curves

@@ -86,7 +86,7 @@ void FaceJob::step(Monitor& monitor) {
 }
 
 std::unique_ptr<FaceJob> FaceJob::shared() const {
-  auto job = std::make_unique<FaceJob>(given_, even_ ? *even_->host_cad : *cad_, even_ ? *even_->host_rules : *rules_, options_,
+  auto job = std::make_unique<FaceJob>(given_, even_ ? *even_->host_cad : *cad_, even_ ? *even_->host_rules : *rules_, layers_, options_,
                                        reentrant_);
   job->team_ = options_.team;
   return job;
@@ -94,6 +94,7 @@ std::unique_ptr<FaceJob> FaceJob::shared() const {
 
 FaceOutcome FaceJob::take_outcome() {
   FaceOutcome outcome{.patch = {},
+                      .layers = rows_ && failure_.empty() ? std::move(rows_->cells) : std::vector<LayerCell>{},
                       .space = std::move(space_),
                       .failure = std::move(failure_),
                       .remark = std::move(remark_),
@@ -111,8 +112,20 @@ void FaceJob::fail(const std::string& what) {
   next_ = Step::none;
 }
 
+// The rows stay as they are made: no later step of this face knows their cells.
+void FaceJob::set_rows_apart() {
+  if (rows_known_) return;
+  rows_known_ = true;
+  if (layers_.empty()) return;
+  rows_ = make_layer_rows(input_, layers_, *cad_);
+  if (!rows_) return;
+  input_.domain = &rows_->rest;
+  input_.curve_xyz = rows_->rest_xyz;
+}
+
 void FaceJob::sample(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
+  set_rows_apart();
   probe_points_ = rules_->steep_places(input_.face);
   if (input_.limits.field != nullptr) {
     const std::vector<Vec2>& minima = input_.limits.field->size_minima(input_.face);
@@ -242,6 +255,7 @@ bool FaceJob::take_best(Monitor& monitor) {
   else if (agreement.wrong())
     add_remark(agreement.text());
   if (even_) return_to_host(monitor);
+  if (rows_) mesh_ = with_rows(*rows_, *given_.domain, given_.curve_xyz, std::move(*mesh_));
   return true;
 }
 

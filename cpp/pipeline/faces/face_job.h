@@ -12,6 +12,7 @@
 #include "pipeline/base/face_outcome.h"
 #include "support/error.h"
 #include "support/stepped_tasks.h"
+#include "surface/layers/layer_rows.h"
 #include "surface/lift/surface_agreement.h"
 #include "surface/options.h"
 #include "surface/result.h"
@@ -23,12 +24,14 @@ namespace carreau {
 /// alone calls no host.
 class FaceJob final : public SteppedTask {
  public:
-  /// Keeps references to `cad` and `options`.
-  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
+  /// Keeps references to `cad`, `layers` and `options`.
+  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const LayerCurves& layers, const CompositeOptions& options,
+          bool reentrant)
       : given_(std::move(input)),
         input_(given_),
         cad_(&cad),
         rules_(&rules),
+        layers_(layers),
         options_(options),
         reentrant_(reentrant),
         given_slope_(input_.slope),
@@ -62,6 +65,7 @@ class FaceJob final : public SteppedTask {
   void check_agreement(const std::vector<int>& doubtful, Monitor& monitor);
   [[nodiscard]] bool sample_bounded(Monitor& monitor);
   bool take_best(Monitor& monitor);
+  void set_rows_apart();
   void add_remark(const std::string& what);
   bool refill_undersampled(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
@@ -87,8 +91,11 @@ class FaceJob final : public SteppedTask {
   };
 
   PatchInput given_, input_;
+  std::optional<LayerRows> rows_;  // along curves with layers: input_ is the rest of the face
+  bool rows_known_ = false;
   Cad* cad_;
   const SizeRules* rules_;
+  const LayerCurves& layers_;
   const CompositeOptions& options_;
   bool reentrant_;
   double given_slope_;

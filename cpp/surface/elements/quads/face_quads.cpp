@@ -25,6 +25,27 @@ const CurveSide* FaceQuads::side_between(std::int32_t a, std::int32_t b) const n
   return found != sides.end() && found->a == low && found->b == high ? &*found : nullptr;
 }
 
+bool FaceQuads::is_imposed(std::int32_t a, std::int32_t b) const noexcept {
+  return side_between(a, b) != nullptr || std::binary_search(tops.begin(), tops.end(), std::array{std::min(a, b), std::max(a, b)});
+}
+
+void set_rows_apart(FaceQuads& quads, const std::vector<LayerCell>& layers) {
+  std::size_t halves = 0;
+  for (const LayerCell& cell : layers) {
+    halves += cell.is_triangle() ? 1 : 2;
+    quads.rows.push_back(cell.corners);
+    const auto n = static_cast<std::size_t>(corners_of(cell.corners));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::int32_t a = cell.corners[k], b = cell.corners[(k + 1) % n];
+      quads.patch.fixed[static_cast<std::size_t>(a)] = 1;
+      quads.tops.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  quads.patch.cells.resize(quads.patch.cells.size() - halves);
+  std::sort(quads.tops.begin(), quads.tops.end());
+  quads.tops.erase(std::unique(quads.tops.begin(), quads.tops.end()), quads.tops.end());
+}
+
 namespace {
 
 /// An edge of a curve from vertex v to vertex a.
@@ -124,6 +145,7 @@ namespace {
 
 /// Drops unused local vertices, and marks their vertices of the mesh.
 void compact(FaceQuads& quads, std::vector<char>& gone) {
+  quads.patch.cells.insert(quads.patch.cells.end(), quads.rows.begin(), quads.rows.end());
   const std::size_t n = quads.patch.uv.size();
   std::vector<std::int32_t> now(n, -1);
   for (const MixedCell& cell : quads.patch.cells)

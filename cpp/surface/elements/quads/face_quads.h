@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "mesh/layer_cell.h"
 #include "periodic/match_faces.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/quads/quad_patch.h"
@@ -21,10 +22,17 @@ struct FaceQuads {
   std::vector<CurveSide> sides;      ///< on curves, ascending; of cells before they are cut
   std::vector<std::int32_t> middles;  ///< of sides: local vertices, once the cells are cut; -1: none
   std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
+  std::vector<MixedCell> rows;  ///< cells of layers, which no pass changes; put_back() adds them
+  std::vector<std::array<std::int32_t, 2>> tops;  ///< edges between these and other cells, ascending
   std::vector<std::int32_t> now;  ///< put_back(): by local vertex its number in the mesh of the face; -1: it is gone
 
   [[nodiscard]] const CurveSide* side_between(std::int32_t a, std::int32_t b) const noexcept;
+  /// On a curve, or at cells of layers.
+  [[nodiscard]] bool is_imposed(std::int32_t a, std::int32_t b) const noexcept;
 };
+
+/// Sets the cells of layers apart from the other cells, and fixes their vertices.
+void set_rows_apart(FaceQuads& quads, const std::vector<LayerCell>& layers);
 
 /// Vertices on curves, imposed points and corners of flattened triangles are fixed.
 FaceQuads face_quads(const ElementWork& work, std::size_t face);

@@ -26,13 +26,14 @@ void halve(std::vector<double>& sizes) {
 
 class Quadrilaterals {
  public:
-  explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
+  Quadrilaterals(const ElementWork& work, std::vector<std::vector<LayerCell>>* layers) : work_(work), layers_(layers) {}
 
   QuadraticReport run() {
     for (std::size_t f = 0; f < work_.result.mesh.faces.size(); ++f)
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       quads = face_quads(work_, quads.face);
+      if (has_layers(quads)) set_rows_apart(quads, (*layers_)[quads.face]);
       if (is_slave(quads)) return;
       pair(quads, monitor);
     });
@@ -59,11 +60,18 @@ class Quadrilaterals {
     std::sort(report.coarse.begin(), report.coarse.end());
     report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
     put_back(faces_, work_.result);
+    for (const FaceQuads& quads : faces_)
+      if (has_layers(quads))
+        for (LayerCell& cell : (*layers_)[quads.face])
+          for (std::int32_t& v : cell.corners) v = v < 0 ? v : quads.now[static_cast<std::size_t>(v)];
     for (const SlaveQuads& quads : slaves_) carry_back(quads, work_.result.mesh);
     return report;
   }
 
  private:
+  [[nodiscard]] bool has_layers(const FaceQuads& quads) const {
+    return layers_ != nullptr && quads.face < layers_->size() && !(*layers_)[quads.face].empty();
+  }
   [[nodiscard]] bool is_slave(const FaceQuads& quads) const {
     return work_.periodic != nullptr && work_.periodic->pair_of_slave[quads.face] >= 0;
   }
@@ -97,7 +105,7 @@ class Quadrilaterals {
 
   void pair(FaceQuads& quads, Monitor& monitor) const {
     const PairRules rules = pair_rules(
-        work_.options, work_.isotropic(), [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
+        work_.options, work_.isotropic(), [&](std::int32_t a, std::int32_t b) { return quads.is_imposed(a, b); },
         [&](std::int32_t v) { return quads.xyz[v]; });
     PlaneQuads plain(quads.patch);
     turn_ears(plain, rules.is_imposed);
@@ -157,6 +165,7 @@ class Quadrilaterals {
   }
 
   const ElementWork& work_;
+  std::vector<std::vector<LayerCell>>* layers_;
   std::vector<FaceQuads> faces_;
   std::vector<SlaveQuads> slaves_;
 };
@@ -170,6 +179,8 @@ void halve_sizes(CompositeResult& result, std::vector<DiscreteCurve>& curves) {
     if (space) space->scale_lengths(2);
 }
 
-QuadraticReport make_quadrilaterals(const ElementWork& work) { return Quadrilaterals(work).run(); }
+QuadraticReport make_quadrilaterals(const ElementWork& work, std::vector<std::vector<LayerCell>>* layers) {
+  return Quadrilaterals(work, layers).run();
+}
 
 }  // namespace carreau

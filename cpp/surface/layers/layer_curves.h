@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The curves along which cells lie in rows, and the heights of the rows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "curve/discrete_curve.h"
+#include "mesh/layer_cell.h"
+
+namespace carreau {
+
+/// Rows of cells that grow from curves: the first row is `first` high, each other row `ratio` times as high as the row
+/// below it. Rows end after `count`, or before they would be higher than the edges of the curve are long.
+struct CurveLayers {
+  std::vector<int> curves;  ///< references
+  double first = 0;         ///< model length, > 0
+  double ratio = 1.2;       ///< >= 1
+  int count = 1;            ///< >= 1
+};
+
+/// Layers of a run, and their cells in its mesh by face: the halves of the cells are the last triangles of a face. Empty:
+/// no face has layers.
+struct MeshLayers {
+  std::vector<CurveLayers> given;
+  std::vector<std::vector<LayerCell>> cells = {};
+};
+
+/// The layers of a run, by curve of the topology.
+class LayerCurves {
+ public:
+  LayerCurves() = default;
+  /// Throws InvalidArgument if a reference names no curve on a face, or if layers name one curve twice.
+  LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers);
+
+  [[nodiscard]] bool empty() const noexcept { return layers_.empty(); }
+  /// Index of the layers of a curve (index in Topology::curves), or -1.
+  [[nodiscard]] int of_curve(int curve) const noexcept {
+    return curve < 0 || of_curve_.empty() ? -1 : of_curve_[static_cast<std::size_t>(curve)];
+  }
+  /// Heights of the rows, lowest first, as long as they are at most `longest`. There is one row at least.
+  [[nodiscard]] std::vector<double> heights(int layers, double longest) const;
+
+ private:
+  std::vector<CurveLayers> layers_;
+  std::vector<int> of_curve_;
+};
+
+/// Moves vertices of curves that end at curves with layers: they lie at the heights of the rows.
+void place_rows_on_sides(const LayerCurves& layers, const CurveModel& model, std::vector<DiscreteCurve>& curves);
+
+}  // namespace carreau

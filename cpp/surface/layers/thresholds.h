@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this folder: their meaning, unit, reason and evidence.
+#pragma once
+
+namespace carreau::thresholds::layers {
+
+// In brackets: the tests of each value, in tests/cpp/surface/layers.
+
+/// Sine of the angle between a curve with layers and a curve that ends at it. Rows end at vertices of the other curve if
+/// it is larger (45 to 135 degrees): cells are not skewed more. [LayerRows.SidesHaveTheirVerticesAtTheHeights]
+inline constexpr double min_sine_of_side = 0.7;
+/// Angles inside the domain, degrees. Beyond the first a fan of columns turns around the corner; below the second the
+/// corner has no column, since rows would be twice as long as high. [LayerRows.CornersHaveFansAndMerge]
+inline constexpr double min_fan_angle = 240, min_column_angle = 60;
+/// Largest angle between two columns of a fan, degrees: heights above the chord between them are 3 % lower.
+/// [LayerRows.CornersHaveFansAndMerge]
+inline constexpr double fan_step = 30;
+/// Turn of the curve, degrees, from which neighbours of a concave corner lean towards its column.
+/// [LayerRows.CornersHaveFansAndMerge]
+inline constexpr double min_lean_angle = 20;
+/// Length on the curve, in heights of all rows at the corner's column, over which columns lean. The tops of columns are
+/// then half as far apart as their ends on the curve. [LayerRows.CornersHaveFansAndMerge]
+inline constexpr double lean_reach = 2;
+/// Share of its height over its own curve that a vertex may be near to another edge with layers: beyond the bisector, rows
+/// would cross. [LayerRows.RowsThatMeetEnd]
+inline constexpr double min_clearance = 0.85;
+/// Share of the height of the last row that the rows keep from edges without layers. [LayerRows.RowsThatMeetEnd]
+inline constexpr double wall_clearance = 0.5;
+/// Cosine of normals of edges that face each other. [LayerRows.RowsThatMeetEnd]
+inline constexpr double facing_cosine = -0.7;
+/// Share of the edge below that the upper edge of a cell keeps. [LayerRows.RowsThatMeetEnd]
+inline constexpr double min_narrowing = 0.2;
+/// Steps of Newton's method for a vertex of a column, and the errors along and across it that are accepted, as shares of
+/// its height. Two steps suffice on smooth surfaces.
+inline constexpr int max_newton_steps = 20;
+inline constexpr double max_height_error = 1e-3, max_side_error = 1e-2;
+
+}  // namespace carreau::thresholds::layers
