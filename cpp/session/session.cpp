@@ -306,8 +306,8 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
     if (part != nullptr) s.tried_parameters = s.parameters;
     keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
                 std::move(parts), background, measuring);
-  s.layer_figures = std::move(figures);
-  describe_layers(s.layer_figures, s.monitor);
+    s.layer_figures = std::move(figures);
+    describe_layers(s.layer_figures, s.monitor);
     if (part != nullptr) *part = part_of_mesh();
   }
   run.progress(Phase::idle, 0, 1);
