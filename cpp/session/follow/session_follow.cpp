@@ -101,6 +101,10 @@ void Session::keep_refined(CompositeResult result, Monitor& measuring) {
               measuring);
 }
 
+const HighOrderMesh& Session::raised() const {
+  if (!state_->raised) throw InvalidArgument("there are no elements of a higher order: make them first");
+  return *state_->raised;
+}
 bool Session::has_raised() const noexcept { return state_->raised.has_value(); }
 
 // An element between two edges of a curve that turn into each other is flat at their corner: an edge from it into the face parts them.
