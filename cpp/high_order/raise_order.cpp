@@ -375,50 +375,72 @@ class Raiser {
     return face.mid[t][e.corners == 4 && side >= 2 ? side - 1 : side];
   }
 
-  // Elements of order 2 are valid: as polynomials of a higher order they are, too. Neighbours must stay valid.
-  void lower(std::vector<std::size_t>& bad) {
-    std::size_t lowered = 0;
-    for (const std::size_t k : bad) {
-      const Element& e = elements_[k];
-      const FaceMesh& face = mesh_.faces[e.face];
-      if (face.mid.empty()) continue;
-      std::vector<std::size_t> beside;
-      for (int i = 0; i < e.corners; ++i)
-        for (const std::size_t n : around_.at(ordered(face.vertex[e.local[i]], face.vertex[e.local[(i + 1) % e.corners]])))
-          if (n != k) beside.push_back(n);
-      std::vector<std::size_t> all = beside;
-      all.push_back(k);
-      const Saved saved = save(all);
-      std::vector<char> was_valid;
-      for (const std::size_t n : beside) was_valid.push_back(score(elements_[n]) >= least_jacobian ? 1 : 0);
-      for (int i = 0; i < e.corners; ++i) {
-        const std::int32_t mid = mid_of(k, i);
-        if (mid < 0) continue;
-        const Vec3 &p = out_.nodes[e.node[i]], &q = out_.nodes[e.node[(i + 1) % e.corners]], &m = mesh_.mid_vertices[face.mid_vertex[mid]];
-        for (std::size_t n = 1; n < p_; ++n) {
-          const double s = places_[n];
-          out_.nodes[e.node[static_cast<std::size_t>(e.corners) + static_cast<std::size_t>(i) * (p_ - 1) + n - 1]] =
-              (1 - s) * (1 - 2 * s) * p + 4 * s * (1 - s) * m + s * (2 * s - 1) * q;
-        }
+  [[nodiscard]] std::vector<std::size_t> neighbours(std::size_t k) const {
+    const Element& e = elements_[k];
+    const FaceMesh& face = mesh_.faces[e.face];
+    std::vector<std::size_t> beside;
+    for (int i = 0; i < e.corners; ++i)
+      for (const std::size_t n : around_.at(ordered(face.vertex[e.local[i]], face.vertex[e.local[(i + 1) % e.corners]])))
+        if (n != k) beside.push_back(n);
+    return beside;
+  }
+
+  // Gives an element the polynomial of order 2.
+  void take_second_order(std::size_t k) {
+    const Element& e = elements_[k];
+    const FaceMesh& face = mesh_.faces[e.face];
+    for (int i = 0; i < e.corners; ++i) {
+      const std::int32_t mid = mid_of(k, i);
+      if (mid < 0) continue;
+      const Vec3 &p = out_.nodes[e.node[i]], &q = out_.nodes[e.node[(i + 1) % e.corners]], &m = mesh_.mid_vertices[face.mid_vertex[mid]];
+      for (std::size_t n = 1; n < p_; ++n) {
+        const double s = places_[n];
+        out_.nodes[e.node[static_cast<std::size_t>(e.corners) + static_cast<std::size_t>(i) * (p_ - 1) + n - 1]] =
+            (1 - s) * (1 - 2 * s) * p + 4 * s * (1 - s) * m + s * (2 * s - 1) * q;
       }
-      std::array<Vec3, 25> x = positions(e);
-      shape(e).place_inner(std::span(x.data(), shape(e).node_count()));
-      for (std::size_t i = shape(e).first_inner(); i < shape(e).node_count(); ++i) out_.nodes[e.node[i]] = x[i];
-      bool valid = score(e) >= least_jacobian;
-      for (std::size_t i = 0; i < beside.size() && valid; ++i) {
-        if (was_valid[i] == 0 || score(elements_[beside[i]]) >= least_jacobian) continue;
-        settle(elements_[beside[i]]);
-        valid = score(elements_[beside[i]]) >= least_jacobian;
-      }
-      if (valid)
-        ++lowered;
-      else
-        restore(saved);
     }
+    std::array<Vec3, 25> x = positions(e);
+    shape(e).place_inner(std::span(x.data(), shape(e).node_count()));
+    for (std::size_t i = shape(e).first_inner(); i < shape(e).node_count(); ++i) out_.nodes[e.node[i]] = x[i];
+  }
+
+  // Elements of order 2 are valid: as polynomials of a higher order they are, too. Neighbours that become invalid follow.
+  bool lower(std::size_t k, std::vector<std::size_t>& lowered) {
+    std::vector<std::size_t> group{k};
+    std::map<std::size_t, bool> was_valid{{k, false}};
+    std::vector<Saved> saved{save(group)};
+    for (int ring = 0; ring < max_rings; ++ring) {
+      for (const std::size_t member : group)
+        for (const std::size_t n : neighbours(member))
+          if (was_valid.try_emplace(n, score(elements_[n]) >= least_jacobian).second) saved.push_back(save({n}));
+      for (const std::size_t member : group) take_second_order(member);
+      std::vector<std::size_t> broken;
+      for (const auto& [n, valid] : was_valid) {
+        if (std::find(group.begin(), group.end(), n) != group.end()) continue;
+        settle(elements_[n]);
+        if (valid && score(elements_[n]) < least_jacobian) broken.push_back(n);
+      }
+      if (broken.empty()) {
+        if (std::any_of(group.begin(), group.end(), [&](std::size_t n) { return score(elements_[n]) < least_jacobian; })) break;
+        lowered.insert(lowered.end(), group.begin(), group.end());
+        return true;
+      }
+      group.insert(group.end(), broken.begin(), broken.end());
+    }
+    for (auto state = saved.rbegin(); state != saved.rend(); ++state) restore(*state);
+    return false;
+  }
+
+  void lower(std::vector<std::size_t>& bad) {
+    std::vector<std::size_t> lowered;
+    for (const std::size_t k : bad)
+      if (!mesh_.faces[elements_[k].face].mid.empty() && score(elements_[k]) < least_jacobian) lower(k, lowered);
     std::erase_if(bad, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
-    if (lowered > 0)
-      monitor_.message(Level::summary, std::to_string(lowered) + (lowered == 1 ? " element has" : " elements have") + " the shape of order 2, since order " +
-                                           std::to_string(p_) + " is invalid there: its curves meet at no angle");
+    std::sort(lowered.begin(), lowered.end());
+    const auto count = std::unique(lowered.begin(), lowered.end()) - lowered.begin();
+    if (count > 0)
+      monitor_.message(Level::summary, std::to_string(count) + (count == 1 ? " element has" : " elements have") + " the shape of order 2: order " +
+                                           std::to_string(p_) + " is invalid there or beside, where curves meet at no angle");
   }
 
   // The parabola through the node of second order, which repairs of that order have found.
