@@ -489,11 +489,11 @@ CARREAU_API carreau_status carreau_mesh_refine_sizes(carreau_session* session, i
 /* Places of nodes on the edges of elements: k / p, or the points of Gauss-Lobatto's quadrature. */
 enum { CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1 };
 
-/* Makes elements of order 2 to 4 over the elements of the session's mesh, which stays: best over a mesh of order 2 (parameter element), whose
+/* Makes elements of order 2 to 4 over the elements of the session's mesh: best over a mesh of order 2 (parameter element), whose
  * sizes were chosen for curved elements. They last until the mesh changes. Nodes of curves divide the arc length, other nodes are
  * closest points of chords and of the polynomials that the edges imply. Bernstein coefficients of the Jacobian prove the elements valid; in
- * elements that are not, inner nodes move, then nodes of inner edges. *out_invalid (may be NULL) counts the elements that stay
- * invalid; a warning names the first. Errors: ARGUMENT (order, places, a mesh across patches or of triangles), SEQUENCE (no mesh yet),
+ * elements that are not, inner nodes move, then nodes of inner edges; at last carreau_mesh_refine halves the edges of elements that stay
+ * invalid, up to four times. *out_invalid (may be NULL) counts the elements that are invalid then; a warning names the first. Errors: ARGUMENT (order, places, a mesh across patches or of triangles), SEQUENCE (no mesh yet),
  * CALLBACK, CANCELLED, MEMORY. */
 CARREAU_API carreau_status carreau_raise_order(carreau_session* session, int32_t order, int32_t places, int64_t* out_invalid);
 

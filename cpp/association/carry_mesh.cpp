@@ -290,7 +290,8 @@ class Carrier {
 
   void make_nodes() {
     const ElementWork work{to_, curves_to_, rules_, options_, out_, monitor_};
-    const QuadraticReport made = make_quadratic(work);
+    QuadraticReport made = make_quadratic(work);
+    if (const std::vector<CuspEnd> cusps = made.cusps; !cusps.empty()) made = make_quadratic(work, cusps);
     for (const InvalidElements& invalid : made.invalid)
       monitor_.message(Level::warning, mark_invalid(out_.mesh.faces[invalid.face], invalid.uv, invalid.count));
   }

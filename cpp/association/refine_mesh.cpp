@@ -576,7 +576,8 @@ class Refiner {
 
   void make_nodes() {
     const ElementWork work{model_, curves_, rules_, options_, result_, monitor_};
-    const QuadraticReport made = make_quadratic(work);
+    QuadraticReport made = make_quadratic(work);
+    if (const std::vector<CuspEnd> cusps = made.cusps; !cusps.empty()) made = make_quadratic(work, cusps);
     for (const InvalidElements& invalid : made.invalid)
       monitor_.message(Level::warning, mark_invalid(mesh_.faces[invalid.face], invalid.uv, invalid.count));
   }

@@ -24,6 +24,7 @@ struct HighOrderMesh {
   std::vector<std::pair<std::int32_t, std::string>> face_names = {};
   std::int64_t repaired = 0;              ///< elements that were invalid at first, and are valid
   std::vector<std::int32_t> invalid;      ///< elements that stay invalid: triangles, then quadrilaterals behind them
+  std::vector<std::array<std::int32_t, 2>> coarse = {};  ///< their edges off curves, by vertices; all edges of elements between curves
 };
 
 /// The mesh with nodes of its elements at equidistant or other places: the polynomials stay.

@@ -34,8 +34,8 @@ struct Element {
 
 class Raiser {
  public:
-  Raiser(const CurveModel& model, const CompositeResult& result, int order, NodePlaces places, Monitor& monitor)
-      : model_(model), result_(result), mesh_(result.mesh), monitor_(monitor), places_(places_on_edge(order, places)), triangle_(false, order, places),
+  Raiser(const CurveModel& model, const CompositeResult& result, int order, NodePlaces places, bool lowers, Monitor& monitor)
+      : model_(model), result_(result), mesh_(result.mesh), lowers_(lowers), monitor_(monitor), places_(places_on_edge(order, places)), triangle_(false, order, places),
         quad_(true, order, places), p_(static_cast<std::size_t>(order)) {
     out_.order = order, out_.places = places;
     out_.nodes = mesh_.vertices, out_.corners = static_cast<std::int32_t>(mesh_.vertices.size());
@@ -280,6 +280,7 @@ class Raiser {
       std::erase_if(bad, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
     }
     out_.repaired = static_cast<std::int64_t>(first - bad.size());
+    if (lowers_) lower(bad);
     invalid_ = bad;
   }
 
@@ -365,17 +366,90 @@ class Raiser {
     for (std::size_t i = 0; i < saved.node.size(); ++i) out_.nodes[saved.node[i]] = saved.xyz[i], node_uv_[saved.node[i]] = saved.uv[i];
   }
 
+  /// Index in FaceMesh::mid_uv of the node of second order on a side of an element.
+  [[nodiscard]] std::int32_t mid_of(std::size_t k, int side) const {
+    const Element& e = elements_[k];
+    const FaceMesh& face = mesh_.faces[e.face];
+    const std::size_t first = k - first_element_[e.face];
+    const std::size_t t = e.corners == 4 ? 2 * first + (side < 2 ? 0 : 1) : first + static_cast<std::size_t>(face.quads);
+    return face.mid[t][e.corners == 4 && side >= 2 ? side - 1 : side];
+  }
+
+  [[nodiscard]] std::vector<std::size_t> neighbours(std::size_t k) const {
+    const Element& e = elements_[k];
+    const FaceMesh& face = mesh_.faces[e.face];
+    std::vector<std::size_t> beside;
+    for (int i = 0; i < e.corners; ++i)
+      for (const std::size_t n : around_.at(ordered(face.vertex[e.local[i]], face.vertex[e.local[(i + 1) % e.corners]])))
+        if (n != k) beside.push_back(n);
+    return beside;
+  }
+
+  // Gives an element the polynomial of order 2.
+  void take_second_order(std::size_t k) {
+    const Element& e = elements_[k];
+    const FaceMesh& face = mesh_.faces[e.face];
+    for (int i = 0; i < e.corners; ++i) {
+      const std::int32_t mid = mid_of(k, i);
+      if (mid < 0) continue;
+      const Vec3 &p = out_.nodes[e.node[i]], &q = out_.nodes[e.node[(i + 1) % e.corners]], &m = mesh_.mid_vertices[face.mid_vertex[mid]];
+      for (std::size_t n = 1; n < p_; ++n) {
+        const double s = places_[n];
+        out_.nodes[e.node[static_cast<std::size_t>(e.corners) + static_cast<std::size_t>(i) * (p_ - 1) + n - 1]] =
+            (1 - s) * (1 - 2 * s) * p + 4 * s * (1 - s) * m + s * (2 * s - 1) * q;
+      }
+    }
+    std::array<Vec3, 25> x = positions(e);
+    shape(e).place_inner(std::span(x.data(), shape(e).node_count()));
+    for (std::size_t i = shape(e).first_inner(); i < shape(e).node_count(); ++i) out_.nodes[e.node[i]] = x[i];
+  }
+
+  // Elements of order 2 are valid: as polynomials of a higher order they are, too. Neighbours that become invalid follow.
+  bool lower(std::size_t k, std::vector<std::size_t>& lowered) {
+    std::vector<std::size_t> group{k};
+    std::map<std::size_t, bool> was_valid{{k, false}};
+    std::vector<Saved> saved{save(group)};
+    for (int ring = 0; ring < max_rings; ++ring) {
+      for (const std::size_t member : group)
+        for (const std::size_t n : neighbours(member))
+          if (was_valid.try_emplace(n, score(elements_[n]) >= least_jacobian).second) saved.push_back(save({n}));
+      for (const std::size_t member : group) take_second_order(member);
+      std::vector<std::size_t> broken;
+      for (const auto& [n, valid] : was_valid) {
+        if (std::find(group.begin(), group.end(), n) != group.end()) continue;
+        settle(elements_[n]);
+        if (valid && score(elements_[n]) < least_jacobian) broken.push_back(n);
+      }
+      if (broken.empty()) {
+        if (std::any_of(group.begin(), group.end(), [&](std::size_t n) { return score(elements_[n]) < least_jacobian; })) break;
+        lowered.insert(lowered.end(), group.begin(), group.end());
+        return true;
+      }
+      group.insert(group.end(), broken.begin(), broken.end());
+    }
+    for (auto state = saved.rbegin(); state != saved.rend(); ++state) restore(*state);
+    return false;
+  }
+
+  void lower(std::vector<std::size_t>& bad) {
+    std::vector<std::size_t> lowered;
+    for (const std::size_t k : bad)
+      if (!mesh_.faces[elements_[k].face].mid.empty() && score(elements_[k]) < least_jacobian) lower(k, lowered);
+    std::erase_if(bad, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
+    std::sort(lowered.begin(), lowered.end());
+    const auto count = std::unique(lowered.begin(), lowered.end()) - lowered.begin();
+    if (count > 0)
+      monitor_.message(Level::summary, std::to_string(count) + (count == 1 ? " element has" : " elements have") + " the shape of order 2: order " +
+                                           std::to_string(p_) + " is invalid there or beside, where curves meet at no angle");
+  }
+
   // The parabola through the node of second order, which repairs of that order have found.
   void follow_second_order(std::size_t k) {
     const Element& e = elements_[k];
     const FaceMesh& face = mesh_.faces[e.face];
     if (face.mid.empty()) return;
-    const auto first = static_cast<std::size_t>(k - first_element_[e.face]);
-    const auto quads = static_cast<std::size_t>(face.quads);
     for (int i = 0; i < e.corners; ++i) {
-      const std::size_t t = e.corners == 4 ? 2 * first + (i < 2 ? 0 : 1) : first + quads;
-      const int rank = e.corners == 4 && i >= 2 ? i - 1 : i;
-      const std::int32_t mid = face.mid[t][rank];
+      const std::int32_t mid = mid_of(k, i);
       std::int32_t a = e.local[i], b = e.local[(i + 1) % e.corners];
       if (face.vertex[a] > face.vertex[b]) std::swap(a, b);
       const Key key{face.vertex[a], face.vertex[b]};
@@ -431,6 +505,7 @@ class Raiser {
     }
     for (const std::size_t k : invalid_) out_.invalid.push_back(number[k] + (elements_[k].corners == 4 ? triangles : 0));
     std::sort(out_.invalid.begin(), out_.invalid.end());
+    for (const std::size_t k : invalid_) list_coarse(elements_[k]);
     for (const CurveMesh& curve : mesh_.curves)
       for (std::size_t k = 1; k < curve.vertices.size(); ++k) {
         const std::int32_t a = curve.vertices[k - 1], b = curve.vertices[k];
@@ -443,6 +518,19 @@ class Raiser {
       if (!face.name.empty()) out_.face_names.emplace_back(face.shown_ref(), face.name);
   }
 
+  void list_coarse(const Element& e) {
+    const FaceMesh& face = mesh_.faces[e.face];
+    const auto list = [&](bool of_curves) {
+      for (int i = 0; i < e.corners; ++i) {
+        const Key key = ordered(face.vertex[e.local[i]], face.vertex[e.local[(i + 1) % e.corners]]);
+        if (of_curves || !edges_.at(key).fixed) out_.coarse.push_back(key);
+      }
+    };
+    const std::size_t before = out_.coarse.size();
+    list(false);
+    if (out_.coarse.size() == before) list(true);
+  }
+
   struct Edge {
     std::int32_t first = -1;
     bool fixed = false;  // on a curve
@@ -450,6 +538,7 @@ class Raiser {
   const CurveModel& model_;
   const CompositeResult& result_;
   const SurfaceMesh& mesh_;
+  bool lowers_;
   Monitor& monitor_;
   std::vector<double> places_;
   ElementShape triangle_, quad_;
@@ -467,9 +556,9 @@ class Raiser {
 
 }  // namespace
 
-HighOrderMesh raise_order(const CurveModel& model, const CompositeResult& result, int order, NodePlaces places, Monitor& monitor) {
+HighOrderMesh raise_order(const CurveModel& model, const CompositeResult& result, int order, NodePlaces places, bool lowers, Monitor& monitor) {
   if (order < 2 || order > 4) throw InvalidArgument("the order is " + std::to_string(order) + "; it must be 2, 3 or 4");
-  return Raiser(model, result, order, places, monitor).run();
+  return Raiser(model, result, order, places, lowers, monitor).run();
 }
 
 HighOrderMesh with_places(const HighOrderMesh& mesh, NodePlaces places) {

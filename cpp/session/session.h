@@ -222,6 +222,8 @@ class Session {
   void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
                    CompositeResult result, std::shared_ptr<const PartResults> parts,
                    const std::shared_ptr<BackgroundField>& background, Monitor& measuring);
+  /// The refined mesh of the same model.
+  void keep_refined(CompositeResult result, Monitor& measuring);
   FlatMesh exported_as(MeshFormat format);
   [[nodiscard]] MeshFileOptions file_options() const;
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);

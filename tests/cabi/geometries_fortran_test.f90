@@ -101,6 +101,7 @@ program geometries_fortran_test
   call check(status == CARREAU_OK .and. all(params >= 0 .and. params <= 1) .and. all(ics <= 4), 'parameters of edges')
   call carreau_mesh_quality(mesh, quality, status)
   call check(quality%area > 2.2 .and. quality%area < 2.3, 'a square, and a saddle of 1.28')
+  call follow_and_raise
 
   call carreau_mesh_vertices(mesh, xyz, status)
   call carreau_mesh_triangles(mesh, triangles, status)
@@ -131,6 +132,62 @@ program geometries_fortran_test
   call carreau_mesh_free(copy)
   call carreau_session_free(session)
 contains
+  ! A square beside itself: carried, refined, and of order 3.
+  subroutine follow_and_raise
+    type(carreau_session) :: first, second
+    type(carreau_mesh) :: old, new
+    real(c_double), allocatable :: p(:, :), q(:, :)
+    integer(c_int32_t), allocatable :: corners(:, :), nodes(:, :), of_face(:)
+    integer(c_int64_t) :: vertices, before, after, k_edges, k_faces, invalid, quads
+    call make_square(first)
+    call make_square(second)
+    call carreau_mesh_generate(first, status)
+    call carreau_session_mesh(first, old, status)
+    call carreau_mesh_carry(second, old, status)
+    call check(status == CARREAU_OK, carreau_last_error(second))
+    call carreau_mesh_carry(second, old, status, match=CARREAU_MATCH_SHAPE)
+    call carreau_session_mesh(second, new, status)
+    call carreau_mesh_vertices(old, p, status)
+    call carreau_mesh_vertices(new, q, status)
+    call check(all(abs(p - q) < 1e-12_c_double), 'the same square')
+    call carreau_mesh_count(new, vertices, before, k_edges, k_faces, status)
+    call carreau_mesh_halve(second, 1, status)
+    call carreau_mesh_count(new, vertices, after, k_edges, k_faces, status)
+    call check(status == CARREAU_OK .and. after == 4*before, 'four for each')
+    call carreau_mesh_refine(second, CARREAU_MARK_ELEMENTS, [1], status)
+    call carreau_mesh_triangles(new, corners, status)
+    call carreau_mesh_refine(second, CARREAU_MARK_EDGES, corners(1:2, 1), status)
+    call check(status == CARREAU_OK .and. size(corners, 2) > after, carreau_last_error(second))
+    call carreau_mesh_count(new, vertices, after, k_edges, k_faces, status)
+    call carreau_mesh_refine_sizes(second, spread(0.03_c_double, 1, int(vertices)), status)
+    call carreau_mesh_count(new, vertices, before, k_edges, k_faces, status)
+    call check(status == CARREAU_OK .and. before > after, 'sizes')
+    call carreau_raise_order(first, 3, status, places=CARREAU_GAUSS_LOBATTO, invalid=invalid)
+    call check(status == CARREAU_OK .and. invalid == 0, carreau_last_error(first))
+    call carreau_raised_count(first, vertices, after, quads, k_edges, status)
+    call carreau_raised_nodes(first, p, status)
+    call carreau_raised_elements(first, 3, 3, nodes, of_face, status)
+    call check(status == CARREAU_OK .and. size(p, 2) == vertices .and. size(nodes, 2) == after .and. size(nodes, 1) == 10 .and. &
+      minval(nodes) == 1 .and. maxval(nodes) == vertices .and. all(of_face == 1) .and. quads == 0, 'order 3')
+    call carreau_raised_write(first, 'raised.vtu', status)
+    call check(status == CARREAU_OK, carreau_last_error(first))
+    call carreau_session_free(first)
+    call carreau_session_free(second)
+  end subroutine follow_and_raise
+
+  subroutine make_square(made)
+    type(carreau_session), intent(out) :: made
+    integer(c_int32_t) :: i
+    call carreau_session_create(made, status)
+    call carreau_geometry_begin(made, surface, interval, side, status)
+    call carreau_model_add_face(made, 1, 1, status)
+    do i = 1, 4
+      call carreau_model_add_curve(made, 1, CARREAU_BOUNDARY, i, i, mod(i, 4) + 1, status)
+    end do
+    call carreau_geometry_end(made, status)
+    call carreau_set_real(made, 'hphydef', 0.2d0, status)
+  end subroutine make_square
+
   ! Six lines, four corners, four plane faces of area 1/2 (three of them) and sqrt(3)/2.
   subroutine triangles_of_a_tetrahedron(fine)
     type(carreau_mesh), intent(in) :: fine

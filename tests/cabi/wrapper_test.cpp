@@ -442,6 +442,36 @@ TEST(Wrapper, EvaluatesAndProjects) {
   EXPECT_EQ(error_of([&] { carreau::embed_point(session, {0.5, 0.6, 0.5}); }).status(), carreau::Status::argument);
 }
 
+TEST(Wrapper, CarriesRefinesAndRaisesMeshes) {
+  const auto patch = [](double rise) { return carreau::BezierPatch{.m = 1, .n = 1, .controls = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, rise}}}; };  // z = rise u v
+  carreau::Session before, after;
+  const carreau::BezierPatch low = patch(1), high = patch(1.5);
+  carreau::add_bezier(before, std::span(&low, 1)), carreau::add_bezier(after, std::span(&high, 1));
+  for (carreau::Session* session : {&before, &after}) session->set("hphydef", 0.5);
+  before.generate();
+  EXPECT_EQ(carreau::carry_mesh(after, before.mesh()), carreau::Outcome::complete);
+  EXPECT_EQ(after.mesh().triangles(), before.mesh().triangles());
+  const std::vector<Point3> p = before.mesh().vertices(), q = after.mesh().vertices();
+  for (std::size_t v = 0; v < p.size(); ++v) EXPECT_NEAR(q[v][2], 1.5 * p[v][2], 1e-9);
+  const std::size_t triangles = after.mesh().triangles().size();
+  carreau::halve_mesh(after);
+  EXPECT_EQ(after.mesh().triangles().size(), 4 * triangles);
+  const std::array<std::int32_t, 1> element{0};
+  carreau::refine_elements(after, element);
+  const carreau::Triangle first = after.mesh().triangles().front();
+  const std::array<std::array<std::int32_t, 2>, 1> edge{{{first[0], first[1]}}};
+  carreau::refine_edges(after, edge);
+  EXPECT_GT(after.mesh().triangles().size(), 4 * triangles + 3);
+  carreau::refine_to_sizes(after, std::vector<double>(after.mesh().vertices().size(), 0.05));
+  EXPECT_GT(after.mesh().triangles().size(), 400U);
+  EXPECT_EQ(carreau::raise_order(before, 3), 0);
+  const carreau::RaisedElements raised = carreau::raised_elements(before, 3);
+  EXPECT_EQ(raised.triangles.size(), 10 * before.mesh().triangles().size());
+  for (const Point3& x : raised.nodes) EXPECT_NEAR(x[2], x[0] * x[1], 1e-12);
+  carreau::write_raised(before, "raised.mesh");
+  EXPECT_EQ(error_of([&] { carreau::write_raised(before, "raised.stl"); }).status(), carreau::Status::argument);
+}
+
 TEST(Wrapper, TakesTrianglesAndPlaneDomains) {
   const std::array<Point3, 4> corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const std::array<carreau::Triangle, 4> sides{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};

@@ -73,6 +73,57 @@ def test_places_of_space_are_embedded():
         session.embed_point([0, 0, 0])
 
 
+def ring(radius):
+    """A torus of this radius around the circle of radius 3."""
+    session = carreau.Session(hphydef=1)
+    session.add(carreau.Patch(lambda u, v: ((3 + radius * np.cos(v)) * np.cos(u), (3 + radius * np.cos(v)) * np.sin(u), radius * np.sin(v)), domain=TORUS_BOX))
+    return session
+
+
+def test_meshes_follow_their_geometry():
+    first = ring(1)
+    mesh = first.generate()
+    up, down = (ring(1 + d).carry(mesh) for d in (1e-4, -1e-4))
+    assert (up.triangles == mesh.triangles).all()
+    derivative = (up.vertices - down.vertices) / 2e-4  # of a point by the radius: its unit normal
+    around = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 1])
+    normal = mesh.vertices * np.stack([1 - 3 / around, 1 - 3 / around, np.ones(len(around))], 1)
+    assert np.allclose(derivative, normal, atol=1e-7)
+    with pytest.raises(ValueError, match="match"):
+        ring(1).carry(mesh, match="colour")
+    assert len(first.refine(elements=[0]).triangles) > len(mesh.triangles)
+    with pytest.raises(ValueError, match="one of"):
+        first.refine()
+    edge = first.mesh.triangles[0, :2]
+    before = len(first.mesh.triangles)
+    assert len(first.refine(edges=[edge]).triangles) > before
+    assert len(first.refine(sizes=np.full(len(first.mesh.vertices), 0.4)).triangles) > 4 * before
+    before = len(first.mesh.triangles)
+    assert len(first.halve().triangles) == 4 * before
+
+
+@pytest.mark.parametrize("places", ["equidistant", "gauss-lobatto"])
+def test_elements_of_order_three_and_four(tmp_path, places):
+    session = ring(1)
+    session["element"] = "p2"
+    session.generate()
+    for order in (3, 4):
+        raised = session.raise_order(order, places)
+        assert raised.invalid == 0 and raised.triangles.shape == (len(session.mesh.triangles), (order + 1) * (order + 2) // 2)
+        assert np.allclose(np.hypot(np.hypot(raised.nodes[:, 0], raised.nodes[:, 1]) - 3, raised.nodes[:, 2]), 1, atol=1e-9)
+        for suffix in ("msh", "vtu", "mesh"):
+            session.write_raised(str(tmp_path / f"x.{suffix}"))
+        text = (tmp_path / "x.mesh").read_text()
+        assert text.startswith("MFEM mesh v1.0") and f"L2_T1_2D_P{order}" in text
+        points = np.array(text[text.index("Ordering: 1") + 11:].split(), dtype=float).reshape(-1, 3)
+        assert len(points) == raised.triangles.size
+        corners = raised.nodes[raised.triangles[:, :3]]
+        width = raised.triangles.shape[1]
+        assert np.allclose(points[::width], corners[:, 0]) and np.allclose(points[order::width], corners[:, 1]) and np.allclose(points[width - 1::width], corners[:, 2])
+    with pytest.raises(ValueError, match="places"):
+        session.raise_order(3, "uniform")
+
+
 def test_vertices_know_the_entities_that_they_lie_on():
     mesh = carreau.mesh(torus, domain=TORUS_BOX, size=0.5)
     dimensions, refs = mesh.vertex_entities()

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of a session that are made of known meshes: carried from another session, or refined.
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "association/carry_mesh.h"
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
 #include "high_order/raise_order.h"
+#include "high_order/thresholds.h"
 #include "session/gluing.h"
 #include "session/options.h"
 #include "session/state.h"
@@ -84,34 +86,49 @@ void Session::refine_mesh(const RefineRequest& request) {
   const CurveModel model{meshed.model, meshed.topology, meshed.supports.of_face, cad};
   const SizeRules rules(meshed.model, meshed.topology, cad, meshed.options.size);
   CompositeResult result = s.result;
-  result.crossings.clear(), result.report.crossings = -1;
   carreau::refine_mesh(model, rules, meshed.options, request, run, result);
   result.report.calls = cad.counts();
   result.report.seconds_total = seconds_since(start);
-  Model same = meshed.model;
-  ModelSupports supports = meshed.supports;
-  Topology topology = meshed.topology;
-  CompositeOptions options = meshed.options;
-  keep_result(std::move(same), std::move(supports), std::move(topology), std::move(options), std::move(result), nullptr, meshed.background, run);
+  keep_refined(std::move(result), run);
   run.progress(Phase::idle, 0, 1);
+}
+
+void Session::keep_refined(CompositeResult result, Monitor& measuring) {
+  State& s = *state_;
+  result.crossings.clear(), result.report.crossings = -1;
+  Meshed same = s.meshed;
+  keep_result(std::move(same.model), std::move(same.supports), std::move(same.topology), std::move(same.options), std::move(result), nullptr, same.background,
+              measuring);
 }
 
 const HighOrderMesh& Session::raised() const {
   if (!state_->raised) throw InvalidArgument("there are no elements of a higher order: make them first");
   return *state_->raised;
 }
-
 bool Session::has_raised() const noexcept { return state_->raised.has_value(); }
 
+// An element between two edges of a curve that turn into each other is flat at their corner: an edge from it into the face parts them.
 const HighOrderMesh& Session::raise_order(int order, NodePlaces places) {
   State& s = *state_;
   (void)mesh();
   require_faces_with_uv(s.result, s.meshed, "raised in order");
   PartMonitor run(s.monitor, 0, 1);
-  CheckedCad whole_cad(*s.meshed.cad);
-  PartCad cad(whole_cad, parts_of(s.meshed.model));
-  const CurveModel model{s.meshed.model, s.meshed.topology, s.meshed.supports.of_face, cad};
-  HighOrderMesh made = carreau::raise_order(model, s.result, order, places, run);
+  const Meshed& meshed = s.meshed;
+  CheckedCad whole_cad(*meshed.cad);
+  PartCad cad(whole_cad, parts_of(meshed.model));
+  const CurveModel model{meshed.model, meshed.topology, meshed.supports.of_face, cad};
+  const SizeRules rules(meshed.model, meshed.topology, cad, meshed.options.size);
+  HighOrderMesh made = carreau::raise_order(model, s.result, order, places, false, run);
+  std::optional<CompositeResult> finer;
+  for (int round = 0; round < thresholds::high_order::max_divisions && !made.invalid.empty() && s.result.mesh.periodic.empty(); ++round) {
+    CompositeResult next = finer ? *finer : s.result;
+    carreau::refine_mesh(model, rules, meshed.options, {.edges = made.coarse}, run, next);
+    HighOrderMesh again = carreau::raise_order(model, next, order, places, false, run);
+    if (again.invalid.size() >= made.invalid.size()) break;
+    made = std::move(again), finer = std::move(next);
+  }
+  if (!made.invalid.empty()) made = carreau::raise_order(model, finer ? *finer : s.result, order, places, true, run);
+  if (finer) keep_refined(std::move(*finer), run);
   made.names = names();
   if (!made.invalid.empty()) {
     const auto n = static_cast<std::size_t>(made.invalid.front());
