@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -76,8 +79,19 @@ class Linker {
       }
   }
 
+  // The vertices of a curve in its direction: cross-patch remeshing may turn them round.
+  [[nodiscard]] std::vector<std::int32_t> chain_of(int curve) const {
+    std::vector<std::int32_t> chain = mesh_.curves[curve].vertices;
+    const std::vector<Vec3>& known = run_.curves[curve].xyz;
+    const auto runs_like = [&](auto first) {
+      return std::equal(known.begin(), known.end(), first, [this](const Vec3& p, std::int32_t v) { return mesh_.vertices[v] == p; });
+    };
+    if (mesh_.independent && chain.size() == known.size() && !runs_like(chain.begin()) && runs_like(chain.rbegin())) std::reverse(chain.begin(), chain.end());
+    return chain;
+  }
+
   [[nodiscard]] std::int32_t vertex_of(int curve, int point) const {
-    const std::vector<std::int32_t>& chain = mesh_.curves[curve].vertices;
+    const std::vector<std::int32_t> chain = chain_of(curve);
     if (chain.empty()) return -1;
     return run_.topology.curves[curve].end1 == point ? chain.front() : chain.back();
   }
@@ -88,6 +102,7 @@ class Linker {
     const CurveMesh &from = mesh_.curves[root], &to = mesh_.curves[c];
     if (c == root || shape.degenerate || from.vertices.size() != to.vertices.size() || from.vertices.empty()) return;
     if (from.vertices.size() != run_.curves[root].xyz.size()) return;
+    const std::vector<std::int32_t> vertices = chain_of(root), images = chain_of(c);
     const bool closed = shape.end1 == shape.end2;
     PeriodicLink linked = link(1, from.shown_ref(), to.shown_ref(), member.map);
     const auto n = static_cast<int>(from.vertices.size()) - 1;
@@ -95,7 +110,7 @@ class Linker {
     for (int k = 0; k <= n; ++k) {
       image.push_back(vertex_image(run_.curves[root], run_.curves[c], member.image, closed, k));
       if (image.back() < 0) return;
-      linked.nodes.push_back({to.vertices[image.back()], from.vertices[k]});
+      linked.nodes.push_back({images[image.back()], vertices[k]});
     }
     for (int k = 0; k < n && !from.mid.empty(); ++k) {
       const int i = image[k] % n, j = image[k + 1] % n;
@@ -110,6 +125,10 @@ class Linker {
     const FaceMesh &from = mesh_.faces[pair.master], &to = mesh_.faces[pair.slave];
     PeriodicLink linked = link(2, from.shown_ref(), to.shown_ref(), pair.map);
     const bool flipped = pair.flipped;
+    if (mesh_.independent) {
+      link_by_places(from, to, linked);
+      return;
+    }
     if (from.triangles.size() != to.triangles.size()) return;
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {
       const std::size_t u = image_triangle(from, t, flipped);
@@ -118,6 +137,28 @@ class Linker {
         if (from.mid.empty() || from.mid[t][i] < 0) continue;
         linked.nodes.push_back({first_mid_ + to.mid_vertex[to.mid[u][flipped ? 2 - i : i]], first_mid_ + from.mid_vertex[from.mid[t][i]]});
       }
+    }
+    keep(std::move(linked));
+  }
+
+  // Cross-patch remeshing keeps periodic triangles, in another order.
+  void link_by_places(const FaceMesh& from, const FaceMesh& to, PeriodicLink& linked) {
+    const double gap = run_.periodic.gap, width = 4 * gap;
+    using Cell = std::array<std::int64_t, 3>;
+    const auto cell_of = [width](const Vec3& p) -> Cell {
+      return {std::llround(p.x() / width), std::llround(p.y() / width), std::llround(p.z() / width)};
+    };
+    std::map<Cell, std::vector<std::int32_t>> slaves;
+    for (const std::int32_t v : to.vertex) slaves[cell_of(mesh_.vertices[v])].push_back(v);
+    for (const std::int32_t v : from.vertex) {
+      const Vec3 image = linked.map(mesh_.vertices[v]);
+      std::set<Cell> cells;
+      for (int corner = 0; corner < 8; ++corner)
+        cells.insert(cell_of(image + gap * Vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1)));
+      for (const Cell& cell : cells)
+        if (const auto found = slaves.find(cell); found != slaves.end())
+          for (const std::int32_t w : found->second)
+            if (norm(mesh_.vertices[w] - image) <= gap) linked.nodes.push_back({w, v});
     }
     keep(std::move(linked));
   }
