@@ -71,7 +71,7 @@ class Tracer {
   std::size_t rank_ = 0;  // of the chord
 };
 
-// Where faces touch, the trace stays on the preferred one.
+// The trace stays on the preferred face if faces touch.
 Foot Tracer::foot(const Vec3& x, double t, int preferred) {
   if (++projections_ > limit::projections_of_chord)
     throw InvalidArgument("segment " + std::to_string(rank_) + " of the polyline does not follow the faces near " + format_point(x) + ": more points are required");
@@ -204,7 +204,7 @@ void Tracer::attach(End& end) {
     if (const Ground::Place near = ground_.closest(1, end.at, 0); near.distance <= length(limit::same_place)) end.curve = near.ref;
 }
 
-// A piece along a curve of another face joins it. Where the foot of a sheet lies on a body, the piece may have been found on the sheet.
+// A piece along a curve of another face joins it. The piece may have been found on a sheet whose foot lies on a body.
 std::vector<Piece> Tracer::checked(Piece piece) {
   if (!ground_.has_curves) return {piece};
   int along = 0;

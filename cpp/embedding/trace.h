@@ -32,7 +32,7 @@ struct Ground {
   std::function<SurfaceJet(int face, unsigned want, const Vec2& uv)> surface;
   /// The point nearest to the segments a-y-b among the curves that both faces have. Returns false if they have none.
   std::function<bool(int face, int other, const Vec3& a, const Vec3& b, Vec3& y)> border;
-  /// Whether a face has the curve.
+  /// Returns whether a face has the curve.
   std::function<bool(int face, int curve)> has;
   bool has_curves = true, has_points = true;
   double diagonal = 0;
