@@ -403,7 +403,7 @@ CARREAU_API carreau_status carreau_evaluate(carreau_session* session, int32_t di
 /* Finds the closest point of an entity to each of n points of space, n x 3; a reference of 0 means all entities of that dimension. The
  * result is the closest point of all, not only of a neighbourhood, and lies within a domain or on its boundary. Among several closest
  * points the choice is always the same. References (n) name the entities found, parameters are n x dimension, and distances are lengths of the model.
- * Each result may be NULL.
+ * Each result may be NULL. If the geometry fails on some faces, the results are closest points of the others (PARTIAL).
  *
  * The first call cuts each face into pieces that are nearly quadratic, by 25 evaluations a piece. They serve further calls until the
  * geometry, the model or the mesh of the session changes. Details smaller than the distances between these places stay unseen. A point then

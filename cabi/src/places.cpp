@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places of the model of a session.
 #include <limits>
+#include <map>
 
 #include "arguments.h"
 #include "carreau_geometry.h"
@@ -81,13 +82,16 @@ carreau_status carreau_project(carreau_session* session, int32_t dimension, int3
       if (!carreau::is_finite(points[i])) throw InvalidArgument("a coordinate of point " + std::to_string(i) + " is not finite");
     }
     std::vector<ProjectedPoint> found(points.size());
-    session->session.project(dimension, reference, points, found);
+    const std::map<int, std::string> failed = session->session.project(dimension, reference, points, found);
     for (const ProjectedPoint& point : found) {
       if (out_references != nullptr) *out_references++ = point.ref;
       if (out_parameters != nullptr) out_parameters = std::copy(point.parameters.data(), point.parameters.data() + dimension, out_parameters);
       if (out_closest != nullptr) out_closest = put(point.xyz, out_closest);
       if (out_distances != nullptr) *out_distances++ = point.distance;
     }
+    if (!failed.empty())
+      throw StatusError(CARREAU_ERR_PARTIAL, "the closest points leave out a face: " + failed.begin()->second +
+                                                 (failed.size() > 1 ? " (and " + std::to_string(failed.size() - 1) + " more faces)" : ""));
   });
 }
 

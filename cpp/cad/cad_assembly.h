@@ -17,7 +17,7 @@ class CadAssembly final : public Cad {
   struct Part {
     std::shared_ptr<Cad> cad;
     int first_face = 1, last_face = 0, first_point = 1, last_point = 0;
-    /// By face: the number of curves that the part evaluates. The host evaluates the others, by references of the assembly. Empty: all.
+    /// The number of curves of each face that the part evaluates. The host evaluates the others, by references of the assembly. Empty: all.
     std::vector<int> curves = {};
   };
   /// `host` may be null. Ranges of parts ascend and do not overlap.

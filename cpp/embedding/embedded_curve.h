@@ -20,7 +20,7 @@ struct EmbeddedCurve {
   [[nodiscard]] CurveJet at(double t) const;
 };
 
-/// By reference of the face and rank of the curve in it.
+/// Curves by the reference of the face and their rank in it.
 using EmbeddedCurves = std::map<std::pair<int, int>, std::shared_ptr<const EmbeddedCurve>>;
 
 /// Passes everything on, except for the embedded curves. Prescribes no size on them.

@@ -121,15 +121,28 @@ std::size_t Embedder::index_of(int face) const {
 
 Ground Embedder::ground(double tolerance) {
   Ground ground;
-  ground.closest = [this](int dimension, const Vec3& x) -> Ground::Place {
+  ground.closest = [this](int dimension, const Vec3& x, int ref) -> Ground::Place {
     ProjectedPoint found;
-    projector_.project(dimension, 0, {&x, 1}, {&found, 1}, 1, monitor_);
+    projector_.project(dimension, ref, {&x, 1}, {&found, 1}, 1, monitor_);
     if (dimension == 2 && model_.faces[index_of(found.ref)].discrete)
       throw InvalidArgument(Where{.face = found.ref}, "it is given by triangles, in which no point or curve can be embedded");
     return {found.ref, found.parameters, found.xyz, found.distance};
   };
   ground.surface = [this](int face, unsigned want, const Vec2& uv) { return surface_at(*cad_, face, want, uv); };
   ground.border = [this](int face, int other, const Vec3& a, const Vec3& b, Vec3& y) { return border(face, other, a, b, y); };
+  ground.other_face = [this](int curve, std::span<const Vec3> points) {
+    for (const Face& face : model_.faces) {
+      if (face.is_wire() || face.discrete || !face.left_out.empty()) continue;
+      if (std::any_of(face.curves.begin(), face.curves.end(), [&](const FaceCurve& each) { return origin(each.ref) == curve; })) continue;
+      const bool on = std::all_of(points.begin(), points.end(), [&](const Vec3& x) {
+        ProjectedPoint found;
+        projector_.project(2, face.ref, {&x, 1}, {&found, 1}, 1, monitor_);
+        return found.distance <= limit::same_place * diagonal_;
+      });
+      if (on) return face.ref;
+    }
+    return 0;
+  };
   ground.has = [this](int face, int curve) {
     const std::vector<FaceCurve>& curves = model_.faces[index_of(face)].curves;
     return std::any_of(curves.begin(), curves.end(), [&](const FaceCurve& each) { return origin(each.ref) == curve; });
@@ -435,13 +448,13 @@ void Embedder::place(const Piece& piece, int& whole) {
 int Embedder::embed_point(const Vec3& x, double tolerance) {
   const Ground on = ground(tolerance);
   if (!is_finite(x)) throw InvalidArgument("a coordinate of the point is not finite");
-  const Ground::Place place = on.closest(2, x);
+  const Ground::Place place = on.closest(2, x, 0);
   if (!(place.distance <= on.tolerance)) embedding::report_far("the point", x, place, on.tolerance);
   End end{place.xyz};
   if (has_points_)
-    if (const Ground::Place near = on.closest(0, x); near.distance <= on.tolerance) return near.ref;
+    if (const Ground::Place near = on.closest(0, x, 0); near.distance <= on.tolerance) return near.ref;
   if (has_curves_)
-    if (const Ground::Place near = on.closest(1, x); near.distance <= on.tolerance) end = {near.xyz, near.ref};
+    if (const Ground::Place near = on.closest(1, x, 0); near.distance <= on.tolerance) end = {near.xyz, near.ref};
   const std::size_t f = index_of(place.ref);
   touch(end, f);
   Vec2 uv = place.uv;

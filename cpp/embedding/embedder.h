@@ -72,7 +72,7 @@ class Embedder {
   [[nodiscard]] std::vector<Vec3> points_of(const Use& use) const;
   void embed_wire(std::size_t wire, double tolerance);
 
-  /// What an embedding changes.
+  /// The members that an embedding changes.
   struct Content {
     Model model;
     EmbeddedCurves curves;

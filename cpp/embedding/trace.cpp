@@ -52,7 +52,7 @@ class Tracer {
 
  private:
   [[nodiscard]] double length(double share) const { return share * ground_.diagonal; }
-  Foot foot(const Vec3& x, double t);
+  Foot foot(const Vec3& x, double t, int preferred);
   Vec3 vertex(const Vec3& x, std::size_t rank, bool end);
   void chord(const Vec3& from, const Vec3& to, int depth);
   void refine(const Foot& a, const Foot& b, const Vec3& direction, const Vec3& origin, double t0);
@@ -60,33 +60,37 @@ class Tracer {
   static Vec2 slope(const Foot& foot, const Vec3& direction);
   std::vector<Piece> pieces();
   void attach(End& end);
-  void check(Piece& piece);
+  std::vector<Piece> checked(Piece piece);
 
   const Ground& ground_;
   std::vector<Item> items_;
   double t_ = 0;  // length of the chords before
   std::optional<Gap> gap_;
+  int face_ = 0;  // of the last item; behind a step, the next one
   int projections_ = 0;
   std::size_t rank_ = 0;  // of the chord
 };
 
-Foot Tracer::foot(const Vec3& x, double t) {
+// The trace stays on the preferred face if faces touch.
+Foot Tracer::foot(const Vec3& x, double t, int preferred) {
   if (++projections_ > limit::projections_of_chord)
     throw InvalidArgument("segment " + std::to_string(rank_) + " of the polyline does not follow the faces near " + format_point(x) + ": more points are required");
-  const Ground::Place place = ground_.closest(2, x);
+  Ground::Place place = ground_.closest(2, x, 0);
+  if (preferred != 0 && place.ref != preferred)
+    if (const Ground::Place other = ground_.closest(2, x, preferred); other.distance <= place.distance + length(limit::jump)) place = other;
   return {t, x, place.ref, place.uv, place.xyz, ground_.surface(place.ref, everything, place.uv)};
 }
 
 // An end within the tolerance of a point or curve joins it.
 Vec3 Tracer::vertex(const Vec3& x, std::size_t rank, bool end) {
   if (!is_finite(x)) throw InvalidArgument("a coordinate of point " + std::to_string(rank) + " of the polyline is not finite");
-  const Ground::Place place = ground_.closest(2, x);
+  const Ground::Place place = ground_.closest(2, x, 0);
   if (!(place.distance <= ground_.tolerance))
     report_far("point " + std::to_string(rank) + " of the polyline", x, place, ground_.tolerance);
   if (end)
     for (const int dimension : {0, 1}) {
       if (!(dimension == 0 ? ground_.has_points : ground_.has_curves)) continue;
-      if (const Ground::Place near = ground_.closest(dimension, x); near.distance <= ground_.tolerance) return near.xyz;
+      if (const Ground::Place near = ground_.closest(dimension, x, 0); near.distance <= ground_.tolerance) return near.xyz;
     }
   return place.xyz;
 }
@@ -109,15 +113,16 @@ void Tracer::step(const Foot& a, const Foot& b) {
   const Vec3 y = (a.xyz + b.xyz) / 2;
   End end{y};
   if (ground_.has_points)
-    if (const Ground::Place near = ground_.closest(0, y); near.distance <= length(limit::same_place)) end.at = near.xyz, end.point = near.ref;
+    if (const Ground::Place near = ground_.closest(0, y, 0); near.distance <= length(limit::same_place)) end.at = near.xyz, end.point = near.ref;
   if (end.point == 0) {
     Ground::Place near;
-    if (ground_.has_curves) near = ground_.closest(1, y);
+    if (ground_.has_curves) near = ground_.closest(1, y, 0);
     if (near.ref == 0 || near.distance > length(limit::same_place))
       throw InvalidArgument("the polyline passes " + format_point(y) + " of face " + std::to_string(a.face) + ", where (u, v) is not continuous");
     end.at = near.xyz, end.curve = near.ref;
   }
   items_.push_back({std::nullopt, end});
+  face_ = b.face;
 }
 
 void Tracer::refine(const Foot& a, const Foot& b, const Vec3& direction, const Vec3& origin, double t0) {
@@ -128,14 +133,16 @@ void Tracer::refine(const Foot& a, const Foot& b, const Vec3& direction, const V
     if (!near) return step(a, b);
     const Vec2 d = (b.uv - a.uv) / h;
     items_.push_back({Span{a, b, d, d}, {}});
+    face_ = b.face;
     return;
   }
-  const Foot middle = foot(origin + (t - t0) * direction, t);
+  const Foot middle = foot(origin + (t - t0) * direction, t, a.face);
   if (a.face == b.face && middle.face == a.face) {
     const Vec2 start = slope(a, direction), finish = slope(b, direction);
     const Vec2 uv = (a.uv + b.uv) / 2 + h / 8 * (start - finish);
     if (norm(ground_.surface(a.face, want_position, uv).s - middle.xyz) <= length(limit::accuracy)) {
       items_.push_back({Span{a, b, start, finish}, {}});
+      face_ = b.face;
       return;
     }
   }
@@ -147,15 +154,16 @@ void Tracer::chord(const Vec3& from, const Vec3& to, int depth) {
   const double size = norm(to - from);
   if (size <= length(limit::jump)) return;
   const std::size_t before = items_.size();
+  const int face_before = face_;
   gap_.reset();
-  const Foot first = foot(from, t_), last = foot(to, t_ + size);
+  const Foot first = foot(from, t_, face_), last = foot(to, t_ + size, first.face);
   refine(first, last, Vec3((to - from) / size), from, t_);
   if (!gap_) {
     t_ += size;
     return;
   }
   const Gap gap = *gap_;
-  items_.resize(before);
+  items_.resize(before), face_ = face_before;
   Vec3 y;
   if (depth >= limit::divisions_of_chord || gap.before.face == gap.behind.face || !ground_.border(gap.before.face, gap.behind.face, first.xyz, last.xyz, y))
     throw InvalidArgument("segment " + std::to_string(rank_) + " of the polyline leaves the surface at " + format_point(gap.before.x) + ", between face " +
@@ -188,28 +196,34 @@ std::vector<Piece> Tracer::trace(std::span<const Vec3> points) {
 void Tracer::attach(End& end) {
   if (end.curve != 0 || end.point != 0) return;
   if (ground_.has_points)
-    if (const Ground::Place near = ground_.closest(0, end.at); near.distance <= length(limit::same_place)) {
+    if (const Ground::Place near = ground_.closest(0, end.at, 0); near.distance <= length(limit::same_place)) {
       end.point = near.ref;
       return;
     }
   if (ground_.has_curves)
-    if (const Ground::Place near = ground_.closest(1, end.at); near.distance <= length(limit::same_place)) end.curve = near.ref;
+    if (const Ground::Place near = ground_.closest(1, end.at, 0); near.distance <= length(limit::same_place)) end.curve = near.ref;
 }
 
-// A piece along a curve of another face joins it.
-void Tracer::check(Piece& piece) {
-  if (!ground_.has_curves) return;
+// A piece along a curve of another face joins it. The piece may have been found on a sheet whose foot lies on a body.
+std::vector<Piece> Tracer::checked(Piece piece) {
+  if (!ground_.has_curves) return {piece};
   int along = 0;
   for (const double share : {0.31, 0.5, 0.77}) {
     const double t = piece.curve.t.front() + share * (piece.curve.t.back() - piece.curve.t.front());
-    const Vec3 x = ground_.surface(piece.face, want_position, piece.curve.at(t).c).s;
-    const Ground::Place near = ground_.closest(1, x);
-    if (near.distance > length(limit::same_place)) return;
+    const Ground::Place near = ground_.closest(1, ground_.surface(piece.face, want_position, piece.curve.at(t).c).s, 0);
+    if (near.distance > length(limit::same_place)) return {piece};
     along = near.ref;
   }
   if (!ground_.has(piece.face, along)) {
     piece.along = along;
-    return;
+    return {piece};
+  }
+  std::vector<Vec3> points;
+  for (const Vec2& uv : piece.curve.uv) points.push_back(ground_.surface(piece.face, want_position, uv).s);
+  if (const int other = ground_.other_face(along, points); other != 0) {
+    Ground on_other = ground_;
+    on_other.closest = [this, other](int dimension, const Vec3& x, int ref) { return ground_.closest(dimension, x, dimension == 2 ? other : ref); };
+    return Tracer(on_other).trace(points);
   }
   throw InvalidArgument("the polyline runs along curve " + std::to_string(along) + " of the model from " + format_point(piece.begin.at) + " to " +
                         format_point(piece.end.at));
@@ -250,8 +264,12 @@ std::vector<Piece> Tracer::pieces() {
   const End final_end{last};
   if (!piece.curve.t.empty() && piece.curve.t.back() - piece.curve.t.front() > length(limit::same_place)) finish(final_end);
   if (found.empty()) throw InvalidArgument("the points of the polyline are one");
-  for (Piece& each : found) attach(each.begin), attach(each.end), check(each);
-  return found;
+  std::vector<Piece> all;
+  for (Piece& each : found) {
+    attach(each.begin), attach(each.end);
+    for (Piece& part : checked(std::move(each))) all.push_back(std::move(part));
+  }
+  return all;
 }
 
 }  // namespace

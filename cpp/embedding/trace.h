@@ -19,18 +19,20 @@ namespace embedding {
 
 /// The geometry of a model, as a trace needs it. Calls are by the run's thread.
 struct Ground {
-  /// Of the dimension: the closest point of all its entities, whose reference is `ref`.
+  /// The closest point of an entity, or of all entities of the dimension if `ref` is 0.
   struct Place {
     int ref = 0;
     Vec2 uv;  ///< of a face
     Vec3 xyz;
     double distance = 0;
   };
-  std::function<Place(int dimension, const Vec3& x)> closest;
+  std::function<Place(int dimension, const Vec3& x, int ref)> closest;
+  /// A face without that curve on which all points lie; 0: none.
+  std::function<int(int curve, std::span<const Vec3> points)> other_face;
   std::function<SurfaceJet(int face, unsigned want, const Vec2& uv)> surface;
   /// The point nearest to the segments a-y-b among the curves that both faces have. Returns false if they have none.
   std::function<bool(int face, int other, const Vec3& a, const Vec3& b, Vec3& y)> border;
-  /// Whether a face has the curve.
+  /// Returns whether a face has the curve.
   std::function<bool(int face, int curve)> has;
   bool has_curves = true, has_points = true;
   double diagonal = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <optional>
 
@@ -102,9 +103,16 @@ struct Projector::State {
       }
   }
 
+  /// Remembers a face on which the host fails; which of its errors does not depend on the threads.
+  void keep_failure(std::size_t f, const CallbackError& error, std::map<int, std::string>& to) {
+    const std::lock_guard guard(failing);
+    const auto [at, first] = to.emplace(model.faces[f].ref, error.what());
+    if (!first && error.what() < at->second) at->second = error.what();
+  }
+
   void prepare(int threads, Monitor& monitor);
   void collect_points();
-  void search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curves, Monitor& monitor);
+  void search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curves, std::map<int, std::string>& failed, Monitor& monitor);
   void nearest_points(std::optional<int> ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) const;
 
   std::shared_ptr<Cad> host;
@@ -115,6 +123,8 @@ struct Projector::State {
   std::map<int, std::size_t> faces;
   std::map<int, CurvePlace> curves;  // the first use decides
 
+  std::mutex failing;
+  std::map<int, std::string> failed_at_first;  // faces without pieces
   bool prepared = false;
   ModelSupports supports;
   double diagonal = 0;
@@ -182,7 +192,17 @@ void Projector::State::prepare(int threads, Monitor& monitor) {
                                  },
                                  here);
   };
-  run_each(model.faces.size(), bound(), threads, make, monitor);
+  failed_at_first.clear();
+  const auto make_or_fail = [&](std::size_t f, Monitor& here) {
+    try {
+      make(f, here);
+    } catch (const CallbackError& error) {
+      of_faces[f] = {};
+      keep_failure(f, error, failed_at_first);
+    }
+  };
+  run_each(model.faces.size(), bound(), threads, make_or_fail, monitor);
+  if (!faces.empty() && failed_at_first.size() == faces.size()) throw CallbackError(failed_at_first.begin()->second);
   for (const auto& [ref, place] : curves) {
     curve_refs.push_back(ref);
     of_curves.push_back(pieces_of_curve(static_cast<int>(place.face), static_cast<int>(place.curve), supports.of_face[place.face][place.curve]));
@@ -244,7 +264,7 @@ void Projector::State::nearest_points(std::optional<int> ref, std::span<const Ve
 
 // All searches go on together: their places go to the host face by face.
 void Projector::State::search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curve,
-                              Monitor& monitor) {
+                              std::map<int, std::string>& failed, Monitor& monitor) {
   std::vector<PointSearch> searches;
   searches.reserve(x.size());
   for (const Vec3& each : x) searches.emplace_back(entities, only, each, diagonal);
@@ -275,7 +295,14 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
       }
       jets.resize(uv.size());
       const auto& domain = of_faces[face].domain;
-      evaluate_about(face, domain ? &*domain : nullptr, everything, uv, jets);
+      try {
+        evaluate_about(face, domain ? &*domain : nullptr, everything, uv, jets);
+      } catch (const CallbackError& error) {
+        keep_failure(face, error, failed);
+        SurfaceJet none;
+        none.s = {std::nan(""), std::nan(""), std::nan("")};
+        std::fill(jets.begin(), jets.end(), none);
+      }
       for (std::size_t k = first; k < end; ++k) {
         const Asked& each = asked[k];
         const SurfaceJet& jet = jets[k - first];
@@ -285,7 +312,11 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     const PointSearch::Found& best = searches[i].best();
-    if (best.entity < 0) throw InvalidArgument("no point of the model was found for point " + std::to_string(i));
+    if (best.entity < 0) {
+      const std::lock_guard guard(failing);
+      if (!failed.empty()) throw CallbackError(failed.begin()->second);
+      throw InvalidArgument("no point of the model was found for point " + std::to_string(i));
+    }
     const auto entity = static_cast<std::size_t>(best.entity);
     out[i] = {of_curve ? curve_refs[entity] : model.faces[entity].ref, best.place.parameters, best.xyz, std::sqrt(best.square)};
     if (!of_curve && best.place.curve >= 0)  // on the boundary of a face
@@ -331,7 +362,7 @@ void Projector::evaluate(int dimension, int ref, unsigned want, std::span<const 
            monitor);
 }
 
-void Projector::project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out, int threads, Monitor& monitor) {
+std::map<int, std::string> Projector::project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out, int threads, Monitor& monitor) {
   State& s = *state_;
   std::int32_t only = -1;
   if (dimension == 2 && ref != 0) only = static_cast<std::int32_t>(s.face_of(ref));
@@ -339,7 +370,10 @@ void Projector::project(int dimension, int ref, std::span<const Vec3> x, std::sp
   if (dimension == 1 && ref != 0 && !s.curves.contains(ref)) report_unknown(1, ref);
   if (dimension == 1 && s.curves.empty()) throw InvalidArgument("the model has no curve");
   s.prepare(threads, monitor);
-  if (dimension == 0) return s.nearest_points(ref != 0 ? std::optional<int>(ref) : std::nullopt, x, out);
+  std::map<int, std::string> failed;
+  if (dimension == 0) return s.nearest_points(ref != 0 ? std::optional<int>(ref) : std::nullopt, x, out), failed;
+  if (dimension == 2 && ref == 0) failed = s.failed_at_first;
+  if (const auto found = s.failed_at_first.find(ref); dimension == 2 && found != s.failed_at_first.end()) throw CallbackError(found->second);
   if (dimension == 1 && ref != 0)
     only = static_cast<std::int32_t>(std::lower_bound(s.curve_refs.begin(), s.curve_refs.end(), ref) - s.curve_refs.begin());
   const Entities& entities = dimension == 2 ? s.all_faces : s.all_curves;
@@ -347,9 +381,10 @@ void Projector::project(int dimension, int ref, std::span<const Vec3> x, std::sp
   run_each((x.size() + each - 1) / each, s.bound(), threads,
            [&](std::size_t k, Monitor& here) {
              const std::size_t first = k * each, n = std::min(each, x.size() - first);
-             s.search(entities, only, x.subspan(first, n), out.subspan(first, n), dimension == 1, here);
+             s.search(entities, only, x.subspan(first, n), out.subspan(first, n), dimension == 1, failed, here);
            },
            monitor);
+  return failed;
 }
 
 double Projector::diagonal(int threads, Monitor& monitor) {

@@ -2,8 +2,10 @@
 // Closest points of a model, and its surface at given places.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cad/cad.h"
@@ -39,8 +41,8 @@ class Projector {
   void evaluate(int dimension, int ref, unsigned want, std::span<const Vec2> parameters, std::span<SurfaceJet> out, int threads, Monitor& monitor);
 
   /// The closest point of all faces (dimension 2), curves (1) or points (0), or of the entity `ref` if it is not 0. The first call makes
-  /// the trees. Throws InvalidArgument for an unknown entity, and the exceptions of the geometry.
-  void project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out, int threads, Monitor& monitor);
+  /// the trees. Returns by reference the faces on which the host failed, with its reasons: the results are closest points of the others. Throws InvalidArgument for an unknown entity, and the exceptions of the geometry.
+  std::map<int, std::string> project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out, int threads, Monitor& monitor);
 
   /// The diagonal of the box of faces and curves.
   [[nodiscard]] double diagonal(int threads, Monitor& monitor);

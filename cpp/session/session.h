@@ -184,7 +184,7 @@ class Session {
   /// a face, where they are known. Throw like mesh().
   [[nodiscard]] std::vector<MeshEntity> node_entities() const;
   [[nodiscard]] std::vector<CurveParameters> curve_parameters() const;
-  void project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out);
+  std::map<int, std::string> project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out);
   /// Embeds a point or a polyline of space in the faces of the model (Embedder), within the parameter embed_tolerance; returns the reference
   /// that results name. `name`: of the point or curve; may be empty. Finds the references of the model first. Throws like project(), and
   /// embeds nothing then.

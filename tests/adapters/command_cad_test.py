@@ -356,6 +356,25 @@ print(len(cells.values), *(list(cells.values).count(names[name][1]) for name in 
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(content(self.path("pmi.mesh")), content(self.mesh("plain.mesh", "--size", "0.25", *option, shape="named_faces.step")))
 
+    def test_wires_on_faces_are_embedded(self):
+        path = os.path.join(SHAPES, "scribed.brep")
+        done = run("mesh", path, "-o", self.path("scribed.mesh"), "--size", "0.2", "--embed-wires")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("is not embedded"), 1, done.stderr)
+        vertices, edges = [], []
+        words = content(self.path("scribed.mesh")).split()
+        for key, rows, width in (("Vertices", vertices, 4), ("Edges", edges, 3)):
+            at = words.index(key)
+            values = words[at + 2:at + 2 + width * int(words[at + 1])]
+            rows += [tuple(map(float, values[i:i + width])) for i in range(0, len(values), width)]
+        lengths = {}
+        for a, b, ref in edges:
+            lengths[ref] = lengths.get(ref, 0) + math.dist(vertices[int(a) - 1][:3], vertices[int(b) - 1][:3])
+        # Twelve edges of the cube, two edges on it, and the edge that leaves it.
+        for expected, count in ((1, 13), (math.hypot(0.8, 0.2), 1), (math.hypot(0.1, 0.8), 1)):
+            self.assertEqual(sum(abs(length - expected) < 1e-9 for length in lengths.values()), count, lengths)
+        self.assertEqual(run("mesh", os.path.join(SHAPES, "wires.brep"), "-o", self.path("none.mesh"), "--embed-wires").returncode, 2)
+
     def test_bytes_that_are_no_shape(self):
         for name, data, said in (("noise.step", bytes(range(256)), "noise.step"), ("short.brep", b"DBRep_DrawableShape\n", "short.brep"),
                                  ("empty.iges", b"", "empty.iges"), ("page.step", b"<html></html>", "page.step")):

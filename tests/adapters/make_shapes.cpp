@@ -13,7 +13,8 @@
 //   quarter_plate.step     a unit square without the quarter of a disc (HDR fig. 3.6): a face
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
 //   touching.brep          a plate of 4 x 4 x 1 and a cube of side 2 on it
-//   wires.brep             three sides of a unit square and no face; loose.brep: the same beside a unit cube
+//   wires.brep             three sides of a unit square and no face; loose.brep: the same beside a unit cube;
+//                          scribed.brep: a unit cube, a wire on two of its faces, and an edge that leaves it
 //   outside.step           the same assembly; its parts are in outside_block.stp and outside_ball.stp
 //   NAME.brep              faces that bend inside: bent_shapes()
 //   torn_roof.brep         one that is not cut there, since its sides do not meet
@@ -236,6 +237,14 @@ void write_wires(const std::string& folder) {
   builder.Add(both, BRepPrimAPI_MakeBox(1, 1, 1).Shape());
   require(BRepTools::Write(wires, (folder + "wires.brep").c_str()), "wires.brep");
   require(BRepTools::Write(both, (folder + "loose.brep").c_str()), "loose.brep");
+  TopoDS_Compound scribed;
+  builder.MakeCompound(scribed);
+  builder.Add(scribed, BRepPrimAPI_MakeBox(1, 1, 1).Shape());
+  BRepBuilderAPI_MakeWire line(BRepBuilderAPI_MakeEdge(gp_Pnt(0.2, 0.3, 1), gp_Pnt(1, 0.5, 1)).Edge());
+  line.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(1, 0.5, 1), gp_Pnt(1, 0.6, 0.2)).Edge());
+  builder.Add(scribed, line.Wire());
+  builder.Add(scribed, BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 1), gp_Pnt(0, 0, 2)).Edge());
+  require(BRepTools::Write(scribed, (folder + "scribed.brep").c_str()), "scribed.brep");
 }
 
 /// A plate of 4 x 4 x 1 and a cube of side 2 that stands on it.

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kinds[] = {"vertex", "edge", "face"};
+constexpr const char* entity_names[] = {"vertex", "edge", "face"};
 
 struct Closest {
   std::vector<std::int32_t> refs;
@@ -31,7 +31,7 @@ std::int32_t number_of(const CadInput& input, int dimension, std::int32_t ref) {
 
 Json json_of(const CadInput& input, int dimension, const Closest& closest, std::size_t i) {
   const auto columns = static_cast<std::size_t>(dimension);
-  Json row = {{kinds[columns], number_of(input, dimension, closest.refs[i])}, {"distance", closest.distances[i]}};
+  Json row = {{entity_names[columns], number_of(input, dimension, closest.refs[i])}, {"distance", closest.distances[i]}};
   row["xyz"] = {closest.xyz[3 * i], closest.xyz[3 * i + 1], closest.xyz[3 * i + 2]};
   if (dimension == 2) row["uv"] = {closest.parameters[2 * i], closest.parameters[2 * i + 1]};
   if (dimension == 1) row["t"] = closest.parameters[i];
@@ -40,7 +40,7 @@ Json json_of(const CadInput& input, int dimension, const Closest& closest, std::
 
 void print(const CadInput& input, int dimension, const Closest& closest) {
   const auto columns = static_cast<std::size_t>(dimension);
-  std::printf("# %s%s distance x y z\n", kinds[columns], dimension == 2 ? " u v" : dimension == 1 ? " t" : "");
+  std::printf("# %s%s distance x y z\n", entity_names[columns], dimension == 2 ? " u v" : dimension == 1 ? " t" : "");
   for (std::size_t i = 0; i < closest.refs.size(); ++i) {
     std::printf("%d", static_cast<int>(number_of(input, dimension, closest.refs[i])));
     for (std::size_t k = 0; k < columns; ++k) std::printf(" %.15g", closest.parameters[columns * i + k]);

@@ -75,8 +75,8 @@ void Session::evaluate_places(int dimension, int ref, unsigned want, std::span<c
   projector(dimension).evaluate(dimension, ref, want, parameters, out, threads_of(state_->parameters), state_->monitor);
 }
 
-void Session::project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) {
-  projector(dimension).project(dimension, ref, x, out, threads_of(state_->parameters), state_->monitor);
+std::map<int, std::string> Session::project(int dimension, int ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) {
+  return projector(dimension).project(dimension, ref, x, out, threads_of(state_->parameters), state_->monitor);
 }
 
 std::vector<MeshEntity> Session::node_entities() const {

@@ -278,7 +278,7 @@ TEST(Embedding, WiresThatLieOnFaces) {
   session.set_cad(std::make_shared<AnalyticCad>(cad));
   Model model = testing::unglued(cad);
   for (Face& face : model.faces)
-    if (face.ref > 6) face.orientation = 0, face.name = "wire";
+    if (face.ref > 6) face.orientation = 0, face.name = "wire", face.curves.front().type = CurveType::internal;
   session.set_model(model);
   session.parameters().set("hphydef", 0.2);
   EXPECT_EQ(session.embed_wires(), 2);

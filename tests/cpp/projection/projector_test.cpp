@@ -82,6 +82,32 @@ TEST(Projector, PointsBesideAnEdgeHaveTheNearerFace) {
   }
 }
 
+TEST(Projector, FaceThatFailsLeavesTheOthers) {
+  AnalyticCad cad;
+  for (const int face : {1, 2, 3})
+    cad.faces[face] = {[face](Vec2 p) {
+                         if (face == 2 && p.x() > 0.3 && p.x() < 0.6) throw CallbackError(Where{.face = face, .uv = p}, "it fails on purpose");
+                         SurfaceJet j;
+                         j.s = {p.x(), p.y(), double(face)}, j.su[0] = 1, j.sv[1] = 1;
+                         return j;
+                       },
+                       {testing::segment({0, 0}, {0.2, 0}), testing::segment({0.2, 0}, {0.2, 1}), testing::segment({0.2, 1}, {0, 1}), testing::segment({0, 1}, {0, 0})}};
+  cad.faces[2].curves = testing::rectangle({0, 0}, {1, 1});
+  cad.faces[2].curves[0] = cad.faces[2].curves[2] = testing::segment({0, 0}, {0.2, 0});  // the host can evaluate its sides
+  Monitor monitor;
+  Projector projector(std::make_shared<AnalyticCad>(cad), nullptr, model_of(cad));
+  const std::vector<Vec3> x{{0.1, 0.5, 1.2}, {0.1, 0.4, 2.8}, {0.1, 0.3, 2.1}};
+  std::vector<ProjectedPoint> found(x.size());
+  const std::map<int, std::string> failed = projector.project(2, 0, x, found, 1, monitor);
+  ASSERT_EQ(failed.size(), 1U);
+  EXPECT_NE(failed.at(2).find("on purpose"), std::string::npos);
+  EXPECT_NEAR(found[0].distance, 0.2, 1e-14);
+  EXPECT_NEAR(found[1].distance, 0.2, 1e-14);
+  EXPECT_NEAR(found[2].distance, 0.9, 1e-14);
+  EXPECT_THROW(projector.project(2, 2, x, found, 1, monitor), CallbackError);
+  EXPECT_TRUE(projector.project(2, 3, x, found, 1, monitor).empty());
+}
+
 TEST(Projector, Sphere) {
   const double r = 2;
   std::vector<Vec3> x = random_points(2000, 5);
