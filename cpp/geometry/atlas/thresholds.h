@@ -40,7 +40,7 @@ inline constexpr double notable_gain = 0.999;
 
 /// The final check: cells of the grid on each T, divisions of a cell that has no bound, divisions of the square around a
 /// pure zone before those, and the factor on derivatives that bounds the area between places.
-inline constexpr int cells_of_t = 32, cell_divisions = 10, square_divisions = 3;
+inline constexpr int cells_of_t = 32, cell_divisions = 2, square_divisions = 3;
 inline constexpr double fold_safety = 1.5;
 
 }  // namespace carreau::atlas::thresholds
