@@ -108,7 +108,7 @@ module carreau
 
   integer(c_int32_t), parameter, public :: CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2
   integer(c_int32_t), parameter, public :: CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2
-  integer(c_int32_t), parameter, public :: CARREAU_FIT = 0, CARREAU_PROJECTION = 1
+  integer(c_int32_t), parameter, public :: CARREAU_FIT = 0, CARREAU_PROJECTION = 1, CARREAU_QUADRIC = 2
 
   !> Geometry, model, parameters and the mesh made of them.
   !! The handle is for the modules of this library.

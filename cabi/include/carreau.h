@@ -715,15 +715,16 @@ enum { CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2 };
 /* The prescription: a size; circles in the tangent planes of the graph; or sizes by both principal values. */
 enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
 /* How derivatives are found from values at vertices: quadratics that fit the neighbours of each vertex; or the gradients
- * of triangles averaged at vertices, twice (double L2 projection), which is smoother, and biased at boundaries. */
-enum { CARREAU_FIT = 0, CARREAU_PROJECTION = 1 };
+ * of triangles averaged at vertices, twice (double L2 projection), which is smoother, and biased at boundaries; or the mean normals and
+ * centred quadrics of the graph (HDR sec. 3.4.3 a.2), which find more of the curvature of steep fronts. */
+enum { CARREAU_FIT = 0, CARREAU_PROJECTION = 1, CARREAU_QUADRIC = 2 };
 
 /* How sizes are found from a field. Zeros in all members but struct_size are the defaults. */
 typedef struct carreau_estimator {
   size_t struct_size;
   int32_t source, shape; /* as above; GRAPH not with HESSIAN, and GRAPH, CURVATURE, DEFORMATION in the plane z = 0 */
   int32_t relative;      /* 1: the tolerance is a share of the field's absolute value */
-  int32_t recovery;      /* how derivatives are found; CARREAU_PROJECTION is for plane meshes */
+  int32_t recovery;      /* how derivatives are found; CARREAU_PROJECTION and CARREAU_QUADRIC are for plane meshes */
   double tolerance;      /* error in units of the field, or share; CURVATURE: degrees. 0: 0.01 */
   double relative_floor; /* below this share of its largest absolute value the field counts as that share. 0: 0.1 */
   double hmin, hmax;     /* bounds of the sizes, CURVATURE and DEFORMATION: in the tangent plane of the graph.

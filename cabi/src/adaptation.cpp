@@ -27,6 +27,7 @@ static_assert(int(carreau::ErrorSource::curvature) == CARREAU_CURVATURE);
 static_assert(int(carreau::ErrorSource::deformation) == CARREAU_DEFORMATION);
 static_assert(int(carreau::Recovery::fit) == CARREAU_FIT);
 static_assert(int(carreau::Recovery::projection) == CARREAU_PROJECTION);
+static_assert(int(carreau::Recovery::quadric) == CARREAU_QUADRIC);
 static_assert(int(carreau::ErrorShape::isotropic) == CARREAU_ISOTROPIC);
 static_assert(int(carreau::ErrorShape::graph) == CARREAU_GRAPH);
 static_assert(int(carreau::ErrorShape::anisotropic) == CARREAU_ANISOTROPIC);
@@ -125,8 +126,8 @@ EstimatorOptions options_of(const carreau_estimator* estimator) {
   options.source = static_cast<carreau::ErrorSource>(known.source);
   options.shape = static_cast<carreau::ErrorShape>(known.shape);
   options.relative = known.relative != 0;
-  if (known.recovery != 0 && known.recovery != 1)
-    throw InvalidArgument("estimator->recovery is " + std::to_string(known.recovery) + "; it must be 0 or 1");
+  if (known.recovery < 0 || known.recovery > 2)
+    throw InvalidArgument("estimator->recovery is " + std::to_string(known.recovery) + "; it must be 0, 1 or 2");
   options.recovery = static_cast<carreau::Recovery>(known.recovery);
   if (known.tolerance != 0) options.tolerance = known.tolerance;
   if (known.relative_floor != 0) options.relative_floor = known.relative_floor;

@@ -210,8 +210,15 @@ PlaneMetrics plane_metrics(const ScalarField& field, const std::vector<LocalDeri
 }
 
 std::vector<LocalDerivatives> derivatives_of(const ScalarField& field, const EstimatorOptions& options, Sharing& sharing) {
-  return options.recovery == Recovery::projection ? project_derivatives(field)
-                                                  : recover_derivatives(field, sharing.crew, &sharing.monitor);
+  switch (options.recovery) {
+    case Recovery::projection:
+      return project_derivatives(field);
+    case Recovery::quadric:
+      return quadric_derivatives(field);
+    case Recovery::fit:
+      break;
+  }
+  return recover_derivatives(field, sharing.crew, &sharing.monitor);
 }
 
 PlaneMetrics intersection_of(std::vector<PlaneMetrics> each, Sharing& sharing) {

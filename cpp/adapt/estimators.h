@@ -27,6 +27,7 @@ enum class ErrorShape : int {
 enum class Recovery : int {
   fit = 0,         ///< quadratics through each vertex: recover_derivatives()
   projection = 1,  ///< the double L2 projection, of plane meshes: project_derivatives()
+  quadric = 2,     ///< quadrics on the graph of a plane mesh (HDR sec. 3.4.3 a.2): quadric_derivatives()
 };
 
 struct EstimatorOptions {

@@ -65,6 +65,28 @@ std::vector<VertexFrame> frames_of(const ScalarField& field) {
   return frames;
 }
 
+/// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes. So stretched meshes are
+/// fitted as well as others, and the fit turns with the mesh.
+struct Whitening {
+  Vec2 first, second;  // coordinates are the products with these
+  [[nodiscard]] Vec2 of(const Vec2& d) const noexcept { return {dot(first, d), dot(second, d)}; }
+  [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
+  [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
+    const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;
+    return {p.x() * first.x() + q.x() * second.x(), p.x() * first.y() + q.x() * second.y(),
+            p.y() * first.y() + q.y() * second.y()};
+  }
+};
+
+std::optional<Whitening> whitening(const std::vector<Vec2>& offsets) {
+  Metric2 covariance{0, 0, 0};
+  for (const Vec2& d : offsets) covariance = covariance + Metric2{d.x() * d.x(), d.x() * d.y(), d.y() * d.y()};
+  const Eigen2 e = eigen((2 / static_cast<double>(offsets.size())) * covariance);
+  if (!(e.minor > 1e-14 * e.major)) return {};
+  return Whitening{(1 / std::sqrt(e.major)) * e.direction,
+                   (1 / std::sqrt(e.minor)) * Vec2{-e.direction.y(), e.direction.x()}};
+}
+
 /// Fits one vertex after the other; keeps its memory, and references.
 class Fitter {
  public:
@@ -93,40 +115,19 @@ class Fitter {
   }
 
  private:
-  /// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes. So stretched meshes
-  /// are fitted as well as others, and the fit turns with the mesh.
-  struct Whitening {
-    Vec2 first, second;  // coordinates are the products with these
-    [[nodiscard]] Vec2 of(const Vec2& d) const noexcept { return {dot(first, d), dot(second, d)}; }
-    [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
-    [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
-      const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;
-      return {p.x() * first.x() + q.x() * second.x(), p.x() * first.y() + q.x() * second.y(),
-              p.y() * first.y() + q.y() * second.y()};
-    }
-  };
-
-  [[nodiscard]] bool whitening(Whitening& w) const noexcept {
-    Metric2 covariance{0, 0, 0};
-    for (const Vec2& d : offset_) covariance = covariance + Metric2{d.x() * d.x(), d.x() * d.y(), d.y() * d.y()};
-    const Eigen2 e = eigen((2 / static_cast<double>(offset_.size())) * covariance);
-    if (!(e.minor > 1e-14 * e.major)) return false;
-    w = {(1 / std::sqrt(e.major)) * e.direction, (1 / std::sqrt(e.minor)) * Vec2{-e.direction.y(), e.direction.x()}};
-    return true;
-  }
-
   bool fit_around(std::int32_t v, LocalDerivatives& result) {
     const auto at = static_cast<std::size_t>(v);
     offset_.clear();
     for (std::size_t k = 1; k < around_.size(); ++k)
       offset_.push_back(
           result.frame.in_plane(field_.vertices[static_cast<std::size_t>(around_[k])] - field_.vertices[at]));
-    Whitening white{};
-    if (offset_.size() < static_cast<std::size_t>(unknowns) || !whitening(white)) return false;
+    if (offset_.size() < static_cast<std::size_t>(unknowns)) return false;
+    const std::optional<Whitening> white = whitening(offset_);
+    if (!white) return false;
     const auto n = static_cast<Eigen::Index>(offset_.size());
     equations_.left.resize(n, unknowns), equations_.right.resize(n);
     for (std::size_t k = 0; k < offset_.size(); ++k) {
-      const Vec2 d = white.of(offset_[k]);
+      const Vec2 d = white->of(offset_[k]);
       const double weight = 1 / std::max(norm(d), 1e-3);
       const double rise = field_.values[static_cast<std::size_t>(around_[k + 1])] - field_.values[at];
       const auto row = static_cast<Eigen::Index>(k);
@@ -136,8 +137,8 @@ class Fitter {
     }
     const std::optional<Coefficients> x = solve(equations_);
     if (!x) return false;
-    result.gradient = white.gradient((*x)[0], (*x)[1]);
-    result.hessian = white.hessian((*x)[2], (*x)[3], (*x)[4]);
+    result.gradient = white->gradient((*x)[0], (*x)[1]);
+    result.hessian = white->hessian((*x)[2], (*x)[3], (*x)[4]);
     return true;
   }
 
@@ -195,7 +196,96 @@ LocalDerivatives of_row(const VertexFrame& frame, const double* row) {
   return {frame, {row[0], row[1]}, {row[2], row[3], row[4]}, row[5] != 0};
 }
 
+void require_plane(const ScalarField& field, const char* sentence) {
+  for (const Vec3& p : field.vertices)
+    if (p.z() != field.vertices.front().z()) throw InvalidArgument(sentence);
+}
+
+Vec3 on_graph(const ScalarField& field, std::int32_t v) {
+  const auto at = static_cast<std::size_t>(v);
+  return {field.vertices[at].x(), field.vertices[at].y(), field.values[at]};
+}
+
+/// Upward normals of the graph at the vertices; 0 at vertices of no triangle.
+std::vector<Vec3> graph_normals(const ScalarField& field) {
+  std::vector<Vec3> normals(field.vertices.size(), Vec3(0, 0, 0));
+  for (const auto& t : field.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = on_graph(field, t[k]);
+      const Vec3 a = on_graph(field, t[(k + 1) % 3]) - p, b = on_graph(field, t[(k + 2) % 3]) - p;
+      const Vec3 n = cross(a, b);
+      const double size = norm(n);
+      if (!(size > 0)) continue;
+      const double angle = std::atan2(size, dot(a, b));
+      normals[static_cast<std::size_t>(t[k])] += ((n.z() < 0 ? -angle : angle) / size) * n;
+    }
+  return normals;
+}
+
+/// The second fundamental form of the quadric at a vertex that is nearest to other vertices of the graph; empty if they
+/// do not determine it.
+std::optional<Metric2> quadric_through(const ScalarField& field, std::int32_t v, const std::vector<std::int32_t>& around,
+                                       const VertexFrame& frame) {
+  const auto n = static_cast<Eigen::Index>(around.size());
+  if (n < 3) return {};
+  std::vector<Vec2> offsets;
+  for (const std::int32_t w : around) offsets.push_back(frame.in_plane(on_graph(field, w) - on_graph(field, v)));
+  const std::optional<Whitening> white = whitening(offsets);
+  if (!white) return {};
+  Eigen::Matrix<double, Eigen::Dynamic, 3> left(n, 3);
+  Eigen::VectorXd right(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Vec2 d = white->of(offsets[static_cast<std::size_t>(k)]);
+    left.row(k) << d.x() * d.x() / 2, d.x() * d.y(), d.y() * d.y() / 2;
+    right[k] = dot(on_graph(field, around[static_cast<std::size_t>(k)]) - on_graph(field, v), frame.normal);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(left);
+  const Eigen::Vector3d pivots = qr.matrixQR().diagonal().cwiseAbs();
+  if (!(pivots.minCoeff() > min_quadric_pivot * pivots.maxCoeff())) return {};
+  const Eigen::Vector3d x = qr.solve(right);
+  return white->hessian(x[0], x[1], x[2]);
+}
+
+/// The Hessian in the plane of a graph whose second fundamental form is `bending` in the frame.
+Metric2 hessian_of(const Metric2& bending, const VertexFrame& frame, const Vec2& gradient) {
+  const Vec2 x = frame.in_plane({1, 0, gradient.x()}), y = frame.in_plane({0, 1, gradient.y()});
+  const auto form = [&](const Vec2& p, const Vec2& q) {
+    return bending.a * p.x() * q.x() + bending.b * (p.x() * q.y() + p.y() * q.x()) + bending.c * p.y() * q.y();
+  };
+  const double up = std::sqrt(1 + dot(gradient, gradient));
+  return {up * form(x, x), up * form(x, y), up * form(y, y)};
+}
+
 }  // namespace
+
+std::vector<LocalDerivatives> quadric_derivatives(const ScalarField& field) {
+  check_field(field);
+  require_plane(field, "quadrics on the graph of a field are for plane meshes only");
+  const std::vector<Vec3> normals = graph_normals(field);
+  const Neighbours neighbours = neighbours_of(field.vertices.size(), field.triangles);
+  std::vector<LocalDerivatives> result(normals.size());
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    LocalDerivatives& found = result[v];
+    found.reliable = false;
+    if (!(normals[v].z() > 0)) continue;
+    const auto vertex = static_cast<std::int32_t>(v);
+    const VertexFrame frame = frame_of(normals[v]);
+    found.gradient = {-normals[v].x() / normals[v].z(), -normals[v].y() / normals[v].z()};
+    const auto first = neighbours.of(vertex);
+    std::vector<std::int32_t> around(first.begin(), first.end());
+    std::optional<Metric2> bending = quadric_through(field, vertex, around, frame);
+    if (!bending) {  // four neighbours in a cross, or a corner
+      for (const std::int32_t w : first)
+        for (const std::int32_t x : neighbours.of(w))
+          if (x != vertex && std::find(around.begin(), around.end(), x) == around.end()) around.push_back(x);
+      bending = quadric_through(field, vertex, around, frame);
+    }
+    if (!bending) continue;
+    found.hessian = hessian_of(*bending, frame, found.gradient);
+    found.reliable = true;
+  }
+  return result;
+}
 
 std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Crew& crew, Monitor* monitor) {
   check_field(field);
@@ -220,8 +310,7 @@ std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, cons
 
 std::vector<LocalDerivatives> project_derivatives(const ScalarField& field) {
   check_field(field);
-  for (const Vec3& p : field.vertices)
-    if (p.z() != field.vertices.front().z()) throw InvalidArgument("derivatives are projected on plane meshes only");
+  require_plane(field, "derivatives are projected on plane meshes only");
   const std::vector<Vec2> g = projected_gradients(field, [&](std::size_t v) { return field.values[v]; });
   const std::vector<Vec2> gx = projected_gradients(field, [&](std::size_t v) { return g[v].x(); });
   const std::vector<Vec2> gy = projected_gradients(field, [&](std::size_t v) { return g[v].y(); });

@@ -10,6 +10,9 @@ namespace carreau::thresholds::adapt {
 /// Ratio of the smallest to the largest diagonal entry of the triangular factor, below which a fit is not determined.
 /// [Recovery.NamesThePlaceOfTooFewNeighbours]
 inline constexpr double min_pivot = 0.02;
+/// The same ratio for quadrics on the graph: four neighbours nearly in a cross do not determine the mixed term.
+/// [Quadric.FindsTheCurvatureOfASphere]
+inline constexpr double min_quadric_pivot = 0.2;
 /// Rings of neighbours that a fit may take. [Recovery.IsExactOnQuadraticsUpToTheBorder]
 inline constexpr int max_rings = 3;
 

@@ -59,7 +59,7 @@ EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Ve
   options.relative = parameters.integer("adapt_relative") != 0;
   options.relative_floor = parameters.real("adapt_floor");
   options.ratio = parameters.real("adapt_ratio");
-  options.recovery = choice<Recovery>(parameters, "adapt_recovery", {"fit", "projection"});
+  options.recovery = choice<Recovery>(parameters, "adapt_recovery", {"fit", "projection", "quadric"});
   Vec3 low = vertices.front(), high = low;
   for (const Vec3& p : vertices) {
     low = low.cwiseMin(p);

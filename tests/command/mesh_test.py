@@ -230,6 +230,7 @@ class Formulas(Folder):
     def test_options_that_mean_nothing_for_an_input_are_rejected_by_name(self):
         inputs = {"cad": "x.step", "bezier": TEAPOT, "molecule": "x.pdb", "grid": "x.fmt", "triangles": "x.stl"}
         scopes = {"--probe=1": ("molecule",), "--drop-cavities": ("molecule",), "--surface=ses": ("molecule",),
+                  "--reach=2": (), "--border=cubic": (),
                   "--smooth=3": ("grid",), "--lengths": ("grid",), "--join=10": ("grid",), "--fill": ("grid",), "--step=1": ("grid",),
                   "--join-nodes=.1": ("grid",), "--domain=disc:0,0,1": (), "--host=a.so": (), "--sharp=30": ("triangles",),
                   "--corner=30": ("triangles",), "--given-edges": ("triangles",), "--ignore-references": ("triangles",)}

@@ -21,7 +21,7 @@ from .progress import Progress
 Reals = NDArray[np.float64]
 SOURCES = {"hessian": c.HESSIAN, "curvature": c.CURVATURE, "deformation": c.DEFORMATION}
 FORMS = {"isotropic": c.ISOTROPIC, "graph": c.GRAPH, "anisotropic": c.ANISOTROPIC}
-RECOVERIES = {"fit": c.FIT, "projection": c.PROJECTION}
+RECOVERIES = {"fit": c.FIT, "projection": c.PROJECTION, "quadric": c.QUADRIC}
 MEASURES = {"length": c.MEASURE_LENGTH, "edge_angle": c.MEASURE_EDGE_ANGLE, "gradation": c.MEASURE_GRADATION,
             "length_ratio": c.MEASURE_LENGTH_RATIO, "q1": c.MEASURE_Q1, "q2": c.MEASURE_Q2,
             "metric_quality": c.MEASURE_METRIC_QUALITY, "a0": c.MEASURE_A0, "a1": c.MEASURE_A1, "curve_a0": c.MEASURE_CURVE_A0,
@@ -131,7 +131,7 @@ class Studies:
     def estimate(self, values: ArrayLike, tolerance: float = 0.01, **estimator: Any) -> Reals:
         """Sizes (n), or metrics (n, 6) if shape is not "isotropic", from values (n) of a field at the vertices of the
         mesh. estimator: source ("hessian", "curvature", "deformation"), shape ("isotropic", "graph", "anisotropic"),
-        relative, recovery ("fit", "projection"), hmin, hmax, ratio, floor."""
+        relative, recovery ("fit", "projection", "quadric"), hmin, hmax, ratio, floor."""
         field = doubles(values, "values", None)
         given = estimator_of(tolerance, **estimator)
         isotropic = given.shape == c.ISOTROPIC

@@ -232,8 +232,8 @@ void add_estimator_options(CLI::App* app, std::vector<std::string>& settings) {
       ->check(CLI::IsMember({"hessian", "curvature", "deformation"}));
   parameter("--shape", "adapt_shape", "isotropic (default), graph (circles in tangent planes of the graph) or anisotropic")
       ->check(CLI::IsMember({"isotropic", "graph", "anisotropic"}));
-  parameter("--recovery", "adapt_recovery", "Derivatives from values: fit (default) or projection")
-      ->check(CLI::IsMember({"fit", "projection"}));
+  parameter("--recovery", "adapt_recovery", "Derivatives from values: fit (default), projection, or quadric (HDR 3.4.3 a.2)")
+      ->check(CLI::IsMember({"fit", "projection", "quadric"}));
   app->add_flag_callback("--relative", [&settings] { settings.emplace_back("adapt_relative=1"); },
                          "Tolerance is a share of the absolute value of the field");
   parameter("--floor", "adapt_floor", "With --relative: smallest value, as a share of the largest; .1 by default")

@@ -50,7 +50,7 @@ carreau_estimator estimator_of(carreau_session* session, double diagonal) {
       text_of(session, "adapt_shape"),
       {{"isotropic", CARREAU_ISOTROPIC}, {"graph", CARREAU_GRAPH}, {"anisotropic", CARREAU_ANISOTROPIC}});
   estimator.recovery = choice_of<std::int32_t>(text_of(session, "adapt_recovery"),
-                                               {{"fit", CARREAU_FIT}, {"projection", CARREAU_PROJECTION}});
+                                               {{"fit", CARREAU_FIT}, {"projection", CARREAU_PROJECTION}, {"quadric", CARREAU_QUADRIC}});
   require(session, carreau_get_integer(session, "adapt_relative", &estimator.relative));
   estimator.tolerance = real_of(session, "adapt_tolerance");
   estimator.relative_floor = real_of(session, "adapt_floor");

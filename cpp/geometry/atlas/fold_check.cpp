@@ -59,8 +59,10 @@ class FoldSearch {
     for (std::size_t c = 0; c < 3; ++c)
       normal += weights[c] * surface_.covering().charts()[static_cast<std::size_t>(charts[c])].frame.normal;
     const SurfaceJet jet = surface_.at_triple(triple, centre);
-    if (turn_of(jet, normal).holds(reach)) return;
-    if (depth == thresholds::cell_divisions) reject(jet.s, charts[0]);
+    const Turn turn = turn_of(jet, normal);
+    if (turn.holds(reach)) return;
+    if (turn.area <= 0) reject(jet.s, charts[0]);
+    if (depth == thresholds::cell_divisions) return;  // a bend within a cell that no triangle can see
     const Cell middle{(cell[1] + cell[2]) / 2, (cell[2] + cell[0]) / 2, (cell[0] + cell[1]) / 2};
     look_at_cell(triple, middle, depth + 1);
     for (std::size_t c = 0; c < 3; ++c)
@@ -72,9 +74,11 @@ class FoldSearch {
     const double reach = std::numbers::sqrt2 * half;
     const bool is_certain = depth >= thresholds::square_divisions;
     if (is_certain && !own.annulus.encloses(centre)) return;  // its neighbours, and the cells of T, reach the border
-    if (depth > 0 && turn_of(surface_.at(chart, centre), own.frame.normal).holds(reach)) return;
-    if (depth == thresholds::square_divisions + thresholds::cell_divisions)
-      reject(surface_.at(chart, centre).s, static_cast<std::int32_t>(chart));
+    const SurfaceJet jet = surface_.at(chart, centre);
+    const Turn turn = turn_of(jet, own.frame.normal);
+    if (depth > 0 && turn.holds(reach)) return;
+    if (is_certain && turn.area <= 0) reject(jet.s, static_cast<std::int32_t>(chart));
+    if (depth == thresholds::square_divisions + thresholds::cell_divisions) return;
     for (const double x : {-.5, .5})
       for (const double y : {-.5, .5}) look_at_square(chart, centre + half * Vec2(x, y), half / 2, depth + 1);
   }

@@ -6,10 +6,9 @@
 
 namespace carreau::atlas {
 
-/// Throws DomainError with the place of the first fold. Checks the normal against the planes of charts on a grid on each
-/// T, and on the pure zones of moved charts. Between the places of the grid the derivative of the normal, times a
-/// factor of safety, bounds the change; a cell without a bound is divided, and after the last division it counts as a
-/// fold.
+/// Throws DomainError with the place of a fold: the normal is against the planes of the charts. The check divides a grid
+/// on each T, and the pure zones of moved charts. The derivative of the normal's area, times a factor of safety, bounds
+/// the area inside a cell; a cell without a bound is divided, twice at most. Folds narrower than 1 / 128 of T may remain.
 void require_no_folds(const BlendedSurface& surface);
 
 }  // namespace carreau::atlas

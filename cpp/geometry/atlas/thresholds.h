@@ -20,9 +20,9 @@ inline constexpr double points_per_term = 1.7;
 inline constexpr int grid_of_t = 96;
 /// Area of the surface over the area of its charts' planes: below, a place counts as turned over. The bound is above 0,
 /// because nearly folded places are meshed poorly.
-inline constexpr double least_jacobian = 0.15;
+inline constexpr double least_jacobian = 0.25;
 /// Target for moved charts; above the last value, because distances pull back.
-inline constexpr double wanted_jacobian = 0.4;
+inline constexpr double wanted_jacobian = 0.5;
 /// Places above this value are not watched while charts move. If one folds nevertheless, the next round finds it.
 inline constexpr double watched_jacobian = 0.7;
 
@@ -41,7 +41,7 @@ inline constexpr double notable_gain = 0.999;
 
 /// The final check: cells of the grid on each T, divisions of a cell that has no bound, divisions of the square around a
 /// pure zone before those, and the factor on derivatives that bounds the area between places.
-inline constexpr int cells_of_t = 32, cell_divisions = 10, square_divisions = 3;
+inline constexpr int cells_of_t = 32, cell_divisions = 2, square_divisions = 3;
 inline constexpr double fold_safety = 1.5;
 
 }  // namespace carreau::atlas::thresholds

@@ -82,6 +82,68 @@ TEST(Projection, ConvergesOnRegularMeshes) {
   EXPECT_GT(std::log2(coarse.hessian / fine.hessian) / 2, 1.8);
 }
 
+TEST(Quadric, FindsTheCurvatureOfASphere) {
+  // Both principal curvatures of z = sqrt(4 - x^2 - y^2) are 1 / 2.
+  double before = 0;
+  for (const int n : {16, 32, 64}) {
+    TestMesh mesh = square_mesh(n, 0.2);
+    mesh.with([](Vec3 p) { return std::sqrt(4 - p.x() * p.x() - p.y() * p.y()); });
+    const auto derivatives = quadric_derivatives(mesh.field());
+    double worst = 0;
+    for (std::size_t v = 0; v < derivatives.size(); ++v) {
+      if (!mesh.inside[v]) continue;
+      const auto& d = derivatives[v];
+      ASSERT_TRUE(d.reliable);
+      const double x = d.gradient.x(), y = d.gradient.y(), up = std::sqrt(1 + x * x + y * y);
+      const Metric2& h = d.hessian;
+      const double gauss = (h.a * h.c - h.b * h.b) / std::pow(up, 4);
+      const double mean = ((1 + x * x) * h.c - 2 * x * y * h.b + (1 + y * y) * h.a) / (2 * std::pow(up, 3));
+      worst = std::max({worst, std::abs(mean + .5), std::abs(gauss - .25)});
+    }
+    if (before > 0) {
+      EXPECT_LT(worst, .65 * before) << n;
+    }
+    before = worst;
+  }
+  EXPECT_LT(before, .02);
+}
+
+TEST(Quadric, FindsMoreThanFourFifthsOfTheCurvatureAtTheKneesOfAFront) {
+  // HDR eq. 4.95, with two thirds of its width between vertices.
+  constexpr double width = .03;
+  TestMesh mesh = mapped(square_mesh(10, .2), [](Vec3 p) { return Vec3{.1 * p.x(), .1 * p.y(), 0}; });
+  mesh.with([](Vec3 p) { return std::tanh(p.y() / width); });
+  double exact = 0;
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = std::tanh(1e-4 * k / width), slope = (1 - t * t) / width;
+    exact = std::max(exact, 2 * t * slope / width / std::pow(1 + slope * slope, 1.5));
+  }
+  const auto largest = [&](const std::vector<LocalDerivatives>& all) {
+    double found = 0;
+    for (std::size_t v = 0; v < all.size(); ++v) {
+      if (!mesh.inside[v]) continue;
+      const double up = 1 + all[v].gradient.y() * all[v].gradient.y();
+      found = std::max(found, std::abs(all[v].hessian.c) / std::pow(up, 1.5));
+    }
+    return found / exact;
+  };
+  EXPECT_GT(largest(quadric_derivatives(mesh.field())), .8);
+  EXPECT_LT(largest(quadric_derivatives(mesh.field())), 1.1);
+}
+
+TEST(Quadric, RejectsMeshesInSpaceAndReportsVerticesWithoutNeighbours) {
+  TestMesh bent = mapped(square_mesh(4), [](Vec3 p) { return Vec3{p.x(), p.y(), p.x() * p.x()}; });
+  bent.with([](Vec3 p) { return p.x(); });
+  EXPECT_THROW((void)quadric_derivatives(bent.field()), InvalidArgument);
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<std::array<std::int32_t, 3>> one{{0, 1, 2}};
+  const std::vector<double> values{0, 1, 2};
+  for (const LocalDerivatives& d : quadric_derivatives({corners, one, values})) {
+    EXPECT_FALSE(d.reliable);
+    EXPECT_LT(norm(d.gradient - Vec2{1, 2}), 1e-12);
+  }
+}
+
 TEST(Recovery, TurnsWithTheMesh) {
   const auto turn = [](Vec3 p) {  // a rotation about a slanted axis, and a shift
     const double c = std::cos(0.8), s = std::sin(0.8);
