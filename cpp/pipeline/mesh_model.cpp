@@ -90,6 +90,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   CompositeRun run(model, topology, supports, cad, options, monitor);
   if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
   if (layers != nullptr) run.layers = layer_curves(model, topology, layers->given, options);
+  if (!run.layers.empty()) run.options.check_adjacent_edges = 0;  // rows are low beside long edges of curves
   if (run.options.parts) refuse_parts(run.options, run.rules, run.layers);
   grade_sizes(run);
   discretise_curves(run);
