@@ -55,8 +55,8 @@ AnalyticCad wing(std::function<SurfaceJet(Vec2)> surface, Vec2 low, Vec2 high, V
   return cad;
 }
 
-struct Run {
-  Run(const AnalyticCad& cad, double size, const std::vector<CurveLayers>& layers, const char* element = "p1", int threads = 1)
+struct Layered {
+  Layered(const AnalyticCad& cad, double size, const std::vector<CurveLayers>& layers, const char* element = "p1", int threads = 1)
       : session(session_of_command(cad, size, monitor)) {
     session->parameters().set("element", element);
     session->parameters().set("threads", threads);
@@ -85,7 +85,7 @@ TEST(LayerRows, ACircleHasItsRowsAtTheHeights) {
   curves.push_back(arc({0, 0}, 0.5, 0, pi));
   curves.push_back(arc({0, 0}, 0.5, pi, 2 * pi));
   const CurveLayers layers{.curves = {5, 6}, .first = 0.001, .ratio = 1.2, .count = 20};
-  const Run run(plane_of(curves), 0.05, {layers});
+  const Layered run(plane_of(curves), 0.05, {layers});
   ASSERT_EQ(run.figures.size(), 1U);
   EXPECT_EQ(run.figures[0].rows, 20);
   EXPECT_EQ(run.figures[0].fewest_rows, 20);
@@ -104,7 +104,7 @@ TEST(LayerRows, ACircleHasItsRowsAtTheHeights) {
 
 TEST(LayerRows, AnAerofoilHasAFanAtItsTrailingEdge) {
   const CurveLayers layers{.curves = {5, 6}, .first = 0.002, .ratio = 1.2, .count = 10};
-  const Run run(wing(flat, {-1.5, -1.5}, {2.5, 1.5}, {0, 0}, {1, 1}), 0.04, {layers});
+  const Layered run(wing(flat, {-1.5, -1.5}, {2.5, 1.5}, {0, 0}, {1, 1}), 0.04, {layers});
   EXPECT_EQ(run.figures[0].rows, 10);
   EXPECT_EQ(run.figures[0].fewest_rows, 10);
   expect_as_given(run.figures[0], layers);
@@ -119,7 +119,7 @@ TEST(LayerRows, AnAerofoilHasAFanAtItsTrailingEdge) {
 
 TEST(LayerRows, AWingRootOnACylinderHasItsRowsAtTheHeights) {
   const CurveLayers layers{.curves = {5, 6}, .first = 0.001, .ratio = 1.25, .count = 12};
-  const Run run(wing(cylinder, {-0.8, -1}, {0.8, 2}, {0, 0}, {0.2, 1}), 0.03, {layers});
+  const Layered run(wing(cylinder, {-0.8, -1}, {0.8, 2}, {0, 0}, {0.2, 1}), 0.03, {layers});
   EXPECT_EQ(run.figures[0].rows, 12);
   EXPECT_EQ(run.figures[0].fewest_rows, 12);
   expect_as_given(run.figures[0], layers);
@@ -128,7 +128,7 @@ TEST(LayerRows, AWingRootOnACylinderHasItsRowsAtTheHeights) {
 
 TEST(LayerRows, SidesHaveTheirVerticesAtTheHeights) {
   const CurveLayers layers{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 8};
-  const Run run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers});
+  const Layered run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers});
   EXPECT_EQ(run.figures[0].fewest_rows, 8);
   EXPECT_EQ(run.figures[0].cells, 8 * 20);
   expect_as_given(run.figures[0], layers, 1e-6);
@@ -144,7 +144,7 @@ TEST(LayerRows, SidesHaveTheirVerticesAtTheHeights) {
 TEST(LayerRows, CornersHaveFansAndMerge) {
   const AnalyticCad ell = plane_of(polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}));
   const CurveLayers layers{.curves = {1, 2, 3, 4, 5, 6}, .first = 0.005, .ratio = 1.2, .count = 12};
-  const Run run(ell, 0.1, {layers});
+  const Layered run(ell, 0.1, {layers});
   EXPECT_EQ(run.figures[0].rows, 12);
   EXPECT_GE(run.figures[0].fewest_rows, 11);
   expect_as_given(run.figures[0], layers);
@@ -161,18 +161,18 @@ TEST(LayerRows, CornersHaveFansAndMerge) {
 
 TEST(LayerRows, RowsThatMeetEnd) {
   const CurveLayers layers{.curves = {1, 3}, .first = 0.01, .ratio = 1.3, .count = 30};
-  const Run run(plane_of(rectangle({0, 0}, {2, 0.3})), 0.1, {layers});
+  const Layered run(plane_of(rectangle({0, 0}, {2, 0.3})), 0.1, {layers});
   EXPECT_GE(run.figures[0].fewest_rows, 3);
   EXPECT_LE(run.figures[0].rows, 6);  // .01 + .013 + ... = .15 after six rows
   expect_as_given(run.figures[0], layers, 1e-6);
   // A wall without layers ends them, too.
-  const Run wall(plane_of(rectangle({0, 0}, {2, 0.3})), 0.1, {{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 30}});
+  const Layered wall(plane_of(rectangle({0, 0}, {2, 0.3})), 0.1, {{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 30}});
   EXPECT_LE(wall.figures[0].rows, 9);
 }
 
 TEST(LayerRows, QuadrilateralsComeInRows) {
   const CurveLayers layers{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 8};
-  const Run run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers}, "q1.0");
+  const Layered run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers}, "q1.0");
   EXPECT_EQ(run.figures[0].fewest_rows, 8);
   expect_as_given(run.figures[0], layers, 1e-6);
   const FaceMesh& face = run.session->mesh().faces[0];
@@ -191,7 +191,7 @@ TEST(LayerRows, QuadrilateralsComeInRows) {
 TEST(LayerRows, TheMeshDoesNotDependOnThreads) {
   const CurveLayers layers{.curves = {5, 6}, .first = 0.002, .ratio = 1.2, .count = 10};
   const AnalyticCad cad = wing(flat, {-1.5, -1.5}, {2.5, 1.5}, {0, 0}, {1, 1});
-  const Run one(cad, 0.08, {layers}), four(cad, 0.08, {layers}, "p1", 4);
+  const Layered one(cad, 0.08, {layers}), four(cad, 0.08, {layers}, "p1", 4);
   EXPECT_EQ(one.session->mesh().vertices, four.session->mesh().vertices);
   EXPECT_EQ(one.session->mesh().faces[0].triangles, four.session->mesh().faces[0].triangles);
 }
