@@ -129,10 +129,10 @@ void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor) {
     monitor.message(Level::summary,
                     name + ": " + std::to_string(l.cells) + " cells in " +
                         (l.fewest_rows < l.rows ? std::to_string(l.fewest_rows) + " to " : std::string()) + std::to_string(l.rows) +
-                        " rows; first height " + format_number(l.first_mean) + " (" + format_number(l.first_min) + " to " +
-                        format_number(l.first_max) + ")" +
-                        (l.growth_max > 0 ? ", growth " + format_number(l.growth_mean) + " (" + format_number(l.growth_min) + " to " +
-                                                format_number(l.growth_max) + ")"
+                        " rows; first height " + short_number(l.first_mean) + " (" + short_number(l.first_min) + " to " +
+                        short_number(l.first_max) + ")" +
+                        (l.growth_max > 0 ? ", growth " + short_number(l.growth_mean) + " (" + short_number(l.growth_min) + " to " +
+                                                short_number(l.growth_max) + ")"
                                           : std::string()));
   }
 }

@@ -280,7 +280,10 @@ class Session {
   void clear_layers() { done(carreau_clear_layers(get())); }
   /// Of the layers of the last mesh, from 0 in the order of add_layers().
   [[nodiscard]] carreau_layers_report layers_report(std::int64_t index = 0) {
-    return filled([index](carreau_session* session, carreau_layers_report* out) { return carreau_session_layers(session, index, out); });
+    carreau_layers_report report{};
+    report.struct_size = sizeof report;
+    done(carreau_session_layers(get(), index, &report));
+    return report;
   }
   void clear_background() { done(carreau_clear_background(get())); }
   [[nodiscard]] carreau_background_report background_report() { return filled(carreau_session_background); }

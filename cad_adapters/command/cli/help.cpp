@@ -29,6 +29,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--size", "Sizes"},              {"--min", "Sizes"},           {"--max", "Sizes"},
     {"--gradation", "Sizes"},         {"--face-size", "Sizes"},     {"--size-map", "Sizes"},
     {"--size-on", "Sizes"},           {"--near", "Sizes"},          {"--sizes", "Sizes"},
+    {"--layers", "Sizes"},
     {"--sol-field", "Sizes"},         {"--curve-edges", "Sizes"},   {"--curve-vertices", "Sizes"},
     {"--law", "Sizes"},               {"--through", "Splines"},       {"--deviation", "Splines"},
     {"--angle", "Curvature"},         {"--segments-per-circle", "Curvature"},

@@ -17,6 +17,7 @@
 #include "inputs/open_input.h"
 #include "mesh/curve_edges.h"
 #include "mesh/periodic_faces.h"
+#include "mesh/layers.h"
 #include "mesh/mesh_parameters.h"
 
 namespace command {
@@ -102,6 +103,7 @@ carreau_status make_mesh(carreau_session* session, const FieldsOptions& options,
   set_parameters(session, options.mesh, input, map);
   require(session, input.give_to(session));
   prescribe_curve_edges(session, options.mesh, input);
+  add_layers(session, options.mesh, input);
   set_periodic(session, options.mesh, input);
   embed(session, options.mesh.embed);
   if (options.raw) return CARREAU_OK;

@@ -26,6 +26,7 @@
 #include "mesh/periodic_faces.h"
 #include "mesh/failed_faces.h"
 #include "mesh/groups.h"
+#include "mesh/layers.h"
 #include "mesh/mesh_parameters.h"
 #include "mesh/mesh_summary.h"
 #include "mesh/progress.h"
@@ -101,6 +102,7 @@ void generate(carreau_session* session, const MeshOptions& options, CadInput& in
   require(session, input.give_to(session));
   for (const std::string& sentence : set_groups(session, input, options.group_by, options.groups)) progress.warning(sentence);
   prescribe_curve_edges(session, options, input);
+  add_layers(session, options, input);
   set_periodic(session, options, input);
   embed(session, options.embed);
   const carreau_status status = make();

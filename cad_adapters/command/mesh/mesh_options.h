@@ -49,6 +49,7 @@ struct MeshOptions : InputChoice {
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> sizes_on;          ///< "entities=length", the entities by selection.h
   std::vector<std::string> near;              ///< "entities=size:reach", the entities by selection.h
+  std::vector<std::string> layers;            ///< "entities=first:length,ratio:number,count:number"
   SizesFile sizes;
   std::vector<std::string> groups;            ///< "name=selector" (selection.h)
   std::string group_by;                       ///< part, face or color; empty: faces keep their names

@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
+#include "mesh/layers.h"
 #include "mesh/near.h"
 #include "mesh/periodic_faces.h"
 #include "mesh/selection.h"
@@ -272,6 +273,7 @@ void check_words(const MeshOptions& options) {
   for (const std::string& each : options.sizes_on) parse_length(parse_assignment(each, "--size-on").second, "--size-on");
   for (const std::string& each : options.near) (void)parse_near(each, "--near");
   check_curve_edges(options);
+  check_layers(options);
   check_periodic(options);
   if (options.settings.empty()) return;
   const SessionHandle session = make_session();

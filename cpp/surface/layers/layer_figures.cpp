@@ -56,7 +56,7 @@ std::vector<LayerFigures> measure_layers(const SurfaceMesh& mesh, const std::vec
         figures.growth_mean += growth;
         ++grown[static_cast<std::size_t>(cell.layers)];
       } else {
-        rows.push_back(1);
+        rows.push_back(cell.row + 1);  // a triangle may lie below
         of_pile.push_back(static_cast<std::size_t>(cell.layers));
       }
       below[{cell.corners[3], cell.corners[2]}] = {height, pile};

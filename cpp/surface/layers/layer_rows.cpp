@@ -94,6 +94,7 @@ class RowMaker {
       for (Chain& chain : chains_)
         for (Column& column : chain.columns) column.levels = std::min(column.levels, highest);
     }
+    drop_unused_vertices();
     return std::move(rows_);
   }
 
@@ -414,7 +415,7 @@ class RowMaker {
       return distance >= wall_clearance * row;
     }
     const Vec3 plain_up = unit(column.up - dot(column.up, column.along) * column.along);
-    const bool faces = dot(obstacle.up, plain_up) < facing_cosine && dot(nearest - xyz(column.base), plain_up) > 0;
+    const bool faces = dot(obstacle.up, plain_up) < facing_cosine && dot(nearest - xyz(column.base), plain_up) > min_ahead * height;
     return distance >= (faces ? std::min(height, obstacle.total) + row : min_clearance * height);
   }
 
@@ -534,6 +535,29 @@ class RowMaker {
     for (const PlaneEdge& edge : plane_.edges)
       if (edge.kind != PlaneEdgeKind::boundary || boundary.erase({edge.a, edge.b}) > 0) add(edge);
     for (const auto& [ends, edge] : boundary) add(edge);
+  }
+
+  void drop_unused_vertices() {
+    const std::size_t n = plane_.vertices.size();
+    std::vector<std::int32_t> now(rows_.uv.size(), -1);
+    const auto for_corners = [&](const auto& use) {
+      for (LayerCell& cell : rows_.cells)
+        for (std::int32_t& v : cell.corners)
+          if (v >= static_cast<std::int32_t>(n)) use(v);
+    };
+    for_corners([&](std::int32_t v) { now[static_cast<std::size_t>(v) - n] = 0; });
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      if (now[k] < 0) continue;
+      rows_.uv[count] = rows_.uv[k], rows_.xyz[count] = rows_.xyz[k];
+      rows_.normal[count] = rows_.normal[k], rows_.size[count] = rows_.size[k];
+      now[k] = static_cast<std::int32_t>(n + count++);
+    }
+    rows_.uv.resize(count), rows_.xyz.resize(count), rows_.normal.resize(count), rows_.size.resize(count);
+    const auto renumber = [&](std::int32_t& v) { v = now[static_cast<std::size_t>(v) - n]; };
+    for_corners(renumber);
+    for (std::int32_t& v : rows_.of_rest)
+      if (v >= static_cast<std::int32_t>(n)) renumber(v);
   }
 
   const PatchInput& input_;

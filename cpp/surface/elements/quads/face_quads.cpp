@@ -29,10 +29,22 @@ bool FaceQuads::is_imposed(std::int32_t a, std::int32_t b) const noexcept {
   return side_between(a, b) != nullptr || std::binary_search(tops.begin(), tops.end(), std::array{std::min(a, b), std::max(a, b)});
 }
 
-void set_rows_apart(FaceQuads& quads, const std::vector<LayerCell>& layers) {
+void set_rows_apart(FaceQuads& quads, std::vector<LayerCell>& layers) {
   std::size_t halves = 0;
+  for (const LayerCell& cell : layers) halves += cell.is_triangle() ? 1 : 2;
+  std::size_t t = quads.patch.cells.size() - std::min(halves, quads.patch.cells.size());
+  const auto is_half = [&](const LayerCell& cell) {
+    const MixedCell& half = quads.patch.cells[t++];
+    return std::all_of(half.begin(), half.begin() + 3, [&](std::int32_t v) {
+      return std::find(cell.corners.begin(), cell.corners.end(), v) != cell.corners.end();
+    });
+  };
+  const bool known = halves <= quads.patch.cells.size() && std::all_of(layers.begin(), layers.end(), [&](const LayerCell& cell) {
+                       return is_half(cell) && (cell.is_triangle() || is_half(cell));
+                     });
+  if (!known) layers.clear();  // shared chords have been divided
+  if (!known) return;
   for (const LayerCell& cell : layers) {
-    halves += cell.is_triangle() ? 1 : 2;
     quads.rows.push_back(cell.corners);
     const auto n = static_cast<std::size_t>(corners_of(cell.corners));
     for (std::size_t k = 0; k < n; ++k) {

@@ -32,7 +32,8 @@ struct FaceQuads {
 };
 
 /// Sets the cells of layers apart from the other cells, and fixes their vertices.
-void set_rows_apart(FaceQuads& quads, const std::vector<LayerCell>& layers);
+/// If the triangles are not their halves any more, removes `layers` instead.
+void set_rows_apart(FaceQuads& quads, std::vector<LayerCell>& layers);
 
 /// Vertices on curves, imposed points and corners of flattened triangles are fixed.
 FaceQuads face_quads(const ElementWork& work, std::size_t face);

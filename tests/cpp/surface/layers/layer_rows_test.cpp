@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows of cells along curves: heights, growth, corners, rows that meet.
+#include "surface/layers/layer_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "session_of_size.h"
+#include "support/error.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+
+constexpr double pi = std::numbers::pi;
+
+SurfaceJet flat(Vec2 p) { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet cylinder(Vec2 p) {
+  constexpr double radius = 2;
+  const double c = std::cos(p.x()), s = std::sin(p.x());
+  return {{radius * c, radius * s, p.y()}, {-radius * s, radius * c, 0}, {0, 0, 1}, {-radius * c, -radius * s, 0}, {}, {}};
+}
+
+AnalyticCad plane_of(std::vector<AnalyticCurve> curves) {
+  AnalyticCad cad;
+  cad.faces[1] = {flat, std::move(curves)};
+  return cad;
+}
+
+std::vector<AnalyticCurve> polygon(const std::vector<Vec2>& corners) {
+  std::vector<AnalyticCurve> sides;
+  for (std::size_t k = 0; k < corners.size(); ++k) sides.push_back(segment(corners[k], corners[(k + 1) % corners.size()]));
+  return sides;
+}
+
+/// One side of NACA 0012 with a sharp trailing edge, from the leading edge: x = t^2 (NACA Report 460).
+AnalyticCurve naca0012(double side, Vec2 at, Vec2 scale) {
+  return {{0, 1}, [=](double t) {
+            const double t2 = t * t, t4 = t2 * t2;
+            const double y = 0.6 * (0.2969 * t - 0.126 * t2 - 0.3516 * t4 + 0.2843 * t4 * t2 - 0.1036 * t4 * t4);
+            const double dy = 0.6 * (0.2969 - 0.252 * t - 1.4064 * t2 * t + 1.7058 * t4 * t - 0.8288 * t4 * t2 * t);
+            return CurveJet{at + Vec2(scale.x() * t2, scale.y() * side * y), {scale.x() * 2 * t, scale.y() * side * dy}, {}};
+          }};
+}
+
+AnalyticCad wing(std::function<SurfaceJet(Vec2)> surface, Vec2 low, Vec2 high, Vec2 at, Vec2 scale) {
+  AnalyticCad cad;
+  std::vector<AnalyticCurve> curves = rectangle(low, high);
+  curves.push_back(naca0012(1, at, scale));
+  curves.push_back(naca0012(-1, at, scale));
+  cad.faces[1] = {std::move(surface), std::move(curves)};
+  return cad;
+}
+
+struct Layered {
+  Layered(const AnalyticCad& cad, double size, const std::vector<CurveLayers>& layers, const char* element = "p1", int threads = 1)
+      : session(session_of_command(cad, size, monitor)) {
+    session->parameters().set("element", element);
+    session->parameters().set("threads", threads);
+    for (const CurveLayers& each : layers) session->add_layers(each);
+    session->make_mesh();
+    EXPECT_EQ(find_defects(session->mesh()), std::vector<std::string>{});
+    EXPECT_EQ(session->mesh().faces[0].status, FaceStatus::meshed) << session->mesh().faces[0].why;
+    figures = session->layer_figures();
+  }
+  Monitor monitor;
+  std::unique_ptr<Session> session;
+  std::vector<LayerFigures> figures;
+};
+
+/// Heights and growth as given, within 5 % or less.
+void expect_as_given(const LayerFigures& figures, const CurveLayers& layers, double tolerance = 0.05) {
+  EXPECT_NEAR(figures.first_min / layers.first, 1, tolerance);
+  EXPECT_NEAR(figures.first_mean / layers.first, 1, tolerance);
+  EXPECT_NEAR(figures.first_max / layers.first, 1, tolerance);
+  EXPECT_NEAR(figures.growth_min / layers.ratio, 1, tolerance);
+  EXPECT_NEAR(figures.growth_max / layers.ratio, 1, tolerance);
+}
+
+TEST(LayerRows, ACircleHasItsRowsAtTheHeights) {
+  std::vector<AnalyticCurve> curves = rectangle({-2, -2}, {2, 2});
+  curves.push_back(arc({0, 0}, 0.5, 0, pi));
+  curves.push_back(arc({0, 0}, 0.5, pi, 2 * pi));
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.001, .ratio = 1.2, .count = 20};
+  const Layered run(plane_of(curves), 0.05, {layers});
+  ASSERT_EQ(run.figures.size(), 1U);
+  EXPECT_EQ(run.figures[0].rows, 20);
+  EXPECT_EQ(run.figures[0].fewest_rows, 20);
+  expect_as_given(run.figures[0], layers, 1e-6);
+  // Vertices near the circle lie at the height of a row, but for the bisectors of its edges.
+  std::int64_t in_first = 0;
+  for (const Vec3& p : run.session->mesh().vertices) {
+    const double d = norm(p) - 0.5;
+    if (d > 1e-9 && d < 0.0018) {
+      EXPECT_NEAR(d, 0.001, 1e-5);
+      ++in_first;
+    }
+  }
+  EXPECT_EQ(20 * in_first, run.figures[0].cells);
+}
+
+TEST(LayerRows, AnAerofoilHasAFanAtItsTrailingEdge) {
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.002, .ratio = 1.2, .count = 10};
+  const Layered run(wing(flat, {-1.5, -1.5}, {2.5, 1.5}, {0, 0}, {1, 1}), 0.04, {layers});
+  EXPECT_EQ(run.figures[0].rows, 10);
+  EXPECT_EQ(run.figures[0].fewest_rows, 10);
+  expect_as_given(run.figures[0], layers);
+  // The fan surrounds the trailing edge: a vertex lies behind it, in each row.
+  for (int k = 1; k <= 10; ++k) {
+    const double height = layers.first * (std::pow(1.2, k) - 1) / 0.2;
+    double nearest = 1;
+    for (const Vec3& p : run.session->mesh().vertices) nearest = std::min(nearest, norm(p - Vec3(1 + height, 0, 0)));
+    EXPECT_LT(nearest, 0.3 * height) << k;
+  }
+}
+
+TEST(LayerRows, AWingRootOnACylinderHasItsRowsAtTheHeights) {
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.001, .ratio = 1.25, .count = 12};
+  const Layered run(wing(cylinder, {-0.8, -1}, {0.8, 2}, {0, 0}, {0.2, 1}), 0.03, {layers});
+  EXPECT_EQ(run.figures[0].rows, 12);
+  EXPECT_EQ(run.figures[0].fewest_rows, 12);
+  expect_as_given(run.figures[0], layers);
+  for (const Vec3& p : run.session->mesh().vertices) EXPECT_NEAR(std::hypot(p.x(), p.y()), 2, 1e-9);
+}
+
+TEST(LayerRows, SidesHaveTheirVerticesAtTheHeights) {
+  const CurveLayers layers{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 8};
+  const Layered run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers});
+  EXPECT_EQ(run.figures[0].fewest_rows, 8);
+  EXPECT_EQ(run.figures[0].cells, 8 * 20);
+  expect_as_given(run.figures[0], layers, 1e-6);
+  for (int k = 1; k <= 8; ++k) {
+    const double height = 0.01 * (std::pow(1.3, k) - 1) / 0.3;
+    std::int64_t found = 0;
+    for (const Vec3& p : run.session->mesh().vertices)
+      if (std::abs(p.y() - height) < 1e-6) ++found;
+    EXPECT_EQ(found, 21) << k;
+  }
+}
+
+TEST(LayerRows, CornersHaveFansAndMerge) {
+  const AnalyticCad ell = plane_of(polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}));
+  const CurveLayers layers{.curves = {1, 2, 3, 4, 5, 6}, .first = 0.005, .ratio = 1.2, .count = 12};
+  const Layered run(ell, 0.1, {layers});
+  EXPECT_EQ(run.figures[0].rows, 12);
+  EXPECT_GE(run.figures[0].fewest_rows, 11);
+  expect_as_given(run.figures[0], layers);
+  // Rows meet on the bisector of a right angle, and turn around the corner of 270 degrees by three steps.
+  const double height = 0.005;
+  double bisector = 1, around = 1;
+  for (const Vec3& p : run.session->mesh().vertices) {
+    bisector = std::min(bisector, norm(p - Vec3(height, height, 0)));
+    around = std::min(around, norm(p - Vec3(1 - height * std::cos(pi / 6), 1 - height * std::sin(pi / 6), 0)));
+  }
+  EXPECT_LT(bisector, 1e-9);
+  EXPECT_LT(around, 1e-9);
+}
+
+TEST(LayerRows, RowsThatMeetEnd) {
+  const CurveLayers layers{.curves = {1, 3}, .first = 0.01, .ratio = 1.3, .count = 30};
+  const Layered run(plane_of(rectangle({0, 0}, {2, 0.3})), 0.1, {layers});
+  EXPECT_GE(run.figures[0].fewest_rows, 3);
+  EXPECT_LE(run.figures[0].rows, 6);  // .01 + .013 + ... = .15 after six rows
+  expect_as_given(run.figures[0], layers, 1e-6);
+  // A wall without layers ends them, too.
+  const Layered wall(plane_of(rectangle({0, 0}, {2, 0.3})), 0.1, {{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 30}});
+  EXPECT_LE(wall.figures[0].rows, 9);
+}
+
+TEST(LayerRows, QuadrilateralsComeInRows) {
+  const CurveLayers layers{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 8};
+  const Layered run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers}, "q1.0");
+  EXPECT_EQ(run.figures[0].fewest_rows, 8);
+  expect_as_given(run.figures[0], layers, 1e-6);
+  const FaceMesh& face = run.session->mesh().faces[0];
+  std::int64_t rows = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(face.quads); ++k) {
+    double low = 1, high = 0;
+    for (const std::int32_t v : face.quad(k)) {
+      const double y = run.session->mesh().vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(v)])].y();
+      low = std::min(low, y), high = std::max(high, y);
+    }
+    if (high < 0.2385 + 0.01) ++rows;  // .01 (1.3^8 - 1) / .3
+  }
+  EXPECT_GE(rows, 8 * 20);
+}
+
+TEST(LayerRows, TheMeshDoesNotDependOnThreads) {
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.002, .ratio = 1.2, .count = 10};
+  const AnalyticCad cad = wing(flat, {-1.5, -1.5}, {2.5, 1.5}, {0, 0}, {1, 1});
+  const Layered one(cad, 0.08, {layers}), four(cad, 0.08, {layers}, "p1", 4);
+  EXPECT_EQ(one.session->mesh().vertices, four.session->mesh().vertices);
+  EXPECT_EQ(one.session->mesh().faces[0].triangles, four.session->mesh().faces[0].triangles);
+}
+
+TEST(LayerRows, UnusableLayersAreRejected) {
+  Monitor monitor;
+  const auto session = session_of_size(plane_of(rectangle({0, 0}, {1, 1})), 0.1, monitor);
+  EXPECT_THROW(session->add_layers({.curves = {}, .first = 0.1}), InvalidArgument);
+  EXPECT_THROW(session->add_layers({.curves = {1}, .first = -0.1}), InvalidArgument);
+  EXPECT_THROW(session->add_layers({.curves = {1}, .first = 0.1, .ratio = 0.5}), InvalidArgument);
+  EXPECT_THROW(session->add_layers({.curves = {1}, .first = 0.1, .ratio = 1.2, .count = 0}), InvalidArgument);
+  session->add_layers({.curves = {1}, .first = 0.01});
+  session->parameters().set("element", "q1.1");
+  EXPECT_THROW(session->make_mesh(), InvalidArgument);
+  session->parameters().set("element", "p1");
+  session->add_layers({.curves = {1}, .first = 0.02});
+  EXPECT_THROW(session->make_mesh(), InvalidArgument);
+  session->clear_layers();
+  session->add_layers({.curves = {9}, .first = 0.02});
+  EXPECT_THROW(session->make_mesh(), InvalidArgument);
+  session->clear_layers();
+  EXPECT_NO_THROW(session->make_mesh());
+}
+
+}  // namespace
+}  // namespace carreau
