@@ -23,7 +23,7 @@ inline constexpr double same_corner = 1e-6;
 inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor = 0.65;
 /// The same for the angle between planes of triangles and tangent planes at their corners. On a sphere an equilateral triangle
 /// stands 2 / sqrt(3) times as steeply as its edges. [tests/cpp/surface/guarantees_test]
-inline constexpr double triangle_angle_factor = 0.62;
+inline constexpr double triangle_angle_factor = 0.66;
 
 // Background meshes (background, adapt/transfer)
 /// Share of the longest edge of the nearest triangle. Largest distance of a surface from the triangles that approximate
