@@ -18,9 +18,9 @@ inline constexpr double way_inside = 1e-3;
 /// meshes of whole spheres included. None exceeds it by 25 % or 30 %. Edges of a unit mesh are not all of unit length,
 /// and a triangle is farther from a sphere than its edges, by 4/3. [tests/cpp/surface/guarantees_test]
 inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor = 0.65;
-/// The same for the angle between planes of triangles and tangent planes at their corners. On a sphere an equilateral triangle
-/// stands 2 / sqrt(3) times as steeply as its edges. [tests/cpp/surface/guarantees_test]
-inline constexpr double triangle_angle_factor = 0.62;
+/// Factor of sizes for the angle between planes of triangles and tangent planes at their corners (geo_guarantee 2); refine_in_space
+/// divides the triangles that exceed it. On a sphere an equilateral triangle stands 2 / sqrt(3) times as steeply as its edges. [tests/cpp/surface/guarantees_test]
+inline constexpr double triangle_angle_factor = 0.66;
 
 // Background meshes (background, adapt/transfer)
 /// Share of the longest edge of the nearest triangle. Largest distance of a surface from the triangles that approximate

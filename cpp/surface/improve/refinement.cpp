@@ -86,6 +86,8 @@ class Refinement {
   // Finds triangles that look wrong from the data at their corners, or against the mean of the triangles around.
   std::vector<int> find_wrong() {
     const std::vector<Triangle>& triangles = mesh_.plane.triangles;
+    // Passes before may have moved vertices.
+    if (std::isfinite(kept_.triangle_angle_deg)) mesh_.normal.resize(mesh_.xyz.size()), ask_normals(mesh_.xyz.size());
     with_normals_ = mesh_.normal.size() == mesh_.xyz.size();
     // Beside coarse edges that bend by more than a right angle divisions of shapely triangles end in slivers.
     known_ = with_normals_ && (kept_.any() || rules_.uses_curvature() || !input_.one_size);
@@ -97,16 +99,15 @@ class Refinement {
         for (const std::int32_t v : t) around[v] = around[v] + n;
       }
     }
-    if (known_) ask_curves();
+    if (known_) ask_normals(input_.domain->plane.vertices.size());  // at imposed vertices
     const std::vector<Vec3>& normal = known_ ? mesh_.normal : around;
     return all_that_hold(triangles.size(), {team_, input_.threads}, "doubtful triangles", monitor_, [&](std::size_t t) {
       return is_doubtful(triangles[t], normal) && !collapsed(triangles[t]);
     });
   }
 
-  // At imposed vertices.
-  void ask_curves() {
-    const std::size_t n = input_.domain->plane.vertices.size();
+  // At the first n vertices.
+  void ask_normals(std::size_t n) {
     std::vector<SurfaceJet> jets(n);
     cad_.surface(input_.ref, want_first, std::span(mesh_.plane.vertices).first(n), jets);
     for (std::size_t v = 0; v < n; ++v) mesh_.normal[v] = unit_normal(jets[v]).value_or(Vec3{});
@@ -307,7 +308,10 @@ class Refinement {
 
 std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
                                  PatchMesh& mesh, Monitor& monitor, Team* team) {
-  return Refinement(input, cad, rules, kept, mesh, monitor, team).run();
+  const bool had_normals = !mesh.normal.empty();
+  std::vector<int> wrong = Refinement(input, cad, rules, kept, mesh, monitor, team).run();
+  if (!had_normals) mesh.normal.clear();
+  return wrong;
 }
 
 }  // namespace carreau

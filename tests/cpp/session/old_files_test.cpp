@@ -60,11 +60,11 @@ struct OldRun {
     session.run_env((folder / "blsurf.env").string());
   }
   [[nodiscard]] FlatMesh read(const std::string& name) const { return read_mesh((folder / name).string()); }
-  [[nodiscard]] std::vector<Vec3> vertices_of_reference(int ref) const {
+  [[nodiscard]] std::vector<Vec3> vertices_of_reference(int ref) {
     std::vector<Vec3> found;
-    const SurfaceMesh& mesh = session.mesh();
+    const FlatMesh mesh = session.exported();
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      if (mesh.vertex_ref[v] == ref) found.push_back(mesh.vertices[v]);
+      if (mesh.vertex_refs[v] == ref) found.push_back(mesh.vertices[v]);
     return found;
   }
 };
@@ -89,7 +89,7 @@ std::string pair_pardom(const std::string& points1, const std::string& points2) 
 TEST(OldFiles, TextsOfOldUsersAreRead) {
   OldRun run(one_square(), square_pardom + "0\nthis square was drawn in 1999, 'quotes and all\n");
   run.run("hphydef\n 0.1\nhinterp_flag = 1\ncall\ninimesh\ncall export\ncall exit\nthe rest is 'a note\n");
-  EXPECT_TRUE(Hearer::has(run.monitor.warnings, "x.pardom, line 7: the text after the last surface is ignored (ns is 1)"));
+  EXPECT_TRUE(Hearer::has(run.monitor.warnings, "x.pardom, line 8: the text after the last surface is ignored (ns is 1)"));
   EXPECT_EQ(run.session.mesh().edge_count(), 40u);
   EXPECT_EQ(run.read("x.mesh").triangles.size(), run.session.mesh().triangle_count());
 }

@@ -68,16 +68,15 @@ struct Planes {
 
 // RT-0232 sec. 3.3: angle_mesh is "l'angle limite entre le plan d'un triangle du maillage et chacun des plans tangents aux trois sommets".
 TEST_P(Guarantee, PlanesOfTriangles) {
-  for (const double angle : {8.0, 4.0}) {
+  for (const double angle : {8.0, 4.0, 2.0}) {
     const Planes run(GetParam(), angle, false, 0);
     const MeshEvaluation &before = run.edges.session->delivered(), &d = run.triangles.session->delivered();
     const Delivery& planes = d[Kind::vertex_angle];
     SCOPED_TRACE(known(before[Kind::vertex_angle], angle) + "; then " + known(planes, angle));
     EXPECT_EQ(planes.limit, angle);
-    EXPECT_GE(share_within(planes.values, angle), 0.995);
-    EXPECT_LE(planes.spread.max, 1.25 * angle);
+    EXPECT_LE(planes.spread.max, angle);
     EXPECT_GE(share_within(d[Kind::edge_angle].values, angle), 0.995);
-    EXPECT_LE(planes.values.size(), 2 * before[Kind::vertex_angle].values.size());
+    EXPECT_LE(static_cast<double>(planes.values.size()), 1.4 * static_cast<double>(before[Kind::vertex_angle].values.size()));
     EXPECT_EQ(d.folded_triangles, 0);
     EXPECT_GE(d[Kind::q2].spread.mean, 0.95);
   }
@@ -89,9 +88,8 @@ TEST_P(Guarantee, PlanesOfTrianglesByDirection) {
     const MeshEvaluation &before = run.edges.session->delivered(), &d = run.triangles.session->delivered();
     const Delivery& planes = d[Kind::vertex_angle];
     SCOPED_TRACE(known(before[Kind::vertex_angle], 8) + "; then " + known(planes, 8));
-    EXPECT_GE(share_within(planes.values, 8), 0.995);
-    EXPECT_LE(planes.spread.max, 1.25 * 8);
-    EXPECT_LE(planes.values.size(), 3 * before[Kind::vertex_angle].values.size());
+    EXPECT_LE(planes.spread.max, 8);
+    EXPECT_LE(planes.values.size(), 2 * before[Kind::vertex_angle].values.size());
     EXPECT_EQ(d.folded_triangles, 0);
   }
 }
