@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of a session that are made of known meshes: carried from another session, or refined.
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -29,6 +30,21 @@ void require_faces_with_uv(const CompositeResult& result, const Meshed& meshed, 
   else if (result.mesh.curves.size() != meshed.topology.curves.size())
     why = "cracks or narrow faces have changed its curves";
   if (!why.empty()) throw InvalidArgument(std::string("the mesh cannot be ") + what + ": " + why);
+}
+
+/// Of a mesh that may be discarded: stops alone pass.
+class TrialMonitor final : public Monitor {
+ public:
+  explicit TrialMonitor(Monitor& whole) : whole_(whole) {}
+  void checkpoint() override { whole_.checkpoint(); }
+
+ private:
+  Monitor& whole_;
+};
+
+bool has_new_reasons(const SurfaceMesh& before, const SurfaceMesh& after) {
+  return !std::equal(before.faces.begin(), before.faces.end(), after.faces.begin(), after.faces.end(),
+                     [](const FaceMesh& p, const FaceMesh& q) { return p.why == q.why; });
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -120,9 +136,11 @@ const HighOrderMesh& Session::raise_order(int order, NodePlaces places) {
   const SizeRules rules(meshed.model, meshed.topology, cad, meshed.options.size);
   HighOrderMesh made = carreau::raise_order(model, s.result, order, places, false, run);
   std::optional<CompositeResult> finer;
+  TrialMonitor trial(run);
   for (int round = 0; round < thresholds::high_order::max_divisions && !made.invalid.empty() && s.result.mesh.periodic.empty(); ++round) {
     CompositeResult next = finer ? *finer : s.result;
-    carreau::refine_mesh(model, rules, meshed.options, {.edges = made.coarse}, run, next);
+    carreau::refine_mesh(model, rules, meshed.options, {.edges = made.coarse}, trial, next);
+    if (has_new_reasons(s.result.mesh, next.mesh)) break;  // elements of order 2 have become invalid
     HighOrderMesh again = carreau::raise_order(model, next, order, places, false, run);
     if (again.invalid.size() >= made.invalid.size()) break;
     made = std::move(again), finer = std::move(next);
