@@ -278,7 +278,7 @@ class Session {
     done(carreau_add_layers(get(), detail::count_of(curves.size()), detail::data_or_null(curves), first, ratio, count));
   }
   void clear_layers() { done(carreau_clear_layers(get())); }
-  /// Of the layers of the last mesh, from 0 in the order of add_layers().
+  /// Measures a set of layers of the last mesh, from 0 in the order of add_layers().
   [[nodiscard]] carreau_layers_report layers_report(std::int64_t index = 0) {
     carreau_layers_report report{};
     report.struct_size = sizeof report;

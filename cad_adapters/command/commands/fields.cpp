@@ -17,7 +17,6 @@
 #include "inputs/open_input.h"
 #include "mesh/curve_edges.h"
 #include "mesh/periodic_faces.h"
-#include "mesh/layers.h"
 #include "mesh/mesh_parameters.h"
 
 namespace command {

@@ -26,7 +26,6 @@
 #include "mesh/periodic_faces.h"
 #include "mesh/failed_faces.h"
 #include "mesh/groups.h"
-#include "mesh/layers.h"
 #include "mesh/mesh_parameters.h"
 #include "mesh/mesh_summary.h"
 #include "mesh/progress.h"

@@ -15,7 +15,6 @@
 #include "base/text_file.h"
 #include "files/session_handle.h"
 #include "mesh/curve_edges.h"
-#include "mesh/layers.h"
 #include "mesh/near.h"
 #include "mesh/periodic_faces.h"
 #include "mesh/selection.h"

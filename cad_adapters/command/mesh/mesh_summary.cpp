@@ -12,7 +12,7 @@
 #include "check/part_crossings.h"
 #include "check/quality_json.h"
 #include "files/session_handle.h"
-#include "mesh/layers.h"
+#include "mesh/curve_edges.h"
 
 namespace command {
 namespace {
