@@ -205,7 +205,7 @@ class Border {
         worst_ = edges[i].part;
     for (std::size_t n = 0; n < pieces_.size(); ++n)
       for (std::size_t k = 0; k < marked[n].size(); ++k)
-        if (marked[n][k] != 0) rooms_[n][k] *= slide;
+        if (marked[n][k] != 0) rooms_[n][k] *= thresholds::slide;
     return any;
   }
 

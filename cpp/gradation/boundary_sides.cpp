@@ -10,11 +10,11 @@ namespace carreau {
 
 namespace {
 
-using thresholds::gradation::within_45_degrees;
+using thresholds::gradation::straight_on;
 
 bool goes_straight_on(const Vec3& before, const Vec3& at, const Vec3& after) noexcept {
   const Vec3 p = at - before, q = after - at;
-  return dot(p, q) > within_45_degrees * norm(p) * norm(q);
+  return dot(p, q) > straight_on * norm(p) * norm(q);
 }
 
 }  // namespace

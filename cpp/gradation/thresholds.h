@@ -11,9 +11,7 @@ namespace carreau::thresholds::gradation {
 // Fronts of one size (gradation, graded_field)
 /// Cosine, 45.6 degrees. A front goes straight on over a vertex if the line from its source and the edge to the next vertex make at most
 /// this angle: the six neighbours of a vertex of a good mesh leave at most 30 degrees. Lines that agree so well are one wave from a line of
-/// sources, not two cones. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
-/// polygons. [Gradation.ConeOnATriangulationOfVaryingSize, RidgeBetweenTwoSourcesAndPlaneWaveFromALine,
-/// Proximity.NarrowZonesHoldTheRequestedLayers]
+/// sources, not two cones. [Gradation.ConeOnATriangulationOfVaryingSize, RidgeBetweenTwoSourcesAndPlaneWaveFromALine]
 inline constexpr double within_45_degrees = 0.7;
 /// Cosine. Normals of places of a vertex that are one smooth surface, where more than two faces meet.
 /// [Gradation.ConeOnASphereOfTwoPatches]
@@ -31,6 +29,9 @@ inline constexpr double detour = 1.0175;
 inline constexpr double negligible = 1e-3;
 
 // Narrow zones and faces that face each other (boundary_sides, proximity, facing)
+/// Cosine. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
+/// polygons. [Proximity.NarrowZonesHoldTheRequestedLayers; 0.7: frame.step by angle with gradation changes]
+inline constexpr double straight_on = std::numbers::sqrt2 / 2;
 /// Cosine. Fronts, or normals of faces, that meet within this angle of head on. [as above]
 inline constexpr double head_on = 0.8;
 /// Radians. Angle of a corner whose sides are near each other because it is a corner,

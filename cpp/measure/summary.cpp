@@ -130,7 +130,7 @@ std::span<const EvaluatedMeasure> delivered_measures() {
 }
 
 void summarise(MeshEvaluation& d) {
-  static constexpr std::array lengths{0.25, 0.5, short_limit, 0.9, 1.1, long_limit, 2.0, 4.0};
+  static constexpr std::array lengths{0.25, 0.5, unit_edge::shortest, 0.9, 1.1, unit_edge::longest, 2.0, 4.0};
   static constexpr std::array shares{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
   static constexpr std::array angles{1.0, 2.0, 4.0, 8.0, 10.0, 16.0, 30.0, 60.0, 90.0};
   static constexpr std::array ratios{1.1, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0};

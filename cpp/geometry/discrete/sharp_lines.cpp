@@ -170,7 +170,7 @@ class LineFinder {
       // If the angle was found, flatter edges that fade out belong to a tessellation.
       const bool clear = options_.sharp_angle ||
                          std::ranges::any_of(line, [&](std::int32_t e) { return bends_[index(e)] > thresholds::usual_sharp; });
-      if (certain || (clear && static_cast<int>(line.size()) >= min_edges)) continue;
+      if (certain || (clear && static_cast<int>(line.size()) >= thresholds::min_edges)) continue;
       for (const std::int32_t e : line) found_.sharp[index(e)] = 0;
       found_.dropped += static_cast<std::int64_t>(line.size());
     }

@@ -152,7 +152,7 @@ class CrossPatchInspector final : public Inspector {
   }
 
   [[nodiscard]] bool patches_continue() const {
-    return is_free_ && round_ < max_again && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
+    return is_free_ && round_ < thresholds::cross_patch::max_again && now_.faults() > 0 && !is_hopeless() && left_ >= 0;
   }
 
   // A mesh that is valid already is better than one with faults, even if that one may improve.

@@ -263,11 +263,12 @@ inline constexpr int search_passes = 8;
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
 inline constexpr std::int64_t search_shapes_a_triangle = 48;
-/// One of so many shapes is allowed until the first success: strips between fixed borders cannot be improved.
-inline constexpr std::int64_t first_share_of_search = 8;
+/// Shapes. The limit until the first success, and for each triangle: strips between fixed borders cannot be improved.
+/// [an eighth of the limit: mambo_s34.step by direction changes]
+inline constexpr std::int64_t first_search_shapes = 2'400, first_search_shapes_a_triangle = 4;
 /// Shapes. Increase of the limit for each success.
 inline constexpr std::int64_t search_shapes_a_success = 12'000;
-/// Share of the mean cost. Required gain of a change, and of a round of moves that another round follows. [0.8 to 1.25
+/// Share of the mean cost. Required gain of a change; twice as much for a round of moves that another follows. [0.8 to 1.25
 /// times: no figure changes; ends the search]
 inline constexpr double change_gain = 0.01;
 /// Rounds. Most of these rounds. [as above]

@@ -137,7 +137,7 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   for (int round = 1; round < relaxing_rounds; ++round) {
     relax_zone(zone, false);
     const ZoneCost next = zone.cost(infinity);
-    const bool more = next.mean < now.mean * (1 - change_gain);
+    const bool more = next.mean < now.mean * (1 - 2 * change_gain);
     now = next;
     if (!more) break;
   }
@@ -192,7 +192,7 @@ void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const 
   if (!mesh.bends.empty()) return;
   const auto total = static_cast<std::int64_t>(mesh.triangles.size());
   const std::int64_t budget = search_shapes + search_shapes_a_triangle * total;
-  std::int64_t allowed = budget / first_share_of_search;
+  std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
   std::optional<SearchZone> made;  // most meshes need none
   BadTriangles bad(work, settled);
   for (int pass = 0; pass < search_passes; ++pass) {

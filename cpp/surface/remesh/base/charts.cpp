@@ -291,7 +291,7 @@ std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, 
     if (at.regular && is_near()) return at;
     if (!at.regular) at = from;
   }
-  for (int step = 0; step < rounding_of::newton_steps; ++step) {
+  for (int step = 0; step < max_newton_steps; ++step) {
     if (!at.regular) return {};
     const Vec3 d = target - at.xyz;
     const double e = dot(at.su, at.su), f = dot(at.su, at.sv), g = dot(at.sv, at.sv), det = e * g - f * f;

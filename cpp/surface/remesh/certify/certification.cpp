@@ -102,7 +102,8 @@ class Certifier::Work {
 
   [[nodiscard]] bool costs_too_much(double mean_before) const {
     const double mean = shapes_mean();
-    return mean < std::min(thresholds::remesh::good_shape, mean_before) && (mean_before >= thresholds::remesh::good_shape || mean < mean_before - max_mean_lost);
+    constexpr double good_mean = thresholds::remesh::good_shape;
+    return mean < std::min(good_mean, mean_before) && (mean_before >= good_mean || mean < mean_before - max_mean_lost);
   }
 
   // Triangles that share a vertex. The worst group is last: no edit may help it.

@@ -24,7 +24,6 @@ std::array<double, 3> weights_in(const std::array<Vec2, 3>& c, const Vec2& p) {
   return {1 - wb - wc, wb, wc};
 }
 
-constexpr double on_side = 1e-9;  // share of a triangle
 
 }  // namespace
 
