@@ -7,7 +7,7 @@
 
 #include "io/files.h"
 #include "io/mesh_writers.h"
-#include "io/plane/bl2d_steps.h"
+#include "io/bl2d_steps.h"
 #include "support/error.h"
 
 namespace carreau {

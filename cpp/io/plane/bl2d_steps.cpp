@@ -5,7 +5,7 @@
 #include <array>
 #include <map>
 
-#include "io/plane/bl2d_steps.h"
+#include "io/bl2d_steps.h"
 #include "io/plane/tokens.h"
 #include "support/error.h"
 

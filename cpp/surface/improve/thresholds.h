@@ -39,6 +39,9 @@ namespace refinement {
 /// Cosine, below which triangles are examined more closely. At a corner the surface may be turned by 60 degrees on the
 /// way to the middle of a coarse triangle.
 inline constexpr double doubtful = 0.5;
+/// Shape of the triangles that a division for an angle or a distance makes, with isotropic sizes. Halves of an equilateral
+/// triangle have .75.
+inline constexpr double min_shape = 0.4;
 /// Largest number of divisions that lead to a triangle. If all triangles beside a coarse chord are turned over,
 /// divisions would continue until vertices coincide.
 inline constexpr std::uint8_t deepest = 12;
