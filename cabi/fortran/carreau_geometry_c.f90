@@ -463,8 +463,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_mesh_refine_sizes
 
-    !> Makes elements of order 2 to 4 over the elements of the session's mesh, which stays: best over a mesh of order 2
-    !! (parameter element), whose sizes were chosen for curved elements.
+    !> Makes elements of order 2 to 4 over the elements of the session's mesh: best over a mesh of order 2 (parameter
+    !! element), whose sizes were chosen for curved elements.
     function c_raise_order(session, order, places, invalid) result(status) bind(c, name="carreau_raise_order")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none

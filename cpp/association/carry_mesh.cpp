@@ -153,6 +153,9 @@ class Carrier {
         found.known[v] = 1, found.uv[v] = at;
       }
     }
+    for (const Seam& seam : seams)
+      for (const std::int32_t use : seam.from)
+        if (const auto image = use_of.find({seam.curve, use}); image != use_of.end()) place_on_pole(face, seam.curve, use, image->second, found);
     for (const auto* list : {&face.triangles, &face.flattened})
       for (const auto& t : *list)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -161,6 +164,28 @@ class Carrier {
           if (found.known[a] != 0 && found.known[b] != 0) found.area += found.uv[a].x() * found.uv[b].y() - found.uv[a].y() * found.uv[b].x();
         }
     return found;
+  }
+
+  // Vertices on a side of (u, v) that is a point of space, at their shares of the side.
+  void place_on_pole(const FaceMesh& face, std::size_t c, std::int32_t use, std::int32_t image, Boundary& found) const {
+    const DiscreteCurve &before = curves_from_[c], &after = curves_to_[match_.curve[c]];
+    if (!before.indivisible) return;
+    const std::int32_t pole = from_.result.mesh.curves[c].vertices.front();
+    const Vec2 a = before.uv_of_use[use].front(), side = before.uv_of_use[use].back() - a;
+    const Vec2 &p = after.uv_of_use[image].front(), &q = after.uv_of_use[image].back();
+    const double square = dot(side, side);
+    if (!(square > 0)) return;
+    const auto share = [&](std::size_t v) { return dot(face.uv[v] - a, side) / square; };
+    const auto lies_on = [&](std::size_t v) {
+      const double s = share(v);
+      const Vec2 off = face.uv[v] - a - s * side;
+      return face.vertex[v] == pole && s > -same_domain && s < 1 + same_domain && dot(off, off) <= same_domain * square;
+    };
+    double turned = 0;  // known ends give the direction
+    for (std::size_t v = 0; v < face.uv.size(); ++v)
+      if (found.known[v] != 0 && lies_on(v)) turned += (share(v) < 0.5 ? 1 : -1) * (norm(found.uv[v] - p) - norm(found.uv[v] - q));
+    for (std::size_t v = 0; v < face.uv.size(); ++v)
+      if (found.known[v] == 0 && lies_on(v)) found.known[v] = 1, found.uv[v] = turned > 0 ? lerp(q, p, share(v)) : lerp(p, q, share(v));
   }
 
   [[nodiscard]] Boundary best_boundary(std::size_t f, const ElementWork& work) const {

@@ -190,7 +190,16 @@ class Refiner {
     grow_values(sizes);
     mesh_.mid_vertices.clear();
     for (CurveMesh& curve : mesh_.curves) curve.mid.clear();
-    if (improves) swap_edges(before);
+    std::vector<std::int32_t> centres;
+    if (improves) {
+      centres.resize(mesh_.vertices.size() - static_cast<std::size_t>(before));
+      std::iota(centres.begin(), centres.end(), before);
+    } else {  // two edges of a curve open to a straight line at the corner between
+      for (const CurveMesh& curve : mesh_.curves) centres.insert(centres.end(), curve.vertices.begin(), curve.vertices.end());
+      std::sort(centres.begin(), centres.end());
+      centres.erase(std::unique(centres.begin(), centres.end()), centres.end());
+    }
+    swap_edges(centres, improves ? 1 : poor_shape);
   }
 
   void check_limit() const {
@@ -540,9 +549,8 @@ class Refiner {
     grow(result_.vertex_size), grow(sizes);
   }
 
-  void swap_edges(std::int32_t first_new) {
-    std::vector<std::int32_t> centres(mesh_.vertices.size() - static_cast<std::size_t>(first_new));
-    std::iota(centres.begin(), centres.end(), first_new);
+  // Swaps edges around `centres` whose triangles are below the shape.
+  void swap_edges(const std::vector<std::int32_t>& centres, double below) {
     if (centres.empty() || mesh_.cells_are_not_triangles()) return;
     EditableMesh mesh(mesh_, centres, 1);
     for (int pass = 0; pass < swap_passes; ++pass) {
@@ -552,20 +560,20 @@ class Refiner {
         if (!mesh.is_known(v)) continue;
         const std::vector<EditableMesh::Place> fan = mesh.fan(v);
         for (const EditableMesh::Place& place : fan)
-          for (int side = 0; side < 3; ++side) changed = try_swap(mesh, place, side) || changed;
+          for (int side = 0; side < 3; ++side) changed = try_swap(mesh, place, side, below) || changed;
       }
       if (!changed) break;
     }
   }
 
-  bool try_swap(EditableMesh& mesh, EditableMesh::Place place, int side) const {
+  bool try_swap(EditableMesh& mesh, EditableMesh::Place place, int side, double below) const {
     const std::optional<EditableMesh::Quad> quad = mesh.quad(place, side);
     if (!quad || quad->mixed) return false;
     const FaceMesh& face = mesh_.faces[quad->face];
     const auto worst = [&](const Triangle& t, const Triangle& u) { return std::min(shape(face, t), shape(face, u)); };
     const auto after = EditableMesh::swapped(*quad);
     const double before = worst(mesh.at({quad->face, quad->t}), mesh.at({quad->face, quad->u}));
-    if (!(worst(after[0], after[1]) > before + min_swap_gain)) return false;
+    if (before >= below || !(worst(after[0], after[1]) > before + min_swap_gain)) return false;
     const Vec3 normal = mesh.mean_normal(quad->places());
     for (const Triangle& t : after) {
       const Vec3 n = mesh.normal(quad->face, t);

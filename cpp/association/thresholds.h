@@ -27,6 +27,8 @@ inline constexpr int middle_steps = 3;
 inline constexpr double off_middle = 0.01;
 /// Passes of swaps, the gain of quality (Q2) of a swap, and the cosine of the turn that it may make.
 inline constexpr int swap_passes = 4;
+/// Shape (Q2) of triangles beside curves that are swapped after a halving; regular ones keep the pattern.
+inline constexpr double poor_shape = 0.5;
 inline constexpr double min_swap_gain = 1e-3, swap_cosine = 0.8;
 
 }  // namespace carreau::thresholds::association

@@ -464,7 +464,33 @@ class Sizes(Folder):
         done = subprocess.run([PROGRAM, "check", self.path("b.vtu"), "--json"], capture_output=True, text=True, check=True)
         self.assertGreater(json.loads(done.stdout)["elements"]["triangles6"], 0)
         self.refused(bent, "-o", "c.bl2d", "--element", "p2", sentence="holds straight triangles (p1) only")
-        self.refused(bent, "-o", "c.mesh", "--element", "p3", sentence="--element")
+        self.refused(bent, "-o", "c.mesh", "--element", "p5", sentence="--element")
+
+    def test_meshes_are_halved_carried_and_of_order_three_and_four(self):
+        k = 4 / 3 * (math.sqrt(2) - 1)
+
+        def bent(radius):
+            return "1\n3 1\n" + "".join(f"{radius * x!r} {radius * y!r} {radius * z!r}\n" for x, y in ((1, 0), (1, k), (k, 1), (0, 1)) for z in (0, 2))
+        first, second = self.write("first.bpt", bent(1)), self.write("second.bpt", bent(1.5))
+
+        def figures(name):
+            return json.loads(subprocess.run([PROGRAM, "check", self.path(name), "--json"], capture_output=True, text=True, check=True).stdout)
+        self.run_mesh(first, "--size", "0.4", "-o", "a.vtu", "-q")
+        self.run_mesh(first, "--size", "0.4", "-o", "b.vtu", "--halvings", "2", "-q")
+        self.run_mesh(second, "--size", "0.4", "-o", "c.vtu", "--carry-from", first, "-q")
+        a, b, c = (figures(name) for name in ("a.vtu", "b.vtu", "c.vtu"))
+        self.assertEqual(b["triangles"], 16 * a["triangles"])
+        self.assertEqual(c["triangles"], a["triangles"])
+        self.assertAlmostEqual(c["quality"]["area"] / a["quality"]["area"], 2.25, places=9)
+        self.refused(self.write("two.bpt", TWO_SQUARES), "-o", "d.vtu", "--carry-from", first, sentence="topologies differ")
+        self.refused(first, "-o", "d.vtu", "--match", "name", sentence="--carry-from")
+        for element, kinds in (("p3", " 21 "), ("p4", " 23 "), ("q3", " 36 "), ("q4", " 37 ")):
+            self.run_mesh(first, "--size", "0.4", "--element", element, "--nodes", "gauss-lobatto", "-o", "x.msh", "-o", "x.mesh", "-q")
+            with open(self.path("x.msh")) as file:
+                self.assertRegex(file.read(), rf"\n2 1{kinds}\d+\n")
+            with open(self.path("x.mesh")) as file:
+                self.assertIn(f"L2_T1_2D_P{element[1]}", file.read())
+        self.refused(first, "-o", "x.stl", "--element", "p3", sentence=".msh, .vtu and .mesh (of MFEM) can")
 
     def test_a_gradation_lets_sizes_grow_gently(self):
         sharp = self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02")

@@ -102,12 +102,13 @@ class Session(SessionBase, Geometries):
         counts = [each.value for each in numbers]
         nodes = np.empty((counts[0], 3))
         self._call(lib().raised_nodes, len(nodes), nodes)
-        found = []
+        found: list[Ints] = []
         for corners, n, width in ((3, counts[1], (order + 1) * (order + 2) // 2), (4, counts[2], (order + 1) ** 2), (2, counts[3], order + 1)):
             rows, refs = np.empty((n, width), dtype=np.int32), np.empty(n, dtype=np.int32)
             self._call(lib().raised_elements, corners, len(rows), rows, refs)
             found += [rows, refs]
-        return Raised(order, nodes, *found, invalid)
+        triangles, triangle_refs, quads, quad_refs, edges, edge_refs = found
+        return Raised(order, nodes, triangles, triangle_refs, quads, quad_refs, edges, edge_refs, invalid)
 
     def write_raised(self, path: str) -> None:
         """Writes these elements: .msh (Gmsh), .vtu, .mesh (MFEM)."""

@@ -32,7 +32,7 @@ void require_faces_with_uv(const CompositeResult& result, const Meshed& meshed, 
   if (!why.empty()) throw InvalidArgument(std::string("the mesh cannot be ") + what + ": " + why);
 }
 
-/// Of a mesh that may be discarded: stops alone pass.
+/// Hands on stops alone: the mesh may be discarded.
 class TrialMonitor final : public Monitor {
  public:
   explicit TrialMonitor(Monitor& whole) : whole_(whole) {}
