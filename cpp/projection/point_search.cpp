@@ -87,7 +87,8 @@ void PointSearch::refine(double& bound) {
     const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
     const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
     candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error;
-    if (!leaf.cut) bound = std::min(bound, place.distance + leaf.error);  // else the place may lie outside of the domain
+    // The interpolation may leave the box of a leaf that is small and bent; a place of a cut leaf may lie outside of the domain.
+    if (!leaf.cut) bound = std::min(bound, std::max(place.distance + leaf.error, candidate.floor));
   }
   drop();
 }
@@ -137,7 +138,7 @@ void PointSearch::take(const SurfaceJet& jet, Cad& cad) {
     const double square = dot(r, r);
     const CurveLeaf* of = curve_of(candidate);
     const Pieces& pieces = pieces_of(candidate);
-    const bool inside = of != nullptr || !pieces.domain || (square < best_.square && pieces.domain->contains(descent_.parameters(), cad));
+    const bool inside = of != nullptr || !pieces.domain || in_leaf_ || (square < best_.square && pieces.domain->contains(descent_.parameters(), cad));
     if (square < best_.square && !inside && !in_leaf_ && !pieces.leaves[static_cast<std::size_t>(candidate.piece)].cut) {
       // The descent has left the domain, and the leaf has not: its place is a bound that has excluded others.
       const SurfaceLeaf& leaf = pieces.leaves[static_cast<std::size_t>(candidate.piece)];
