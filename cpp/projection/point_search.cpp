@@ -15,10 +15,11 @@ namespace limit = thresholds::projection;
 
 }  // namespace
 
-PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal)
+PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal, const Vec3* hint)
     : entities_(&entities), x_(x), diagonal_(diagonal) {
   best_.square = infinity;
   double bound = infinity;  // some point is not farther
+  if (hint != nullptr) bound = norm(x - *hint) * (1 + 1e-12);
   if (only >= 0)
     look_at(only, bound);
   else
@@ -29,6 +30,15 @@ PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3
                                 });
   refine(bound);
   begin();
+}
+
+const Vec3* PointSearch::near_point() const {
+  for (const Candidate& candidate : candidates_) {
+    if (const CurveLeaf* curve = curve_of(candidate)) return &curve->from;
+    const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
+    if (!leaf.cut) return &leaf.at[candidate.sample.rank];
+  }
+  return nullptr;
 }
 
 void PointSearch::look_at(std::int32_t entity, double& bound) {
@@ -77,7 +87,8 @@ void PointSearch::refine(double& bound) {
     const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
     const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
     candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error;
-    if (!leaf.cut) bound = std::min(bound, place.distance + leaf.error);  // else the place may lie outside of the domain
+    // The interpolation may leave the box of a leaf that is small and bent; a place of a cut leaf may lie outside of the domain.
+    if (!leaf.cut) bound = std::min(bound, std::max(place.distance + leaf.error, candidate.floor));
   }
   drop();
 }
@@ -100,6 +111,7 @@ bool PointSearch::leads_to_best(const Candidate& c) const {
 void PointSearch::begin() {
   for (; next_ < candidates_.size(); ++next_) {
     const Candidate& candidate = candidates_[next_];
+    in_leaf_ = false;
     if (best_.entity >= 0 && (candidate.least() >= std::sqrt(best_.square) * (1 - 1e-15) || leads_to_best(candidate))) continue;
     const Pieces& pieces = pieces_of(candidate);
     if (const CurveLeaf* curve = curve_of(candidate)) {
@@ -120,17 +132,26 @@ PlaceRequest PointSearch::request() const {
 
 void PointSearch::take(const SurfaceJet& jet, Cad& cad) {
   if (descent_.take(jet)) return;
-  const Candidate& candidate = candidates_[next_++];
+  const Candidate& candidate = candidates_[next_];
   if (descent_.found()) {
     const Vec3 r = descent_.xyz() - x_;
     const double square = dot(r, r);
     const CurveLeaf* of = curve_of(candidate);
     const Pieces& pieces = pieces_of(candidate);
-    if (square < best_.square && (of != nullptr || !pieces.domain || pieces.domain->contains(descent_.parameters(), cad))) {
+    const bool inside = of != nullptr || !pieces.domain || in_leaf_ || (square < best_.square && pieces.domain->contains(descent_.parameters(), cad));
+    if (square < best_.square && !inside && !in_leaf_ && !pieces.leaves[static_cast<std::size_t>(candidate.piece)].cut) {
+      // The descent has left the domain, and the leaf has not: its place is a bound that has excluded others.
+      const SurfaceLeaf& leaf = pieces.leaves[static_cast<std::size_t>(candidate.piece)];
+      descent_ = Descent(x_, leaf.region, candidate.start, leaf.size, diagonal_);
+      in_leaf_ = true;
+      return;
+    }
+    if (square < best_.square && inside) {
       best_.entity = candidate.entity, best_.xyz = descent_.xyz(), best_.square = square;
       best_.place = {of != nullptr ? of->face : candidate.entity, of != nullptr ? of->curve : -1, descent_.parameters()};
     }
   }
+  ++next_;
   begin();
 }
 

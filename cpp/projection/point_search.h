@@ -27,8 +27,12 @@ struct PlaceRequest {
 
 class PointSearch {
  public:
-  /// Seeks in all entities, or in one of them if `only` is not negative.
-  PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal);
+  /// Seeks in all entities, or in one of them if `only` is not negative. `hint`: a point of these entities, not far from the closest point; null:
+  /// none is known.
+  PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal, const Vec3* hint = nullptr);
+
+  /// A point of the entities near the closest point, as a hint for the next search; null: none is known.
+  [[nodiscard]] const Vec3* near_point() const;
 
   /// False when the search has ended.
   [[nodiscard]] bool goes_on() const noexcept { return next_ < candidates_.size(); }
@@ -72,6 +76,7 @@ class PointSearch {
   std::vector<Candidate> candidates_;
   std::size_t next_ = 0;
   Descent descent_;
+  bool in_leaf_ = false;  // the descent stays in the leaf of its start
   Found best_;
 };
 

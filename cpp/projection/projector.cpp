@@ -50,6 +50,29 @@ SurfaceJet along(const SurfaceJet& s, const CurveJet& c) {
 
 std::string kind_of(int dimension) { return dimension == 2 ? "face" : dimension == 1 ? "curve" : "point"; }
 
+/// The ranks of points along Morton's curve through their box: points that follow each other are mostly neighbours.
+std::vector<std::int64_t> along_curve(std::span<const Vec3> x) {
+  BoxTree::Box box;
+  for (const Vec3& p : x) box.add(p);
+  constexpr std::uint64_t cells = 1U << 10U;
+  std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
+  keys.reserve(x.size());
+  for (const Vec3& p : x) {
+    std::uint64_t key = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double side = box.high[k] - box.low[k], share = side > 0 ? (p[k] - box.low[k]) / side : 0;
+      const auto cell = std::min(static_cast<std::uint64_t>(share * cells), cells - 1);
+      for (unsigned bit = 0; bit < 10; ++bit) key |= ((cell >> bit) & 1U) << (3 * bit + static_cast<unsigned>(k));
+    }
+    keys.emplace_back(key, static_cast<std::int64_t>(keys.size()));
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::int64_t> ranks;
+  ranks.reserve(keys.size());
+  for (const auto& [key, rank] : keys) ranks.push_back(rank);
+  return ranks;
+}
+
 [[noreturn]] void report_unknown(int dimension, int ref) {
   throw InvalidArgument("the model has no " + kind_of(dimension) + " with the reference " + std::to_string(ref));
 }
@@ -112,7 +135,7 @@ struct Projector::State {
 
   void prepare(int threads, Monitor& monitor);
   void collect_points();
-  void search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curves, std::map<int, std::string>& failed, Monitor& monitor);
+  void search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<const std::int64_t> ranks, std::span<ProjectedPoint> out, bool of_curves, std::map<int, std::string>& failed, Monitor& monitor);
   void nearest_points(std::optional<int> ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) const;
 
   std::shared_ptr<Cad> host;
@@ -262,19 +285,23 @@ void Projector::State::nearest_points(std::optional<int> ref, std::span<const Ve
   }
 }
 
-// All searches go on together: their places go to the host face by face.
-void Projector::State::search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<ProjectedPoint> out, bool of_curve,
+// All searches go on together: their places go to the host face by face. `ranks`: of the points in x and out; neighbours follow each other.
+void Projector::State::search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<const std::int64_t> ranks, std::span<ProjectedPoint> out, bool of_curve,
                               std::map<int, std::string>& failed, Monitor& monitor) {
   std::vector<PointSearch> searches;
-  searches.reserve(x.size());
-  for (const Vec3& each : x) searches.emplace_back(entities, only, each, diagonal);
+  searches.reserve(ranks.size());
+  const Vec3* hint = nullptr;
+  for (const std::int64_t rank : ranks) {
+    searches.emplace_back(entities, only, x[static_cast<std::size_t>(rank)], diagonal, hint);
+    if (const Vec3* near = searches.back().near_point()) hint = near;
+  }
   struct Asked {
     PlaceRequest place;
     std::size_t search = 0;
     CurveJet curve;
   };
   std::vector<Asked> asked;
-  std::vector<std::size_t> going(x.size());
+  std::vector<std::size_t> going(ranks.size());
   std::iota(going.begin(), going.end(), std::size_t{0});
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
@@ -310,17 +337,18 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
       }
     }
   }
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
     const PointSearch::Found& best = searches[i].best();
     if (best.entity < 0) {
       const std::lock_guard guard(failing);
       if (!failed.empty()) throw CallbackError(failed.begin()->second);
-      throw InvalidArgument("no point of the model was found for point " + std::to_string(i));
+      throw InvalidArgument("no point of the model was found for point " + std::to_string(ranks[i]));
     }
     const auto entity = static_cast<std::size_t>(best.entity);
-    out[i] = {of_curve ? curve_refs[entity] : model.faces[entity].ref, best.place.parameters, best.xyz, std::sqrt(best.square)};
+    ProjectedPoint& to = out[static_cast<std::size_t>(ranks[i])];
+    to = {of_curve ? curve_refs[entity] : model.faces[entity].ref, best.place.parameters, best.xyz, std::sqrt(best.square)};
     if (!of_curve && best.place.curve >= 0)  // on the boundary of a face
-      out[i].parameters = cad.curve(model.faces[entity].ref, best.place.curve + 1, want_position, best.place.parameters.x()).c;
+      to.parameters = cad.curve(model.faces[entity].ref, best.place.curve + 1, want_position, best.place.parameters.x()).c;
   }
 }
 
@@ -378,10 +406,11 @@ std::map<int, std::string> Projector::project(int dimension, int ref, std::span<
     only = static_cast<std::int32_t>(std::lower_bound(s.curve_refs.begin(), s.curve_refs.end(), ref) - s.curve_refs.begin());
   const Entities& entities = dimension == 2 ? s.all_faces : s.all_curves;
   constexpr std::size_t each = work_sizes::searches;
+  const std::vector<std::int64_t> order = along_curve(x);
   run_each((x.size() + each - 1) / each, s.bound(), threads,
            [&](std::size_t k, Monitor& here) {
              const std::size_t first = k * each, n = std::min(each, x.size() - first);
-             s.search(entities, only, x.subspan(first, n), out.subspan(first, n), dimension == 1, failed, here);
+             s.search(entities, only, x, std::span(order).subspan(first, n), out, dimension == 1, failed, here);
            },
            monitor);
   return failed;
