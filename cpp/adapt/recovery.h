@@ -43,7 +43,7 @@ std::vector<LocalDerivatives> project_derivatives(const ScalarField& field);
 /// Derivatives from the graph z = field (HDR sec. 3.4.3 a.2). The gradient is the slope of the mean of the unit normals of
 /// adjacent triangles, weighted by their angles (the paper leaves the weights open). The Hessian belongs to the quadric
 /// that is centred at the vertex, normal to that mean, and nearest to the neighbours. On steep fronts its curvatures
-/// are nearer to the graph's than the curvatures of a polynomial. Plane meshes only (the frame is (x, y)).
+/// are nearer to the graph's than the curvatures of a polynomial; on irregular meshes they do not converge. Plane meshes only (the frame is (x, y)).
 std::vector<LocalDerivatives> quadric_derivatives(const ScalarField& field);
 
 }  // namespace carreau
