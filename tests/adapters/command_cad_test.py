@@ -147,6 +147,24 @@ class CadFiles(unittest.TestCase):
                            ("bolt=.1:1", "no face, solid, edge or vertex has this name")):
             self.assertIn(said, self.failure("--size", "1", "--near", rule))
 
+    def test_layers_along_an_edge(self):
+        done = run("mesh", os.path.join(SHAPES, "plate.step"), "-o", self.path("l.mesh"), "--size", "4%", "--json",
+                   "--layers", "edge:1=first:0.01,ratio:1.3,count:6")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        layers, = json.loads(done.stdout)["layers"]
+        self.assertEqual(layers["rows"], 6)
+        for height in layers["first_height"].values():
+            self.assertAlmostEqual(height / 0.01, 1, delta=0.05)
+        for growth in layers["growth"].values():
+            self.assertAlmostEqual(growth / 1.3, 1, delta=0.05)
+
+    def test_wrong_layers(self):
+        for rule, said in (("edge:1", "--layers"), ("edge:1=0.1", "layers are written as"), ("edge:1=ratio:1.2", "layers are written as"),
+                           ("edge:1=first:0.1,ratio:x", "layers are written as"), ("edge:1=first:-1", "--layers"),
+                           ("edge:99=first:.1", "there is no edge 99"), ("face:1=first:.1", "layers grow from edges")):
+            self.assertIn(said, self.failure("--size", "1", "--layers", rule))
+        self.assertIn("p1 or q1.0", self.failure("--size", "1", "--layers", "edge:1=first:.1", "--element", "p2"))
+
     def test_a_file_of_sizes(self):
         sizes = self.path("sizes.json", '{"size": 0.5, "gradation": 1.4, "size-on": {"edge:1": 0.1, "solid:2": "3%"},\n'
                           ' "face-size": {"3": 0.3}, "near": {"vertex:1": {"size": 0.02, "reach": 1}}}')
