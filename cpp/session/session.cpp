@@ -19,7 +19,7 @@
 #include "session/options.h"
 #include "session/state.h"
 #include "support/format.h"
-#include "support/part_monitor.h"
+#include "fields/part_monitor.h"
 #include "surface/discrete/beside_patches.h"
 #include "surface/discrete/discrete_run.h"
 
