@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "embedding/thresholds.h"
+#include "model/format_point.h"
 #include "support/error.h"
 #include "support/format.h"
-#include "support/format_point.h"
 
 namespace carreau::embedding {
 

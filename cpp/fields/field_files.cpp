@@ -9,7 +9,7 @@
 #include "io/files.h"
 #include "support/error.h"
 #include "support/infinity.h"
-#include "support/part_monitor.h"
+#include "fields/part_monitor.h"
 
 namespace carreau {
 

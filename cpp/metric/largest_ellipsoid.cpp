@@ -82,7 +82,7 @@ void solve(const std::array<std::array<double, n>, n>& lower, std::array<double,
   }
 }
 
-/// Of a positive definite matrix, which is symmetric.
+/// Inverse of a positive definite matrix, which is symmetric.
 Matrix inverse_of(Matrix m) {
   factor(m);
   Matrix r = identity;

@@ -11,7 +11,8 @@ inline constexpr double shortest = std::numbers::sqrt2 / 2, longest = std::numbe
 /// Edges that a change may make where nothing else helps. [improve/even_edges_test, guarantees_test, quads_test]
 inline constexpr double shortest_at_last = 0.5, longest_at_last = 1.6;
 /// Lengths are summed up from pieces no longer than this, and gradations are measured over no less: over a hundredth of a unit, sizes that
-/// differ by an invisible tenth would have a gradation of 14 000. [DeliveredPlane.QuadratureHasItsOrder, GradationOfTinyEdgesIsOverATenthOfAUnit]
+/// differ by an invisible tenth would have a gradation of 14 000. [DeliveredPlane.QuadratureHasItsOrder,
+/// GradationOfTinyEdgesIsOverATenthOfAUnit]
 inline constexpr double finest = 0.1;
 /// First and last step of a search for a better place of a vertex. [quads_test, cross_patch_test]
 inline constexpr double first_step = 0.2, last_step = 0.02;

@@ -18,7 +18,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/error.h"
 #include "support/format.h"
-#include "support/format_point.h"
+#include "model/format_point.h"
 #include "support/infinity.h"
 
 namespace carreau {

@@ -13,7 +13,7 @@
 #include "projection/trimmed_domain.h"
 #include "session/gluing.h"
 #include "support/infinity.h"
-#include "support/part_monitor.h"
+#include "fields/part_monitor.h"
 #include "surface/discrete/beside_patches.h"
 
 namespace carreau {

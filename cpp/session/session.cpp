@@ -7,6 +7,7 @@
 
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
+#include "fields/part_monitor.h"
 #include "geometry/discrete/discrete_cad.h"
 #include "io/model/pardom.h"
 #include "model/geometries.h"
@@ -21,7 +22,6 @@
 #include "session/state.h"
 #include "support/format.h"
 #include "support/infinity.h"
-#include "support/part_monitor.h"
 #include "surface/discrete/beside_patches.h"
 #include "surface/discrete/discrete_run.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geometry/atlas/thresholds.h"
+#include "model/format_point.h"
 #include "support/error.h"
-#include "support/format_point.h"
 
 namespace carreau::atlas {
 namespace {

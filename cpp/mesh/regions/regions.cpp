@@ -10,7 +10,7 @@
 #include "mesh/triangle_search.h"
 #include "model/union_find.h"
 #include "support/error.h"
-#include "support/format_point.h"
+#include "model/format_point.h"
 
 namespace carreau {
 

@@ -52,7 +52,10 @@ inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex
   const double longest2 = largest(uu, vv, ww), shortest2 = least(uu, vv, ww), sum = uu + vv + ww;
   const bool acute = cross(u, v) > 0 && least(uv, uu - uv, vv - uv) >= acute_cosine * longest2;
   const double area2 = 12 * (uu * vv - uv * uv), sum2 = sum * sum;
-  const bool good = shortest2 > 3 * crowded_length2 / (1 - alike_share) * (1 + rounding_of::sizes) && area2 > (1 + rounding_of::sizes) * doubtful_quality * (1 + rounding_of::sizes) * doubtful_quality * sum2;
+  // Longer than crowded edges in the mean of any two similar metrics, and better than doubtful triangles, beyond rounding.
+  const double uncrowded2 = (1 + rounding_of::sizes) * crowded_length2 / (1 - alike_share);
+  const double sound = (1 + rounding_of::sizes) * doubtful_quality;
+  const bool good = shortest2 > 3 * uncrowded2 && area2 > sound * sound * sum2;
   const bool fine = area2 > surely_not_searched * surely_not_searched * sum2;
   if (!acute) return 0;
   return static_cast<std::uint8_t>(Settled::acute | (good ? Settled::good : 0) | (fine ? Settled::fine : 0));

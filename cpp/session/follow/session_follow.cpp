@@ -8,13 +8,13 @@
 #include "association/carry_mesh.h"
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
+#include "fields/part_monitor.h"
 #include "high_order/raise_order.h"
 #include "high_order/thresholds.h"
+#include "model/format_point.h"
 #include "session/gluing.h"
 #include "session/options.h"
 #include "session/state.h"
-#include "support/format_point.h"
-#include "support/part_monitor.h"
 
 namespace carreau {
 

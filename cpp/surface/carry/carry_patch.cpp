@@ -10,7 +10,7 @@
 #include "periodic/thresholds.h"
 #include "predicates/predicates.h"
 #include "support/format.h"
-#include "support/format_point.h"
+#include "model/format_point.h"
 #include "support/rounding_of.h"
 #include "surface/carry/image_vertices.h"
 
