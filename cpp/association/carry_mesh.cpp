@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "association/harmonic_map.h"
@@ -139,6 +140,11 @@ class Carrier {
       if (seam.from.size() == 2) bit <<= 1;
       for (std::size_t i = 0; i < seam.from.size() && i < seam.to.size(); ++i) use_of[{seam.curve, seam.from[i]}] = seam.to[swap ? 1 - i : i];
     }
+    std::map<std::int32_t, double> poles;  // lengths of their sides
+    for (const Seam& seam : seams)
+      for (const std::int32_t use : seam.from)
+        if (const DiscreteCurve& d = curves_from_[seam.curve]; d.indivisible)
+          poles[from_.result.mesh.curves[seam.curve].vertices.front()] = norm(d.uv_of_use[use].back() - d.uv_of_use[use].front());
     for (const CurveSide& side : sides) {
       const auto use = use_of.find({static_cast<std::size_t>(side.curve), side.use});
       if (use == use_of.end()) continue;
@@ -148,7 +154,10 @@ class Carrier {
       const auto place = [&](std::int32_t k) { return places[match_.reversed[side.curve] != 0 ? after.segments() - k : k]; };
       const bool forward = before.vertices[side.segment] == face.vertex[side.a];
       const Vec2 at_a = place(side.segment + (forward ? 0 : 1)), at_b = place(side.segment + (forward ? 1 : 0));
-      for (const auto& [v, at] : {std::pair(side.a, at_a), std::pair(side.b, at_b)}) {
+      const std::vector<Vec2>& old = curves_from_[side.curve].uv_of_use[side.use];
+      for (const auto& [v, at, k] : {std::tuple(side.a, at_a, forward ? 0 : 1), std::tuple(side.b, at_b, forward ? 1 : 0)}) {
+        // At a pole a side of a flattened triangle is one with the curve in space, but not in (u, v).
+        if (const auto pole = poles.find(face.vertex[v]); pole != poles.end() && norm(face.uv[v] - old[side.segment + k]) > 1e-3 * pole->second) continue;
         if (found.known[v] != 0) found.mismatch += norm(found.uv[v] - at);
         found.known[v] = 1, found.uv[v] = at;
       }

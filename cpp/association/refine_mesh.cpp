@@ -333,6 +333,8 @@ class Refiner {
       if (e < 0 || in_space < 0 || marked_[in_space] == 0 || middle_[e] >= 0) continue;
       if (const std::optional<Vec2> uv = on_curve(side)) middle_[e] = add_local(*uv, split_[in_space]);
     }
+    for (std::size_t e = 0; e < local.size(); ++e)
+      if (const auto twice = joined.find(ordered(face.vertex[local[e][0]], face.vertex[local[e][1]])); twice != joined.end() && middle_[e] >= 0) twice->second = middle_[e];
     const std::vector<std::int32_t> mids = quadratic_ ? mids_of_edges(face, local) : std::vector<std::int32_t>{};
     for (std::size_t e = 0; e < local.size(); ++e) {
       const auto [a, b] = local[e];

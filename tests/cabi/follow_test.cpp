@@ -234,6 +234,25 @@ TEST(Carry, PolesAndSeamsOfASphereFollow) {
   }
 }
 
+// The edge of a flattened triangle is one with a curve in space, but not in (u, v).
+TEST(Carry, CornersThatArePolesKeepTheirSides) {
+  const auto corner = [](double radius) {
+    return Shape{[=](int, double u, double v) -> Point { return {radius * std::cos(u) * std::cos(v), radius * std::sin(u) * std::cos(v), radius * std::sin(v)}; },
+                 [](int, int ic, double t) { return on_box(ic, t, 0, -pi / 2, 1.168, 0); },
+                 [](carreau_session* s) { add_face(s, 1, {{1, 1, 1}, {2, 1, 2}, {3, 2, 3}, {4, 3, 1}}); }};
+  };
+  for (const double size : {0.8, 0.3}) {
+    const ShapeRun a(corner(1), size), b(corner(2), size);
+    a.generate();
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
+    const MeshData p = a.data(), q = b.data();
+    EXPECT_EQ(p.triangles, q.triangles);
+    for (std::size_t i = 0; i < p.xyz.size(); ++i) EXPECT_NEAR(2 * p.xyz[i], q.xyz[i], 1e-9);
+    ASSERT_EQ(carreau_mesh_halve(b.session, 2), CARREAU_OK) << b.error();
+    expect_sound(b);
+  }
+}
+
 TEST(Carry, RenumberedFacesAreFound) {
   const ShapeRun a(roof(1, 0.5, false), 0.25), b(roof(1.2, 0.6, true), 0.25);
   a.generate();
