@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "model/isometry.h"
 #include "support/monitor.h"
 #include "support/vec.h"
 
@@ -22,6 +23,7 @@ struct GradationGraph {
   std::vector<Place> places;
   std::vector<std::array<int, 3>> triangles;  ///< three indices in `places`, any orientation
   std::vector<std::array<int, 2>> joined = {};  ///< vertices that are one although their places differ
+  std::vector<Isometry> joined_by = {};  ///< for each of these: the map of the first one's surroundings onto the second one's
   std::vector<std::array<int, 2>> segments;  ///< vertices joined by a curve, for curves without triangles; may be empty
 };
 

@@ -24,6 +24,13 @@ class MetricGrading {
   MetricGrading(const GradationGraph& graph, std::vector<TangentMetric> sizes, double slope, Monitor& monitor)
       : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {
     waits_.assign(sizes_.size(), 0);
+    joins_.resize(graph.joined.empty() ? 0 : graph.xyz.size());
+    for (std::size_t k = 0; k < graph.joined.size(); ++k) {
+      const auto [a, b] = graph.joined[k];
+      const Isometry map = k < graph.joined_by.size() ? graph.joined_by[k] : Isometry{};
+      joins_[a].push_back({b, map.inverse()});
+      joins_[b].push_back({a, map});
+    }
   }
 
   void add(const MetricSource& s) {
@@ -77,6 +84,22 @@ class MetricGrading {
       }
     }
     carry_to_other_places(p);
+    if (!joins_.empty()) carry_to_joined(p);
+  }
+
+  // Pulls the metric back by the map, onto the places of a joined vertex with the same tangent plane.
+  void carry_to_joined(int p) {
+    const Vec3 n = graph_.places[p].normal;
+    for (const auto& [vertex, back] : joins_[graph_.places[p].vertex])
+      for (int q = fans_.first(vertex); q >= 0; q = fans_.next(q)) {
+        const Vec3 m = back.turn(graph_.places[q].normal), near = dot(n, m) < 0 ? -1 * n : n;
+        if (dot(m, near) < smooth_corner) continue;
+        const double h1 = sizes_[p].along(roll(back.turn(sizes_[q].d1), m, near)), h2 = sizes_[p].along(roll(back.turn(sizes_[q].d2), m, near));
+        if (!(h1 < (1 - negligible) * sizes_[q].h1) && !(h2 < (1 - negligible) * sizes_[q].h2)) continue;
+        sizes_[q].h1 = std::min(sizes_[q].h1, h1);
+        sizes_[q].h2 = std::min(sizes_[q].h2, h2);
+        enqueue(q);
+      }
   }
 
   // Bounds from the middle of the edge (p, r), where sizes are means.
@@ -108,6 +131,12 @@ class MetricGrading {
   double slope_;
   Monitor& monitor_;
   detail::PlaceFans fans_;
+  // By vertex: a joined vertex, and the map from there to here.
+  struct Join {
+    int vertex = 0;
+    Isometry back;
+  };
+  std::vector<std::vector<Join>> joins_;
   std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
   SmallestFirst queue_;
 };

@@ -76,6 +76,9 @@ class Matcher {
   [[nodiscard]] int index_of(int reference) const {
     for (int f = 0; f < std::ssize(faces_); ++f)
       if (ref(f) == reference && faces_[f].usable) return f;
+    const auto is_it = [reference](const Face& face) { return face.ref == reference && face.discrete; };
+    if (std::any_of(model_.model.faces.begin(), model_.model.faces.end(), is_it))
+      throw InvalidModel(Where{.face = reference}, "the face is given by triangles, and only faces with curves can be periodic");
     throw InvalidModel(Where{.face = reference}, "the face is periodic, and the model has no such face with curves");
   }
 
@@ -172,12 +175,14 @@ class Matcher {
     return std::max(norm(a.first - b.low), norm(a.second - b.high));
   }
 
-  // A plane domain is one face, whose sides are periodic.
+  // The curves of a plane domain, which is one face, or the open borders of sheets.
+  [[nodiscard]] bool may_be_alone(int curve) const { return model_.model.plane || model_.curve(curve).uses.size() == 1; }
+
   std::size_t add_curves(const Isometry& map) {
     const std::size_t before = pairs_.size();
     for (const CurveShape& from : shapes_)
       for (const CurveShape& to : shapes_) {
-        if (from.curve == to.curve || from.degenerate) continue;
+        if (from.curve == to.curve || from.degenerate || !may_be_alone(from.curve) || !may_be_alone(to.curve)) continue;
         const std::optional<CurveImage> image = image_of(model_, from, to, map, gap_);
         if (!image) continue;
         pairs_.push_back({-1, -1, map, {{from.curve, *image}}});
@@ -188,9 +193,23 @@ class Matcher {
 
   // Such a face must be cut along the plane for its mesh to be symmetric.
   void note_across(int face, const Isometry& map) {
-    if (map.reflects() && pair_of(face, face, map))
+    if (!map.reflects()) return;
+    const std::optional<FacePair> itself = pair_of(face, face, map);
+    if (itself && !is_in_plane(*itself))
       remarks_.push_back(Where{.face = ref(face)}.prefix() +
                          "the face lies across the plane of a reflection: its own mesh is not symmetric unless the geometry has its halves");
+  }
+
+  // Places beside the curves of a face are their own images.
+  [[nodiscard]] bool is_in_plane(const FacePair& itself) {
+    for (const auto& [curve, image] : itself.curves) {
+      const CurveUse* use = only_use(curve, itself.master);
+      const std::optional<Vec2> inside = use != nullptr && !model_.curve(curve).degenerate ? place_beside(*use) : std::nullopt;
+      if (!inside) continue;
+      const Vec3 p = surface_at(model_.cad, ref(itself.master), want_position, *inside).s;
+      return norm(itself.map(p) - p) <= gap_;
+    }
+    return false;
   }
 
   std::size_t add_pairs(const Isometry& map) {
@@ -210,7 +229,7 @@ class Matcher {
         break;
       }
     }
-    return found;
+    return found > 0 ? found : add_curves(map);
   }
 
   [[nodiscard]] std::string nearest_miss(const Isometry& map) const {
@@ -222,6 +241,7 @@ class Matcher {
         const double miss = apart(image_box(m, map), faces_[s]);
         if (miss < nearest) nearest = miss, master = m, slave = s;
       }
+    if (master < 0 && has_discrete(model_.model)) return "faces given by triangles have no curves, and cannot be periodic";
     if (master < 0) return "it has no two faces";
     return "nearest is face " + std::to_string(ref(slave)) + ": " + why_not(master, slave, map);
   }

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "model/union_find.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -202,7 +201,10 @@ class Classes {
       const Vec3 p = support_point(model_, root, r);
       worst = std::max(worst, norm(known.map(p) - reached.map(p)));
     }
-    if (same_way(known.image, reached.image) && worst <= gaps_of_chain * result_.gap) return;
+    if (same_way(known.image, reached.image) && worst <= gaps_of_chain * result_.gap) {
+      if (const Isometry between = known.map.inverse().after(reached.map); between.reflects()) all.mirrors.push_back(between);
+      return;
+    }
     throw InvalidModel(Where{.curve = model_.curve(known.image.curve).ref},
                        "two chains of periodicities carry curve " + std::to_string(shape.ref) + " onto the curve, " +
                            format_number(worst) + " apart; one is that by curves " + curve_path(parent, known.image.curve));
@@ -210,24 +212,64 @@ class Classes {
 
   // ---- corners ----
 
-  void collect_corners() {
-    const std::size_t n = model_.topology.points.size();
-    UnionFind sets(n);
-    const auto join = [&](int a, int b) { sets.merge(static_cast<std::size_t>(a), static_cast<std::size_t>(b)); };
+  struct CornerStep {
+    int to = -1;
+    Isometry map;
+  };
+
+  [[nodiscard]] std::vector<std::vector<CornerStep>> corner_steps() const {
+    std::vector<std::vector<CornerStep>> steps(model_.topology.points.size());
+    const auto join = [&](int a, int b, const Isometry& map) {
+      steps[static_cast<std::size_t>(a)].push_back({b, map});
+      steps[static_cast<std::size_t>(b)].push_back({a, map.inverse()});
+    };
     for (const FacePair& pair : given_)
       for (const auto& [curve, image] : pair.curves) {
         const Curve &a = model_.curve(curve), &b = model_.curve(image.curve);
         const bool closed = a.end1 == a.end2;
         if (closed && image.shift != 0 && !a.degenerate) continue;
         const bool turned = !closed && image.reversed;
-        join(a.end1, turned ? b.end2 : b.end1);
-        join(a.end2, turned ? b.end1 : b.end2);
+        join(a.end1, turned ? b.end2 : b.end1, pair.map);
+        join(a.end2, turned ? b.end1 : b.end2, pair.map);
       }
-    std::map<std::size_t, std::vector<int>> by_root;
-    for (std::size_t p = 0; p < n; ++p) by_root[sets.find(p)].push_back(static_cast<int>(p));
-    for (auto& [root, corners] : by_root)
-      if (corners.size() > 1) result_.corners.push_back(std::move(corners));
-    std::sort(result_.corners.begin(), result_.corners.end());
+    return steps;
+  }
+
+  [[nodiscard]] Vec3 position(int corner) const { return model_.topology.points[static_cast<std::size_t>(corner)].position; }
+
+  void collect_corners() {
+    const std::vector<std::vector<CornerStep>> steps = corner_steps();
+    std::vector<char> known(steps.size(), 0);
+    for (int root = 0; root < std::ssize(steps); ++root) {
+      if (steps[root].empty() || known[root] != 0) continue;
+      std::map<int, Isometry> maps{{root, {}}};
+      std::vector<Isometry> mirrors;
+      std::vector<int> queue{root};
+      known[root] = 1;
+      for (std::size_t i = 0; i < queue.size(); ++i)
+        for (const CornerStep& step : steps[queue[i]]) {
+          const Isometry reached = step.map.after(maps.at(queue[i]));
+          if (known[step.to] == 0) {
+            known[step.to] = 1;
+            maps.emplace(step.to, reached);
+            queue.push_back(step.to);
+          } else if (const Isometry between = maps.at(step.to).inverse().after(reached); between.reflects()) {
+            mirrors.push_back(between);
+          }
+        }
+      place_corners(maps, on_planes(position(root), mirrors, result_.gap));
+      if (maps.size() < 2) continue;
+      std::vector<int>& corners = result_.corners.emplace_back();
+      std::vector<Isometry>& onto = result_.corner_maps.emplace_back();
+      for (const auto& [corner, map] : maps) corners.push_back(corner), onto.push_back(map);
+    }
+  }
+
+  void place_corners(const std::map<int, Isometry>& maps, const Vec3& first) {
+    for (const auto& [corner, map] : maps) {
+      const Vec3 place = map(first);
+      if (place != position(corner) && norm(place - position(corner)) <= rounding_of_places * result_.gap) result_.placed.emplace_back(corner, place);
+    }
   }
 
   const CurveModel& model_;
@@ -236,6 +278,12 @@ class Classes {
 };
 
 }  // namespace
+
+Vec3 on_planes(Vec3 p, const std::vector<Isometry>& mirrors, double gap) {
+  for (const Isometry& mirror : mirrors)
+    if (const Vec3 image = mirror(p); norm(image - p) <= rounding_of_places * gap) p = 0.5 * (p + image);
+  return p;
+}
 
 PeriodicModel find_periodic(const CurveModel& model, double diag) {
   if (model.model.periodicities.empty()) return {};

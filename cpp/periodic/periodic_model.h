@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "periodic/match_faces.h"
@@ -20,6 +21,7 @@ struct CurveMember {
 struct CurveClass {
   std::vector<CurveMember> members;  ///< the root first, the lowest of their indices
   std::optional<Isometry> turn = {};  ///< carries the root onto itself, reversed
+  std::vector<Isometry> mirrors = {};  ///< reflections in planes that hold the root
 };
 
 /// Closed under chains of maps: a class is all that the maps carry onto each other.
@@ -31,11 +33,16 @@ struct PeriodicModel {
   std::vector<char> has_class;      ///< by curve
   std::vector<std::array<int, 2>> place;  ///< by curve with a class: index in `curves`, and in its members
   std::vector<std::vector<int>> corners;  ///< classes of two corners or more
+  std::vector<std::vector<Isometry>> corner_maps;  ///< of the first corner of a class onto each of its corners
+  std::vector<std::pair<int, Vec3>> placed;  ///< corners and their places: images of the first of their class, on its mirror planes
   double gap = 0;                   ///< model length: images may miss by it
   std::vector<std::string> remarks = {};  ///< what a person should know
 
   [[nodiscard]] bool empty() const noexcept { return pairs.empty() && curves.empty(); }
 };
+
+/// Moves a point that rounding alone has put beside the planes of reflections onto them.
+Vec3 on_planes(Vec3 p, const std::vector<Isometry>& mirrors, double gap);
 
 /// Matches the faces and collects their classes along spanning trees. Throws InvalidModel as match_faces(), and where two
 /// chains of maps carry a face or a curve onto one another in different ways.

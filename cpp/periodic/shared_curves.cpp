@@ -115,6 +115,11 @@ void make_symmetric(const Isometry& turn, const CurveModel& model, DiscreteCurve
   place_vertices_at(d, r, t, model);
 }
 
+// Vertices in mirror planes are their own images.
+void keep_on_planes(const CurveClass& all, double gap, DiscreteCurve& d) {
+  for (std::size_t k = 1; !all.mirrors.empty() && k + 1 < d.xyz.size(); ++k) d.xyz[k] = on_planes(d.xyz[k], all.mirrors, gap);
+}
+
 // Vertices where closed members begin; the arcs between them are cut by sizes.
 void cut_at(std::vector<double> fixed, const CurveModel& model, DiscreteCurve& d) {
   fixed.insert(fixed.begin(), 0);
@@ -177,18 +182,19 @@ void meet_beginnings(const CurveClass& all, const CurveModel& model, DiscreteCur
   if (any) place_vertices_at(root, std::vector<double>(root.r.begin() + 1, root.r.end() - 1), t, model);
 }
 
-void carry_from(const CurveClass& all, std::size_t source, const CurveModel& model, double exact, std::vector<DiscreteCurve>& curves) {
+void carry_from(const CurveClass& all, std::size_t source, const CurveModel& model, double gap, std::vector<DiscreteCurve>& curves) {
   const CurveMember& from = all.members[source];
   const int root = all.members.front().image.curve;
   const CurveImage to_root = inverse(root, from.image);
   const Isometry back = from.map.inverse();
   if (source == 0 && is_closed(model, root)) meet_beginnings(all, model, curves[root]);
+  if (source == 0) keep_on_planes(all, gap, curves[root]);
   for (std::size_t i = 0; i < all.members.size(); ++i) {
     if (i == source) continue;
     const CurveMember& to = all.members[i];
     const bool of_root = source == 0;
     place_image(curves[from.image.curve], of_root ? to.image : composed(to_root, to.image), of_root ? to.map : to.map.after(back),
-                model, exact, curves[to.image.curve]);
+                model, exact_images * gap, curves[to.image.curve]);
   }
 }
 
@@ -216,7 +222,7 @@ void share_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
       if (!fixed.empty()) cut_at(fixed, model, root);
       if (all.turn) make_symmetric(*all.turn, model, root);
     }
-    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, exact_images * periodic.gap, curves);
+    carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, periodic.gap, curves);
   }
 }
 
@@ -225,7 +231,7 @@ void carry_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
     DiscreteCurve& root = curves[all.members.front().image.curve];
     if (root.indivisible || root.prescribed) continue;
     if (all.turn) make_symmetric(*all.turn, model, root);
-    carry_from(all, 0, model, exact_images * periodic.gap, curves);
+    carry_from(all, 0, model, periodic.gap, curves);
   }
 }
 
@@ -248,7 +254,7 @@ std::vector<int> complete_classes(const PeriodicModel& periodic, const CurveMode
     } else {
       place_vertices(root, r, model);
     }
-    carry_from(all, 0, model, exact_images * periodic.gap, curves);
+    carry_from(all, 0, model, periodic.gap, curves);
     for (const CurveMember& member : all.members) changed.push_back(member.image.curve);
   }
   std::sort(changed.begin(), changed.end());

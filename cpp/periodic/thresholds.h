@@ -30,6 +30,10 @@ inline constexpr double affine_share = 1e-3;
 /// Share of the gap. An image this near to its surface is taken as it is: the two differ by rounding.
 inline constexpr double exact_images = 1e-9;
 
+/// Share of the gap. Corners this near to the image of their partner, and vertices this near to a mirror plane, move there: files give places
+/// with six digits at least.
+inline constexpr double rounding_of_places = 1e-3;
+
 // Curves (shared_curves)
 /// Share of a curve's length. Vertices this near are one.
 inline constexpr double same_fraction = 1e-9;

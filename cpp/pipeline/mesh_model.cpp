@@ -53,6 +53,12 @@ void report_prescribed(CompositeRun& run) {
   }
 }
 
+// Periodic corners become exact images of each other.
+Topology with_places(Topology topology, const std::vector<std::pair<int, Vec3>>& places) {
+  for (const auto& [corner, place] : places) topology.points[static_cast<std::size_t>(corner)].position = place;
+  return topology;
+}
+
 bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
@@ -65,8 +71,8 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
-  else if (run.options.independent && !run.periodic.empty())
-    run.report(Level::warning, "no cross-patch remeshing: faces are periodic");
+  else if (run.options.independent && !run.periodic.empty() && run.options.element != Element::p1)
+    run.report(Level::warning, "no cross-patch remeshing: faces are periodic, and elements other than p1 cross no periodic border");
   else if (run.options.independent)
     inspectors.push_back(make_cross_patch_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
@@ -78,7 +84,10 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
                                const CompositeOptions& options, Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
-  CompositeRun run(model, topology, supports, cad, options, monitor);
+  PeriodicModel periodic = find_periodic({model, topology, supports.of_face, cad}, supports.diag);
+  const Topology placed = periodic.placed.empty() ? Topology{} : with_places(topology, periodic.placed);
+  const Topology& used = periodic.placed.empty() ? topology : placed;
+  CompositeRun run(model, used, supports, cad, options, std::move(periodic), monitor);
   if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
   if (run.options.parts) refuse_parts(run.options, run.rules);
   grade_sizes(run);

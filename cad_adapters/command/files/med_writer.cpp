@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -9,6 +11,8 @@
 #include "base/failure.h"
 #include "files/med_file.h"
 #include "files/med_library.h"
+#include "files/periodic_pairs.h"
+#include "files/session_handle.h"
 
 namespace command {
 namespace {
@@ -55,6 +59,7 @@ class MedWriter {
   void gather_edges(const MeshArrays& arrays);
   std::vector<med_int> node_families(std::size_t n);
   void add(med_geometry_type type, med_int family, const std::int32_t* nodes, std::size_t n);
+  void write_pairs();
 
   carreau_mesh* mesh_;
   std::string path_;
@@ -156,6 +161,28 @@ std::vector<med_int> MedWriter::node_families(std::size_t n) {
   return known.empty() ? std::vector<med_int>{} : families;
 }
 
+/// One equivalence of nodes, slave and master, for each pair of faces, curves or points; its description is the map.
+void MedWriter::write_pairs() {
+  constexpr std::array<const char*, 3> kinds{"points", "curves", "faces"};
+  const PeriodicPairs pairs = pairs_of(mesh_);
+  const std::int32_t* node = pairs.node.data();
+  for (std::size_t i = 0; i < pairs.dimension.size(); ++i) {
+    const std::string name = std::string("periodic_") + kinds[static_cast<std::size_t>(pairs.dimension[i])] + "_" + std::to_string(pairs.ref[2 * i]) + "_" +
+                             std::to_string(pairs.ref[2 * i + 1]);
+    std::string map;
+    for (std::size_t k = 0; k < 12; ++k) {
+      char number[32];
+      std::snprintf(number, sizeof number, k > 0 ? " %.8g" : "%.8g", pairs.map[12 * i + k]);
+      map += number;
+    }
+    std::vector<med_int> nodes;
+    for (std::int64_t k = 0; k < 2 * pairs.count[i]; ++k) nodes.push_back(*node++ + 1);
+    check(med_.equivalenceCr(file_, mesh_name, name.c_str(), map.c_str()) >= 0);
+    check(med_.equivalenceCorrespondenceWr(file_, mesh_name, name.c_str(), MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE,
+                                           static_cast<med_int>(pairs.count[i]), nodes.data()) >= 0);
+  }
+}
+
 void MedWriter::run() {
   const MeshArrays arrays = arrays_of(mesh_);
   begin(arrays);
@@ -171,6 +198,7 @@ void MedWriter::run() {
     check(med_.meshEntityFamilyNumberWr(file_, mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, type, n,
                                         each.families.data()) >= 0);
   }
+  write_pairs();
   check(med_.fileClose(std::exchange(file_, -1)) >= 0);
 }
 

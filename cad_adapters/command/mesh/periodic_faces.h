@@ -5,7 +5,10 @@
 #include <carreau.h>
 
 #include <string>
+#include <vector>
 
+#include "files/mesh_file.h"
+#include "inputs/base/cad_input.h"
 #include "mesh/mesh_options.h"
 
 namespace command {
@@ -19,15 +22,6 @@ void set_periodic(carreau_session* session, const MeshOptions& options, const Ca
 
 /// Throws Failure if a face of the mesh has no image under a reflection of --mirror.
 void require_mirrored(carreau_mesh* mesh, const MeshOptions& options, const CadInput& input, const std::vector<FaceResult>& faces);
-
-/// The arrays of carreau_mesh_periodic.
-struct PeriodicPairs {
-  std::vector<std::int32_t> dimension, ref;
-  std::vector<double> map;
-  std::vector<std::int64_t> count;
-  std::vector<std::int32_t> node;
-};
-PeriodicPairs pairs_of(carreau_mesh* mesh);
 
 /// Pairs of nodes as text: a line "# dimension slave master count" with the map for each pair of entities, then lines "slave master" of
 /// nodes, from 1.

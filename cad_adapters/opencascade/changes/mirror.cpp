@@ -273,6 +273,8 @@ class Mirror {
 
   // ---- the half that the images replace ----
 
+  using BoxedFaces = std::vector<std::pair<Bnd_Box, TopoDS_Face>>;
+
   [[nodiscard]] std::vector<gp_Pnt> places_inside(const TopoDS_Face& face) const {
     constexpr int places = 4;
     std::vector<gp_Pnt> points;
@@ -291,13 +293,16 @@ class Mirror {
   // The other half must be the image of the pieces: places in its faces lie on images, and both have one area.
   void match_other_half() {
     const double within = std::max(thresholds::symmetric * diagonal_, near_);
-    std::vector<std::pair<Bnd_Box, TopoDS_Face>> pieces;
+    const auto boxed = [within](const TopoDS_Shape& face) {
+      Bnd_Box box;
+      BRepBndLib::Add(face, box);
+      box.Enlarge(within);
+      return std::pair(box, TopoDS::Face(face));
+    };
+    BoxedFaces pieces, other_faces;
     double area = 0, other_area = 0;
     for (const TopoDS_Shape& piece : pieces_) {
-      Bnd_Box box;
-      BRepBndLib::Add(piece, box);
-      box.Enlarge(within);
-      pieces.emplace_back(box, TopoDS::Face(piece));
+      pieces.push_back(boxed(piece));
       if (const Extent e = height_of(TopoDS::Face(piece)); e.low < -near_ || e.high > near_) area += area_of(piece);
     }
     for (int f = 1; f <= faces_.Extent(); ++f) {
@@ -309,26 +314,34 @@ class Mirror {
       if (pieces_of_.Find(faces_(f)).IsEmpty()) others.Append(faces_(f));
       for (const TopoDS_Shape& other : others) {
         other_area += area_of(other);
-        match_face(f, TopoDS::Face(other), pieces, within);
+        other_faces.push_back(boxed(other));
+        for (const TopoDS_Face& piece : faces_under(f, TopoDS::Face(other), pieces, within)) {
+          TopTools_ListOfShape& images = images_.ChangeFind(faces_(f));
+          if (!images.Contains(mirrored_.Find(piece))) images.Append(mirrored_.Find(piece));
+        }
       }
     }
-    if (std::abs(area - other_area) > thresholds::imprint_volume * area)
-      throw std::runtime_error("the body is not symmetric about the mirror plane: its halves have areas of " + text_of(area) + " and " + text_of(other_area));
+    if (std::abs(area - other_area) <= thresholds::imprint_volume * area) return;
+    for (int f = 1; f <= faces_.Extent(); ++f)
+      for (const TopoDS_Shape& piece : pieces_of_.Find(faces_(f)))
+        if (!is_in_plane(f)) (void)faces_under(f, TopoDS::Face(piece), other_faces, within);
+    throw std::runtime_error("the body is not symmetric about the mirror plane: its halves have areas of " + text_of(area) + " and " + text_of(other_area));
   }
 
-  void match_face(int f, const TopoDS_Face& other, const std::vector<std::pair<Bnd_Box, TopoDS_Face>>& pieces, double within) {
-    for (const gp_Pnt& place : places_inside(other)) {
+  // The faces on which the images of places in a face lie. Throws when one lies on none.
+  [[nodiscard]] std::vector<TopoDS_Face> faces_under(int f, const TopoDS_Face& face, const BoxedFaces& candidates, double within) const {
+    std::vector<TopoDS_Face> found;
+    for (const gp_Pnt& place : places_inside(face)) {
       const gp_Pnt image = place.Transformed(map_);
       const TopoDS_Vertex vertex = BRepBuilderAPI_MakeVertex(image);
       double nearest = Precision::Infinite();
-      for (const auto& [box, piece] : pieces) {
+      for (const auto& [box, candidate] : candidates) {
         if (box.IsOut(image)) continue;
-        const BRepExtrema_DistShapeShape distance(vertex, piece);
+        const BRepExtrema_DistShapeShape distance(vertex, candidate);
         if (!distance.IsDone()) continue;
         nearest = std::min(nearest, distance.Value());
         if (distance.Value() > within) continue;
-        TopTools_ListOfShape& images = images_.ChangeFind(faces_(f));
-        if (!images.Contains(mirrored_.Find(piece))) images.Append(mirrored_.Find(piece));
+        found.push_back(candidate);
         break;
       }
       if (nearest > within)
@@ -336,6 +349,7 @@ class Mirror {
                                  text_of(image.Y()) + ", " + text_of(image.Z()) + ") is on no face" +
                                  (nearest < Precision::Infinite() ? ", " + text_of(nearest) + " away from the nearest one" : ""));
     }
+    return found;
   }
 
   static std::string text_of(double x) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Input of Abaqus and CalculiX (Abaqus keywords reference; G. Dhondt, CalculiX CrunchiX user's manual): nodes, shells, sets.
+#include <algorithm>
 #include <set>
 
 #include "io/mesh_writers.h"
@@ -79,11 +80,13 @@ void add_node_set(const std::string& name, const std::vector<const CurveSet*>& c
   list.end();
 }
 
-// Nodes of both faces of a pair, in matching order.
+// Nodes of both faces of a pair, or of both curves if only curves are periodic, in matching order.
 void add_periodic(const FlatMesh& mesh, std::string& text) {
   std::size_t pair = 0;
+  int dimension = 0;
+  for (const PeriodicLink& link : mesh.periodic) dimension = std::max(dimension, link.dimension);
   for (const PeriodicLink& link : mesh.periodic) {
-    if (link.dimension != 2) continue;
+    if (link.dimension != dimension || dimension == 0) continue;
     ++pair;
     for (const std::size_t side : {0U, 1U}) {
       text.append("*NSET, NSET=periodic_").append(std::to_string(pair)).append(side == 0 ? "_slave" : "_master").append(", UNSORTED\n");

@@ -2,6 +2,7 @@
 #include "pipeline/base/run.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gradation/gradation.h"
 #include "support/ranks/team.h"
@@ -35,7 +36,7 @@ constexpr double usual_growth = 1.5;
 
 CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topology,
                            const ModelSupports& given_supports, Cad& given_cad, const CompositeOptions& given_options,
-                           Monitor& given_monitor)
+                           PeriodicModel given_periodic, Monitor& given_monitor)
     : model(given_model),
       topology(given_topology),
       supports(given_supports),
@@ -43,12 +44,12 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
       options(given_options),
       monitor(given_monitor),
       rules(model, topology, cad, enlarged(options.size, enlargement_for(options.element))),
-      curve_model{model, topology, supports.of_face, cad} {
+      curve_model{model, topology, supports.of_face, cad},
+      periodic(std::move(given_periodic)) {
   options.size = enlarged(options.size, enlargement_for(options.element));
   if (options.max_triangles <= 0)
     options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4) * (options.parts ? options.team->size() : 1);
   result.report.diag = supports.diag;
-  periodic = find_periodic(curve_model, supports.diag);
   for (const std::string& remark : periodic.remarks) report(Level::warning, remark);
   if (periodic.empty()) return;
   if (!rules.constant()) slave_sizes.emplace(curve_model, periodic.pairs);

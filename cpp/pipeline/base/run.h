@@ -35,7 +35,7 @@ inline constexpr int no_process = -1, all_have = 0;
 /// The input of a run, the results of its steps so far, and its mesh. Keeps references to the input.
 struct CompositeRun {
   CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,
-               Cad& given_cad, const CompositeOptions& given_options, Monitor& given_monitor);
+               Cad& given_cad, const CompositeOptions& given_options, PeriodicModel given_periodic, Monitor& given_monitor);
 
   [[nodiscard]] bool isotropic() const noexcept { return !rules.uses_metrics(); }
   [[nodiscard]] double slope() const noexcept { return graded.field ? graded.field->slope() : 0; }

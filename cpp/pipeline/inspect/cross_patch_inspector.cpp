@@ -121,7 +121,7 @@ class CrossPatchInspector final : public Inspector {
     bool is_free = true;
     if (from_ == From::remeshing && options.element == Element::p1) raise_sizes(run);
     if (from_ == From::remeshing)
-      is_free = remesh_across_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
+      is_free = remesh_across_patches(run.curve_model, run.curves, options, by_direction, run.periodic.is_periodic, elements, run.result, monitor);
     else
       make_elements_across_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
     messages_ = monitor.held();

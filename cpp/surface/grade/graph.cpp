@@ -77,8 +77,15 @@ void number_vertices(GradingWork& work, const std::vector<SizeSamples>& raw) {
 
 // Periodic corners and vertices of curves are one.
 void join_vertices(GradingWork& work) {
-  for (const std::vector<int>& corners : work.periodic.corners)
-    for (std::size_t i = 1; i < corners.size(); ++i) work.graph.joined.push_back({corners.front(), corners[i]});
+  const auto join = [&](int vertex, int image, const Isometry& map) {
+    work.graph.joined.push_back({vertex, image});
+    work.graph.joined_by.push_back(map);
+  };
+  for (std::size_t c = 0; c < work.periodic.corners.size(); ++c) {
+    const std::vector<int>& corners = work.periodic.corners[c];
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      join(corners.front(), corners[i], work.periodic.corner_maps[c][i].after(work.periodic.corner_maps[c].front().inverse()));
+  }
   for (const CurveClass& all : work.periodic.curves) {
     const int root = all.members.front().image.curve;
     const Curve& shape = work.model.curve(root);
@@ -87,7 +94,7 @@ void join_vertices(GradingWork& work) {
       const int c = member.image.curve;
       for (int k = 0; c != root && k < work.curves[root].segments(); ++k)
         if (const int image = vertex_image(work.curves[root], work.curves[c], member.image, closed, k); image >= 0)
-          work.graph.joined.push_back({work.node_of[root][k], work.node_of[c][image]});
+          join(work.node_of[root][k], work.node_of[c][image], member.map);
     }
   }
 }

@@ -2,8 +2,11 @@
 #include "surface/remesh/cross_patch.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/strategies.h"
@@ -30,16 +33,54 @@ PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
   return most > min_anisotropy ? metrics : PlaneMetrics{};
 }
 
+/// Triangles that stay: nothing is swapped over their edges, and no vertex of them moves. All ascending.
+struct FixedTriangles {
+  std::vector<MeshEdge> border, inner;  ///< on curves, and others
+  std::vector<std::int32_t> vertices;
+};
+
+template <typename T>
+std::vector<T> joined(std::vector<T> list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+FixedTriangles fixed_triangles(const SurfaceMesh& mesh, std::span<const char> fixed) {
+  FixedTriangles found;
+  std::vector<MeshEdge> on_curves;
+  for (const CurveMesh& curve : mesh.curves)
+    for (std::size_t k = 1; k < curve.vertices.size(); ++k) on_curves.push_back(mesh_edge(curve.vertices[k - 1], curve.vertices[k]));
+  std::ranges::sort(on_curves);
+  for (std::size_t f = 0; f < fixed.size(); ++f) {
+    if (fixed[f] == 0) continue;
+    const FaceMesh& face = mesh.faces[f];
+    for (const auto& t : face.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const MeshEdge edge = mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]);
+        (std::ranges::binary_search(on_curves, edge) ? found.border : found.inner).push_back(edge);
+        found.vertices.push_back(face.vertex[t[i]]);
+      }
+  }
+  found.border = joined(std::move(found.border), {});
+  found.inner = joined(std::move(found.inner), {});
+  found.vertices = joined(std::move(found.vertices), {});
+  return found;
+}
+
 // Keeps references to all arguments.
 std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<const DiscreteCurve> curves,
-                                         const CompositeOptions& options, bool by_direction, const ElementMaker& elements,
-                                         const CompositeResult& result, Monitor& monitor) {
+                                         const CompositeOptions& options, bool by_direction, std::span<const char> fixed,
+                                         const ElementMaker& elements, const CompositeResult& result, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
   auto made = std::make_unique<RemeshingFrame>();
   RemeshingFrame& frame = *made;
   frame.jets = evaluate_vertices(mesh, model.cad, monitor);
   const double angle = options.sharp_angle;
   frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
+  const FixedTriangles stays = fixed_triangles(mesh, fixed);
+  frame.sharp = joined(std::move(frame.sharp), stays.border);
   const PlaneMetrics metrics = by_direction ? metrics_of(result, frame.jets) : PlaneMetrics{};
   const auto link = [&] {
     frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, metrics, monitor);
@@ -52,7 +93,9 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
   }
   const Topology* known = mesh.curves.size() == model.topology.curves.size() ? &model.topology : nullptr;
   frame.corners = find_corners(mesh, frame.jets, *frame.charts, frame.sharp, known, model.supports, angle);
+  frame.corners = joined(std::move(frame.corners), stays.vertices);
   frame.lines = find_lines(mesh, frame.sharp, frame.corners);
+  frame.sharp = joined(std::move(frame.sharp), stays.inner);
   if (elements) frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& freed) { elements(before, frame, freed); };
   frame.geometry = [&, curves](const SharpLine& line) {
     return std::make_unique<LinePlaces>(line, mesh, model, curves, *frame.charts, model.cad);
@@ -63,16 +106,16 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
 }  // namespace
 
 bool remesh_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                           bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
-  const auto frame = frame_of(model, curves, options, by_direction, elements, result, monitor);
+                           bool by_direction, std::span<const char> fixed, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
+  const auto frame = frame_of(model, curves, options, by_direction, fixed, elements, result, monitor);
   const std::string why = remesh_by_strategies(*frame, model.cad, options, result, monitor);
   if (!why.empty()) monitor.message(Level::warning, "no cross-patch remeshing: " + why);
   return why.empty();
 }
 
 void make_elements_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                                  bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
-  const auto frame = frame_of(model, curves, options, by_direction, elements, result, monitor);
+                                  bool by_direction, std::span<const char> fixed, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
+  const auto frame = frame_of(model, curves, options, by_direction, fixed, elements, result, monitor);
   make_elements_of_frame(*frame, model.cad, options, result, monitor);
 }
 

@@ -16,10 +16,10 @@ using ElementMaker = std::function<void(const SurfaceMesh& before, const Remeshi
 
 /// Remeshes the mesh of `result` across the borders of patches that are not sharp: lengths, shapes, references, curves and (u, v) of its
 /// corners. `curves`: the curves that it was made with; `by_direction`: sizes may differ by direction, by the control spaces of the patches.
-/// `elements` may be empty. Returns false, and the mesh stays, if the new mesh would have a defect or more crossing triangles. Sentences
+/// `fixed`: by face, 1: its triangles and its border stay; empty: none. `elements` may be empty. Returns false, and the mesh stays, if the new mesh would have a defect or more crossing triangles. Sentences
 /// about faces that have vanished go to `monitor`. Throws what the host throws, and Cancelled: then nothing is changed.
 bool remesh_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                           bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
+                           bool by_direction, std::span<const char> fixed, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 
 /// Keeps the triangles: only `elements`, which is not empty, crosses borders.
 void make_elements_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,

@@ -101,7 +101,10 @@ std::optional<CurveMiddle> EdgeMiddles::at(std::size_t curve, std::size_t k, dou
   if (!is_known(work_, curve)) return std::nullopt;
   const PeriodicModel* periodic = work_.periodic;
   if (periodic != nullptr && periodic->has_class[curve] != 0 && periodic->place[curve][1] > 0) return image(curve, k, shift);
-  return at_share(curve, k, middle_share(work_.curves[curve], k) + shift);
+  std::optional<CurveMiddle> middle = at_share(curve, k, middle_share(work_.curves[curve], k) + shift);
+  if (middle && periodic != nullptr && periodic->has_class[curve] != 0)
+    middle->xyz = on_planes(middle->xyz, periodic->curves[periodic->place[curve][0]].mirrors, periodic->gap);
+  return middle;
 }
 
 // The point of the root's edge, carried; on the other uses its closest points.
@@ -119,9 +122,10 @@ std::optional<CurveMiddle> EdgeMiddles::image(std::size_t curve, std::size_t k, 
   const int segment = member.image.reversed ? (i + n - 1) % n : i % n;
   const bool reversed = member.image.reversed;
   const double share = middle_share(from, static_cast<std::size_t>(segment)) + (reversed ? -shift : shift);
-  const std::optional<CurveMiddle> known = at_share(static_cast<std::size_t>(root), static_cast<std::size_t>(segment), share);
+  std::optional<CurveMiddle> known = at_share(static_cast<std::size_t>(root), static_cast<std::size_t>(segment), share);
   std::optional<CurveMiddle> middle = at_share(curve, k, reversed ? 1 - share : share);
   if (!known || !middle) return middle;
+  known->xyz = on_planes(known->xyz, all.mirrors, work_.periodic->gap);
   const Vec3 target = member.map(known->xyz);
   const std::vector<CurveUse>& uses = work_.model.curve(static_cast<int>(curve)).uses;
   for (std::size_t u = 0; u < uses.size(); ++u) {

@@ -10,6 +10,8 @@ import sys
 import tempfile
 import unittest
 
+from periodic_files import Mesh
+
 PROGRAM, MAKE_CELLS = sys.argv[1:3]
 CELLS = tempfile.mkdtemp(prefix="carreau cells ")
 AXES = ("--periodic", "x", "--periodic", "y", "--periodic", "z")
@@ -18,75 +20,6 @@ SECTOR = ("--periodic", "rotate:0,0,0:0,0,1:60")
 
 def run(*arguments):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=600)
-
-
-def sections(path):
-    """Lines of each section of a file .msh, by its name."""
-    found, name = {}, None
-    with open(path, encoding="utf-8") as file:
-        for line in file.read().splitlines():
-            if line.startswith("$End"):
-                name = None
-            elif line.startswith("$"):
-                name = line[1:]
-                found[name] = []
-            elif name:
-                found[name].append(line.split())
-    return found
-
-
-class Mesh:
-    """A file .msh of version 2.2: points by number, elements by face, periodic pairs."""
-
-    def __init__(self, path):
-        content = sections(path)
-        self.points = {int(n): tuple(map(float, p)) for n, *p in content["Nodes"][1:]}
-        self.cells = {}
-        for element in content["Elements"][1:]:
-            kind, face, nodes = int(element[1]), int(element[4]), [int(n) for n in element[5:]]
-            if kind in (2, 3, 9, 16):
-                self.cells.setdefault(face, []).append(nodes[:3 if kind in (2, 9) else 4])
-        self.pairs, rows = [], iter(content.get("Periodic", [["0"]])[1:])
-        for dimension, slave, master in rows:
-            affine = [float(x) for x in next(rows)[1:]]
-            count = int(next(rows)[0])
-            nodes = [tuple(map(int, next(rows))) for _ in range(count)]
-            self.pairs.append((int(dimension), int(slave), int(master), affine, nodes))
-
-    def faces(self):
-        return [pair for pair in self.pairs if pair[0] == 2]
-
-    def mismatch(self):
-        """Largest |T(x) - y| of the pairs."""
-        worst = 0
-        for _, _, _, a, nodes in self.pairs:
-            for slave, master in nodes:
-                x, y = self.points[master], self.points[slave]
-                image = [sum(a[4 * i + k] * x[k] for k in range(3)) + a[4 * i + 3] for i in range(3)]
-                worst = max(worst, math.dist(image, y))
-        return worst
-
-    def classes(self):
-        """The number of each point in the glued mesh."""
-        parent = {n: n for n in self.points}
-
-        def find(n):
-            while parent[n] != n:
-                parent[n] = parent[parent[n]]
-                n = parent[n]
-            return n
-
-        for *_, nodes in self.pairs:
-            for slave, master in nodes:
-                a, b = find(slave), find(master)
-                parent[max(a, b)] = min(a, b)
-        return {n: find(n) for n in self.points}
-
-    def same_cells(self, slave, master, nodes):
-        """The pairs of nodes carry the elements of a master onto the elements of its slave."""
-        to_slave = {m: s for s, m in nodes}
-        images = sorted(tuple(sorted(to_slave[n] for n in cell)) for cell in self.cells[master])
-        return images == sorted(tuple(sorted(cell)) for cell in self.cells[slave])
 
 
 class Periodic(unittest.TestCase):
@@ -112,19 +45,6 @@ class Periodic(unittest.TestCase):
             self.assertTrue(made.same_cells(slave, master, nodes), (slave, master))
         self.assertEqual(run("check", path, "--allow-crossings").returncode, 0)
         return made
-
-    def euler_of_skin(self, made, inner=()):
-        """Returns V - E + F of the glued faces that are in no pair. Each edge must have two elements."""
-        paired = {f for pair in made.faces() for f in pair[1:3]}
-        glued = made.classes()
-        cells = [tuple(glued[n] for n in cell) for face, all in made.cells.items() if face not in paired for cell in all]
-        edges = {}
-        for cell in cells:
-            for a, b in zip(cell, cell[1:] + cell[:1]):
-                key = (min(a, b), max(a, b))
-                edges[key] = edges.get(key, 0) + 1
-        self.assertEqual([e for e, n in edges.items() if n != 2], [])
-        return len({n for cell in cells for n in cell}) - len(edges) + len(cells)
 
     def test_a_cube_has_three_pairs_of_faces_and_classes_of_edges_and_corners(self):
         made = self.check(self.mesh("cube.step", *AXES), 3)
@@ -168,15 +88,15 @@ class Periodic(unittest.TestCase):
     def test_spheres_in_the_corners_and_faces_of_a_cube(self):
         """Glued, the surface in the cell is four whole spheres."""
         made = self.check(self.mesh("fcc.step", *AXES, size="0.1"), 3)
-        self.assertEqual(self.euler_of_skin(made), 8)
+        self.assertEqual(made.euler_of_skin(), 8)
 
     def test_circles_that_begin_at_different_places(self):
         made = self.check(self.mesh("shifted.step", *AXES, size="0.1"), 3)
-        self.assertEqual(self.euler_of_skin(made), 2)
+        self.assertEqual(made.euler_of_skin(), 2)
 
     def test_forty_inclusions(self):
         made = self.check(self.mesh("inclusions.step", *AXES, size="0.05"), 3)
-        self.assertEqual(self.euler_of_skin(made), 80)
+        self.assertEqual(made.euler_of_skin(), 80)
 
     def test_the_mesh_does_not_depend_on_threads(self):
         files = []
@@ -247,7 +167,7 @@ class Periodic(unittest.TestCase):
 if __name__ == "__main__":
     subprocess.run([MAKE_CELLS, CELLS], check=True, stdout=subprocess.DEVNULL)
     try:
-        program = unittest.main(argv=sys.argv[:1] + sys.argv[3:], exit=False)
+        program = unittest.main(argv=sys.argv[:1] + sys.argv[4:], exit=False)
     finally:
         shutil.rmtree(CELLS)
     sys.exit(not program.result.wasSuccessful())

@@ -1,0 +1,277 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""command_cells_test.py CARREAU MAKE_CELLS: periodic cells in closed form, and solvers that read matching pairs."""
+import ctypes
+import glob
+import importlib
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from periodic_files import Mesh, euler
+
+PROGRAM, MAKE_CELLS = sys.argv[1:3]
+CELLS = tempfile.mkdtemp(prefix="carreau cells ")
+AXES = ("--periodic", "x", "--periodic", "y", "--periodic", "z")
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=600)
+
+
+def six_tubes(inner=0.5, opening=0.35):
+    """A cell of bicubic Bezier patches like the surface of a gyroid: six tubes of square section from a cube to the sides of the cell [-1, 1]^3."""
+    patches = []
+    for axis in range(3):
+        for side in (-1, 1):
+            corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            for k in range(4):
+                (p, q), (r, s) = corners[k], corners[(k + 1) % 4]
+                rows = []
+                for i in range(4):  # from the cube to the side
+                    w = i / 3
+                    height, half = inner + w * (1 - inner), inner + w * (opening - inner) - 0.1 * w * (1 - w)
+                    for j in range(4):
+                        t = j / 3
+                        point = [0., 0., 0.]
+                        point[axis] = side * height
+                        point[(axis + 1) % 3] = half * (p + t * (r - p))
+                        point[(axis + 2) % 3] = half * (q + t * (s - q))
+                        rows.append(point)
+                if side > 0:
+                    rows = [rows[4 * i + 3 - j] for i in range(4) for j in range(4)]
+                patches.append(rows)
+    lines = [str(len(patches))]
+    for rows in patches:
+        lines += ["3 3", *(" ".join(repr(x) for x in point) for point in rows)]
+    return "\n".join(lines) + "\n"
+
+
+class Cells(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau cells ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, name, text=None):
+        path = os.path.join(self.folder, name)
+        if text is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        return path
+
+    def mesh(self, source, *options, size="0.1", name="cell.msh2", command="mesh"):
+        path = self.path(name)
+        done = run(command, source, "-o", path, "--size", size, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return path
+
+    def euler_of(self, made):
+        glued = made.classes()
+        return euler([tuple(glued[n] for n in cell) for cells in made.cells.values() for cell in cells])
+
+    def test_six_tubes_have_genus_three(self):
+        """Three pairs of openings: V - E + F = 2 - 2 * 3."""
+        made = Mesh(self.mesh(self.path("tubes.bpt", six_tubes()), *AXES))
+        self.assertEqual(made.mismatch(), 0)
+        self.assertEqual(sum(pair[0] == 1 for pair in made.pairs), 12)  # four curves at each opening
+        self.assertEqual(self.euler_of(made), -4)
+
+    def test_a_wavy_square_is_a_torus(self):
+        """V - F / 2 = 0 of triangles, V - E + F = 0."""
+        made = Mesh(self.mesh("x, y, .1*sin(6.283185307179586*x)*cos(6.283185307179586*y)", "--domain", "box:0,0,1,1", *AXES[:4]))
+        self.assertLess(made.mismatch(), 2e-12)
+        self.assertEqual(self.euler_of(made), 0)
+        glued = made.classes()
+        self.assertEqual(2 * len(set(glued.values())), sum(len(cells) for cells in made.cells.values()))
+
+    def test_an_edge_that_a_half_turn_reverses(self):
+        """The half turn about the diagonal of a cube's side carries the edge on z onto itself, reversed, and x = 0 onto y = 0."""
+        for options in ((), ("--face-size", "1=.07"), ("--size-map", ".05 + .2*z")):
+            with self.subTest(options):
+                made = Mesh(self.mesh(os.path.join(CELLS, "cube.step"), "--periodic", "rotate:0,0,.5:1,1,0:180", *options, size="0.2"))
+                self.assertEqual(len(made.faces()), 3)
+                self.assertLess(made.mismatch(), 2e-12)
+                heights = sorted(p[2] for p in made.points.values() if abs(p[0]) < 1e-12 and abs(p[1]) < 1e-12)
+                for low, high in zip(heights, reversed(heights)):
+                    self.assertLess(abs(low + high - 1), 2e-12)
+                for _, slave, master, _, nodes in made.faces():
+                    self.assertTrue(made.same_cells(slave, master, nodes))
+
+    def test_cross_patch_meshes_stop_at_periodic_faces(self):
+        for options in (("--size-map", ".05 + .1*abs(x - .5)"), ()):
+            with self.subTest(options):
+                path = self.mesh(os.path.join(CELLS, "fcc.step"), *AXES, "--cross-patch", *options)
+                made = Mesh(path)
+                self.assertEqual(len(made.faces()), 3)
+                self.assertLess(made.mismatch(), 2e-12)
+                for _, slave, master, _, nodes in made.faces():
+                    self.assertTrue(made.same_cells(slave, master, nodes))
+                self.assertEqual(made.euler_of_skin(), 8)
+
+    def test_sizes_by_direction_grow_over_the_border(self):
+        """Small sizes along y at x = 1 hold at x = 0 of the lateral faces, too."""
+        path = self.mesh(os.path.join(CELLS, "cube.step"), *AXES[:2], "--gradation", "1.3", "--anisotropic", "--size-map", ".02 + .3*abs(x - .9)", size="0.3")
+        made = Mesh(path)
+        lengths = {0.: [], 1.: []}
+        for cells in made.cells.values():
+            for cell in cells:
+                for a, b in zip(cell, cell[1:] + cell[:1]):
+                    p, q = made.points[a], made.points[b]
+                    if p[0] == q[0] and p[0] in lengths:
+                        lengths[p[0]].append(math.dist(p, q))
+        self.assertAlmostEqual(max(lengths[0.]), max(lengths[1.]))
+        self.assertLess(made.mismatch(), 2e-12)
+
+    def test_faces_of_triangles_are_reported(self):
+        stl = self.mesh(os.path.join(CELLS, "cube.step"), name="cube.stl", size="0.3")
+        done = run("mesh", stl, "-o", self.path("none.msh"), "--periodic", "x")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("given by triangles", done.stderr)
+
+    def test_med_has_an_equivalence_for_each_pair(self):
+        libraries = sorted(glob.glob("/usr/lib/*/libmedC.so.*"))
+        if not libraries:
+            raise unittest.SkipTest("no libmedC")
+        source = os.path.join(CELLS, "fcc.step")
+        text = self.path("pairs.txt")
+        path = self.mesh(source, *AXES, "-o", text, name="cell.med")
+        with open(text, encoding="utf-8") as file:
+            lines = [line.split() for line in file][1:]
+        blocks = {}
+        for line in lines:
+            if line[0] == "#":
+                key = f"periodic_{['points', 'curves', 'faces'][int(line[1])]}_{line[2]}_{line[3]}"
+                blocks[key] = []
+            else:
+                blocks[key] += [int(line[0]), int(line[1])]
+        med = ctypes.CDLL(libraries[0])
+        med.MEDfileOpen.restype = ctypes.c_int64
+        file = ctypes.c_int64(med.MEDfileOpen(path.encode(), 0))
+        self.assertGreaterEqual(file.value, 0)
+        count = med.MEDnEquivalence(file, b"carreau")
+        self.assertEqual(count, len(blocks))
+        for index in range(1, count + 1):
+            name, about = ctypes.create_string_buffer(65), ctypes.create_string_buffer(201)
+            steps, constant = ctypes.c_int(0), ctypes.c_int(0)
+            self.assertGreaterEqual(med.MEDequivalenceInfo(file, b"carreau", index, name, about, ctypes.byref(steps), ctypes.byref(constant)), 0)
+            size = ctypes.c_int(0)
+            self.assertGreaterEqual(med.MEDequivalenceCorrespondenceSize(file, b"carreau", name, -1, -1, 3, 0, ctypes.byref(size)), 0)
+            nodes = (ctypes.c_int * (2 * size.value))()
+            self.assertGreaterEqual(med.MEDequivalenceCorrespondenceRd(file, b"carreau", name, -1, -1, 3, 0, nodes), 0)
+            self.assertEqual(list(nodes), blocks[name.value.decode()])
+            self.assertEqual(len(about.value.split()), 12)
+        med.MEDfileClose(file)
+
+    def test_calculix_homogenises_a_laminate(self):
+        """Two layers across x: stress / strain is the harmonic mean of their moduli, without lateral contraction. The equations are of our sets of
+        nodes."""
+        if shutil.which("ccx") is None:
+            raise unittest.SkipTest("no ccx")
+        poly = self.path("cell.poly", "6 2 0 0\n1 0 0\n2 .4 0\n3 1 0\n4 1 1\n5 .4 1\n6 0 1\n7 0\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 6\n6 6 1\n7 2 5\n0\n")
+        path = self.mesh(poly, *AXES[:4], name="cell.inp", command="plane", size="0.15")
+        with open(path, encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        nodes, elements, sets, kind = {}, {}, {}, None
+        for line in lines:
+            if line.startswith("*"):
+                words = line.upper().replace(" ", "").split(",")
+                kind = words[0]
+                name = next((word[5:] for word in words if word.startswith("NSET=")), "")
+                continue
+            row = [word.strip() for word in line.split(",") if word.strip()]
+            if kind == "*NODE":
+                nodes[int(row[0])] = [float(x) for x in row[1:4]]
+            elif kind == "*ELEMENT":
+                elements[int(row[0])] = [int(n) for n in row[1:]]
+            elif kind == "*NSET":
+                sets.setdefault(name, []).extend(int(n) for n in row)
+        pairs = [(sets[n.replace("MASTER", "SLAVE")], sets[n]) for n in sorted(sets) if n.startswith("PERIODIC") and n.endswith("MASTER")]
+        self.assertGreaterEqual(len(pairs), 2)
+        reference, strain = max(nodes) + 1, 0.01
+        text = ["*NODE", *(f"{n}, {x}, {y}, 0." for n, (x, y, *_) in nodes.items()), f"{reference}, 2., 0., 0."]
+        triangles = {n: c for n, c in elements.items() if len(c) == 3}
+        layer = {n: sum(nodes[v][0] for v in c) / 3 < 0.4 for n, c in triangles.items()}
+        for soft in (True, False):
+            text += [f"*ELEMENT, TYPE=CPS3, ELSET={'SOFT' if soft else 'HARD'}", *(f"{n}, {c[0]}, {c[1]}, {c[2]}" for n, c in triangles.items() if layer[n] == soft)]
+        dependent = set()
+        for slaves, masters in pairs:
+            self.assertEqual(len(slaves), len(masters))
+            for slave, master in zip(slaves, masters):
+                dx, dy = nodes[slave][0] - nodes[master][0], nodes[slave][1] - nodes[master][1]
+                self.assertEqual((round(dx, 9), round(dy, 9)) in ((1, 0), (0, 1), (-1, 0), (0, -1)), True)
+                if slave in dependent:
+                    continue
+                dependent.add(slave)
+                text += ["*EQUATION", "3", f"{slave}, 1, 1., {master}, 1, -1., {reference}, 1, {-dx:.1f}"] if dx else ["*EQUATION", "2", f"{slave}, 1, 1., {master}, 1, -1."]
+                text += ["*EQUATION", "2", f"{slave}, 2, 1., {master}, 2, -1."]
+        free = next(n for n in nodes if n not in dependent and n in {v for c in triangles.values() for v in c})
+        text += ["*MATERIAL, NAME=A", "*ELASTIC", "100., 0.", "*MATERIAL, NAME=B", "*ELASTIC", "1000., 0.", "*SOLID SECTION, ELSET=SOFT, MATERIAL=A", "1.",
+                 "*SOLID SECTION, ELSET=HARD, MATERIAL=B", "1.", "*BOUNDARY", f"{free}, 1, 2", f"{reference}, 1, 1, {strain}", f"{reference}, 2, 3",
+                 f"*NSET, NSET=REF", f"{reference}", "*STEP", "*STATIC", "*NODE PRINT, NSET=REF", "RF", "*END STEP"]
+        self.path("job.inp", "\n".join(text) + "\n")
+        done = subprocess.run(["ccx", "job"], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        with open(self.path("job.dat"), encoding="utf-8") as file:
+            rows = [line.split() for line in file]
+        force = next((float(row[1]) for row in rows if len(row) == 4 and row[0] == str(reference)), None)
+        self.assertIsNotNone(force, done.stdout[-2000:])
+        self.assertAlmostEqual(abs(force) / strain, 1 / (0.4 / 100 + 0.6 / 1000), places=3)
+
+    def test_dolfinx_reads_matching_pairs(self):
+        """Vertices of the mesh that dolfinx makes are paired by the maps of the file."""
+        for name in ("dolfinx", "gmsh"):
+            try:
+                importlib.import_module(name)
+            except ImportError:
+                raise unittest.SkipTest(f"Python has no {name}") from None
+        script = """
+import sys
+import gmsh
+import numpy as np
+from mpi4py import MPI
+from dolfinx.io import gmshio
+gmsh.initialize()
+gmsh.option.setNumber("General.Terminal", 0)
+gmsh.open(sys.argv[1])
+for dimension, tag in gmsh.model.getEntities(2):
+    if not gmsh.model.getPhysicalGroupsForEntity(2, tag).size:
+        gmsh.model.addPhysicalGroup(2, [tag])
+mesh, _, _ = gmshio.model_to_mesh(gmsh.model, MPI.COMM_WORLD, 0, gdim=3)
+places = mesh.geometry.x
+count = worst = 0
+for line in open(sys.argv[2]):
+    words = line.split()
+    if words[0] != "#" or words[1] != "2":
+        continue
+    map = np.array([float(x) for x in words[5:]]).reshape(3, 4)
+    axis = int(np.argmax(np.abs(map[:, 3])))
+    masters, slaves = (places[np.abs(places[:, axis] - at) < 1e-9] for at in (0., 1.))
+    if map[axis, 3] < 0:
+        masters, slaves = slaves, masters
+    images = masters @ map[:, :3].T + map[:, 3]
+    assert len(images) == len(slaves) == int(words[4]), (len(images), len(slaves), words[4])
+    worst = max(worst, max(np.min(np.linalg.norm(slaves - image, axis=1)) for image in images))
+    count += 1
+print(count, worst)
+"""
+        text = self.path("pairs.txt")
+        path = self.mesh(os.path.join(CELLS, "inclusions.step"), *AXES, "-o", text, size="0.06")
+        done = subprocess.run([sys.executable, "-c", script, path, text], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr[-1500:])
+        count, worst = done.stdout.split()[-2:]
+        self.assertEqual(int(count), 3)
+        self.assertLess(float(worst), 2e-12)
+
+
+if __name__ == "__main__":
+    subprocess.run([MAKE_CELLS, CELLS], check=True, stdout=subprocess.DEVNULL)
+    try:
+        program = unittest.main(argv=sys.argv[:1] + sys.argv[4:], exit=False)
+    finally:
+        shutil.rmtree(CELLS)
+    sys.exit(not program.result.wasSuccessful())
