@@ -131,12 +131,12 @@ class MetricGrading {
   double slope_;
   Monitor& monitor_;
   detail::PlaceFans fans_;
-  // By vertex: a joined vertex, and the map from there to here.
+  // A joined vertex, and the map from there to here.
   struct Join {
     int vertex = 0;
     Isometry back;
   };
-  std::vector<std::vector<Join>> joins_;
+  std::vector<std::vector<Join>> joins_;  // by vertex
   std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
   SmallestFirst queue_;
 };

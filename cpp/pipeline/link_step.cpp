@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -110,6 +113,10 @@ class Linker {
     const FaceMesh &from = mesh_.faces[pair.master], &to = mesh_.faces[pair.slave];
     PeriodicLink linked = link(2, from.shown_ref(), to.shown_ref(), pair.map);
     const bool flipped = pair.flipped;
+    if (mesh_.independent) {
+      link_by_places(from, to, linked);
+      return;
+    }
     if (from.triangles.size() != to.triangles.size()) return;
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {
       const std::size_t u = image_triangle(from, t, flipped);
@@ -118,6 +125,28 @@ class Linker {
         if (from.mid.empty() || from.mid[t][i] < 0) continue;
         linked.nodes.push_back({first_mid_ + to.mid_vertex[to.mid[u][flipped ? 2 - i : i]], first_mid_ + from.mid_vertex[from.mid[t][i]]});
       }
+    }
+    keep(std::move(linked));
+  }
+
+  // Cross-patch remeshing keeps periodic triangles, in another order.
+  void link_by_places(const FaceMesh& from, const FaceMesh& to, PeriodicLink& linked) {
+    const double gap = run_.periodic.gap, width = 4 * gap;
+    using Cell = std::array<std::int64_t, 3>;
+    const auto cell_of = [width](const Vec3& p) -> Cell {
+      return {std::llround(p.x() / width), std::llround(p.y() / width), std::llround(p.z() / width)};
+    };
+    std::map<Cell, std::vector<std::int32_t>> slaves;
+    for (const std::int32_t v : to.vertex) slaves[cell_of(mesh_.vertices[v])].push_back(v);
+    for (const std::int32_t v : from.vertex) {
+      const Vec3 image = linked.map(mesh_.vertices[v]);
+      std::set<Cell> cells;
+      for (int corner = 0; corner < 8; ++corner)
+        cells.insert(cell_of(image + gap * Vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1)));
+      for (const Cell& cell : cells)
+        if (const auto found = slaves.find(cell); found != slaves.end())
+          for (const std::int32_t w : found->second)
+            if (norm(mesh_.vertices[w] - image) <= gap) linked.nodes.push_back({w, v});
     }
     keep(std::move(linked));
   }

@@ -84,6 +84,8 @@ program cad_fortran_test
   call check(status == CARREAU_ERR_ARGUMENT, 'no small feature')
   call carreau_cad_name_solids(again, ['block'], status, [int(z'40A030', c_int32_t)])
   call check(status == CARREAU_OK, carreau_cad_last_error(again))
+  call carreau_cad_mirror(again, [0d0, 0d0, 0d0], [0d0, 0d0, 0d0], status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'a normal without length')
   call carreau_cad_imprint(again, 0d0, status)
   call check(status == CARREAU_OK, carreau_cad_last_error(again))
   call carreau_cad_file_face(again, 1, face, status)

@@ -276,6 +276,27 @@ TEST(CadLibrary, ReadsBytes) {
   EXPECT_EQ(carreau_cad_read_bytes(file, bytes.data(), size, nullptr, &options), CARREAU_ERR_ARGUMENT);
 }
 
+// A cube beside a plane gets its image; both together are symmetric, so that a second call changes nothing.
+TEST(CadLibrary, MirrorsBodies) {
+  File file;
+  EXPECT_EQ(carreau_cad_create(&file.handle), CARREAU_OK);
+  const std::array<double, 3> point{-100, 0, 0}, normal{2, 0, 0}, none{0, 0, 0}, off{-99, 0, 0};
+  EXPECT_EQ(carreau_cad_mirror(file, point.data(), normal.data()), CARREAU_ERR_SEQUENCE);
+  EXPECT_OK(file, carreau_cad_read(file, (shapes() + "/inch.step").c_str(), nullptr));
+  EXPECT_EQ(carreau_cad_mirror(file, point.data(), none.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_cad_mirror(file, nullptr, normal.data()), CARREAU_ERR_ARGUMENT);
+  for (int call = 0; call < 2; ++call) {
+    EXPECT_OK(file, carreau_cad_mirror(file, point.data(), normal.data()));
+    auto content = empty<carreau_cad_content>();
+    EXPECT_OK(file, carreau_cad_info(file, &content));
+    EXPECT_EQ(content.faces, 12);
+    EXPECT_EQ(content.solids, 2);
+    EXPECT_EQ(content.closed, 1);
+  }
+  EXPECT_EQ(carreau_cad_mirror(file, off.data(), normal.data()), CARREAU_ERR_FILE);
+  EXPECT_NE(std::string(carreau_cad_last_error(file)).find("the image of face"), std::string::npos);
+}
+
 // A cube of side 2 on a plate of 4 x 4 x 1: named, then with one face between them, which has its own size.
 TEST(CadLibrary, NamesAndImprintsParts) {
   File file;

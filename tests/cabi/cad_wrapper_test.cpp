@@ -81,6 +81,7 @@ TEST(CadWrapper, BytesNamesAndSizes) {
   EXPECT_TRUE(file.small_features().empty());
   if (file.info().solids == 1) file.name_solids({"ball"}, {0x123456});
   double last = 0;
+  EXPECT_THROW(file.mirror({0, 0, 0}, {0, 0, 0}), carreau::Error);
   file.imprint(0, [&](double fraction) { return last = fraction, true; });
   EXPECT_EQ(file.info().shared_faces, 0);
   file.set_size(2, 1, 0.5);

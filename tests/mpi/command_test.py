@@ -46,6 +46,26 @@ def same_files(folder):
         subprocess.run([VTK, f"{HERE}/read_pvtu.py", f"{folder}/many0.pvtu", f"{folder}/one0.vtu", str(RANKS)], check=True)
 
 
+def sheet(corner, height):
+    """A bicubic patch that is bent alike at any height."""
+    return ["3 3"] + [f"{i / 3} {k / 3} {height + corner * i * (3 - i) * k / 9}" for i in range(4) for k in range(4)]
+
+
+def same_pairs(folder):
+    """Periodic faces: the master's mesh may be made by another process than the faces around. All elements match."""
+    cell = f"{folder}/cell.bpt"
+    with open(cell, "w", encoding="utf-8") as file:
+        file.write("\n".join(["3", *sheet(.3, 0), *sheet(.3, 1), *sheet(-.2, 3)]) + "\n")
+    for i, options in enumerate([["--size", "0.1"], ["--angle", "6", "--gradation", "1.3", "--element", "q2.0"]]):
+        one, many = f"{folder}/pairs{i}.msh2", f"{folder}/pairs_of_many{i}.msh2"
+        words = [*options, "--periodic", "0,0,1", "--periodic", "2=1"]
+        first = alone("mesh", cell, *words, "-o", one)
+        done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", cell, *words, "-o", many)
+        assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
+        assert content(one) == content(many), options
+        assert b"$Periodic" in content(one), first.stderr
+
+
 def same_parts(folder):
     """Each rank keeps its part. The teapot's spout crosses its body: crossing triangles are found, and meshed again in vain, in parts,
     too."""

@@ -131,6 +131,15 @@ def test_names_follow_an_imprint(folder):
     assert made.quality.area == pytest.approx(2 * 16 + 4 * 4 + 5 * 4, rel=1e-12)
 
 
+def test_a_mirror_plane_adds_the_other_half(folder):
+    file = carreau.CadFile(folder / "touching.brep")
+    before = len(file.faces)
+    with pytest.raises(errors.ArgumentError):
+        file.mirror((0, 0, 0), (0, 0, 0))
+    file.mirror((-50, 0, 0), (1, 0, 0))
+    assert len(file.faces) == 2 * before
+
+
 def test_names_and_sizes_by_number(folder):
     file = carreau.CadFile(folder / "touching.brep")
     file.name_solids(["plate", "cube"])

@@ -13,6 +13,7 @@
 
 #include <carreau.hpp>
 
+#include <array>
 #include <cstddef>
 #include <span>
 

@@ -163,11 +163,11 @@ std::vector<med_int> MedWriter::node_families(std::size_t n) {
 
 /// One equivalence of nodes, slave and master, for each pair of faces, curves or points; its description is the map.
 void MedWriter::write_pairs() {
-  constexpr std::array<const char*, 3> kinds{"points", "curves", "faces"};
+  constexpr std::array<const char*, 3> entities{"points", "curves", "faces"};
   const PeriodicPairs pairs = pairs_of(mesh_);
   const std::int32_t* node = pairs.node.data();
   for (std::size_t i = 0; i < pairs.dimension.size(); ++i) {
-    const std::string name = std::string("periodic_") + kinds[static_cast<std::size_t>(pairs.dimension[i])] + "_" + std::to_string(pairs.ref[2 * i]) + "_" +
+    const std::string name = std::string("periodic_") + entities[static_cast<std::size_t>(pairs.dimension[i])] + "_" + std::to_string(pairs.ref[2 * i]) + "_" +
                              std::to_string(pairs.ref[2 * i + 1]);
     std::string map;
     for (std::size_t k = 0; k < 12; ++k) {

@@ -154,7 +154,7 @@ void require_halves(const CadInput& input, const MirrorPlane& plane) {
                     " over it. Only faces of CAD files are cut: the geometry must give its two halves as faces.");
     low = std::min(low, below), high = std::max(high, above);
   }
-  if (low >= -near || high <= near)
+  if ((low >= -near) != (high <= near))
     throw Failure("--mirror: the geometry lies on one side of the plane. Only CAD files get their other half: the geometry must give both halves.");
 }
 

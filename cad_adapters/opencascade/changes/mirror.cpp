@@ -138,7 +138,7 @@ class Mirror {
     return extent;
   }
 
-  // Of its edges, and of places inside: edges may all lie in the plane.
+  // Looks at places inside, too: all edges may lie in the plane.
   [[nodiscard]] Extent height_of(const TopoDS_Face& face) const {
     constexpr int places = 12;
     Extent extent;

@@ -114,8 +114,8 @@ bool remesh_across_patches(const CurveModel& model, std::span<const DiscreteCurv
 }
 
 void make_elements_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                                  bool by_direction, std::span<const char> fixed, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
-  const auto frame = frame_of(model, curves, options, by_direction, fixed, elements, result, monitor);
+                                  bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
+  const auto frame = frame_of(model, curves, options, by_direction, {}, elements, result, monitor);
   make_elements_of_frame(*frame, model.cad, options, result, monitor);
 }
 

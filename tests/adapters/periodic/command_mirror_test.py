@@ -55,7 +55,7 @@ class Mirror(unittest.TestCase):
         whole = 1.6 - math.pi * (0.8 * 0.2 ** 2 + 2 * 0.15 ** 2)
         for axis, name in enumerate("xyz"):
             with self.subTest(name):
-                made = self.check(self.mesh("block.step", "--mirror", name), axis)
+                made = self.check(self.mesh("block.step", "--mirror", name, size="0.1"), axis)
                 self.assertEqual(euler([c for f in made.cells.values() for c in f]), -4)  # three bores
                 self.assertLess(abs(made.volume() - whole), 0.02 * whole)
                 self.assertTrue(any(p[axis] == 0 for p in made.points.values()))  # the plane is an edge of the mesh
@@ -98,14 +98,17 @@ class Mirror(unittest.TestCase):
                 self.check(self.mesh("block.step", "--mirror", "x", "--element", element), 0)
 
     def test_a_real_part(self):
-        """A milled part of the collection, symmetric to the digits of its file."""
-        part = os.path.join(sys.argv[3], "data", "symmetric.step")
-        if not os.path.exists(part):
-            raise unittest.SkipTest("no such part")
+        """The bracket of the pages is symmetric about y = 20, a quarter of a plate becomes the plate."""
+        data = os.path.join(os.path.dirname(sys.argv[3]), "docs", "data")
+        made = self.check(self.mesh(os.path.join(data, "bracket.step"), "--mirror", "0,20,0:0,1,0", size="4"), 1, 20.)
+        self.assertTrue(any(p[1] == 20 for p in made.points.values()))
+        plate = os.path.join(data, "quarter_plate.step")
+        for axis in (0, 1):
+            self.check(self.mesh(plate, "--mirror", "x", "--mirror", "y", size="5%"), axis)
 
     def test_bodies_that_are_not_symmetric_are_reported(self):
         path = os.path.join(self.folder, "none.msh")
-        for body, plane, words in (("uneven.step", "x", "the image of face"), ("rod.step", "y", "is on no face"), ("cube.step", "0,0,0:1,1,1", "not symmetric")):
+        for body, plane, words in (("uneven.step", "x", "the image of face"), ("rod.step", "y", "is on no face"), ("block.step", "1,1,0", "is not symmetric")):
             done = run("mesh", os.path.join(CELLS, body), "-o", path, "--mirror", plane)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
@@ -117,7 +120,7 @@ class Mirror(unittest.TestCase):
 
     def test_other_geometries_must_give_halves(self):
         path = os.path.join(self.folder, "none.msh")
-        for formula, domain, words in (("x, y, x*x + y", "box:-1,-1,1,1", "lies across the plane, from -1 to 1"), ("x, y, x*x", "box:.5,-1,1,1", "lies on one side")):
+        for formula, domain, words in (("z = x*x + y", "box:-1,-1,1,1", "lies across the plane, from -1 to 1"), ("z = x*x", "box:.5,-1,1,1", "lies on one side")):
             done = run("mesh", formula, "--domain", domain, "-o", path, "--mirror", "x")
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)

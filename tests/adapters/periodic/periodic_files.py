@@ -79,7 +79,7 @@ class Mesh:
         return euler(cells)
 
     def volume(self):
-        """By the divergence theorem, of a closed surface of triangles."""
+        """Returns the volume inside a closed surface, by the divergence theorem."""
         total = 0
         for cells in self.cells.values():
             for cell in cells:

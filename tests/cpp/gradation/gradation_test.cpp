@@ -516,5 +516,57 @@ TEST(BoundSlopesByDirection, NoSizeIsSmallerThanTheSmallestAndDirectionsStay) {
   EXPECT_TRUE(bound_slopes_by_direction(field, 0.1, monitor).empty()) << "a second time nothing changes";
 }
 
+// A strip of 1 x 2 in two halves: the second one lies elsewhere, turned by the map, and the vertices between them are joined. Its
+// metrics are the metrics of the whole strip, turned.
+TEST(MetricGrading, CrossesJoinedVerticesByTheirMap) {
+  constexpr int n = 10;
+  Isometry map;
+  map.row = {Vec3(0, -1, 0), Vec3(0.6, 0, -0.8), Vec3(0.8, 0, 0.6)};
+  map.shift = {5, 6, 7};
+  const auto strip = [&](int columns, int first, const Isometry& by, GradationGraph& graph) {
+    const int begin = static_cast<int>(graph.xyz.size());
+    for (int i = 0; i <= columns; ++i)
+      for (int k = 0; k <= n; ++k) {
+        graph.places.push_back({static_cast<int>(graph.xyz.size()), by.turn({0, 0, 1})});
+        graph.xyz.push_back(by({static_cast<double>(first + i) / n, static_cast<double>(k) / n, 0}));
+      }
+    for (int i = 0; i < columns; ++i)
+      for (int k = 0; k < n; ++k) {
+        const int a = begin + i * (n + 1) + k, b = a + n + 1;
+        graph.triangles.push_back({a, b, b + 1});
+        graph.triangles.push_back({a, b + 1, a + 1});
+      }
+  };
+  GradationGraph whole, halves;
+  strip(2 * n, 0, {}, whole);
+  strip(n, 0, {}, halves);
+  strip(n, n, map, halves);
+  for (int k = 0; k <= n; ++k) {
+    halves.joined.push_back({n * (n + 1) + k, (n + 1) * (n + 1) + k});
+    halves.joined_by.push_back(map);
+  }
+  const double angle = 0.3;
+  const auto graded = [&](const GradationGraph& graph) {
+    std::vector<TangentMetric> sizes;
+    for (std::size_t p = 0; p < graph.places.size(); ++p) {
+      const bool second = p >= static_cast<std::size_t>((n + 1) * (n + 1)) && graph.joined.size() > 0;
+      const Vec3 d1(std::cos(angle), std::sin(angle), 0), d2(-std::sin(angle), std::cos(angle), 0);
+      TangentMetric metric{second ? map.turn(d1) : d1, second ? map.turn(d2) : d2, 3, 3};
+      if (p == 5 * (n + 1) + 5) metric.h1 = 0.1, metric.h2 = 0.5;  // at (.5, .5)
+      sizes.push_back(metric);
+    }
+    Monitor monitor;
+    return grade_metrics(graph, sizes, {}, 0.2, monitor);
+  };
+  const std::vector<TangentMetric> one = graded(whole), two = graded(halves);
+  for (int i = 0; i <= n; ++i)
+    for (int k = 0; k <= n; ++k) {
+      const TangentMetric &p = one[(n + i) * (n + 1) + k], &q = two[(n + 1) * (n + 1) + i * (n + 1) + k];
+      EXPECT_LT(q.h1, 2.9);
+      EXPECT_NEAR(q.h1, p.h1, 0.03 * p.h1);
+      EXPECT_NEAR(q.h2, p.h2, 0.03 * p.h2);
+    }
+}
+
 }  // namespace
 }  // namespace carreau
