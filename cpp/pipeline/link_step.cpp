@@ -79,8 +79,19 @@ class Linker {
       }
   }
 
+  // The vertices of a curve in its direction: cross-patch remeshing may turn them round.
+  [[nodiscard]] std::vector<std::int32_t> chain_of(int curve) const {
+    std::vector<std::int32_t> chain = mesh_.curves[curve].vertices;
+    const std::vector<Vec3>& known = run_.curves[curve].xyz;
+    const auto runs_like = [&](auto first) {
+      return std::equal(known.begin(), known.end(), first, [this](const Vec3& p, std::int32_t v) { return mesh_.vertices[v] == p; });
+    };
+    if (mesh_.independent && chain.size() == known.size() && !runs_like(chain.begin()) && runs_like(chain.rbegin())) std::reverse(chain.begin(), chain.end());
+    return chain;
+  }
+
   [[nodiscard]] std::int32_t vertex_of(int curve, int point) const {
-    const std::vector<std::int32_t>& chain = mesh_.curves[curve].vertices;
+    const std::vector<std::int32_t> chain = chain_of(curve);
     if (chain.empty()) return -1;
     return run_.topology.curves[curve].end1 == point ? chain.front() : chain.back();
   }
@@ -91,6 +102,7 @@ class Linker {
     const CurveMesh &from = mesh_.curves[root], &to = mesh_.curves[c];
     if (c == root || shape.degenerate || from.vertices.size() != to.vertices.size() || from.vertices.empty()) return;
     if (from.vertices.size() != run_.curves[root].xyz.size()) return;
+    const std::vector<std::int32_t> vertices = chain_of(root), images = chain_of(c);
     const bool closed = shape.end1 == shape.end2;
     PeriodicLink linked = link(1, from.shown_ref(), to.shown_ref(), member.map);
     const auto n = static_cast<int>(from.vertices.size()) - 1;
@@ -98,7 +110,7 @@ class Linker {
     for (int k = 0; k <= n; ++k) {
       image.push_back(vertex_image(run_.curves[root], run_.curves[c], member.image, closed, k));
       if (image.back() < 0) return;
-      linked.nodes.push_back({to.vertices[image.back()], from.vertices[k]});
+      linked.nodes.push_back({images[image.back()], vertices[k]});
     }
     for (int k = 0; k < n && !from.mid.empty(); ++k) {
       const int i = image[k] % n, j = image[k + 1] % n;

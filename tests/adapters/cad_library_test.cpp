@@ -281,7 +281,7 @@ TEST(CadLibrary, MirrorsBodies) {
   File file;
   EXPECT_EQ(carreau_cad_create(&file.handle), CARREAU_OK);
   const std::array<double, 3> point{-100, 0, 0}, normal{2, 0, 0}, none{0, 0, 0}, off{-99, 0, 0};
-  EXPECT_EQ(carreau_cad_mirror(file, point.data(), normal.data()), CARREAU_ERR_SEQUENCE);
+  EXPECT_EQ(carreau_cad_mirror(file, point.data(), normal.data()), CARREAU_ERR_ARGUMENT);  // nothing was read
   EXPECT_OK(file, carreau_cad_read(file, (shapes() + "/inch.step").c_str(), nullptr));
   EXPECT_EQ(carreau_cad_mirror(file, point.data(), none.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_cad_mirror(file, nullptr, normal.data()), CARREAU_ERR_ARGUMENT);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "abi_fixture.h"
@@ -14,9 +15,10 @@ namespace {
 
 // Face 1: (x, y, .2 sin(2x + y)) with x = u, y = v. Face 2: the same one above it, x = (v + v^2) / 2, y = u: another parametrisation
 // that turns the plane over. Face 3: face 1 bent up at a corner. Faces 4 and 5: unit squares at z = 0 and z = 1.
+// Face 6: face 1 one unit above, with a bump inside.
 std::int32_t sheet(std::int32_t face, double u, double v, std::int32_t, double* s, double* su, double* sv, double* suu, double* suv, double* svv,
                    void*) {
-  if (face > 3) {
+  if (face == 4 || face == 5) {
     const double flat[3] = {u, v, face - 4.};
     for (int k = 0; k < 3; ++k) s[k] = flat[k], su[k] = k == 0, sv[k] = k == 1, suu[k] = suv[k] = svv[k] = 0;
     return 0;
@@ -38,6 +40,13 @@ std::int32_t sheet(std::int32_t face, double u, double v, std::int32_t, double* 
   suu[2] = other ? yy : xx, suv[2] = other ? speed * xy : xy + (face == 3 ? 0.3 : 0);
   svv[2] = other ? speed * speed * xx + px[2] : yy;
   if (other) svv[0] = 1;
+  if (face == 6) {
+    const double p1 = u * (1 - u), q1 = v * (1 - v), w = p1 * q1, wu = (1 - 2 * u) * q1, wv = p1 * (1 - 2 * v), c = 20;
+    s[2] += 1 + c * w * w * w;
+    su[2] += 3 * c * w * w * wu, sv[2] += 3 * c * w * w * wv;
+    suu[2] += 6 * c * w * wu * wu - 6 * c * w * w * q1, svv[2] += 6 * c * w * wv * wv - 6 * c * w * w * p1;
+    suv[2] += 6 * c * w * wu * wv + 3 * c * w * w * (1 - 2 * u) * (1 - 2 * v);
+  }
   return 0;
 }
 std::int32_t unit_interval(std::int32_t, std::int32_t, double* a, double* b, void*) { return *a = 0, *b = 1, 0; }
@@ -170,6 +179,19 @@ TEST_F(PeriodicTest, FacesThatDoNotMatchAreReported) {
   EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_MODEL);
   EXPECT_NE(error().find("do not match: their boundaries are 0.2"), std::string::npos) << error();  // .3 along z
   EXPECT_NE(error().find("apart at ("), std::string::npos) << error();
+}
+
+TEST_F(PeriodicTest, PartnersOfFacesThatFailAreReported) {
+  use_sheets({1, 6, 4});
+  const std::int32_t slave = 6, master = 1;
+  ASSERT_EQ(carreau_model_add_periodicity(session, &slave, &master, 1, up.data()), CARREAU_OK) << error();
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_PARTIAL) << error();
+  for (const auto& [index, words] : {std::pair(0, "face 1: its periodic partner, face 6, failed"), {1, "face 6: the image of the mesh of face 1 is"}, {2, ""}}) {
+    auto face = sized<carreau_face>();
+    ASSERT_EQ(carreau_mesh_face(mesh(), index, &face), CARREAU_OK) << error();
+    EXPECT_NE(std::string(face.why).find(words), std::string::npos) << face.why;
+    EXPECT_EQ(face.status, index == 2 ? CARREAU_FACE_MESHED : CARREAU_FACE_FAILED);
+  }
 }
 
 TEST_F(PeriodicTest, BadPeriodicitiesAreRejected) {

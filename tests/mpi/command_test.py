@@ -214,6 +214,7 @@ def killed(folder, which, arguments, after):
 
 with tempfile.TemporaryDirectory() as temporary:
     same_files(temporary)
+    same_pairs(temporary)
     bad_input(temporary)
 with tempfile.TemporaryDirectory() as temporary:
     same_parts(temporary)

@@ -17,10 +17,10 @@ module carreau_cad
   public :: carreau_cad_small_feature, carreau_cad_small_feature_at, carreau_cad_entity_name
   public :: carreau_cad_tree_row, carreau_cad_tree_at, carreau_cad_contact, carreau_cad_count_contacts, carreau_cad_contact_at
   public :: carreau_cad_set_size, carreau_cad_open_bytes, carreau_cad_read_bytes, carreau_cad_imprint, carreau_cad_name_solids
-  public :: carreau_cad_mirror, carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
+  public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
   public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
   public :: carreau_cad_measure_gaps, carreau_cad_point, carreau_cad_curve_point, carreau_cad_curves
-  public :: carreau_cad_parts, carreau_cad_whole_face, carreau_cad_whole_edge
+  public :: carreau_cad_parts, carreau_cad_whole_face, carreau_cad_whole_edge, carreau_cad_mirror
 
   type :: carreau_cad_file
     type(c_ptr) :: handle = c_null_ptr

@@ -93,8 +93,8 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
   }
   const Topology* known = mesh.curves.size() == model.topology.curves.size() ? &model.topology : nullptr;
   frame.corners = find_corners(mesh, frame.jets, *frame.charts, frame.sharp, known, model.supports, angle);
-  frame.corners = joined(std::move(frame.corners), stays.vertices);
   frame.lines = find_lines(mesh, frame.sharp, frame.corners);
+  frame.corners = joined(std::move(frame.corners), stays.vertices);
   frame.sharp = joined(std::move(frame.sharp), stays.inner);
   if (elements) frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& freed) { elements(before, frame, freed); };
   frame.geometry = [&, curves](const SharpLine& line) {

@@ -29,6 +29,7 @@ class LineRemesher {
         monitor_(monitor) {}
 
   std::vector<std::int32_t> run() {
+    if (is_fixed()) return {};
     const int wanted = std::max(unit_edge_count(length()), closed_ ? 3 : 1);
     std::set<std::int32_t> refused;
     while (static_cast<int>(left_.size()) - 1 > wanted && collapse_shortest(refused)) monitor_.checkpoint();
@@ -38,6 +39,11 @@ class LineRemesher {
 
  private:
   using Node = LineNode;
+
+  // All vertices stay: triangles beside the line do.
+  [[nodiscard]] bool is_fixed() const {
+    return left_.size() > 2 && std::all_of(left_.begin() + 1, left_.end() - 1, [this](const Node& node) { return mesh_.mesh().is_corner(node.vertex); });
+  }
 
   void even_out() {
     failed_.assign(left_.size(), {});
