@@ -24,7 +24,7 @@ PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3
     look_at(only, bound);
   else
     entities.tree.nearest_first([&](std::int32_t n) { return std::sqrt(entities.tree.node(static_cast<std::size_t>(n)).box.squared_distance(x)); },
-                                [&](double least) { return least <= bound; },
+                                [&](double least) { return least <= (1 + 1e-12) * bound; },
                                 [&](const BoxTree::Node& leaf) {
                                   for (const std::int32_t e : entities.tree.things(leaf)) look_at(e, bound);
                                 });
@@ -45,16 +45,16 @@ void PointSearch::look_at(std::int32_t entity, double& bound) {
   const Pieces& pieces = *entities_->pieces[static_cast<std::size_t>(entity)];
   pieces.tree.nearest_first(
       [&](std::int32_t n) { return std::sqrt(pieces.tree.node(static_cast<std::size_t>(n)).box.squared_distance(x_)); },
-      [&](double least) { return least <= bound; },
+      [&](double least) { return least <= (1 + 1e-12) * bound; },
       [&](const BoxTree::Node& leaf) {
         for (const std::int32_t k : pieces.tree.things(leaf)) {
           const double least = pieces.boxes[static_cast<std::size_t>(k)].squared_distance(x_);
-          if (least > bound * bound) continue;
+          if (least > (1 + 1e-12) * bound * bound) continue;
           double floor = least;
           if (static_cast<std::size_t>(k) < pieces.leaves.size()) floor = pieces.leaves[static_cast<std::size_t>(k)].box.squared_distance(x_);
-          if (floor > bound * bound) continue;
+          if (floor > (1 + 1e-12) * bound * bound) continue;
           Candidate& candidate = candidates_.emplace_back();
-          candidate.entity = entity, candidate.piece = k, candidate.floor = std::sqrt(std::max(floor, least));
+          candidate.entity = entity, candidate.piece = k, candidate.floor = (1 - 1e-12) * std::sqrt(std::max(floor, least));  // a sample may be a corner of a flat box
           if (const CurveLeaf* curve = curve_of(candidate)) {
             const LeafPlace place = nearest_on(*curve, x_);
             candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve->error;

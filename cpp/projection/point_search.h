@@ -57,7 +57,8 @@ class PointSearch {
     double floor = 0;      // no place is nearer, by the box of the leaf
     NearestSample sample;  // of a leaf of a face
 
-    [[nodiscard]] double least() const noexcept { return std::max(floor, distance - error); }
+    /// A lower bound, with room for rounding: the candidate itself may have given the upper bound.
+    [[nodiscard]] double least() const noexcept { return std::max(floor, (1 - 1e-12) * (distance - error)); }
   };
   void look_at(std::int32_t entity, double& bound);
   void refine(double& bound);

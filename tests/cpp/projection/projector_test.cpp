@@ -82,6 +82,25 @@ TEST(Projector, PointsBesideAnEdgeHaveTheNearerFace) {
   }
 }
 
+/// A corner of a flat leaf is a corner of its box: rounding must not exclude the leaf.
+TEST(Projector, FarPointsOfATiltedPlane) {
+  AnalyticCad cad;
+  const Vec3 e = Vec3(3, 1, -2) / std::sqrt(14), f = Vec3(1, 1, 2) / std::sqrt(6);
+  cad.faces[1] = {[e, f](Vec2 p) {
+                    SurfaceJet j;
+                    j.s = Vec3(0.1, 0.7, -0.3) + p.x() * e + p.y() * f, j.su = e, j.sv = f;
+                    return j;
+                  },
+                  testing::rectangle({0, 0}, {1, 1})};
+  const std::vector<Vec3> x = random_points(5000, 40);
+  const std::vector<ProjectedPoint> found = project(cad, x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 r = x[i] - Vec3(0.1, 0.7, -0.3);
+    EXPECT_NEAR(found[i].parameters.x(), std::clamp(dot(r, e), 0.0, 1.0), 1e-12);
+    EXPECT_NEAR(found[i].parameters.y(), std::clamp(dot(r, f), 0.0, 1.0), 1e-12);
+  }
+}
+
 TEST(Projector, FaceThatFailsLeavesTheOthers) {
   AnalyticCad cad;
   for (const int face : {1, 2, 3})
