@@ -28,7 +28,7 @@ struct Square {
     topology = build_topology(model, traces_of(supports), 1e-9);
     options.size = {.physical = PhysicalSizes::uniform, .hphydef = 0.5, .hphymin = 1e-3, .hphymax = 10};
     options.crossing_rounds = 1;
-    run.emplace(model, topology, supports, cad, options, monitor);
+    run.emplace(model, topology, supports, cad, options, PeriodicModel{}, monitor);
     discretise_curves(*run);
     find_narrow(*run);
     rounds.emplace(*run);
