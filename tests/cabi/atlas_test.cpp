@@ -211,11 +211,11 @@ TEST(CAtlas, BadTriangulationsAreReportedWithTheVertex) {
   clusters[5] = 3;
   EXPECT_EQ(build(clusters.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_TRUE(says("without gaps")) << carreau_atlas_last_error(atlas);
-  // A tetrahedron is divided until clusters have planes, or the sentence names a vertex.
+  // A tetrahedron is divided until clusters have planes, or the sentence names a vertex, or the place of a fold.
   const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const std::int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
   const carreau_status status = carreau_atlas_build(atlas, nullptr, 4, corners, 4, faces, nullptr);
-  EXPECT_TRUE(status == CARREAU_OK || (status == CARREAU_ERR_DOMAIN && says("vertex")))
+  EXPECT_TRUE(status == CARREAU_OK || (status == CARREAU_ERR_DOMAIN && (says("vertex") || says("turned over near ("))))
       << carreau_atlas_last_error(atlas);
   carreau_atlas_free(atlas);
 }
