@@ -10,18 +10,8 @@
 namespace carreau::atlas {
 namespace {
 
-/// The area of the surface against the normal of planes, and the size of its gradient.
-struct Turn {
-  double area = 0, slope = 0;
-  /// Returns whether the area is positive at all places this near.
-  [[nodiscard]] bool holds(double distance) const { return area > thresholds::fold_safety * slope * distance; }
-};
-
-Turn turn_of(const SurfaceJet& jet, const Vec3& normal) {
-  const Vec3 by_u = cross(jet.suu, jet.sv) + cross(jet.su, jet.suv);
-  const Vec3 by_v = cross(jet.suv, jet.sv) + cross(jet.su, jet.svv);
-  return {dot(cross(jet.su, jet.sv), normal), std::hypot(dot(by_u, normal), dot(by_v, normal))};
-}
+/// The area of the surface against the normal of planes.
+double area_of(const SurfaceJet& jet, const Vec3& normal) { return dot(cross(jet.su, jet.sv), normal); }
 
 class FoldSearch {
  public:
@@ -32,8 +22,8 @@ class FoldSearch {
     const auto place = [&](int i, int j) -> Vec2 { return (i * corner_of_t(1) + j * corner_of_t(2)) / n; };
     for (int i = 0; i < n; ++i)
       for (int j = 0; i + j < n; ++j) {
-        look_at_cell(triple, {place(i, j), place(i + 1, j), place(i, j + 1)}, 0);
-        if (i + j < n - 1) look_at_cell(triple, {place(i + 1, j + 1), place(i, j + 1), place(i + 1, j)}, 0);
+        look_at_cell(triple, {place(i, j), place(i + 1, j), place(i, j + 1)});
+        if (i + j < n - 1) look_at_cell(triple, {place(i + 1, j + 1), place(i, j + 1), place(i + 1, j)});
       }
   }
 
@@ -48,7 +38,7 @@ class FoldSearch {
  private:
   using Cell = std::array<Vec2, 3>;
 
-  void look_at_cell(std::size_t triple, const Cell& cell, int depth) const {
+  void look_at_cell(std::size_t triple, const Cell& cell) const {
     const Vec2 centre = (cell[0] + cell[1] + cell[2]) / 3;
     const double reach = norm(cell[1] - cell[0]) / std::numbers::sqrt3;
     for (int c = 0; c < 3; ++c)
@@ -59,28 +49,19 @@ class FoldSearch {
     for (std::size_t c = 0; c < 3; ++c)
       normal += weights[c] * surface_.covering().charts()[static_cast<std::size_t>(charts[c])].frame.normal;
     const SurfaceJet jet = surface_.at_triple(triple, centre);
-    const Turn turn = turn_of(jet, normal);
-    if (turn.holds(reach)) return;
-    if (turn.area <= 0) reject(jet.s, charts[0]);
-    if (depth == thresholds::cell_divisions) return;  // a bend within a cell that no triangle can see
-    const Cell middle{(cell[1] + cell[2]) / 2, (cell[2] + cell[0]) / 2, (cell[0] + cell[1]) / 2};
-    look_at_cell(triple, middle, depth + 1);
-    for (std::size_t c = 0; c < 3; ++c)
-      look_at_cell(triple, {cell[c], middle[(c + 2) % 3], middle[(c + 1) % 3]}, depth + 1);
+    if (area_of(jet, normal) <= 0) reject(jet.s, charts[0]);
   }
 
   void look_at_square(std::size_t chart, const Vec2& centre, double half, int depth) const {
     const Chart& own = surface_.covering().charts()[chart];
-    const double reach = std::numbers::sqrt2 * half;
-    const bool is_certain = depth >= thresholds::square_divisions;
-    if (is_certain && !own.annulus.encloses(centre)) return;  // its neighbours, and the cells of T, reach the border
+    if (depth < thresholds::square_divisions) {
+      for (const double x : {-.5, .5})
+        for (const double y : {-.5, .5}) look_at_square(chart, centre + half * Vec2(x, y), half / 2, depth + 1);
+      return;
+    }
+    if (!own.annulus.encloses(centre)) return;  // the cells of T reach the border
     const SurfaceJet jet = surface_.at(chart, centre);
-    const Turn turn = turn_of(jet, own.frame.normal);
-    if (depth > 0 && turn.holds(reach)) return;
-    if (is_certain && turn.area <= 0) reject(jet.s, static_cast<std::int32_t>(chart));
-    if (depth == thresholds::square_divisions + thresholds::cell_divisions) return;
-    for (const double x : {-.5, .5})
-      for (const double y : {-.5, .5}) look_at_square(chart, centre + half * Vec2(x, y), half / 2, depth + 1);
+    if (area_of(jet, own.frame.normal) <= 0) reject(jet.s, static_cast<std::int32_t>(chart));
   }
 
   [[noreturn]] void reject(const Vec3& at, std::int32_t chart) const {

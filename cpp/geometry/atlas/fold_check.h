@@ -6,9 +6,8 @@
 
 namespace carreau::atlas {
 
-/// Throws DomainError with the place of a fold: the normal is against the planes of the charts. The check divides a grid
-/// on each T, and the pure zones of moved charts. The derivative of the normal's area, times a factor of safety, bounds
-/// the area inside a cell; a cell without a bound is divided, twice at most. Folds narrower than 1 / 128 of T may remain.
+/// Throws DomainError with the place of a fold: the normal is against the planes of the charts. The check visits a grid
+/// on each T, and the pure zones of moved charts. Folds narrower than 1 / 32 of T may remain.
 void require_no_folds(const BlendedSurface& surface);
 
 }  // namespace carreau::atlas

@@ -39,9 +39,7 @@ inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.
 inline constexpr double notable_gain = 0.999;
 
-/// The final check: cells of the grid on each T, divisions of a cell that has no bound, divisions of the square around a
-/// pure zone before those, and the factor on derivatives that bounds the area between places.
-inline constexpr int cells_of_t = 32, cell_divisions = 2, square_divisions = 3;
-inline constexpr double fold_safety = 1.5;
+/// The final check: cells of the grid on each T, and divisions of the square around a pure zone.
+inline constexpr int cells_of_t = 32, square_divisions = 3;
 
 }  // namespace carreau::atlas::thresholds
