@@ -244,7 +244,7 @@ void same_parts() {
   same({"hphydef=0.4", "hgeo_flag=1", "angle_mesh=8", "crossing_rounds=3"});
   same({"hphydef=0.2", "failing_faces=leave_out"}, Fault::status_inside);
   same({"hphydef=1"});
-  for (const char* setting : {"element=p2", "patches=independent", "gradation=1.3", "cracks=1", "measure=1"})
+  for (const char* setting : {"element=p2", "gradation=1.3"})
     same({"hphydef=0.4", "hgeo_flag=1", setting});
 }
 
