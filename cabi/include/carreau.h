@@ -716,7 +716,7 @@ enum { CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2 };
 enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
 /* How derivatives are found from values at vertices: quadratics that fit the neighbours of each vertex; or the gradients
  * of triangles averaged at vertices, twice (double L2 projection), which is smoother, and biased at boundaries; or the mean normals and
- * centred quadrics of the graph (HDR sec. 3.4.3 a.2), which find more of the curvature of steep fronts. */
+ * centred quadrics of the graph (HDR sec. 3.4.3 a.2). */
 enum { CARREAU_FIT = 0, CARREAU_PROJECTION = 1, CARREAU_QUADRIC = 2 };
 
 /* How sizes are found from a field. Zeros in all members but struct_size are the defaults. */

@@ -64,7 +64,7 @@ void fail_pair(CompositeRun& run, const FacePair& pair, const std::string& why) 
 }  // namespace
 
 void fail_partners(CompositeRun& run) {
-  // A master and all its slaves have meshes, or none of them has one.
+  // A master has a mesh exactly if all its slaves have meshes.
   for (int round = 0; round < 2; ++round)
     for (const FacePair& pair : run.periodic.pairs)
       for (const auto& [face, partner] : {std::pair(pair.slave, pair.master), std::pair(pair.master, pair.slave)}) {
@@ -95,7 +95,6 @@ void carry_patches(CompositeRun& run) {
     if (!run.has_patch(pair.master)) continue;
     run.monitor.checkpoint();
     run.keeper[pair.slave] = run.keeper[pair.master];
-    if (!run.patches[pair.master]) continue;  // another process keeps both
     CarriedPatch carried = carry(run, pair);
     why[pair.slave] = carried.failure;
     pair.flipped = carried.flipped;
@@ -131,10 +130,6 @@ void separate_shared_chords(CompositeRun& run) {
       CarriedPatch carried = carry(run, pair);
       if (carried.failure.empty()) run.patches[pair.slave] = std::move(carried.mesh);
       any = true;
-    }
-    if (team != nullptr) {
-      const std::vector<std::string> all = team->exchange("chords of periodic faces", any ? "1" : "");
-      any = std::any_of(all.begin(), all.end(), [](const std::string& one) { return !one.empty(); });
     }
     if (!any) return;
   }
