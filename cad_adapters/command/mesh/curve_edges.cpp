@@ -199,10 +199,6 @@ carreau_layers_report report_on(carreau_session* session, std::size_t index) {
   return report;
 }
 
-std::string range_text(double mean, double low, double high) {
-  return number_text(mean) + " (" + number_text(low) + " to " + number_text(high) + ")";
-}
-
 }  // namespace
 
 void check_layers(const MeshOptions& options) {
@@ -232,22 +228,6 @@ void add_layers(carreau_session* session, const MeshOptions& options, const CadI
     require(session, carreau_add_layers(session, static_cast<std::int64_t>(refs.size()), refs.data(),
                                         parse_length(rule.first, layers_option).of(input.diagonal()), rule.ratio, rule.count));
   }
-}
-
-std::vector<std::string> layer_lines(carreau_session* session, const MeshOptions& options) {
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < options.layers.size(); ++i) {
-    const carreau_layers_report r = report_on(session, i);
-    std::string line = "layers " + parse_layers(options.layers[i]).entities + ": ";
-    if (r.cells == 0)
-      line += "no row has room";
-    else
-      line += std::to_string(r.cells) + " cells in " + (r.fewest_rows < r.rows ? std::to_string(r.fewest_rows) + " to " : "") +
-              std::to_string(r.rows) + " rows, first height " + range_text(r.first_mean, r.first_min, r.first_max) +
-              (r.growth_max > 0 ? ", growth " + range_text(r.growth_mean, r.growth_min, r.growth_max) : "");
-    lines.push_back(std::move(line));
-  }
-  return lines;
 }
 
 nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options) {

@@ -313,7 +313,6 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   lines.push_back(interfaces_line(interfaces));
   for (std::string& line : gluing_lines(run.input, interfaces)) lines.push_back(std::move(line));
   if (std::string line = gradation_line(run); !line.empty()) lines.push_back(std::move(line));
-  for (std::string& line : layer_lines(run.session, run.options)) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
   if (std::string line = contacts_line(run); !line.empty()) lines.push_back(std::move(line));
   const std::int32_t threads = threads_of(run.session);
@@ -340,6 +339,7 @@ nlohmann::ordered_json part_json(const MeshRun& run, int processes) {
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
                                     {"seconds", {{"reading", run.seconds_reading}, {"writing", run.seconds_writing}, {"processor", run.seconds_processor}}}};
+  if (!run.options.layers.empty()) summary["layers"] = layers_json(run.session, run.options);
   if (is_measured(run)) summary["delivered"] = delivered_json(run.session);
   return summary;
 }
