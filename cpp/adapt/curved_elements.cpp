@@ -9,6 +9,7 @@
 #include "mesh/elements/jacobian.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -96,7 +97,7 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
     if (step < rounding_of::digits) break;
   }
   // Far from p the element may fold on the way; then Newton's method stops at a point that is not p.
-  place.inside = step < newton_arrived ? min_coordinate(cell.kind, place.s, place.t) : -infinity;
+  place.inside = step < shares::negligible ? min_coordinate(cell.kind, place.s, place.t) : -infinity;
   return place;
 }
 

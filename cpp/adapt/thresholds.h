@@ -4,8 +4,6 @@
 
 namespace carreau::thresholds::adapt {
 
-// In brackets: the tests that rest on it, all of tests/cpp/adapt.
-
 // Recovery of derivatives
 /// Ratio of the smallest to the largest diagonal entry of the triangular factor, below which a fit is not determined.
 /// [Recovery.NamesThePlaceOfTooFewNeighbours]
@@ -28,9 +26,6 @@ inline constexpr double blind = 2;
 /// triangles so many times nearer elsewhere. The surface leaves them by an amount of second order, and so does this.
 /// [TransferField.IsOfSecondOrderAroundPoles]
 inline constexpr double as_near = 4;
-/// Coordinates: if the last step is larger, the method has not converged. On surfaces steps shrink by a factor each,
-/// not quadratically. [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
-inline constexpr double newton_arrived = 1e-3;
 /// Coordinates of the reference. Distance beside its element up to which a field's polynomial is taken: the sagitta of
 /// a curved border. An edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
 inline constexpr double max_beside = 0.2;

@@ -16,6 +16,7 @@
 #include "predicates/predicates.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/invalid_report.h"
@@ -188,7 +189,7 @@ class Carrier {
     const auto lies_on = [&](std::size_t v) {
       const double s = share(v);
       const Vec2 off = face.uv[v] - a - s * side;
-      return face.vertex[v] == pole && s > -same_domain && s < 1 + same_domain && dot(off, off) <= same_domain * square;
+      return face.vertex[v] == pole && s > -rounding_of::sizes && s < 1 + rounding_of::sizes && dot(off, off) <= rounding_of::sizes * square;
     };
     double turned = 0;  // known ends give the direction
     for (std::size_t v = 0; v < face.uv.size(); ++v)
@@ -226,7 +227,7 @@ class Carrier {
     for (std::size_t v = 0; v < before.uv.size(); ++v)
       if (places.known[v] != 0)
         for (int i = 0; i < 2; ++i)
-          if (std::abs(places.uv[v][i] - before.uv[v][i]) > same_domain * (high[i] - low[i])) return false;
+          if (std::abs(places.uv[v][i] - before.uv[v][i]) > rounding_of::sizes * (high[i] - low[i])) return false;
     return true;
   }
 

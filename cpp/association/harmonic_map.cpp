@@ -11,6 +11,8 @@
 #include "mesh/local_search.h"
 #include "predicates/predicates.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -48,7 +50,7 @@ class Untangler {
       : triangles_(triangles), fixed_(fixed), uv_(uv), fans_(triangles, uv.size()) {}
 
   std::vector<std::int32_t> run() {
-    for (int pass = 0; pass < thresholds::association::untangling_passes; ++pass) {
+    for (int pass = 0; pass < rounding_of::max_steps; ++pass) {
       const std::vector<std::int32_t> turned = turned_triangles();
       if (turned.empty()) return {};
       std::vector<std::int32_t> vertices;
@@ -95,7 +97,7 @@ class Untangler {
     const double box = size.x() * size.y();
     if (!(box > 0)) return false;
     const double before = worst(v, box);
-    const Vec2 by = search_along_compass(before, 0.5, thresholds::association::last_step, [&](const Vec2& place, double) {
+    const Vec2 by = search_along_compass(before, 0.5, shares::negligible, [&](const Vec2& place, double) {
       uv_[v] = home + place.cwiseProduct(size);
       return worst(v, box);
     });

@@ -13,6 +13,8 @@
 #include "association/thresholds.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "support/shares.h"
+#include "support/work_bounds.h"
 
 namespace carreau {
 
@@ -183,7 +185,7 @@ class Matcher {
         curves[m].push_back((c.degenerate ? 1 : 0) + (c.end1 == c.end2 ? 2 : 0) + 4 * static_cast<int>(c.uses.size()));
       faces[m].assign(models[m]->face.size(), 0);
     }
-    for (int round = 0; round < colour_rounds; ++round) {
+    for (int round = 0; round < work_bounds::passes; ++round) {
       const auto renumber = [](const std::array<std::vector<Word>, 2>& words, std::array<std::vector<int>, 2>& out) {
         std::map<Word, int> numbers;
         for (const auto& list : words)
@@ -302,7 +304,7 @@ ModelMatch match_models(const CurveModel& from, const CurveModel& to, MatchBy by
     }
   };
   attempt([&] { return matcher.by_references(); });
-  if (best && matcher.distance(*best) < near_enough) return *best;
+  if (best && matcher.distance(*best) < shares::notable) return *best;
   attempt([&] { return matcher.by_names(); });
   attempt([&] { return matcher.by_shapes(); });
   if (!best) throw InvalidModel(first.value());

@@ -6,15 +6,6 @@ namespace carreau::thresholds::association {
 
 /// Ratio of distances. References whose entities are so much farther apart than entities of like shapes were renumbered. [CarriedMesh.RenumberedFacesAreFound]
 inline constexpr double renumbered = 2;
-/// Mean distance, in boxes of the models, up to which references are believed. A tenth is a change of dimensions.
-inline constexpr double near_enough = 0.1;
-/// Rounds of neighbours of neighbours that distinguish faces. CAD models have a diameter of some ten faces.
-inline constexpr int colour_rounds = 10;
-/// Share of the domain's box. Domains that agree so keep the places (u, v) of their vertices. [association.md]
-inline constexpr double same_domain = 1e-6;
-/// Passes over the vertices around turned triangles, and the last step of a vertex, share of its ring.
-inline constexpr int untangling_passes = 40;
-inline constexpr double last_step = 1e-3;
 /// Seams of a face whose two sides may have changed places.
 inline constexpr int max_seams = 6;
 

@@ -5,6 +5,7 @@
 #include "atlas/pivots.h"
 #include "atlas/thresholds.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
@@ -78,12 +79,12 @@ Pivots beside_vertices(const Polygon& loop) {
   for (std::size_t v = 0; v < loop.size(); ++v) height[v] = part_of_room * room_at(loop, v);
   std::vector<std::size_t> owner;
   std::size_t worst = 0;
-  for (int round = 0; round < thresholds::nearer_rounds; ++round) {
+  for (int round = 0; round < rounding_of::max_steps; ++round) {
     Pivots pivots = near_pivots(loop, height, owner);
     const std::vector<char> wrong = wrong_pivots(loop, pivots);
     if (!any(wrong)) return pivots;
     for (std::size_t k = 0; k < wrong.size(); ++k)
-      if (wrong[k] != 0) height[worst = owner[k]] *= thresholds::nearer;
+      if (wrong[k] != 0) height[worst = owner[k]] /= 2;
   }
   throw DomainError(Where{.uv = loop[worst]}, "no pivots describe the loop near vertex " + std::to_string(worst + 1) +
                                                   ": its parts are too near to one another there");

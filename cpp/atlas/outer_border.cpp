@@ -146,7 +146,7 @@ class Border {
   }
 
   std::vector<OuterPieces> settle() {
-    for (int round = 0; round < thresholds::room_rounds; ++round) {
+    for (int round = 0; round < rounding_of::max_steps; ++round) {
       set_radii();
       if (!shrink_crossings()) return std::move(pieces_);
       agree_at_joints();

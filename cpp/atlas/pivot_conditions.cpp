@@ -7,6 +7,7 @@
 #include "atlas/pivots.h"
 #include "atlas/thresholds.h"
 #include "predicates/predicates.h"
+#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 /// Returns whether the edge from a to b, relative to the pivot, is visible under an angle, and not along itself.
 bool well_seen(const Vec2& a, const Vec2& b, const Vec2& edge) {
   const double twice_area = std::abs(cross(a, edge));
-  return std::abs(std::atan2(cross(a, b), dot(a, b))) > thresholds::min_angle &&
+  return std::abs(std::atan2(cross(a, b), dot(a, b))) > rounding_of::sizes &&
          twice_area > thresholds::min_slope * norm(edge) * std::max(norm(a), norm(b));
 }
 
@@ -64,7 +65,7 @@ class Conditions {
       const Vec2 b = e == from + edges ? Vec2(place(k + 1) - place(k)) : Vec2(vertex(e + 1) - place(k));
       if (!well_seen(vertex(e) - place(k), vertex(e + 1) - place(k), vertex(e + 1) - vertex(e))) wrong_[k] = 1;
       const double seen = std::abs(std::atan2(cross(a, b), dot(a, b)));
-      if (!(seen > thresholds::min_angle)) wrong_[k] = 1;
+      if (!(seen > rounding_of::sizes)) wrong_[k] = 1;
       angle += seen;
     }
     if (!(angle < 2 * std::numbers::pi)) wrong_[k] = 1;

@@ -26,18 +26,6 @@ inline constexpr double shared_gap = 0.45;
 inline constexpr double slide = 0.6;
 inline constexpr int slides = 12;
 
-/// Pivots near the loop move nearer by this factor if a condition fails. Two to the minus forty is below any width that
-/// doubles of one size can have in a polygon which is simple for practical purposes.
-inline constexpr double nearer = 0.5;
-inline constexpr int nearer_rounds = 40;
-
-/// The room of the outer border shrinks by the factor `slide` where it crosses itself, at most so many times.
-inline constexpr int room_rounds = 80;
-
-/// Radians: a pivot must see each edge of its part under a larger angle. Exact conditions may hold where rounding
-/// leaves no angle; at 1e-6 angles keep nine digits.
-inline constexpr double min_angle = 1e-6;
-
 /// Sine of the angle between an edge and the ray to it: below, distances along the ray are too inaccurate. This rejects
 /// pivots that are barycentres of slivers.
 inline constexpr double min_slope = 1e-5;

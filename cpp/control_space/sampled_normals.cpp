@@ -8,6 +8,8 @@
 
 #include "control_space/thresholds.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
+#include "support/work_bounds.h"
 
 namespace carreau {
 
@@ -38,7 +40,7 @@ class SampledNormals::Fit {
   [[nodiscard]] bool is_sound() const noexcept {
     if (count_ < enough_normals) return false;
     const Moments m = moments();
-    return m.xx * m.yy - m.xy * m.xy > min_spread * (m.xx + m.yy) * (m.xx + m.yy);
+    return m.xx * m.yy - m.xy * m.xy > shares::negligible * (m.xx + m.yy) * (m.xx + m.yy);
   }
   [[nodiscard]] Vec3 linear() const noexcept {
     const Moments m = moments();
@@ -127,7 +129,7 @@ Vec3 SampledNormals::at(const Vec2& uv) const noexcept {
     Fit fit(metric, reach);
     gather(uv, metric, reach, fit);
     if (fit.is_sound()) return fit.linear();
-    if (k == max_growths) return fit.mean();
+    if (k == work_bounds::rounds) return fit.mean();
   }
 }
 

@@ -10,6 +10,8 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
+#include "support/rounding_of.h"
+#include "support/shares.h"
 #include "support/work_sizes.h"
 
 namespace carreau::detail {
@@ -74,7 +76,7 @@ void ControlSpaceSampling::look_at_probe_points() {
   if (samples_left() < static_cast<double>(uv.size())) return;
   std::vector<Metric2> roots = ask(uv);
   for (Metric2& root : roots) root = root_of(root);
-  for (int round = 0; round < max_looks && !uv.empty(); ++round) {
+  for (int round = 0; round < rounding_of::halvings && !uv.empty(); ++round) {
     std::vector<std::int32_t> cells;
     for (std::size_t k = 0; k < uv.size(); ++k) {
       const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv[k]));
@@ -247,7 +249,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
     const Metric2 truth = root_of(metric[centres.size() + k]);
     border_->add(lattice_->position(domain_.vertices[points[k].vertex]), truth);
     keep_border(points[k].vertex, metric[centres.size() + k], centres.size() + k);
-    cell.error = std::max(cell.error, border_relief * error_between(points[k].expected, truth, cell));
+    cell.error = std::max(cell.error, shares::reserve * error_between(points[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
   for (std::size_t k = 0; k < centres.size(); ++k) {
@@ -271,7 +273,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
 bool ControlSpaceSampling::can_be_filled(const TreeCell& cell) const noexcept {
   if (cell.filled || cell.edges_begin != cell.edges_end || cell.vertices > crowded * vertices_per_cell_) return false;
   const double expected = cell.decay * cell.error, parts = 0.25 * cell.vertices;
-  if (expected <= trusted * allowed_error(parts)) return true;
+  if (expected <= shares::reserve * allowed_error(parts)) return true;
   return !options_.thorough && static_cast<double>(samples_) > samples_for_smooth_fields() &&
          is_beyond_tolerance(cell) && expected <= tolerated_error(parts);
 }
@@ -306,7 +308,7 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
   if (width <= min_width) return infinity;
-  return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : 1.0);
+  return options_.tolerance * (width > 1 ? shares::reserve : width > 0.5 ? allowed_edge : 1.0);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {

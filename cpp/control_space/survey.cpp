@@ -10,6 +10,7 @@
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 
 namespace carreau::detail {
 
@@ -85,7 +86,7 @@ double floor_from(std::vector<double> shortest, double longest) {
   double usual = shortest[shortest.size() / 2];
   if (!(usual > 0)) usual = shortest.back();
   if (!(usual > 0)) usual = longest > 0 ? longest : 1;
-  const double length = std::min(min_box_length, min_share_of_usual * usual);
+  const double length = std::min(min_box_length, shares::negligible * usual);
   return length * length;
 }
 
@@ -103,7 +104,7 @@ double change(Metric2 p, Metric2 q, double floor) {
 // Change of the field along u over change along v, from metrics on the regular inner grid.
 double ratio_of_changes(std::span<const Metric2> m, double floor) {
   constexpr int n = inner_points;
-  double u = min_change, v = min_change;
+  double u = shares::negligible, v = shares::negligible;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i + 1 < n; ++i) {
       u += change(m[n * j + i], m[n * j + i + 1], floor);

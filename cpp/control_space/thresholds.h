@@ -8,8 +8,6 @@
 namespace carreau::thresholds::control_space {
 
 // In brackets: the tests of the threshold, in tests/cpp/control_space/control_space_test ("ControlSpace") and
-// limits_test ("Limits").
-
 // The first look at the field (survey)
 /// Points. Asked on the boundary. [SmoothFields.AreReproducedFromFewSamples]
 inline constexpr std::size_t max_border_points = 8;
@@ -20,13 +18,9 @@ inline constexpr int share_points = 16;
 /// Ratio. How far the cells may differ from squares of the metric where the field varies more in one direction.
 /// [Limits. AspectRatiosUpToAMillionAreKept]
 inline constexpr double max_stretch = 6;
-/// Relative change. Fields that vary less have no usable direction. [ControlSpace.ConstantGivesBackTheMetric]
-inline constexpr double min_change = 1e-3;
 /// Edges. Least length of the whole box in any direction: metrics are clamped where the parametrisation is degenerate
 /// (HDR sec. 4.5.4), [Limits.DegenerateSidesAreClamped]
 inline constexpr double min_box_length = 1e-2;
-/// Share of the usual length. or this, if that is less. [Limits.AWideBoxMuchShorterThanAnEdgeKeepsItsMetric]
-inline constexpr double min_share_of_usual = 1e-3;
 
 // The tree (tree, sampling)
 /// Vertices. A cell of the first grid for so many, [samples: SmoothFields.AreReproducedFromFewSamples, as all below]
@@ -47,15 +41,13 @@ inline constexpr double crowded = 1.6;
 inline constexpr std::size_t min_of_max_samples = 1000;
 /// Edges. Cells at probe points are split while they are wider. [surface: SteepPlaces]
 inline constexpr double probe_width = 0.5;
-/// Rounds. Number of such splits; each halves a cell. [time only]
-inline constexpr int max_looks = 24;
 
 // Errors (sampling)
 /// Edges. Lengths of a cell below do not matter. [ControlSpace.ErrorsFollowTheTolerance, as all below]
 inline constexpr double negligible_length = 0.03;
 /// Tolerances. The error allowed where prediction is checked, of cells wider than an edge of the mesh, and than half an
 /// edge; smaller cells may have the whole tolerance.
-inline constexpr double allowed_wide = 0.25, allowed_edge = 0.5;
+inline constexpr double allowed_edge = 0.5;
 /// Edges. Smaller cells serve no purpose. [ControlSpace.SharpSizesAreFollowedDownToTheEdgesOfTheMesh]
 inline constexpr double min_width = 0.25;
 /// Edges. In cells at least so wide, errors above the tolerance are refined at any cost. Below, the tolerated error
@@ -64,10 +56,6 @@ inline constexpr double plain_width = 2.5;
 /// Ratio of sizes. From here on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
 /// the shortest edges wide. [ControlSpace.SizesMayVaryAThousandfold]
 inline constexpr double much_stretched = 30;
-/// Share. A boundary sample is compared with an extrapolation that does not contain it; later it takes part.
-inline constexpr double border_relief = 0.25;
-/// Share of the error allowed. If the expected error is smaller, no sample need confirm it.
-inline constexpr double trusted = 0.25;
 
 // Budgets (sampling)
 /// Samples. Cost of splitting a cell: usually, and at most (4 middles, 4 centres, 8 boundary vertices); cost of testing
@@ -115,21 +103,13 @@ inline constexpr std::size_t max_normals = 16'384;
 inline constexpr double samples_per_bucket = 2;
 /// Ratio. Ratio from one reach to the next, if the samples are too few or on a line,
 inline constexpr double reach_growth = 1.5;
-/// Times. so often.
-inline constexpr int max_growths = 8;
 /// Samples. Enough for a fit.
 inline constexpr int enough_normals = 6;
 /// Fourth power of reaches. Added to the fourth power of a distance, by which weights are divided: a sample at the
 /// place itself has a finite weight, far above all others. [SampledNormals.AreExactAtSamples]
 inline constexpr double nearest_normal = 1e-12;
-/// Determinant of their second moments over the square of the trace: samples along a line do not determine the
-/// direction across.
-inline constexpr double min_spread = 1e-3;
 
 // Polynomials (writer)
-/// Share. Inner Bernstein coefficients have eigenvalues of at least this share of the eigenvalues beside them: if all
-/// coefficients are definite, the polynomial is. [ControlSpace.IsDefiniteEverywhereInTheBox...]
-inline constexpr double min_inner_share = 0.1;
 /// Steps. Number of steps in which a side or a cell is straightened. [as above]
 inline constexpr int straightening_steps = 8;
 /// Entries of the table for each leaf, at most. [Limits.SmallMeshesTakeLittleMemory]

@@ -9,6 +9,7 @@
 
 #include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -24,12 +25,12 @@ double smaller_eigenvalue(Metric2 m) noexcept {
   return 0.5 * (m.a + m.c) - std::sqrt(half * half + m.b * m.b);
 }
 
-// A cheap sufficient test that the smaller eigenvalue of `inner` exceeds min_inner_share of the smaller eigenvalues of
+// A cheap sufficient test that the smaller eigenvalue of `inner` exceeds shares::notable of the smaller eigenvalues of
 // p and q. A smaller eigenvalue exceeds determinant over trace and is at most half of the trace; the factor of two
 // remains for rounding.
 bool surely_definite(Metric2 inner, Metric2 p, Metric2 q) noexcept {
   const double trace = inner.a + inner.c;
-  return trace > 0 && determinant(inner) > min_inner_share * std::min(p.a + p.c, q.a + q.c) * trace;
+  return trace > 0 && determinant(inner) > shares::notable * std::min(p.a + p.c, q.a + q.c) * trace;
 }
 
 // straight + theta (bent - straight) with the largest theta of 1, 7/8, ... 0 for which it is definite enough.
@@ -179,7 +180,7 @@ void ControlSpaceWriter::straighten_sides() {
       const Metric2 mean = 0.5 * (a + b);
       const Metric2 inner = 2.0 * middle + -1.0 * mean;
       if (surely_definite(inner, a, b)) continue;
-      const double least = min_inner_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
+      const double least = shares::notable * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
       if (smaller_eigenvalue(inner) >= least) continue;
       lattice_.fix(at, 0.5 * (mean + definite_between(mean, inner, least)));
     }
@@ -210,7 +211,7 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
   const Metric2 straight = 0.25 * inner_sides;
   const Metric2 inner = 4.0 * v[4] + -0.25 * corners + -0.5 * inner_sides;
   if (surely_definite(inner, straight, straight)) return v;
-  const double least = min_inner_share * smaller_eigenvalue(straight);
+  const double least = shares::notable * smaller_eigenvalue(straight);
   if (smaller_eigenvalue(inner) < least) {
     const Metric2 definite = definite_between(straight, inner, least);
     v[4] = 0.0625 * corners + 0.125 * inner_sides + 0.25 * definite;

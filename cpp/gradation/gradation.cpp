@@ -6,6 +6,7 @@
 
 #include "gradation/graph_walk.h"
 #include "gradation/thresholds.h"
+#include "support/angles.h"
 #include "support/error.h"
 #include "support/format.h"
 #include "support/incidence.h"
@@ -145,7 +146,7 @@ class Grading : detail::GraphWalk<Front> {
     const Vec3 e = unrolled_edge(from.place, to);
     const Vec3 line = from.line + e;
     const double length = norm(line), edge = norm(e);
-    const bool seen = dot(line, e) >= within_45_degrees * length * edge;
+    const bool seen = dot(line, e) >= angles::cosine_of_45 * length * edge;
     Front candidate = seen ? Front{from.source_h + slope_ * length, from.source_h, line, to, from.source, false}
                            : Front{front_[v].h + slope_ * edge, front_[v].h, e, to, v, false};
     const Vec3 n = normal(from.place);
@@ -159,7 +160,7 @@ class Grading : detail::GraphWalk<Front> {
     if (!other.accepted || front_at(to).accepted || other.source == from.source) return;
     Vec3 line;
     if (!carry(vertex(beside), beside, line)) return;
-    if (dot(from.line, line) < within_45_degrees * norm(from.line) * norm(line)) return;
+    if (dot(from.line, line) < angles::cosine_of_45 * norm(from.line) * norm(line)) return;
     const Vec3 a = position(from.place), ab = position(beside) - a, ac = position(to) - a;
     const double width = norm(ab);
     if (!(width > 0)) return;

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "gradation/thresholds.h"
+#include "support/angles.h"
 #include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
 
-using thresholds::gradation::within_45_degrees;
 
 bool is_source(const GradationFront& f) noexcept { return dot(f.line, f.line) == 0; }
 
@@ -20,7 +20,7 @@ bool one_wave(const GradationFront& a, const GradationFront& b, bool smooth) noe
   // Between two sources of their own the prescribed sizes decide where they are smooth.
   if (is_source(a) && is_source(b)) return !smooth;
   if (is_source(a) || is_source(b)) return true;
-  return dot(a.line, b.line) >= within_45_degrees * norm(a.line) * norm(b.line);
+  return dot(a.line, b.line) >= angles::cosine_of_45 * norm(a.line) * norm(b.line);
 }
 
 }  // namespace

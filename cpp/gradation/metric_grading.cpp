@@ -8,7 +8,9 @@
 #include "gradation/graph_walk.h"
 #include "gradation/thresholds.h"
 #include "metric/metric3_algebra.h"
+#include "support/angles.h"
 #include "support/error.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -67,7 +69,7 @@ class MetricGrading : detail::GraphWalk<TangentMetric> {
       const Vec3 e = (1 / length) * way;
       q.bound_along(roll(e, near, m), growth * along(e));
     }
-    return q.h1 < (1 - negligible) * before.h1 || q.h2 < (1 - negligible) * before.h2;
+    return q.h1 < (1 - shares::negligible) * before.h1 || q.h2 < (1 - shares::negligible) * before.h2;
   }
 
   void leave(int p) {
@@ -89,9 +91,9 @@ class MetricGrading : detail::GraphWalk<TangentMetric> {
     for (const auto& [joined, back] : joins_[vertex(p)])
       for (int q = fans_.first(joined); q >= 0; q = fans_.next(q)) {
         const Vec3 m = back.turn(normal(q)), near = detail::facing(m, n);
-        if (dot(m, near) < smooth_corner) continue;
+        if (dot(m, near) < angles::cosine_of_26) continue;
         const double h1 = sizes_[p].along(roll(back.turn(sizes_[q].d1), m, near)), h2 = sizes_[p].along(roll(back.turn(sizes_[q].d2), m, near));
-        if (!(h1 < (1 - negligible) * sizes_[q].h1) && !(h2 < (1 - negligible) * sizes_[q].h2)) continue;
+        if (!(h1 < (1 - shares::negligible) * sizes_[q].h1) && !(h2 < (1 - shares::negligible) * sizes_[q].h2)) continue;
         sizes_[q].h1 = std::min(sizes_[q].h1, h1);
         sizes_[q].h2 = std::min(sizes_[q].h2, h2);
         enqueue(q);
@@ -115,7 +117,7 @@ class MetricGrading : detail::GraphWalk<TangentMetric> {
       Vec3 d1 = sizes_[q].d1, d2 = sizes_[q].d2;
       if (!fans_.carry(q, p, d1) || !fans_.carry(q, p, d2)) continue;
       const double h1 = sizes_[p].along(d1), h2 = sizes_[p].along(d2);
-      if (!(h1 < (1 - negligible) * sizes_[q].h1) && !(h2 < (1 - negligible) * sizes_[q].h2)) continue;
+      if (!(h1 < (1 - shares::negligible) * sizes_[q].h1) && !(h2 < (1 - shares::negligible) * sizes_[q].h2)) continue;
       sizes_[q].h1 = std::min(sizes_[q].h1, h1);
       sizes_[q].h2 = std::min(sizes_[q].h2, h2);
       enqueue(q);

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "gradation/thresholds.h"
+#include "support/angles.h"
 
 namespace carreau::detail {
 
@@ -43,7 +44,7 @@ bool PlaceFans::carry(int from, int to, Vec3& v) const noexcept {
   const int second = next_[first_[graph_.places[to].vertex]];
   const bool two = second >= 0 && next_[second] < 0;
   if (!two) {
-    if (std::abs(dot(n, m)) < smooth_corner) return false;
+    if (std::abs(dot(n, m)) < angles::cosine_of_26) return false;
     v = roll(v, n, dot(n, m) < 0 ? -1 * m : m);
     return true;
   }

@@ -9,13 +9,6 @@ namespace carreau::thresholds::gradation {
 // In brackets: the tests of the threshold, in tests/cpp/gradation and tests/cpp/surface/grade.
 
 // Fronts of one size (gradation, graded_field)
-/// Cosine, 45.6 degrees. A front goes straight on over a vertex if the line from its source and the edge to the next vertex make at most
-/// this angle: the six neighbours of a vertex of a good mesh leave at most 30 degrees. Lines that agree so well are one wave from a line of
-/// sources, not two cones. [Gradation.ConeOnATriangulationOfVaryingSize, RidgeBetweenTwoSourcesAndPlaneWaveFromALine]
-inline constexpr double within_45_degrees = 0.7;
-/// Cosine. Normals of places of a vertex that are one smooth surface, where more than two faces meet.
-/// [Gradation.ConeOnASphereOfTwoPatches]
-inline constexpr double smooth_corner = 0.9;
 /// Cosine. Tangent planes that are turned farther, by 177 degrees, have no rolling between them.
 /// [Gradation.ConeAcrossACreaseWhateverTheSidesOfTheFaces]
 inline constexpr double min_unfolded = -0.999;
@@ -24,9 +17,6 @@ inline constexpr double min_unfolded = -0.999;
 /// Ratio. Paths run along edges and from the middles of edges, every 30 degrees. So they are up to 1 / cos(15 degrees)
 /// = 1.035 times too long. Half of that is taken from the slope. [Gradation.NoEdgeIsSteeperByDirection]
 inline constexpr double detour = 1.0175;
-/// Share of a size. Smaller changes are not followed. [Gradation.NoEdgeIsSteeperByDirection; far below the
-/// roughness of surface/grade]
-inline constexpr double negligible = 1e-3;
 
 // Narrow zones and faces that face each other (boundary_sides, proximity, facing)
 /// Cosine. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of

@@ -10,6 +10,7 @@
 #include "measure/bounds/bounded_triangles.h"
 #include "measure/bounds/charted_places.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 #include "support/work_sizes.h"
 #include "surface/remesh/bounds/spread_places.h"
 #include "surface/remesh/bounds/thresholds.h"
@@ -18,7 +19,6 @@ namespace carreau {
 
 namespace {
 
-using thresholds::bounds::near_angle, thresholds::bounds::near_deviation;
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -116,10 +116,10 @@ class Bounds {
   [[nodiscard]] BoundedTriangle wanted(std::size_t t) const {
     BoundedTriangle triangle = triangles_.at(t);
     const double tolerance = deviation_tolerance(t);
-    triangle.deviation_floor = near_deviation * (tolerance > 0 ? tolerance : options_.deviation_share * triangle.longest);
+    triangle.deviation_floor = shares::negligible * (tolerance > 0 ? tolerance : options_.deviation_share * triangle.longest);
     if (tolerance > 0) triangle.deviation_tolerance = tolerance;
     triangle.angle_tolerance = options_.angle_tolerance * degree;
-    triangle.angle_floor = near_angle * options_.angle_tolerance * degree;
+    triangle.angle_floor = shares::small * options_.angle_tolerance * degree;
     return triangle;
   }
 

@@ -9,6 +9,7 @@
 #include "measure/composite_evaluation.h"
 #include "mesh/surface_distance.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 #include "surface/discrete/start_mesh.h"
 #include "surface/remesh/base/charts.h"
 
@@ -107,7 +108,7 @@ FarPlace farthest_by_size(const TrianglesOfSpace& made, std::span<const FarPoint
 }
 
 void warn_of_distance(const FarPlace& place, Monitor& monitor) {
-  if (!(place.distance > thresholds::measure::max_share_of_size * place.size)) return;
+  if (!(place.distance > shares::notable * place.size)) return;
   char text[160];
   std::snprintf(text, sizeof text, "the mesh is %.3g away from the triangles at (%.6g, %.6g, %.6g), %.2g of the size there",
                 place.distance, place.at.x(), place.at.y(), place.at.z(), place.distance / place.size);

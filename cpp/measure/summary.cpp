@@ -11,6 +11,7 @@
 #include "support/format.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 #include "support/short_number.h"
 
 namespace carreau {
@@ -164,7 +165,7 @@ void summarise(MeshEvaluation& d) {
         break;
     }
     one.spread = spread_of(one.values, bounds);
-    one.tolerance = measure.kind == EvaluationKind::gradation ? gradation_tolerance : rounding_of::places;
+    one.tolerance = measure.kind == EvaluationKind::gradation ? shares::of_polylines : rounding_of::places;
     one.beyond = std::count_if(one.values.begin(), one.values.end(), [&one](double x) { return one.exceeds(x); });
   }
   const std::vector<double>& length = d[EvaluationKind::length].values;

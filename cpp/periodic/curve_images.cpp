@@ -9,6 +9,7 @@
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -25,7 +26,7 @@ bool fits(const CurveModel& model, const CurveShape& from, const CurveImage& ima
   const auto fraction = [&](double r) { return from.closed ? wrapped(image.at(r)) : image.at(r); };
   // The polylines first: they cost no call.
   for (const double r : compared_at)
-    if (norm(target(r) - support_point(model, image.curve, fraction(r))) > polyline_gap * length + gap) return false;
+    if (norm(target(r) - support_point(model, image.curve, fraction(r))) > shares::of_polylines * length + gap) return false;
   const Curve& curve = model.curve(from.curve);
   const CurveUse& use = curve.uses.front();
   for (const double r : compared_at) {
@@ -80,8 +81,8 @@ std::optional<CurveImage> image_of(const CurveModel& model, const CurveShape& fr
   const auto corner = [&](int point) { return model.topology.points[static_cast<std::size_t>(point)].position; };
   const Vec3 first = map(corner(a.end1)), last = map(corner(a.end2));
   if (from.degenerate) return norm(first - corner(b.end1)) <= gap ? std::optional(CurveImage{to.curve}) : std::nullopt;
-  if (std::abs(from.length - to.length) > polyline_gap * std::max(from.length, to.length) + gap) return {};
-  const double near = std::min(gap, polyline_gap * from.length);
+  if (std::abs(from.length - to.length) > shares::of_polylines * std::max(from.length, to.length) + gap) return {};
+  const double near = std::min(gap, shares::of_polylines * from.length);
   if (!from.closed) {
     const bool along = norm(first - corner(b.end1)) <= near && norm(last - corner(b.end2)) <= near;
     const bool against = norm(first - corner(b.end2)) <= near && norm(last - corner(b.end1)) <= near;
@@ -92,7 +93,7 @@ std::optional<CurveImage> image_of(const CurveModel& model, const CurveShape& fr
   const CurveUse& use = b.uses.front();
   const CurveSupport& support = model.support(use);
   const TracePlace place = nearest_on_trace(support.xyz, first);
-  if (place.distance > polyline_gap * from.length + gap) return {};
+  if (place.distance > shares::of_polylines * from.length + gap) return {};
   double r = place.arc / std::max(trace_length(support.xyz), 1e-300);
   r = use.reversed ? 1 - r : r;
   double shift = 0;

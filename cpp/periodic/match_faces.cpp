@@ -20,6 +20,7 @@
 #include "support/format.h"
 #include "model/format_point.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -218,7 +219,7 @@ class Matcher {
     for (int m = 0; m < std::ssize(faces_); ++m) {
       if (!faces_[m].usable) continue;
       const std::pair<Vec3, Vec3> box = image_box(m, map);
-      const double reach = polyline_gap * norm(box.second - box.first) + gap_;
+      const double reach = shares::of_polylines * norm(box.second - box.first) + gap_;
       note_across(m, map);
       for (int s = 0; s < std::ssize(faces_); ++s) {
         if (s == m || !faces_[s].usable || apart(box, faces_[s]) > reach) continue;

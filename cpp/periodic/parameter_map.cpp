@@ -11,6 +11,7 @@
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -74,7 +75,7 @@ ParameterMap::ParameterMap(std::vector<Vec2> from, std::vector<Vec2> to) : from_
   affine_ = true;
   for (std::size_t i = 0; i < from_.size() && affine_; ++i) {
     const Vec2 miss = guess(from_[i]) - to_[i];
-    affine_ = std::abs(miss.x()) <= affine_share * (high.x() - low.x()) && std::abs(miss.y()) <= affine_share * (high.y() - low.y());
+    affine_ = std::abs(miss.x()) <= shares::negligible * (high.x() - low.x()) && std::abs(miss.y()) <= shares::negligible * (high.y() - low.y());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -31,7 +32,7 @@ std::vector<CurveImage> images_at(const std::map<int, CurveImage>& curves) {
 bool same_way(const CurveImage& a, const CurveImage& b) {
   if (a.curve != b.curve || a.reversed != b.reversed) return false;
   const double apart = std::abs(a.shift - b.shift);
-  return std::abs(apart - std::round(apart)) < polyline_gap;
+  return std::abs(apart - std::round(apart)) < shares::of_polylines;
 }
 
 class Classes {
@@ -268,7 +269,7 @@ class Classes {
   void place_corners(const std::map<int, Isometry>& maps, const Vec3& first) {
     for (const auto& [corner, map] : maps) {
       const Vec3 place = map(first);
-      if (place != position(corner) && norm(place - position(corner)) <= rounding_of_places * result_.gap) result_.placed.emplace_back(corner, place);
+      if (place != position(corner) && norm(place - position(corner)) <= shares::negligible * result_.gap) result_.placed.emplace_back(corner, place);
     }
   }
 
@@ -281,7 +282,7 @@ class Classes {
 
 Vec3 on_planes(Vec3 p, const std::vector<Isometry>& mirrors, double gap) {
   for (const Isometry& mirror : mirrors)
-    if (const Vec3 image = mirror(p); norm(image - p) <= rounding_of_places * gap) p = 0.5 * (p + image);
+    if (const Vec3 image = mirror(p); norm(image - p) <= shares::negligible * gap) p = 0.5 * (p + image);
   return p;
 }
 

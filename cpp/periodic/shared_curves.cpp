@@ -195,7 +195,7 @@ void carry_from(const CurveClass& all, std::size_t source, const CurveModel& mod
     const CurveMember& to = all.members[i];
     const bool of_root = source == 0;
     place_image(curves[from.image.curve], of_root ? to.image : composed(to_root, to.image), of_root ? to.map : to.map.after(back),
-                model, exact_images * gap, curves[to.image.curve]);
+                model, rounding_of::places * gap, curves[to.image.curve]);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "projection/thresholds.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
+#include "support/shares.h"
 
 namespace carreau::projection {
 
@@ -281,7 +282,7 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
     BoxTree::Box extent;
     for (const CurveSupport& support : supports)
       for (const Vec3& p : support.xyz) extent.add(p);
-    const double smallest = limit::smallest_leaf * norm(extent.high - extent.low);
+    const double smallest = shares::negligible * norm(extent.high - extent.low);
     std::vector<Cell> cells = first_cells(low, high), next;
     std::vector<Vec2> uv;
     std::vector<SurfaceJet> jets;

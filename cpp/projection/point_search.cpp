@@ -6,6 +6,7 @@
 
 #include "projection/thresholds.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 
 namespace carreau::projection {
 
@@ -101,7 +102,7 @@ bool PointSearch::leads_to_best(const Candidate& c) const {
   const Vec2 size = leaf.size(), &best = best_.place.parameters;
   bool at_border = false;
   for (int k = 0; k < 2; ++k) {
-    if (std::abs(best[k] - c.start[k]) > limit::beside_best * size[k]) return false;
+    if (std::abs(best[k] - c.start[k]) > shares::notable * size[k]) return false;
     at_border = at_border || (c.start[k] <= leaf.low[k] && best[k] < leaf.low[k]) || (c.start[k] >= leaf.high[k] && best[k] > leaf.high[k]);
   }
   return at_border;

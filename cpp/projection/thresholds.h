@@ -6,8 +6,6 @@
 
 namespace carreau::thresholds::projection {
 
-// In brackets: the tests of the threshold, in tests/cpp/projection.
-
 // Leaves of a face (face_leaves)
 /// Number. Each direction of a face is cut in so many cells at first. An odd number does not follow the periods of a surface.
 inline constexpr int first_cells = 3;
@@ -19,14 +17,8 @@ inline constexpr double turn_of_leaf = 0.5;
 inline constexpr double error_of_leaf = 0.005;
 /// Factor. The surface between the samples may differ by so much more than at them.
 inline constexpr double error_margin = 3;
-/// Share of the diagonal of a face. Smaller cells become leaves whatever their shape: at kinks and singular points.
-inline constexpr double smallest_leaf = 1e-3;
 /// Number of cells of a face; more are not cut. A bound of memory.
 inline constexpr std::size_t max_cells = 40'000;
-
-/// Share of the parameters of a leaf. A place on its border that is nearer to the best place leads to it: a leaf differs from its
-/// interpolation by less. [Projector.TeapotAgreesWithEachFaceAlone]
-inline constexpr double beside_best = 0.1;
 
 // Newton's method (descent, restricted_step)
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is

@@ -10,6 +10,7 @@
 #include "size/thresholds.h"
 #include "support/format.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 
 namespace carreau {
 namespace {
@@ -170,7 +171,7 @@ Where SizeRules::where_of(const CurveUse& use, double t) const {
 /// The parameter beside a curve's end that represents the surface when the end is a pole.
 double SizeRules::towards_middle(const CurveUse& use, double t) const {
   const Interval i = cad_.curve_interval(model_.faces[static_cast<std::size_t>(use.face)].ref, use.curve + 1);
-  return t + way_inside * (i.a + (i.b - i.a) / 2 - t);
+  return t + shares::negligible * (i.a + (i.b - i.a) / 2 - t);
 }
 
 /// The point of a batch with a value that is nearest to p, which takes the value; the first of equally near ones.

@@ -6,13 +6,6 @@
 
 namespace carreau::thresholds::size {
 
-// In brackets: the tests of each value, in tests/cpp/size unless a path is given.
-
-// Sizes at poles and corners (size_rules, sizes_at_places)
-/// Share of the way to the middle of a curve. Distance inside the curve at which its surfaces are evaluated when its
-/// end is a pole. [SizeRules.PolesTakeTheRadiusBesideThem]
-inline constexpr double way_inside = 1e-3;
-
 // Guarantees (geo_guarantee)
 /// Factors of sizes for which at least 99.5 % of the edges (angle) or triangles (chord) fulfil the criterion, coarse
 /// meshes of whole spheres included. None exceeds it by 25 % or 30 %. Edges of a unit mesh are not all of unit length,

@@ -8,6 +8,7 @@
 #include "gradation/gradation.h"
 #include "plane/plane_mesher.h"
 #include "support/segment.h"
+#include "support/work_bounds.h"
 #include "variable/base/erosion.h"
 #include "variable/base/thresholds.h"
 #include "variable/boundary/boundary_cut.h"
@@ -59,7 +60,7 @@ class Remeshing {
 
   /// Overlapping elements are removed as damaged ones are; the elements that they bare may overlap, too.
   void remove_overlaps() {
-    for (int round = 0; round < thresholds::variable::max_overlap_rounds; ++round) {
+    for (int round = 0; round < work_bounds::passes; ++round) {
       const std::vector<std::int32_t> found = crossing_triangles(eroded_);
       if (found.empty()) return;
       damage_.resize(in_.piece.triangles.size(), 0);

@@ -9,6 +9,7 @@
 #include "atlas/covering/ring.h"
 #include "atlas/covering/thresholds.h"
 #include "atlas/pivots.h"
+#include "support/angles.h"
 #include "support/error.h"
 #include "support/short_number.h"
 
@@ -184,8 +185,8 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
   if (!defect.sentence.empty()) return {thresholds::no_disc, defect.sentence};
   const Frame frame = frame_of(surface, fans, members);
   const std::string cluster = "the cluster with vertex " + std::to_string(members.front() + 1);
-  if (frame.min_cosine < thresholds::steepest_cosine)
-    return {thresholds::steep + thresholds::steepest_cosine - frame.min_cosine,
+  if (frame.min_cosine < angles::cosine_of_78)
+    return {thresholds::steep + angles::cosine_of_78 - frame.min_cosine,
             cluster + " is far from its plane: the normal at vertex " + std::to_string(frame.steepest + 1) +
                 " makes an angle of cosine " + short_number(frame.min_cosine) + " with the normal of the plane"};
   const auto projected = [&](const std::vector<std::int32_t>& border) {

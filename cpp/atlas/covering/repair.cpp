@@ -5,6 +5,7 @@
 
 #include "atlas/covering/clusters.h"
 #include "atlas/covering/thresholds.h"
+#include "support/work_bounds.h"
 
 namespace carreau::atlas {
 namespace {
@@ -17,7 +18,7 @@ class Repair {
   }
 
   void run() {
-    for (int pass = 0; pass < thresholds::repair_passes; ++pass) {
+    for (int pass = 0; pass < work_bounds::passes; ++pass) {
       bool any = false;
       for (std::size_t c = 0; c < members_.size(); ++c)
         if (bad_[c] >= thresholds::steep || (bad_[c] > 0 && pass < thresholds::shape_passes)) any = better(c) || any;

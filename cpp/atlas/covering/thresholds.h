@@ -5,10 +5,6 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Smallest cosine between the normal of a triangle and the normal of its cluster's plane. At .2, 78 degrees, lengths
-/// in the plane are a fifth of lengths on the surface, the limit of a height field.
-inline constexpr double steepest_cosine = 0.2;
-
 /// Penalties for the defects of clusters: no disc is worse than a fold, and a fold worse than a steep triangle.
 inline constexpr double no_disc = 3, folded = 2, steep = 1;
 
@@ -16,8 +12,6 @@ inline constexpr double no_disc = 3, folded = 2, steep = 1;
 /// of all edges, below which a star-shaped zone has a penalty. Charts with one pivot distort least.
 inline constexpr double no_star = 0.5, star_room = 0.15;
 
-/// Passes over the clusters with defects; no surface in the tests needed more than five.
-inline constexpr int repair_passes = 20;
 /// Passes that better shapes, too.
 inline constexpr int shape_passes = 2;
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/atlas/thresholds.h"
+#include "support/angles.h"
 
 namespace carreau::atlas {
 namespace {
@@ -74,7 +75,7 @@ HeightField fine_heights(const Covering& covering, const Chart& chart) {
     for (const std::int32_t w : covering.fans().around(v)) {
       if (border.count(w) > 0 || std::binary_search(chart.members.begin(), chart.members.end(), w)) continue;
       const Vec3 area = area_around(covering, w);
-      if (dot(area, chart.frame.normal) > thresholds::flat_neighbour * norm(area)) beyond.insert(w);
+      if (dot(area, chart.frame.normal) > angles::cosine_of_60 * norm(area)) beyond.insert(w);
     }
   for (const std::int32_t v : beyond) {
     const Vec2 q = chart.frame.project(vertex(covering, v));

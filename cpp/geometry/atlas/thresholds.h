@@ -5,10 +5,6 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Cosine between the normal of a vertex beyond a chart's region and the chart's normal, from which the vertex counts for
-/// the chart's heights.
-inline constexpr double flat_neighbour = 0.5;
-
 /// Weight of such a vertex against a vertex of the region.
 inline constexpr double weight_beyond = 0.1;
 /// Degree of heights, and points that each of their coefficients needs.
@@ -32,8 +28,6 @@ inline constexpr double loosening = 0.3, min_anchor = 1e-4;
 inline constexpr double giving_way = 0.1;
 /// Mean square of values per coefficient that the vertices of a chart do not determine.
 inline constexpr double undetermined = 1e-3;
-/// Rounds, and steps in each. Joint.off and spot need one round, the bunny three.
-inline constexpr int mend_rounds = 24, mend_steps = 30;
 /// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
 inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.

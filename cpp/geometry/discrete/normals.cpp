@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/discrete/thresholds.h"
+#include "support/angles.h"
 #include "support/incidence.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
@@ -230,7 +231,7 @@ void set_corner_planes(const Triangulation& mesh, const SharpLines& lines, const
     const Vec3 plane = cross(first, second);
     const double sine = norm(plane);
     const Vec3 of_lines = dot(plane, n) < 0 ? Vec3(-plane) : plane;
-    if (sine > thresholds::clear_corner && dot(of_lines, n) > thresholds::same_side * sine)
+    if (sine > thresholds::clear_corner && dot(of_lines, n) > angles::cosine_of_45 * sine)
       n = of_lines / sine;
     else if (norm(first) > 0)
       n = across(n, first);

@@ -7,6 +7,7 @@
 
 #include "geometry/discrete/thresholds.h"
 #include "model/union_find.h"
+#include "support/shares.h"
 
 namespace carreau::discrete {
 
@@ -118,7 +119,7 @@ double gap_of(const Triangulation& mesh, const std::vector<double>& bends, const
   for (double angle = thresholds::min_sharp; angle < thresholds::usual_sharp; angle += step) {
     if (longer(angle) > 2 * clear) continue;  // most edges that bend are flatter: a coarse curved surface
     const double above = longer(angle + half);
-    if (longer(angle - half) - above <= thresholds::gap_share * above) return angle;
+    if (longer(angle - half) - above <= shares::notable * above) return angle;
   }
   return thresholds::usual_sharp;
 }

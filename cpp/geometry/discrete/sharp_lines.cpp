@@ -7,6 +7,7 @@
 
 #include "geometry/discrete/sharp_angle.h"
 #include "geometry/discrete/thresholds.h"
+#include "support/angles.h"
 #include "support/error.h"
 #include "support/format.h"
 #include "support/incidence.h"
@@ -104,7 +105,7 @@ class LineFinder {
     const double least = std::max(thresholds::share_of_largest * largest, thresholds::min_angle);
     const Vec3 came = direction(last, v);
     std::int32_t best = -1;
-    double straightest = thresholds::min_straightness;
+    double straightest = angles::cosine_of_60;
     for (const std::int32_t e : at_vertex_.of(v)) {
       if (is_sharp(e) || bends_[index(e)] < least) continue;
       if (const double straight = -dot(came, direction(e, v)); straight > straightest) straightest = straight, best = e;

@@ -5,8 +5,6 @@
 
 namespace carreau::discrete::thresholds {
 
-// Mending (triangulation)
-
 // Sharp angle
 /// Degrees: if the angles of edges have no gap, sharper ones are features (HDR sec. 4.9.1; scans have no gap).
 inline constexpr double usual_sharp = 45;
@@ -15,8 +13,6 @@ inline constexpr double usual_sharp = 45;
 inline constexpr double min_sharp = 20;
 /// Degrees: the width of a gap.
 inline constexpr double gap_width = 5;
-/// Length of edges in a gap, as a share of the length of sharper ones: .04 on public STL parts, from .35 on scans.
-inline constexpr double gap_share = 0.1;
 /// Degrees: sharper edges are features even where the surface turns on beside them. Circles of 8 edges are flatter, with
 /// room for rounding.
 inline constexpr double max_round = 46;
@@ -39,8 +35,6 @@ inline constexpr int max_sides_beside_chamfer = 8;
 inline constexpr double min_angle = 5;
 /// Share of the largest angle at the end of a line that a candidate has at least.
 inline constexpr double share_of_largest = 0.5;
-/// Cosine of the turn of a line that goes on: it does not turn back.
-inline constexpr double min_straightness = 0.5;
 /// Edges by which a line is prolonged at most, as a multiple of its own edges: a longer gap separates two lines.
 inline constexpr int max_prolongation = 2;
 /// Connected edges of lines with a free end, and edges of a line that fades out: fewer are noise. With the paper's
@@ -64,7 +58,5 @@ inline constexpr double max_inner_shift = 0.25;
 inline constexpr double clear_crease = 0.3;
 /// Sine of the angle between the two lines that bound a region at a corner: below, they span no plane.
 inline constexpr double clear_corner = 0.17;
-/// Cosine: the region's plane at a corner is the plane of two lines if its normal is no farther from the mean normal.
-inline constexpr double same_side = 0.7;
 
 }  // namespace carreau::discrete::thresholds

@@ -9,6 +9,7 @@
 #include "geometry/grid/thresholds.h"
 #include "support/error.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 
 namespace carreau::grid {
 
@@ -65,7 +66,7 @@ double usual_tolerance(const std::vector<Block>& blocks) {
         if (i + 1 < block.columns && block.has(i, j) && block.has(i + 1, j)) look_at(block.node(i, j), block.node(i + 1, j));
         if (j + 1 < block.rows && block.has(i, j) && block.has(i, j + 1)) look_at(block.node(i, j), block.node(i, j + 1));
       }
-  return std::min(same, thresholds::same_node_share_of_edge * shortest);
+  return std::min(same, shares::notable * shortest);
 }
 
 void warn(const std::vector<Cells>& cells, GridGeometry& made) {

@@ -5,6 +5,7 @@
 
 #include "geometry/grid/thresholds.h"
 #include "model/union_find.h"
+#include "support/shares.h"
 
 namespace carreau::grid {
 
@@ -63,7 +64,7 @@ std::vector<double> mean_lengths(const std::vector<Block>& blocks, const Borders
   for (std::size_t b = 0; b < blocks.size(); ++b) add_edges(blocks[b], b, intervals, same, sums);
   Sum all;
   for (const Sum& sum : sums) all.length += sum.length, all.edges += sum.edges;
-  const double least = thresholds::min_interval * all.length / static_cast<double>(std::max<std::size_t>(1, all.edges));
+  const double least = shares::negligible * all.length / static_cast<double>(std::max<std::size_t>(1, all.edges));
   std::vector<double> lengths;
   for (std::size_t k = 0; k < intervals.count(); ++k) {
     const Sum& sum = sums[same.find(k)];

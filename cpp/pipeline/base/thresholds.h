@@ -6,8 +6,6 @@
 
 namespace carreau::thresholds::patches {
 
-// In brackets: the tests that rest on it, of tests/cpp/surface.
-
 // A face meshed again (face_job)
 /// Times that a patch is meshed again because the lift disagrees.
 /// [Verification.DipsOfTheSizesThatNoSampleHitsAreMeshed]
@@ -30,8 +28,6 @@ inline constexpr double max_growth_bounded = 64;
 // Jumps of a surface (face_job)
 /// Edges that are checked before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t max_looked_at_first = 30;
-/// Share of the chord that must be left; a surface as steep as a square root leaves 3e-5. [as above]
-inline constexpr double jump_share = 0.1;
 /// Share of coordinates, above the errors of evaluators. [as above]
 inline constexpr double jump_noise = 1e-10;
 
@@ -67,8 +63,6 @@ namespace carreau::thresholds::crossings {
 inline constexpr std::size_t max_known = 2'000'000;
 /// Pairs of triangles that are checked; a model whose parts share places has as many pairs as triangles there.
 inline constexpr std::size_t max_pairs = 100'000;
-/// Sine between the normals of surfaces that meet at two crossing triangles, where Newton's method finds a common point. [FaceGap.*]
-inline constexpr double min_slope = 0.1;
 /// Projections from one face to the other and back. The first one finds the distance of parallel faces.
 /// [FaceGap.ConcentricCylindersHaveTheDifferenceOfTheirRadii]
 inline constexpr int projections = 3;

@@ -12,6 +12,7 @@
 #include "support/format.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 #include "surface/domain/domain_check.h"
 #include "surface/improve/refinement.h"
 #include "surface/improve/shape_in_space.h"
@@ -40,7 +41,7 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
     else
       from = middle, p = m;
   }
-  return norm(q - p) > jump_share * whole + jump_noise * std::max(norm(p), norm(q));
+  return norm(q - p) > shares::notable * whole + jump_noise * std::max(norm(p), norm(q));
 }
 
 /// Adds the time of its life.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pipeline/base/thresholds.h"
+#include "support/angles.h"
 #include "support/rounding_of.h"
 
 namespace carreau {
@@ -29,7 +30,7 @@ std::optional<PointPair> common_point(Cad& cad, const FaceTriangle& s, const Fac
     const auto& [p, q] = pair;
     const Vec3 line = cross(p.normal, q.normal), middle = pair.middle();
     const double c = dot(p.normal, q.normal), det = dot(line, line);
-    if (!(det > min_slope * min_slope)) return {};
+    if (!(det > angles::touching * angles::touching)) return {};
     const double a = dot(p.normal, p.jet.s - middle), b = dot(q.normal, q.jet.s - middle);
     const Vec3 x = middle + ((a - c * b) / det) * p.normal + ((b - c * a) / det) * q.normal;
     const Vec2 on_s = s.project(p, x), on_t = t.project(q, x);

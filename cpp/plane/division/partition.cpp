@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/shape_levels.h"
 #include "model/union_find.h"
 #include "plane/division/arrival.h"
 #include "plane/division/undivided.h"
@@ -74,7 +75,7 @@ class Division {
     const Metric2 m = coarse_.metric[t];
     const double pq = squared_length(m, q - p), qr = squared_length(m, r - q), rp = squared_length(m, p - r);
     const double shape = 2 * std::numbers::sqrt3 * cross(q - p, r - p) * std::sqrt(std::max(determinant(m), 0.0));
-    return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > min_coarse_quality * (pq + qr + rp));
+    return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > shape_level::bad * (pq + qr + rp));
   }
 
   // Sectors: targets of the layers that start at a stretch of the border. Separators lie across these layers, or

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/shape_levels.h"
 #include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
+#include "support/shares.h"
 
 namespace carreau::plane {
 
@@ -21,7 +23,7 @@ Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept 
     const double aside = norm(chart.at_offset(e) - d);
     if (aside > 1) e = (1 / std::sqrt(aside)) * e;
     const double told = norm(chart.at_offset(e)), halfway = length(at(chart.origin() + 0.5 * e), e);
-    if (!(std::abs(told - halfway) <= chart_tolerance * halfway)) return Bend::kinked;
+    if (!(std::abs(told - halfway) <= shares::notable * halfway)) return Bend::kinked;
   }
   return Bend::smooth;
 }
@@ -92,7 +94,7 @@ double Shapes::quality_at_centroid(int p, int q, int r) const {
     };
     const double roughly = shape_of(lengths(p, q, r));
     // The tensor halfway is inaccurate for long edges that leave a thin layer and come back, or cross it.
-    return roughly < integrated_quality ? shape_of(integrated_lengths(p, q, r)) : roughly;
+    return roughly < shape_level::fair ? shape_of(integrated_lengths(p, q, r)) : roughly;
   }
   return 2 * std::numbers::sqrt3 * area /
          (carreau::squared_length(m, u) + carreau::squared_length(m, v) + carreau::squared_length(m, u - v));

@@ -21,18 +21,12 @@ inline constexpr double min_bend = 0.4;
 /// whose height in the chart is along the bend; here this is little more than a quarter. [3.1: worst of swirl at 51 : 1
 /// 0.36 to 0.24]
 inline constexpr double max_bend = 2.5;
-/// Share of a length. Tolerance between distances in a chart and by the tensors halfway; beyond, the field has a kink
-/// there. [0.08: worst of swirl at 51 : 1 0.36 to 0.07]
-inline constexpr double chart_tolerance = 0.1;
 /// Squared units. Longer edges of bent triangles are known to be too long. [2.4 and 3.8: lengths in range of swirl at
 /// 51 : 1 +- 0.5 %]
 inline constexpr double longest_bent2 = 3;
 /// Share. In a field that bends, straight triangles have less area than their lengths imply; this share is sufficient.
 /// [0.4 and 0.6: worst of swirl at 51 : 1 0.36 to 0.30]
 inline constexpr double straight_area = 0.5;
-/// Q2. The lengths of worse bent triangles are integrated: the tensor halfway is inaccurate for long edges that leave a
-/// thin layer and come back. [0.87: Q2 of swirl at 51 : 1 0.870 to 0.868]
-inline constexpr double integrated_quality = 0.7;
 
 // Kinds of fields (kernel/shapes)
 /// Ratio of determinants over a triangle. 7 % of the size: sizes count as graded. [1.04: longest edges of
@@ -166,9 +160,6 @@ inline constexpr double narrowest_fan = 0.5;
 inline constexpr double longest_lateral = 1.6;
 
 // Swaps (optimise/delaunay_swaps, degrees, degree_pairs)
-/// Passes. Swaps can run in circles in a metric that varies. [5: shapes on turning fields, p1 0.39 to 0.38; 20: as
-/// 10]
-inline constexpr int delaunay_passes = 10;
 /// Share of the least eigenvalue. Metrics of corners that differ by no more are similar (settled.h). [by the proof
 /// there; time only, as the next five]
 inline constexpr double alike_share = 0.2;
@@ -179,12 +170,6 @@ inline constexpr double acute_cosine = 0.2;
 inline constexpr double long_edge2 = 9;
 /// Passes. [1: degrees of six on a coarse disc 62 to 57 %; 4: as 2]
 inline constexpr int degree_passes = 2;
-/// Q2. Swaps for better degrees and removals of crowded vertices leave no triangle worse than this. [0.48: degrees of six on
-/// algebraic meshes 83 to 72 %; 0.75: on coarse poles 87 to 67 %, lengths in range on rough sizes 91.5 to 89.7 %]
-inline constexpr double degree_swap_quality = 0.6;
-/// Q2. A layer that is shifted by one edge leaves triangles of 0.6 until vertices move; none may be much worse.
-/// [0.4: longest edge of paraboloid 1.31 to 1.43; 0.6: degrees of six 83 to 78 %]
-inline constexpr double shifted_quality = 0.5;
 /// Steps. Reach of a degree pair along its layer, [2: degrees of six 91.7 to 92.4 %, but longest edges 1.31 to 1.42]
 inline constexpr int pair_reach_even = 1;
 /// Steps. The reach in graded sizes, which have more pairs. [1: degrees of six at slope 0.26 90 to 88 %; 6: as 3]
@@ -194,16 +179,11 @@ inline constexpr double dense_length2 = 0.9;
 /// Squared units. Length of the remaining edges, [2.1: length at slope 0.26 0.990 to 0.982; 3.2: longest edges 1.45 to
 /// 1.49]
 inline constexpr double longest_thinned2 = 2.6;
-/// Q2. The limit for the worst triangle, before smoothing. [0.36: no figure changes; 0.56: degrees of six 83.3 to 83.2
-/// %]
-inline constexpr double thinned_quality = 0.45;
 
 // Smoothing (optimise/smoothing, optimise)
 /// Area of a parallelogram in the metric after a move (ideal: 0.87); a smaller one undoes it. [0.16: lengths in range
 /// on rough sizes 91.5 to 92.2 %; 0.25: longest edges on turning fields 2.5 to 2.2]
 inline constexpr double min_area = 0.2;
-/// Rounds. Then all moves of the pass are taken back.
-inline constexpr int undo_rounds = 20;
 /// Share. Weight of unit lengths in the aim, against equilateral triangles; [0.04 and 0.06: lengths in range on turning
 /// fields - 0.3 %]
 inline constexpr double pull_even = 0.05;
@@ -217,25 +197,15 @@ inline constexpr double max_stretched = 1e-15;
 inline constexpr double min_root = 1e-30;
 
 // Bad triangles (optimise/bad_triangles, mending)
-/// Q2. Worse triangles are improved. [0.64: p1 of rough sizes 0.80 to 0.71; 1: twice the time]
-inline constexpr double bad_quality = 0.8;
 /// Q2 in the mean metric of the vertices. Worse ones are tested: these metrics are at hand. [0.68: shapes are
 /// overlooked; 1: half as much time again, 6 of 42 meshes change]
 inline constexpr double doubtful_quality = 0.85;
 /// Q2. Below, shape goes before size: points are added over short edges. [0.56: more triangles than expected on turning
 /// fields, lengths in range 85.4 to 84.7 %]
 inline constexpr double refine_quality = 0.45;
-/// Passes. [3: worst of algebraic sizes 0.81 to 0.68; 12: as 6]
-inline constexpr int mending_passes = 6;
-/// Q2, or share of the penalty. Required gain of a change. [0.8e-3 and 1.25e-3: 5 of 42 meshes change, no figure by
-/// more than 0.1 %]
-inline constexpr double mending_gain = 1e-3;
 /// Lengths of the edge. Height of a vertex over a short edge. [0.7 and 1.1: lengths in range on turning fields -
 /// 0.3 %]
 inline constexpr double over_short_edge = 0.9;
-/// Squared units. Length of an edge that a removal leaves; longer ones may be halved. [2.5: longest edge of internal
-/// curves 1.45 to 1.52; TrianglesInCorners]
-inline constexpr double longest_after_removal2 = 2.0;
 /// Squared units. Sizes that change much over a triangle leave shorter edges: an end goes. [0.42: more triangles on
 /// coarse poles, degrees of six 87 to 69 %]
 inline constexpr double crowded_length2 = 0.52;
@@ -257,8 +227,6 @@ inline constexpr double searched_quality = 0.88;
 /// Q2 in the mean metric of the corners, if these are similar. Better triangles are no worse than searched_quality in
 /// the metric of their middle. [0.9: all of 63 meshes stay; time only]
 inline constexpr double surely_not_searched = 0.93;
-/// Passes. [with none here and below, the mesh of frame.step by 8 degrees changes]
-inline constexpr int search_passes = 8;
 /// Shapes. Work is bounded by a multiple of the mesh, [time only, as the next four]
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
@@ -328,7 +296,7 @@ inline constexpr double much_shorter = 0.75;
 /// Radians. Turn of the boundary over one coarse edge.
 inline constexpr double max_coarse_turn = 0.45;
 /// Squared coarse units, and Q2. Separators do not pass along triangles that are worse.
-inline constexpr double shortest_coarse2 = 0.16, min_coarse_quality = 0.5;
+inline constexpr double shortest_coarse2 = 0.16;
 /// Coarse triangles between degenerate sides and separators.
 inline constexpr int rings_at_degenerate_sides = 2;
 /// Layers of vertices on each side of a separator, the separator included, whose points are placed again.

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "mesh/shape_levels.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/mending.h"
+#include "support/work_bounds.h"
 #include "support/work_sizes.h"
 
 namespace carreau::plane {
@@ -32,7 +34,7 @@ bool needs_help(const PlaneWork& work, Helped helped, int t) {
   if (helped == Helped::crowded) return false;
   // Lengths of bent triangles may imply an area that they do not have.
   const bool doubtful = work.shapes.is_bent(T) || work.shapes.quality(T.v[0], T.v[1], T.v[2]) < doubtful_quality;
-  return doubtful && work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]) < bad_quality;
+  return doubtful && work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]) < shape_level::good;
 }
 
 // Returns the tested triangles, some of them several times.
@@ -47,7 +49,7 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled)
   std::int64_t checked = 0;
   Mending mending{work};
   if (!open.empty()) mending.failed_moves.clear(), mending.failed_points.clear();
-  for (int pass = 0; pass < mending_passes && !open.empty() && mending.shapes_asked <= budget; ++pass) {
+  for (int pass = 0; pass < work_bounds::rounds && !open.empty() && mending.shapes_asked <= budget; ++pass) {
     looked_at.insert(looked_at.end(), open.begin(), open.end());
     mending.changed.clear(), mending.nudged.clear();
     for (const std::int32_t t : open) {

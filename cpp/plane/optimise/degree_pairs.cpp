@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/shape_levels.h"
 #include "plane/kernel/star.h"
 #include "plane/kernel/thresholds.h"
 #include "support/work_sizes.h"
@@ -26,7 +27,7 @@ bool may_swap(const PlaneWork& work, int t, int i) {
   const HalfEdge o = A.n[i];
   if (o == no_edge || (A.imposed >> i & 1) != 0) return false;
   const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = work.mesh.triangles[o >> 2].v[o & 3];
-  return work.shapes.quality(c, a, d) > shifted_quality && work.shapes.quality(c, d, b) > shifted_quality;
+  return work.shapes.quality(c, a, d) > shape_level::bad && work.shapes.quality(c, d, b) > shape_level::bad;
 }
 
 void swap_counted(Triangulation& mesh, Degrees& degrees, int t, int i) {
@@ -101,19 +102,19 @@ int best_neighbour(const PlaneWork& work, const Degrees& degrees, const Star& st
   const auto& link = star.link;
   const auto n = static_cast<int>(link.size());
   int into = -1, min_change = 1;
-  double best = thinned_quality;
+  double best = refine_quality;
   for (int k = 0; k < n; ++k) {
     const int u = link[k], a = link[(k + n - 1) % n], b = link[(k + 1) % n];
     const int of_u = degrees.excess(u), of_v = degrees.excess(v), joined = of_u + of_v + 2;
     const int change = joined * joined - of_u * of_u - of_v * of_v + 2 - 2 * (degrees.excess(a) + degrees.excess(b));
     if (change > std::min(min_change, 0)) continue;
     double worst = 1;
-    for (int j = 1; j + 1 < n && worst > thinned_quality; ++j) {
+    for (int j = 1; j + 1 < n && worst > refine_quality; ++j) {
       const int x = link[(k + j) % n];
       worst = std::min(worst, work.shapes.quality(u, x, link[(k + j + 1) % n]));
       if (j > 1 && work.shapes.squared_length(u, x) > longest_thinned2) worst = 0;
     }
-    if (worst <= (change < min_change ? thinned_quality : best)) continue;
+    if (worst <= (change < min_change ? refine_quality : best)) continue;
     into = k, min_change = change, best = worst;
   }
   return into;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/shape_levels.h"
 #include "plane/kernel/star.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/inner_edges.h"
@@ -45,8 +46,8 @@ bool wants_swap(const PlaneWork& work, const Degrees& degrees, int t, int i) {
   const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = work.mesh.triangles[o >> 2].v[o & 3];
   // The sum of squares of the excesses changes by 2 (ec + ed - ea - eb) + 4.
   return degrees.excess(c) + degrees.excess(d) - degrees.excess(a) - degrees.excess(b) + 2 < 0 &&
-         (A.imposed >> i & 1) == 0 && work.shapes.quality(c, a, d) > degree_swap_quality &&
-         work.shapes.quality(c, d, b) > degree_swap_quality;
+         (A.imposed >> i & 1) == 0 && work.shapes.quality(c, a, d) > shape_level::poor &&
+         work.shapes.quality(c, d, b) > shape_level::poor;
 }
 
 // Marks of triangles, as bits.

@@ -9,6 +9,7 @@
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/inner_edges.h"
 #include "support/rounding_of.h"
+#include "support/work_bounds.h"
 #include "support/work_sizes.h"
 
 namespace carreau::plane {
@@ -121,10 +122,10 @@ Settled swap_to_delaunay(PlaneWork& work) {
         swap(t, i, changed);
         return true;
       });
-  // A bounded number of delaunay_passes: in a metric that varies swaps can run in circles. Then both triangles of each
+  // A bounded number of passes: in a metric that varies swaps can run in circles. Then both triangles of each
   // swap come back, and the list doubles with each pass.
   const std::size_t most = 2 * mesh.triangles.size();
-  for (int pass = 0; pass < delaunay_passes && !changed.empty() && changed.size() <= most; ++pass) {
+  for (int pass = 0; pass < work_bounds::passes && !changed.empty() && changed.size() <= most; ++pass) {
     work.monitor.checkpoint();
     next.clear();
     for (const std::int32_t t : changed)
@@ -135,7 +136,7 @@ Settled swap_to_delaunay(PlaneWork& work) {
       }
     changed.swap(next);
   }
-  // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many delaunay_passes.
+  // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many passes.
   // If no edge is long, swaps run in circles between equally good triangles.
   if (!mesh.bends.empty()) return settled;
   std::erase_if(changed, [&](std::int32_t t) { return !has_long_edge(mesh, mesh.triangles[t]); });

@@ -13,6 +13,7 @@
 #include "plane/optimise/zone_moves.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/work_bounds.h"
 
 namespace carreau::plane {
 
@@ -195,7 +196,7 @@ void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const 
   std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
   std::optional<SearchZone> made;  // most meshes need none
   BadTriangles bad(work, settled);
-  for (int pass = 0; pass < search_passes; ++pass) {
+  for (int pass = 0; pass < work_bounds::rounds; ++pass) {
     bool any = false;
     for (const auto& [rank, t] : bad.list()) {
       SearchZone& zone = made ? *made : made.emplace(work, normals);

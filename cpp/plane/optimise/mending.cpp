@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/shape_levels.h"
+#include "metric/unit_edge.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/star_cost.h"
 #include "support/infinity.h"
@@ -28,7 +30,7 @@ bool swap(Mending& m, int t) {
     const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]], d = U.v[T.n[i] & 3];
     const double before = std::min(shapes.quality_at_centroid(c, a, b), shapes.quality_at_centroid(d, b, a));
     const double after = std::min(shapes.quality_at_centroid(c, a, d), shapes.quality_at_centroid(c, d, b));
-    if (after <= before + mending_gain) continue;
+    if (after <= before + shape_level::gain) continue;
     m.changed.push_back(t);
     m.changed.push_back(T.n[i] >> 2);
     mesh.swap_edge(t, i);
@@ -63,7 +65,7 @@ bool move_to_best(Mending& m, int v) {
         P = kept;
     }
   }
-  return best < before * (1 - mending_gain);
+  return best < before * (1 - shape_level::gain);
 }
 
 bool move(Mending& m, int v) {
@@ -95,8 +97,8 @@ bool remove(Mending& m, int v, bool crowded) {
   double worst = 1;
   for (int k = 0; k < n; ++k) worst = std::min(worst, shapes.quality_at_centroid(v, link[k], link[(k + 1) % n]));
   const double least =
-      crowded ? std::max(std::min(worst, degree_swap_quality) - mending_gain, 0.0) : worst + mending_gain;
-  const double longest2 = crowded ? longest_uncrowded2 : longest_after_removal2;
+      crowded ? std::max(std::min(worst, shape_level::poor) - shape_level::gain, 0.0) : worst + shape_level::gain;
+  const double longest2 = crowded ? longest_uncrowded2 : unit_edge::longest * unit_edge::longest;
   const int into = best_collapse(m.star, least, 0, [&](int u, int a, int b, bool inner) {
     return inner && shapes.squared_length(u, a) > longest2 ? 0 : shapes.quality_at_centroid(u, a, b);
   });
@@ -155,7 +157,7 @@ bool insert(Mending& m, Vec2 p, int t, bool spaced) {
     move_to_best(m, v);
     m.work.shapes.set_metric(v);
   }
-  if (worst_around(m, v, spaced) <= before + mending_gain) {
+  if (worst_around(m, v, spaced) <= before + shape_level::gain) {
     mesh.vertices.pop_back();
     if (!mesh.bends.empty()) mesh.bends.pop_back();
     m.failed_points.put(key, true);
@@ -193,7 +195,7 @@ bool halve_edge(Mending& m, int t) {
   const auto halve = [&](int s, int i) {
     const Triangle& S = mesh.triangles[s];
     const int a = S.v[next3[i]], b = S.v[prev3[i]];
-    return !mesh.is_imposed(s, i) && m.work.shapes.squared_length(a, b) > longest_after_removal2 &&
+    return !mesh.is_imposed(s, i) && m.work.shapes.squared_length(a, b) > unit_edge::longest * unit_edge::longest &&
            insert(m, 0.5 * (mesh.at(a) + mesh.at(b)), s, true);
   };
   for (int i = 0; i < 3; ++i) {
@@ -229,7 +231,7 @@ bool remove_crowded_vertex(Mending& m, int t) {
 bool mend(Mending& m, int t) {
   if (is_crowded(m.work, t)) {
     if (remove_crowded_vertex(m, t)) return true;
-    if (shape(m, m.work.mesh.triangles[t]) >= bad_quality) return false;
+    if (shape(m, m.work.mesh.triangles[t]) >= shape_level::good) return false;
   }
   bool any = swap(m, t);
   for (int i = 0; i < 3; ++i) {
@@ -237,7 +239,7 @@ bool mend(Mending& m, int t) {
     if (v >= m.work.fixed) any = move(m, v) || any;
   }
   const Triangle& T = m.work.mesh.triangles[t];
-  if (shape(m, T) >= bad_quality) return any;
+  if (shape(m, T) >= shape_level::good) return any;
   for (int i = 0; i < 3; ++i) {
     const int v = m.work.mesh.triangles[t].v[i];
     if (v >= m.work.fixed && remove(m, v, false)) return true;

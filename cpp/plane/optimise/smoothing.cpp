@@ -9,6 +9,7 @@
 #include "plane/kernel/star.h"
 #include "plane/kernel/thresholds.h"
 #include "predicates/predicates.h"
+#include "support/work_bounds.h"
 #include "support/work_sizes.h"
 
 namespace carreau::plane {
@@ -187,7 +188,7 @@ template <bool bends>
 void undo_spoiling_moves(PlaneWork& work, SmoothingArrays& arrays) {
   std::vector<std::int32_t>& spoiled = arrays.spoiled;
   Star star;
-  for (int round = 0; round < undo_rounds; ++round) {
+  for (int round = 0; round < work_bounds::passes; ++round) {
     arrays.undone.clear();
     for (const std::int32_t t : spoiled)
       if (!is_sound<bends>(work, arrays, static_cast<std::size_t>(t)))

@@ -11,6 +11,7 @@
 #include "support/error.h"
 #include "support/format.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/thresholds.h"
 
@@ -134,7 +135,7 @@ class Builder {
       const Curve& shape = topology_.curves[curve_of_[c]];
       const auto beside = reach.find(shape.end1);
       if (!shape.degenerate || shape.end1 != shape.end2 || beside == reach.end() || c + 1 == seed_curve_) continue;
-      is_point_[c] = length_of(uv_of(c)) <= point_share * beside->second;
+      is_point_[c] = length_of(uv_of(c)) <= shares::negligible * beside->second;
     }
   }
 

@@ -9,6 +9,7 @@
 #include "predicates/edge_grid.h"
 #include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
+#include "support/shares.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/domain_graph.h"
 #include "surface/domain/thresholds.h"
@@ -166,7 +167,7 @@ double Sides::band_at_corners(int edge, const Side& other, double at, double d, 
       const double of_vertex = j == 0 ? at : other.length - at;
       if (of_vertex <= 0) continue;  // the corner itself, which is on the edge's own side too
       const double sine = sine_between(p, q);
-      if (d >= corner_reserve * std::max(of_edge, of_vertex) * sine) band = std::min(band, inner * size * sine);
+      if (d >= shares::reserve * std::max(of_edge, of_vertex) * sine) band = std::min(band, inner * size * sine);
     }
   return band;
 }

@@ -12,17 +12,11 @@ namespace carreau::thresholds::domain {
 /// close by that, this share of the shortest curve counts. Hosts have gaps that do not shrink with the size of edges.
 /// [surface: BadModels.EndsThatDoNotQuiteMeetAreOneForShortEdgesToo]
 inline constexpr double joining_share = 0.25;
-/// Share of the edges beside it. A shorter curve that is one point in space is one in (u, v) as well. Tiny edges of CAD
-/// files are such curves, sides at poles are not. [surface: TinyEdges.InALoopBecomePoints]
-inline constexpr double point_share = 1e-3;
 
 // Close edges (domain_closeness)
 /// Coefficient. The largest coefficient among neighbours along the boundary. Below one half a split only makes edges
 /// that are longer than some edge beside them, so that splitting ends (README). [Closeness.EndsAtAcuteCorners]
 inline constexpr double max_among_neighbours = 0.45;
-/// Share. Two sides of a corner of angle t are at least s sin(t) apart at distance s. Curved sides and a varying metric
-/// need a reserve. [Closeness.EndsAtACusp]
-inline constexpr double corner_reserve = 0.25;
 /// Sizes. Width below which the coefficient falls, [Closeness.KeepsTheLengthOfEdgesInThinZones]
 inline constexpr double thin_width = 4e-3;
 /// Coefficient. The least value of the falling coefficient. [as above]

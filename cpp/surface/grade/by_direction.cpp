@@ -6,6 +6,7 @@
 #include "gradation/place_fans.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
@@ -25,7 +26,7 @@ Vec3 tangent(const GradingWork& work, std::size_t c, std::size_t node, int place
 
 /// Marks the triangles with a size below the prescribed one, or with a sample below the interpolation between the corners.
 void find_rough(GradedFace& face, const TangentMetric* prescribed, const std::vector<GradingWork::Sample>& samples) {
-  const auto less = [](double p, double q) { return p < (1 - roughness) * q; };
+  const auto less = [](double p, double q) { return p < (1 - shares::small) * q; };
   for (std::size_t t = 0; t < face.triangles.size(); ++t)
     for (const std::int32_t v : face.triangles[t])
       if (less(face.metric[v].h1, prescribed[v].h1) || less(face.metric[v].h2, prescribed[v].h2)) face.smooth[t] = 0;
@@ -36,7 +37,7 @@ void find_rough(GradedFace& face, const TangentMetric* prescribed, const std::ve
       h1 += s.promised[i] * corner.matched(s.sizes.d1);
       h2 += s.promised[i] * corner.matched(s.sizes.d2);
     }
-    if (less(s.sizes.h1, (1 - rough_metric) * h1) || less(s.sizes.h2, (1 - rough_metric) * h2))
+    if (less(s.sizes.h1, (1 - shares::notable) * h1) || less(s.sizes.h2, (1 - shares::notable) * h2))
       face.smooth[s.triangle] = 0;
   }
   widen_rough(face);
@@ -140,7 +141,7 @@ class DirectionalSizes final : public GraphSizes {
       for (const int p : places_on(c, k)) {
         const Vec3 t = tangent(work_, c, k, p);
         // Interpolated sizes differ a little from the sizes at vertices.
-        if (metric_[p].along(t) > (1 + interpolation_error) * h) metric_[p].bound_along(t, h);
+        if (metric_[p].along(t) > (1 + shares::of_polylines) * h) metric_[p].bound_along(t, h);
       }
     }
   }
@@ -157,7 +158,7 @@ class DirectionalSizes final : public GraphSizes {
     }
     for (std::size_t v = 0; v < of_curves.size(); ++v) {
       const double h = work_.rules.at_point(static_cast<int>(v));
-      if (h > (1 - interpolation_error) * of_curves[v]) continue;
+      if (h > (1 - shares::of_polylines) * of_curves[v]) continue;
       for (const int p : places_of_[v]) bound(p, h);
     }
   }

@@ -5,6 +5,7 @@
 #include "periodic/shared_curves.h"
 #include "support/infinity.h"
 #include "support/ranks/crew.h"
+#include "support/shares.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 #include "surface/sample/face_metric.h"
@@ -29,7 +30,6 @@ GradingWork::~GradingWork() = default;
 namespace {
 
 using thresholds::grade::graph_factor;
-using thresholds::grade::graph_tolerance;
 
 SizeSamples coarsened(const GradingWork& work, SizeSamples samples) {
   for (double& h : samples.h) h = std::min(graph_factor * h, work.largest);
@@ -179,7 +179,7 @@ PatchInput input_of(const GradingWork& work, std::size_t f, const SizeLimits& li
           .curve_xyz = positions_on_curves(domain, work.curves, work.model.topology),
           .isotropic = work.sizes->isotropic(),
           .limits = limits,
-          .tolerance = graph_tolerance};
+          .tolerance = shares::notable};
 }
 
 void add_face(GradingWork& work, std::size_t f, FaceInGraph& made) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/infinity.h"
+#include "support/shares.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
@@ -21,12 +22,12 @@ void find_rough(const GradingWork& work, const std::vector<double>& prescribed_h
   };
   for (std::size_t t = 0; t < face.triangles.size(); ++t)
     for (const std::int32_t v : face.triangles[t])
-      if (dot(face.front[v].line, face.front[v].line) > 0 || face.h[v] < (1 - roughness) * prescribed(v))
+      if (dot(face.front[v].line, face.front[v].line) > 0 || face.h[v] < (1 - shares::small) * prescribed(v))
         face.smooth[t] = 0;
   for (const GradingWork::Sample& s : work.samples[f]) {
     double linear = 0;
     for (int i = 0; i < 3; ++i) linear += s.promised[i] * face.h[face.triangles[s.triangle][i]];
-    if (std::abs(linear - s.h) > roughness * s.h) face.smooth[s.triangle] = 0;
+    if (std::abs(linear - s.h) > shares::small * s.h) face.smooth[s.triangle] = 0;
   }
   widen_rough(face);
 }

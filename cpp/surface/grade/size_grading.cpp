@@ -8,6 +8,8 @@
 #include "curve/unit_discretisation.h"
 #include "periodic/shared_curves.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
+#include "support/work_bounds.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
 
@@ -122,7 +124,7 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
   GradedModel graded;
   std::size_t long_before = SIZE_MAX;
   double triangles_before = 0;
-  for (int number = 1; number <= max_rounds; ++number) {
+  for (int number = 1; number <= work_bounds::rounds; ++number) {
     detail::GradingWork work(model, rules, options, diag, monitor, periodic);
     auto [now, long_edges] = detail::run_round(work, raw, graded);
     graded = std::move(now);
@@ -130,8 +132,8 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
     if (long_edges == 0) break;
     // Long edges of a pole stay, and a few others change nothing.
     const double change = static_cast<double>(graded.triangles) / std::max(triangles_before, 1.) - 1;
-    const bool few = static_cast<double>(long_edges) < few_edges * static_cast<double>(graded.triangles);
-    if ((number > 1 && few) || (std::abs(change) < same_graph && 2 * long_edges > long_before)) break;
+    const bool few = static_cast<double>(long_edges) < shares::small * static_cast<double>(graded.triangles);
+    if ((number > 1 && few) || (std::abs(change) < shares::notable && 2 * long_edges > long_before)) break;
     long_before = long_edges;
     triangles_before = static_cast<double>(graded.triangles);
   }

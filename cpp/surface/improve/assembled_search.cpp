@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "support/angles.h"
 #include "surface/improve/thresholds.h"
 #include "surface/sample/face_metric.h"
 
@@ -36,7 +37,7 @@ SurfaceJet AssembledSearch::ask(std::int32_t face, const Vec2& uv) {
 bool AssembledSearch::agree(std::span<const Place> places, const Vec3& mean) const {
   return std::all_of(places.begin(), places.end(), [&](Place p) {
     const Vec3 n = mesh_.normal(p);
-    return dot(n, mean) > thresholds::swaps::min_agreement * norm(n);
+    return dot(n, mean) > angles::cosine_of_45 * norm(n);
   });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cad/batches.h"
+#include "mesh/shape_levels.h"
 #include "metric/field_length.h"
 #include "metric/metric3_algebra.h"
 #include "metric/unit_edge.h"
@@ -46,7 +47,7 @@ class ChordGradation {
   using Known = ChordCorner;
   using Vertex = EditableMesh::Vertex;
   using Place = EditableMesh::Place;
-  static constexpr double good = thresholds::chord_gradation::good;
+  static constexpr double good = shape_level::bad;
   static constexpr Rings rings{.ascending = true, .most = thresholds::chord_gradation::max_rings};
   static constexpr bool divides = false;
   static constexpr auto size_of = geometric_mean_size;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/quality.h"
+#include "mesh/shape_levels.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
 #include "surface/improve/assembled_search.h"
@@ -20,7 +21,7 @@ namespace carreau {
 class LengthRatio {
  public:
   using Known = double;
-  static constexpr double good = thresholds::length_ratio::good;
+  static constexpr double good = shape_level::fair;
   static constexpr Rings rings{};
   static constexpr bool divides = true;
   static constexpr auto size_of = isotropic_size;

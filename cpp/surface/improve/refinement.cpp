@@ -13,6 +13,7 @@
 #include "mesh/local_search.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
+#include "support/angles.h"
 #include "support/ranks/all_that_hold.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/thresholds.h"
@@ -121,7 +122,7 @@ class Refinement {
       const bool first = against(t[0]), second = against(t[1]);
       return first != second ? against(t[2]) : first;
     }
-    const double least = doubtful * doubtful * dot(n, n);
+    const double least = angles::cosine_of_60 * angles::cosine_of_60 * dot(n, n);
     for (const std::int32_t v : t) {
       const double along = dot(n, normal[v]), whole = dot(normal[v], normal[v]);
       if (whole > 0 && (!(along > 0) || along * along < least * whole)) return true;  // zero at singular vertices

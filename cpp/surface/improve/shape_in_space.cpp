@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesh/shape_levels.h"
 #include "surface/improve/bad_region.h"
 #include "surface/improve/smoothing.h"
 #include "surface/improve/swaps.h"
@@ -15,10 +16,10 @@ std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input
                                                         Team* team) {
   if (!input.isotropic) return {};
   std::vector<std::int32_t> bad =
-      triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, {team, input.threads}, monitor);
+      triangles_below(mesh.plane, mesh.xyz, shape_level::good, {team, input.threads}, monitor);
   std::vector<std::int32_t> poor;
   for (const std::int32_t t : bad)
-    if (is_below(thresholds::shape::poor, mesh.plane.triangles[t], mesh.xyz)) poor.push_back(t);
+    if (is_below(shape_level::poor, mesh.plane.triangles[t], mesh.xyz)) poor.push_back(t);
   if (poor.empty()) return bad;
   const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(poor), input.threads, monitor);
   swap_in_space(region, input.domain->plane, mesh.plane, mesh.xyz, monitor);
@@ -28,7 +29,7 @@ std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
                     std::optional<std::vector<std::int32_t>> bad, Monitor& monitor, Team* team) {
   if (!input.isotropic) return;
-  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, thresholds::shape::good, {team, input.threads}, monitor);
+  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, shape_level::good, {team, input.threads}, monitor);
   const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(*bad), input.threads, monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;

@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// Swaps edges of the worst triangles (thresholds::shape::poor), if sizes are isotropic. Does not evaluate the host.
+/// Swaps edges of the worst triangles (shape_level::poor), if sizes are isotropic. Does not evaluate the host.
 /// Returns the bad triangles (BadRegion) if no triangle was among the worst, so that the mesh did not change.
 std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor,
                                                         Team* team = nullptr);

@@ -10,7 +10,9 @@
 #include "cad/fundamental_forms.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
+#include "mesh/shape_levels.h"
 #include "mesh/trial.h"
+#include "support/angles.h"
 #include "surface/improve/thresholds.h"
 
 namespace carreau {
@@ -18,8 +20,6 @@ namespace carreau {
 namespace {
 
 using namespace thresholds::smoothing;
-using thresholds::shape::good;
-using thresholds::shape::poor;
 
 // Shares of a step that are tested on the surface itself: it bends away from the tangent plane.
 constexpr std::array<double, 3> shares{1, 0.5, 0.25};
@@ -61,7 +61,7 @@ class Smoothing {
   // Returns the vertices that may move, of the worst triangles first.
   [[nodiscard]] std::vector<std::int32_t> corners_of_bad() {
     std::vector<std::pair<double, std::int32_t>> bad;
-    for (const std::int32_t t : region_.below(good)) bad.emplace_back(quality_of(t), t);
+    for (const std::int32_t t : region_.below(shape_level::good)) bad.emplace_back(quality_of(t), t);
     std::sort(bad.begin(), bad.end());
     std::vector<std::int32_t> corners;
     for (const auto& [quality, t] : bad)
@@ -161,7 +161,7 @@ class Smoothing {
 
   bool move(std::int32_t v) {
     const double worst = worst_around(v), sum = sum_around(v);
-    if (!(worst < good)) return false;
+    if (!(worst < shape_level::good)) return false;
     const Vec2 home = mesh_.plane.vertices[v];
     const SurfaceJet jet = jet_at(home);
     const std::optional<Vec3> normal = unit_normal(jet);
@@ -182,7 +182,7 @@ class Smoothing {
       Trial trial(editable_);
       editable_.move({0, v}, uv, there.s);
       known_[v].normal = normal_of(there);
-      const bool better = worst_around(v) > worst + min_gain && (worst < poor || sum_around(v) > sum);
+      const bool better = worst_around(v) > worst + shape_level::gain && (worst < shape_level::poor || sum_around(v) > sum);
       if (!better || !agrees(v)) continue;
       trial.accept();
       return true;
@@ -194,7 +194,7 @@ class Smoothing {
   [[nodiscard]] bool agrees(std::int32_t v) {
     const std::vector<Place>& around = star(v);
     for (std::size_t k = 0; k < around.size(); ++k)
-      if (agreement(around[k]) < std::min(agreement_before_[k], min_agreement)) return false;
+      if (agreement(around[k]) < std::min(agreement_before_[k], angles::cosine_of_60)) return false;
     return true;
   }
 

@@ -6,6 +6,8 @@
 
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
+#include "mesh/shape_levels.h"
+#include "support/angles.h"
 #include "support/rounding_of.h"
 #include "surface/improve/thresholds.h"
 
@@ -13,8 +15,6 @@ namespace carreau {
 
 namespace {
 
-using namespace thresholds::swaps;
-using thresholds::shape::poor;
 
 class Swapper {
  public:
@@ -24,7 +24,7 @@ class Swapper {
   bool run(Monitor& monitor) {
     const auto list = [this] {
       for (const std::int32_t t : region_.triangles()) touched_[t] = 0;
-      return region_.below(poor);
+      return region_.below(shape_level::poor);
     };
     constexpr int max_passes = 100;  // a fan of n triangles in a narrow wedge is undone in n; most patches need three
     return improve_in_passes(max_passes, monitor, list, [this](std::int32_t t) { return improve(t); });
@@ -43,7 +43,7 @@ class Swapper {
     const Vec3 n = unit_normal_in_space(t, xyz_), p = unit_normal_in_space(mesh_.at(first), xyz_),
                r = unit_normal_in_space(mesh_.at(second), xyz_);
     if (p == Vec3{0, 0, 0} || r == Vec3{0, 0, 0}) return false;
-    return std::max(dot(n, p), dot(n, r)) < min_agreement;
+    return std::max(dot(n, p), dot(n, r)) < angles::cosine_of_45;
   }
   // In a narrow strip that winds, far vertices make triangles of a better shape that leave the surface.
   [[nodiscard]] bool is_longest(const Quad& q) const {
@@ -85,7 +85,7 @@ class Swapper {
 
 bool swap_in_space(const BadRegion& region, const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
                    Monitor& monitor) {
-  if (region.below(poor).empty()) return false;
+  if (region.below(shape_level::poor).empty()) return false;
   EditableMesh editable(domain, mesh, xyz, region.triangles());
   return Swapper(region, editable, xyz, mesh.triangles.size()).run(monitor);
 }

@@ -8,37 +8,14 @@ namespace carreau::thresholds {
 
 // Shapes are Q2 (HDR eq. 1.6), 0 to 1. Agreements are cosines of angles between normals.
 
-/// Shapes of triangles in space: bad_region, swaps, smoothing (tests/cpp/surface: improve/smoothing_test, poles_test).
-namespace shape {
-/// Shape. Better triangles are left as the metric made them.
-inline constexpr double good = 0.8;
-/// Shape. Below, only the worst triangle counts.
-inline constexpr double poor = 0.6;
-}  // namespace shape
-
-/// Swaps judged in space (poles_test, narrow/narrow_faces_test), and searches over the assembled mesh.
-namespace swaps {
-/// Cosine of the angle between a new triangle and the nearer of the two old ones. Across a tube or around an apex of
-/// three edges the best shape is the cross-section.
-inline constexpr double min_agreement = 0.7;
-}  // namespace swaps
-
 /// Vertices moved for shapes in space (improve/smoothing_test).
 namespace smoothing {
-/// Shape. A move must raise the worst around a vertex by so much.
-inline constexpr double min_gain = 1e-3;
 /// Mean lengths of the edges around: steps of the search, from the first, halved down to the last.
 inline constexpr double first_step = 0.4, last_step = 0.01;
-/// Cosine of a triangle's normal and the surface's at its corners, unless it was less before. Around the apex of a
-/// narrow cone, and across a bend, the best shapes lie in the cross-section.
-inline constexpr double min_agreement = 0.5;
 }  // namespace smoothing
 
 /// Triangles that leave the surface (agreement_test, guarantees_test, lift/surface_agreement_test).
 namespace refinement {
-/// Cosine, below which triangles are examined more closely. At a corner the surface may be turned by 60 degrees on the
-/// way to the middle of a coarse triangle.
-inline constexpr double doubtful = 0.5;
 /// Shape of the triangles that a division for an angle or a distance makes, with isotropic sizes. Halves of an equilateral
 /// triangle have .75.
 inline constexpr double min_shape = 0.4;
@@ -62,8 +39,6 @@ inline constexpr double min_gain = 1e-4;
 
 /// Ratios of lengths at a vertex (improve/even_edges_test, grade/gradation_test).
 namespace length_ratio {
-/// Shape. Such triangles are good whatever they were before.
-inline constexpr double good = 0.7;
 /// Times that a new vertex is moved.
 inline constexpr int placements = 4;
 }  // namespace length_ratio
@@ -72,8 +47,6 @@ inline constexpr int placements = 4;
 namespace chord_gradation {
 /// Share of the limit's logarithm that edges are improved to: they are measured again, with other rounding.
 inline constexpr double aim = 0.999;
-/// Shape in the metric. Such triangles are good whatever they were before.
-inline constexpr double good = 0.5;
 /// Rings of changes that follow each other.
 inline constexpr int max_rings = 10;
 }  // namespace chord_gradation

@@ -8,6 +8,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 #include "surface/lift/thresholds.h"
 #include "surface/lift/verification.h"
 #include "surface/sample/face_metric.h"
@@ -85,7 +86,7 @@ class SteepPlaces {
         Foot& f = feet[moving[first + i]];
         distance[moving[first + i]] = norm(f.at - jets[i].s);
         const Vec2 d = step_towards(jets[i], f.at);
-        f.moving = norm(d.x() * jets[i].su + d.y() * jets[i].sv) > last_step * f.reach && locator.contains(f.uv + d);
+        f.moving = norm(d.x() * jets[i].su + d.y() * jets[i].sv) > shares::negligible * f.reach && locator.contains(f.uv + d);
         if (f.moving) f.uv = f.uv + d;
       }
     };

@@ -18,15 +18,9 @@ inline constexpr double too_short = 0.65;
 /// True length over promised length. Such edges are examined for jumps; a surface that is continuous between their ends
 /// has none. [surface: BadModels.SurfaceThatJumpsByAFewEdges]
 inline constexpr double excess = 8;
-/// Relative length. A larger change of the control space requires a new mesh. [Verification.SampledDetailsCostNothing]
-inline constexpr double notable_change = 0.1;
 /// Places. Examined in one face, spread over all of them: more places cost more without new information. [surface:
 /// BadModels. SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t max_places = 500;
-
-// Steep places of space (steep_places)
-/// Share of a place's reach. Shorter steps are the last. [as above]
-inline constexpr double last_step = 1e-3;
 
 // Agreement (surface_agreement)
 /// Share of the area. A larger excess over the surface's area is reported; unit meshes by curvature have some 1e-4.

@@ -13,6 +13,7 @@
 #include "support/ranks/all_that_hold.h"
 #include "support/ranks/crew.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 #include "support/work_sizes.h"
 #include "surface/lift/excess_packet.h"
 #include "surface/lift/thresholds.h"
@@ -260,7 +261,7 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {
   return std::any_of(places.begin(), places.end(),
-                     [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
+                     [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > shares::notable; });
 }
 
 UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpace& space, Cad& cad,

@@ -10,6 +10,7 @@
 #include "model/union_find.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "support/shares.h"
 #include "surface/narrow/side_ruler.h"
 #include "surface/narrow/thresholds.h"
 
@@ -141,8 +142,8 @@ class Finder {
         if (to_q == 0 || to_p == 0) continue;
         const Side one = part_of(loop, p.from + p.count, to_q), other = reversed(part_of(loop, q.from + q.count, to_p));
         const double width = hausdorff_distance(trace(one), trace(other), reach_);
-        if (width > reach_ || width > best * (1 + same_width)) continue;
-        if (width > best * (1 - same_width) && p.count + q.count <= max_in_end_caps) continue;
+        if (width > reach_ || width > best * (1 + shares::negligible)) continue;
+        if (width > best * (1 - shares::negligible) && p.count + q.count <= max_in_end_caps) continue;
         best = width;
         max_in_end_caps = p.count + q.count;
         narrow.width = width;

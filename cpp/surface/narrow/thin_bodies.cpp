@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "support/angles.h"
 #include "surface/domain/domain_builder.h"
 #include "surface/narrow/thresholds.h"
 
@@ -18,7 +19,7 @@ class Bodies {
 
   [[nodiscard]] bool is_thickness(const NarrowFace& strip) const {
     const std::optional<Vec3> one = way_out(strip, 0), other = way_out(strip, 1);
-    return one && other && dot(*one, *other) > back_to_back;
+    return one && other && dot(*one, *other) > angles::cosine_of_26;
   }
 
  private:

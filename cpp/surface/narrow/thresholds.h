@@ -13,9 +13,6 @@ namespace carreau::thresholds::narrow {
 inline constexpr double longest_end_cap = 2;
 /// Curves. The search for sides tests all pairs of ends: a face with more curves is skipped. [time only]
 inline constexpr std::size_t max_curves = 60;
-/// Share of a width. Choices whose widths differ by less are equally near: the choice with more curves in its end caps
-/// is taken. [Narrow.ChamferOfABoxCollapses]
-inline constexpr double same_width = 1e-3;
 /// Places on a loop that decide the sense in which the other loop runs. [Narrow.RingBetweenCylindersCollapses]
 inline constexpr int probes = 12;
 /// Gaps. A face is without width if its surface, halfway between two uses of a curve, is within this distance from
@@ -29,8 +26,5 @@ inline constexpr double same_place = 3;
 /// accurate to 1e-6, and each round of matching would take smaller differences for new places.
 /// [Narrow.RingNarrowerThanItsSupportsAreAccurateHasTheEdgesOfOneCircle]
 inline constexpr double place_accuracy = 1e-5;
-/// Cosine. Two neighbours lie back to back when the directions in which they leave the strip differ by less than 26
-/// degrees. [Narrow.ThinPlateKeepsItsRim]
-inline constexpr double back_to_back = 0.9;
 
 }  // namespace carreau::thresholds::narrow

@@ -9,6 +9,7 @@
 
 #include "predicates/predicates.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
 #include "periodic/shared_curves.h"
@@ -277,7 +278,7 @@ class Refiner {
 
   // A face found free of crossings stays so until it changes.
   void uncross() {
-    for (int i = 0; i < max_halvings; ++i)
+    for (int i = 0; i < rounding_of::halvings; ++i)
       if (!refine(
               crossable_, [this](int f) { return Found{edges_to_split_for_crossings(result_.domain[f]->plane)}; },
               [this](int f, Found& found, Monitor&) { give_up_if_fruitless(f, found); }, true))

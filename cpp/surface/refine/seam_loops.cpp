@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "support/shares.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/thresholds.h"
 #include "surface/refine/thresholds.h"
@@ -61,7 +62,7 @@ void leave_to_pole(Iterator pole, Iterator end) {
     const double s = std::abs(it->s - pole->s);
     if (!(s > 0)) continue;
     steepest = std::max(steepest, it->around / s);
-    if (it->around >= pole_reserve * s * steepest) it->looked_at = false;
+    if (it->around >= shares::reserve * s * steepest) it->looked_at = false;
   }
 }
 

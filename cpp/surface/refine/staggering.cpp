@@ -9,6 +9,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
+#include "support/work_bounds.h"
 #include "surface/domain/domain_graph.h"
 #include "surface/domain/near_vertices.h"
 #include "surface/refine/thresholds.h"
@@ -158,7 +159,7 @@ std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<Di
     beside[pair.second].emplace_back(pair.first, g);
   }
   std::vector<char> moved(curves.size(), 0);
-  for (int pass = 0; pass < staggering_passes; ++pass) {
+  for (int pass = 0; pass < work_bounds::rounds; ++pass) {
     bool any = false;
     for (const auto& [c, others] : beside) {
       if (may_move[c] == 0) continue;

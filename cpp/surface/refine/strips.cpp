@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "predicates/polygon_locator.h"
+#include "support/angles.h"
 #include "support/segment.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/domain_graph.h"
@@ -62,7 +63,7 @@ class StripsInSpace {
     const double height = 4 * s * (1 - s) * bulge, between = d + height;
     if (d > height && dot(middle_of(edge) - lerp(a, b, 0.5), xyz_[v] - lerp(a, b, s)) > 0) return false;
     const auto is_sharp_corner = [&](int end) {
-      return domain_.origin[end].corner >= 0 && between < bluntest_corner * norm(xyz_[v] - xyz_[end]);
+      return domain_.origin[end].corner >= 0 && between < angles::touching * norm(xyz_[v] - xyz_[end]);
     };
     return !is_sharp_corner(edge.a) && !is_sharp_corner(edge.b);
   }

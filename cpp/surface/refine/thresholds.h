@@ -7,9 +7,6 @@ namespace carreau::thresholds::refine {
 // Brackets name the tests that rest on a threshold, by default tests of tests/cpp/surface/refine.
 
 // Crossings and balance (boundary_refinement)
-/// Rounds. Each halves the edges that cross: 2^-16 of an edge is below the accuracy of any support. [domain: Crossings.
-/// AreRemovedByRefinement]
-inline constexpr int max_halvings = 16;
 /// Rounds. Around a true crossing the edges that cross become shorter with every halving, and curves that only come
 /// near each other stop crossing. If this number of halvings changes nothing, the curves lie on each other, and would
 /// be cut for ever. [Refinement.CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour]
@@ -29,13 +26,6 @@ inline constexpr double balance_to_look_at = 1.6;
 /// [Refinement.StripsWithoutNeighboursAreCutToTheirWidth]
 inline constexpr double coefficient_alone = 0.35;
 
-// Tips and seams (strips, seam_loops)
-/// Slope. Curves that leave a corner at less are its tip. [Tongues.AreNotCutToTheirTips]
-inline constexpr double bluntest_corner = 0.1;
-/// Share. A pole explains thickness that falls towards it, on the way, to no less than this share of the thickness
-/// elsewhere. [surface: Waists, Poles]
-inline constexpr double pole_reserve = 0.25;
-
 // Staggering
 /// Edges. Sides farther apart leave place for a row of vertices between them. [Staggering.WideFacesAndSharpCorners...]
 inline constexpr double widest = 1.2;
@@ -47,8 +37,6 @@ inline constexpr double min_curve_gain = 1;
 /// Share of the worst quality, below which it must not fall, whatever the gain elsewhere. If vertices come to lie on
 /// the chords of arcs that bulge across the strip, triangles become flat. [Staggering.RingsToo]
 inline constexpr double largest_fall = 0.5;
-/// Passes over all strips; each pass may change the gains of the next. [Staggering.StripsAre...]
-inline constexpr int staggering_passes = 8;
 /// Cosine of an angle. At a sharper corner a half edge beside a whole edge leaves a triangle worse than 0.75 (Q2; 0.95
 /// between two whole edges). [Staggering.WideFacesAndSharpCornersStayAsTheyAre]
 inline constexpr double sharp_cosine = 0.6;

@@ -11,6 +11,7 @@
 #include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
 #include "support/infinity.h"
+#include "support/work_bounds.h"
 #include "surface/improve/bad_region.h"
 #include "surface/reparametrise/thresholds.h"
 
@@ -175,7 +176,7 @@ class TurnedTriangles {
 
   void run(Monitor& monitor) {
     improve_in_passes(
-        turned_passes, monitor, [this] { return turned_over(mesh_.plane); },
+        work_bounds::passes, monitor, [this] { return turned_over(mesh_.plane); },
         [this](std::int32_t t) { return mend(t); });
   }
 

@@ -6,8 +6,6 @@
 
 namespace carreau::thresholds::reparametrise {
 
-// In brackets: the tests that rest on it, all of tests/cpp/surface/reparametrise.
-
 // Lines along each parameter
 /// Places. The first ones, as many at boundary vertices, and lines across at such places.
 /// [UnevenParameters.FastAlongBoth]
@@ -34,8 +32,6 @@ inline constexpr double shortest = 1e-7;
 // Back to the host's (u, v)
 /// Share of the quality in space of two triangles, which a swap must leave. [UnevenParameters.NeighboursAndImposed...]
 inline constexpr double min_kept = 0.5;
-/// Passes of swaps over triangles that are turned over. [as above]
-inline constexpr int turned_passes = 20;
 /// Samples. Largest number in the control space that is carried back. [time only]
 inline constexpr std::size_t most_samples = 20'000;
 

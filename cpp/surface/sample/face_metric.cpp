@@ -57,7 +57,7 @@ std::optional<Vec2> FaceMetric::beside(Vec2 uv, const SurfaceJet& jet) {
   const Vec2 to_middle = inside_->middle - uv, way = along_meridian(jet, to_middle, inside_->half);
   for (const double share : ways_inside)
     for (const double sign : {1., -1.}) {
-      const Vec2 p = uv + share * (sign * way + aside * to_middle);
+      const Vec2 p = uv + share * (sign * way + rounding_of::sizes * to_middle);
       if (inside_->locator.contains(p)) return p;
     }
   return {};

@@ -11,9 +11,6 @@ namespace carreau::thresholds::sample {
 /// Shares of the domain's box. Distances from a degenerate point at which limits are taken; the second if the first is
 /// outside. [FaceMetric.AtAPoleIsTheLimitAlongItsMeridian]
 inline constexpr double ways_inside[] = {1e-4, 1e-6};
-/// Share of that way. The part aside, towards the middle of the box: meridians may run along sides of the domain, which
-/// are straight but for rounding. [as above]
-inline constexpr double aside = 1e-6;
 /// Ratio of speeds. Largest speed of a parametrisation over its usual speed; above it other parameters are searched;
 /// [UnevenParameters]
 inline constexpr double uneven_speed = 1000;

@@ -4,8 +4,6 @@
 
 namespace carreau::thresholds::variable {
 
-// In brackets: the tests that rest on it, of tests/cpp/variable.
-
 // Tools
 /// Degrees. Arcs of tools have a node at least so often: a piece may touch them between its own nodes.
 /// [Contact.ToolNodesBetweenNodesOfThePieceAreInserted]
@@ -36,8 +34,6 @@ inline constexpr double sharpest_tip = 15;
 /// that turns by 45 degrees leaves its chord by 0.1. [RunCurve.WildSplinesArePolygons]
 inline constexpr double largest_bulge = 0.15;
 
-/// Times that elements are removed because their boundary edges cross others. [SelfOverlap.ElementsThatHaveMetGo]
-inline constexpr int max_overlap_rounds = 10;
 /// Times that crossing runs of new edges get their old nodes back, before all runs do.
 /// [Remesh.RunsThatCrossKeepTheirNodes]
 inline constexpr std::size_t max_rough_places = 12;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "support/shares.h"
 #include "surface/elements/base/thresholds.h"
 #include "surface/remesh/base/charts.h"
 
@@ -17,11 +18,11 @@ class AtlasSurface {
 
   /// The surface near `target`, sought from a regular place; empty where a barrier or a singular place is in the way.
   [[nodiscard]] std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target) const {
-    return charts_.towards(cad_, from, target, false, thresholds::elements::near_foot);
+    return charts_.towards(cad_, from, target, false, shares::small);
   }
   /// Returns the result of towards(), or the place beside the target on a barrier that is in the way.
   [[nodiscard]] std::optional<SurfacePlace> beside(const SurfacePlace& from, const Vec3& target) const {
-    return from.regular ? charts_.towards(cad_, from, target, true, thresholds::elements::near_foot) : std::nullopt;
+    return from.regular ? charts_.towards(cad_, from, target, true, shares::small) : std::nullopt;
   }
   [[nodiscard]] WantedSize wanted(const SurfacePlace& place) const { return wanted_at({&place, 1}); }
   /// The size at a vertex with several places.

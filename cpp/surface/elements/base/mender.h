@@ -14,6 +14,7 @@
 #include "support/infinity.h"
 #include "support/monitor.h"
 #include "support/rounding_of.h"
+#include "support/work_bounds.h"
 #include "surface/elements/base/thresholds.h"
 
 namespace carreau {
@@ -74,7 +75,7 @@ class Mender {
     hopeless_.assign(cells_.size(), 0);
     for (const std::int32_t c : bad_) hopeless_[c] = static_cast<char>(is_hopeless(cells_[c]));
     std::erase_if(bad_, [&](std::int32_t c) { return hopeless_[c] != 0; });
-    for (int round = 0; round < max_rounds; ++round) {
+    for (int round = 0; round < work_bounds::rounds; ++round) {
       const std::size_t before = moves_;
       for (std::size_t i = 0, n = bad_.size(); i < n && !trials_.is_spent(); ++i) {
         monitor_.checkpoint();

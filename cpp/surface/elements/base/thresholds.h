@@ -16,8 +16,6 @@ inline constexpr double min_gain = 0.005;
 /// First and last step of the search for a node's place, shares of its edge. The first one reaches over the bulge of an
 /// edge that turns by 90 degrees (its sagitta is a fifth of the edge).
 inline constexpr double first_step = 0.2, last_step = 0.01;
-/// Rounds over the elements of a face that are not good: each round moves nodes that the round before has blocked.
-inline constexpr int max_rounds = 8;
 /// Largest number of places that the search of a face tests, and the share of each of its elements. A place costs about as much as a few
 /// evaluations of the surface, so that the search costs no multiple of the mesh. In eleven CAD models at 4 %, meshes that become good need
 /// at most 11 places per element. [geometry_fuzz grid 164, 182, molecule 61]
@@ -25,9 +23,6 @@ inline constexpr std::int64_t max_trials = 3000, max_trials_of_element = 30;
 /// Times that the model is meshed again with half the size beside elements that stay invalid. An edge of a whole circle
 /// then has 6 degrees. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int max_divisions = 6;
-/// Sine of the angle between the ways of two edges of curves from a corner of an invalid element. A smaller angle is a
-/// cusp. As parabolas they turn by their bends, a tenth and more of a radian.
-inline constexpr double sine_of_cusp = 0.1;
 /// Share of an edge that its node is drawn away from a cusp. If two circles touch, parabolas through the middles of
 /// edges of length l leave the corner at no angle. Parabolas drawn away by s leave it at some 2 s l times the
 /// difference of the curvatures. [CurvedElements.AreValidAtACusp]
@@ -39,9 +34,5 @@ inline constexpr int max_partings = 4;
 inline constexpr double max_growth = 12;
 /// Triangles. First meshes with fewer triangles count as having this number.
 inline constexpr double few_triangles = 1000;
-
-/// Share of the way. Nodes and vertices may end so near their closest points along the surface. A node aside makes its element uneven: this
-/// is below the third power of common elements' sizes over radii. [CrossPatchElements.AreaConvergesAsThePolynomialsPromise]
-inline constexpr double near_foot = 1e-2;
 
 }  // namespace carreau::thresholds::elements

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/shape_levels.h"
 #include "surface/elements/quads/passes.h"
 
 #include <algorithm>
@@ -98,7 +99,7 @@ class Pass {
     for (int k = 0; k < corners_of(cell); ++k) touched_[cell[k]] = 1;
   }
   [[nodiscard]] bool is_good(const MixedCell& cell) const {
-    return quads_.is_convex(cell) && !quads_.has_flat_corner(cell) && quads_.quality(cell) > min_after_change;
+    return quads_.is_convex(cell) && !quads_.has_flat_corner(cell) && quads_.quality(cell) > shape_level::flat;
   }
   [[nodiscard]] bool has_good_length(std::int32_t a, std::int32_t b) const {
     const double l = quads_.length(a, b);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/shape_levels.h"
 #include "surface/elements/quads/passes.h"
 
 #include <algorithm>
@@ -174,7 +175,7 @@ template void improve_worst_quads<SpaceQuads>(SpaceQuads&, double, Monitor&);
 template <typename Quads>
 void smooth_all(Quads& quads, Monitor& monitor) {
   smooth_quads(quads, {}, monitor);
-  improve_worst_quads(quads, poor, monitor);
+  improve_worst_quads(quads, shape_level::poor, monitor);
 }
 template void smooth_all<PlaneQuads>(PlaneQuads&, Monitor&);
 template void smooth_all<SpaceQuads>(SpaceQuads&, Monitor&);

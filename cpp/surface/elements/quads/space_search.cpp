@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesh/shape_levels.h"
 #include "surface/elements/quads/quad_shape.h"
 #include "surface/elements/quads/worst_quads.h"
 #include "surface/sample/face_metric.h"
@@ -31,7 +32,7 @@ class LiftedQuads {
         quads_(quads),
         by_angles_(!work.isotropic()) {}
 
-  [[nodiscard]] double poor() const noexcept { return by_angles_ ? poor_jacobian_in_metric : thresholds::quads::poor; }
+  [[nodiscard]] double poor() const noexcept { return by_angles_ ? poor_jacobian_in_metric : shape_level::poor; }
   [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return quads_.patch.cells; }
   [[nodiscard]] std::size_t vertices() const noexcept { return quads_.patch.uv.size(); }
   [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return quads_.patch.fixed[v] != 0; }

@@ -34,8 +34,6 @@ inline constexpr std::size_t longest_path = 10;
 inline constexpr double triangle_weight = 0.5;
 /// Passes without momentum at the end: they undo the squeezing by momentum.
 inline constexpr int plain_passes = 2;
-/// Quality. Vertices of worse cells are moved one by one.
-inline constexpr double poor = 0.6;
 /// Passes over the worst cells.
 inline constexpr int worst_passes = 5;
 
@@ -45,12 +43,8 @@ inline constexpr double poor_jacobian_in_metric = 0.01;
 /// Scaled Jacobian below which two triangles are better: angles of 12 and 168 degrees.
 inline constexpr double least_jacobian = 0.2;
 
-// Walks of triangles
-
 // Clean-up
 /// Passes of smoothing around changes, before the next pass.
 inline constexpr int passes_after_changes = 3;
-/// Quality. Changes of the topology may leave so poor cells, which smoothing improves.
-inline constexpr double min_after_change = 0.15;
 
 }  // namespace carreau::thresholds::quads

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/shape_levels.h"
 #include "surface/elements/quads/passes.h"
 
 #include <algorithm>
@@ -112,7 +113,7 @@ class Walks {
     if (side < 0) return false;
     const int apex = common_side(last, triangle);
     const MixedCell joined{triangle[side], last[(apex + 2) % 3], triangle[(side + 1) % 3], triangle[(side + 2) % 3]};
-    if (joined[1] == joined[3] || quality(joined) < min_after_change) return false;
+    if (joined[1] == joined[3] || quality(joined) < shape_level::flat) return false;
     now.push_back(joined);
     for (const std::int32_t c : way) touched_[c] = 1, cells_[c] = none;
     for (std::size_t k = 0; k < now.size(); ++k) cells_[way[k]] = now[k];
@@ -129,7 +130,7 @@ class Walks {
                                         triangle[(apex + 2) % 3]};
     if (std::find(p.begin(), p.begin() + 4, p[4]) != p.begin() + 4) return {};
     std::optional<MixedCell> behind;
-    double best = min_after_change;
+    double best = shape_level::flat;
     for (int out = 0; out < 3; ++out) {
       if (side_of(next, {p[out + 1], p[out]}) < 0) continue;
       for (const int s : {out, (out + 4) % 5}) {  // first corner of the triangle: that side is its first or second

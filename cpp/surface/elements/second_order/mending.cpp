@@ -8,6 +8,7 @@
 
 #include "mesh/elements/jacobian.h"
 #include "predicates/predicates.h"
+#include "support/angles.h"
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
@@ -215,7 +216,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
         return 4 * xyz(cell.nodes[n + side % n]) - 3 * xyz(corner) - xyz(cell.nodes[end % n]);
       };
       const Vec3 d = tangent(i + n - 1, i + n - 1), e = tangent(i, i + 1);
-      if (!(dot(d, e) > 0) || norm(cross(d, e)) > sine_of_cusp * dot(d, e)) continue;
+      if (!(dot(d, e) > 0) || norm(cross(d, e)) > angles::touching * dot(d, e)) continue;
       for (const CurveSide* side : {from, to}) {
         const auto& chain = work_.result.mesh.curves[side->curve].vertices;
         cusps.push_back({side->curve, side->segment, chain[side->segment] == face_.vertex[corner]});

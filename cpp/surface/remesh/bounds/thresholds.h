@@ -20,9 +20,6 @@ inline constexpr double bound_gap = 0.2;
 inline constexpr double bound_gap_beyond = 0.05;
 /// The share if only the bound is beyond the tolerance, and the observed deviation is within.
 inline constexpr double bound_gap_undecided = 0.005;
-/// Shares of the tolerances: bounds that exceed the observed deviation by less are near enough.
-/// [DeviationBounds.NarrowBumpIsFound]
-inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
 /// Times that a part of a triangle is cut into four, and number of parts of a triangle: after that bounds stay.
 inline constexpr int max_cuts = 10, max_parts = 150;
 /// Number of parts of a triangle that is known to be beyond a tolerance, if the caller needs no more than that.

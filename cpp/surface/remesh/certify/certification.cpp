@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/shape_levels.h"
+#include "support/shares.h"
 #include "support/stepped_tasks.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/certify/edit_bounds.h"
@@ -161,7 +163,7 @@ class Certifier::Work {
       }
       for (int pass = 0; pass < tidy_passes; ++pass) tidy();
       if (edits() == before) break;
-      if (const Excess now = excess(); now.most <= most && now.sum < least - min_gain) least = now.sum, best.accept(), report_of_best = report_;
+      if (const Excess now = excess(); now.most <= most && now.sum < least - shares::negligible) least = now.sum, best.accept(), report_of_best = report_;
       if (round + 1 >= rounds_without_success && least == first) break;
     }
     undo(best, report_of_best);
@@ -250,7 +252,7 @@ class Certifier::Work {
     for (const std::int32_t v : corners)
       if (share_of(triangle) < max_moved && mesh_.is_free(v) && move(v)) return;
     if (split(quads)) return;
-    if (swapped[best] < infinity && swapped[best] < before(*quads[best]) - min_gain) swap(*quads[best]);
+    if (swapped[best] < infinity && swapped[best] < before(*quads[best]) - shares::negligible) swap(*quads[best]);
   }
 
   double before(const Quad& q) { return std::max(share_of(q.t), share_of(q.u)); }
@@ -282,7 +284,7 @@ class Certifier::Work {
     const SurfacePlace from = mesh_.place(v);
     if (!from.regular) return false;
     const double h = mesh_.size(v);
-    const double fair = std::min(mesh_.judge_shapes_around(v).worst, min_shape_of_move);
+    const double fair = std::min(mesh_.judge_shapes_around(v).worst, shape_level::bad);
     for (const double step : steps)
       for (int k = 0; k < directions; ++k)
         if (put(v, beside(from, step * h, k, directions), 1, fair)) return true;

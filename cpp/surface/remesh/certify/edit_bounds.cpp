@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "support/shares.h"
 #include "surface/remesh/bounds/pole.h"
 #include "surface/remesh/bounds/spread_places.h"
 #include "surface/remesh/bounds/thresholds.h"
@@ -104,10 +105,10 @@ BoundedTriangle EditBounds::flat(const Corners& corners) const {
   made.reach = area / made.longest / 2;
   const SurfaceTolerances& asked = mesh_.tolerances();
   made.deviation_tolerance = deviation_tolerance(corners);
-  made.deviation_floor = near_deviation * made.deviation_tolerance;
+  made.deviation_floor = shares::negligible * made.deviation_tolerance;
   made.angle_tolerance = within * asked.angle_deg * degree;
   made.decides = true;
-  made.angle_floor = near_angle * made.angle_tolerance;
+  made.angle_floor = shares::small * made.angle_tolerance;
   return made;
 }
 

@@ -18,12 +18,8 @@ inline constexpr double max_growth = 1.05;
 inline constexpr double min_success = 0.5;
 /// Share of a tolerance. Moves do not help triangles that are farther beyond it.
 inline constexpr double max_moved = 1.3;
-/// Share of a tolerance. Gains below do not count.
-inline constexpr double min_gain = 1e-3;
 /// Shape (Q2) that an edit may leave after better shapes, also a split before further splits.
 inline constexpr double min_shape = 0.3;
-/// Shape that a move may leave.
-inline constexpr double min_shape_of_move = 0.5;
 /// Lengths. Shorter edges are not split. A bend beyond the tolerance over half of that length is a feature of another size.
 inline constexpr double shortest_split = 0.3;
 /// The loss for a mesh that is worse: edits do not repair a surface that bends within a size everywhere.

@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "support/angles.h"
 #include "support/error.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
+#include "support/work_bounds.h"
 #include "support/work_sizes.h"
 #include "surface/remesh/division/place_packet.h"
 #include "surface/remesh/planes/borders.h"
@@ -169,7 +171,7 @@ bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, Projec
       if (found.exact[t] != 0) join[c] = 0;
     }
   const std::size_t before = found.axis.size();
-  merge_charts(atlas, max_merge_cosine, join, found, monitor);
+  merge_charts(atlas, angles::cosine_of_78, join, found, monitor);
   bool changed = found.axis.size() < before;
   if (changed) return true;
   std::vector<std::size_t> members(found.axis.size(), 0);
@@ -303,7 +305,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
       return refuse("charts do not project to planes");
     std::vector<std::int32_t> worse = plan->wrong;
     worse.insert(worse.end(), plan->leaning.begin(), plan->leaning.end());
-    if (!worse.empty() && round++ < max_mendings && mend(flat, worse, found, monitor)) continue;
+    if (!worse.empty() && round++ < work_bounds::passes && mend(flat, worse, found, monitor)) continue;
     std::vector<std::int32_t>& wrong = plan->wrong;
     if (wrong.empty()) {
       const auto work = [&](std::size_t c, Monitor& own) {

@@ -13,12 +13,8 @@ namespace carreau::thresholds::planes {
 inline constexpr double usual_cosine = 0.55;
 /// Neighbours become one chart if all normals lean less.
 inline constexpr double merge_cosine = 0.42;
-/// Neighbours become one chart up to this lean if borders would cross otherwise.
-inline constexpr double max_merge_cosine = 0.2;
 /// Largest value of ProjectedCharts::exact: 1 divides borders of edges of the atlas, 2 leaves them if their parts would cross, too.
 inline constexpr char max_exact = 2;
-/// Times that charts whose borders cross are repaired.
-inline constexpr int max_mendings = 16;
 /// Share of the triangles of the atlas that may be kept. Beyond, local remeshing of the whole mesh is as cheap. For
 /// scans it is below .15.
 inline constexpr double max_kept = 0.25;
