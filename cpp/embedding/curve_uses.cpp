@@ -114,7 +114,7 @@ std::vector<Vec3> CurveUses::chords(const Use& use, double diagonal) const {
     const double middle = (from + to) / 2;
     const Vec3 between = at(use, middle).xyz, start = points.back();
     const bool leaves = norm(between - (start + end) / 2) > thresholds::embedding::chord_of_wire * diagonal;
-    if (depth < thresholds::embedding::divisions_of_wire && (depth < 2 || leaves)) {
+    if (depth < thresholds::embedding::divisions && (depth < 2 || leaves)) {
       add(from, middle, between, depth + 1);
       add(middle, to, end, depth + 1);
     } else {

@@ -16,11 +16,10 @@ inline constexpr double same_place = 1e-7;
 inline constexpr double corner = 15;
 /// Number of projections for one chord. Chords that need more do not follow the surface.
 inline constexpr int projections_of_chord = 4000;
-/// Number of times that a chord is divided at a curve between two faces.
-inline constexpr int divisions_of_chord = 8;
-/// Share of the diagonal, and number. Chords of a wire leave it by at most this unless they are divided so often.
+/// Share of the diagonal. Chords of a wire leave it by at most this.
 inline constexpr double chord_of_wire = 1e-5;
-inline constexpr int divisions_of_wire = 9;
+/// Number of times that a chord is divided: of a wire, and at a curve between two faces.
+inline constexpr int divisions = 9;
 /// Number. A curve is searched for its closest point from so many samples.
 inline constexpr int samples_of_curve = 65;
 

@@ -165,7 +165,7 @@ void Tracer::chord(const Vec3& from, const Vec3& to, int depth) {
   const Gap gap = *gap_;
   items_.resize(before), face_ = face_before;
   Vec3 y;
-  if (depth >= limit::divisions_of_chord || gap.before.face == gap.behind.face || !ground_.border(gap.before.face, gap.behind.face, first.xyz, last.xyz, y))
+  if (depth >= limit::divisions || gap.before.face == gap.behind.face || !ground_.border(gap.before.face, gap.behind.face, first.xyz, last.xyz, y))
     throw InvalidArgument("segment " + std::to_string(rank_) + " of the polyline leaves the surface at " + format_point(gap.before.x) + ", between face " +
                           std::to_string(gap.before.face) + " and face " + std::to_string(gap.behind.face) + ": more points are required");
   chord(from, y, depth + 1);

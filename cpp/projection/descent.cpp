@@ -7,6 +7,7 @@
 
 #include "projection/thresholds.h"
 #include "support/rounding_of.h"
+#include "support/work_bounds.h"
 
 namespace carreau::projection {
 
@@ -27,7 +28,7 @@ void Descent::finish(const Vec2& step) {
 // A side of the region is one point of space: the derivative along it vanishes, and the surface leaves it in different directions. Turns to
 // the place of the side where the distance falls most, by the derivative of these directions along the side, and leaves it there.
 bool Descent::turn_at_pole(const Vec3& r) {
-  if (turns_ >= limit::max_turns) return false;
+  if (turns_ >= work_bounds::rounds) return false;
   for (int along = 0; along < 2; ++along) {
     const int across = 1 - along;
     const bool at_low = at_[across] <= region_.low[across];

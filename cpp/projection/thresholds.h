@@ -26,8 +26,6 @@ inline constexpr std::size_t max_cells = 40'000;
 inline constexpr double last_step = 1e-7;
 /// Share of that step: the term of second order is at most so large. [Projector.ConeAndItsApex]
 inline constexpr double bend_of_last_step = 1e-4;
-/// Number of times that a descent turns at such a point.
-inline constexpr int max_turns = 4;
 /// Ratio of the eigenvalues of the Hessian in the first fundamental form. Below it the Hessian counts as singular.
 inline constexpr double regular_hessian = 1e-3;
 /// Ratio of the eigenvalues. Smaller ones, and negative ones, are replaced.

@@ -116,8 +116,8 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
   const int i = clamped_int((p.x() - low_.x()) / step_, 0, columns_ - 1),
             j = clamped_int((p.y() - low_.y()) / step_, 0, rows_ - 1);
   std::int32_t t = raster_[cell(i, j)], before = -1;
-  for (int step = 0; step <= max_steps && t >= 0; ++step) {
-    if (step == max_steps) t = straight_to(p, t);
+  for (int step = 0; step <= rounding_of::max_steps && t >= 0; ++step) {
+    if (step == rounding_of::max_steps) t = straight_to(p, t);
     const std::array<double, 3> w = weights_in(corners(t), p);
     std::int32_t next = -1;
     double least = -rounding_of::places;
@@ -167,7 +167,7 @@ std::int32_t ChartPlane::straight_to(const Vec2& p, std::int32_t first) const {
   const std::array<Vec2, 3> begin = corners(first);
   const Vec2 from = (begin[0] + begin[1] + begin[2]) / 3;
   std::int32_t t = first, before = -1;
-  for (int step = 0; step < max_straight_steps; ++step) {
+  for (int step = 0; step < max_cells; ++step) {
     const std::array<Vec2, 3> c = corners(t);
     const std::array<double, 3> there = weights_in(c, p), here = weights_in(c, from);
     std::int32_t next = -1;
@@ -203,7 +203,7 @@ ChartPlane::Found ChartPlane::find_around(std::int32_t first, const Vec2& p) con
     std::size_t best = around.size();
     for (std::size_t k = 0; k < around.size(); ++k)
       if (done[k] == 0 && (best == around.size() || around[k].outside < around[best].outside)) best = k;
-    if (best == around.size() || around.size() >= max_around || !(around[best].outside > 0)) break;
+    if (best == around.size() || around.size() >= rounding_of::max_steps || !(around[best].outside > 0)) break;
     done[best] = 1;
     for (const std::int32_t u : atlas_.at(around[best].triangle).beyond)
       if (is_shown(u) && std::ranges::find(around, u, &Found::triangle) == around.end())

@@ -43,11 +43,9 @@ inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
 inline constexpr std::size_t least_samples = 40;
 /// Share of the size. A vertex is lifted again if its lifted place is farther from its place in the plane.
 inline constexpr double max_miss = 0.05;
-/// Largest number of cells of the raster of a chart, of triangles on the quickest way to a place, and of triangles on a
-/// straight way behind. One cell may contain many needles. [ProjectedMeshes.FansOfNeedlesAreNotFolded]
-inline constexpr int max_cells = 1 << 20, max_steps = 64, max_straight_steps = 1 << 16;
-/// Triangles around that are searched if a barrier is in the way.
-inline constexpr std::size_t max_around = 64;
+/// Largest number of cells of the raster of a chart, and of triangles on a straight way to a place: one cell may contain many needles.
+/// [ProjectedMeshes.FansOfNeedlesAreNotFolded]
+inline constexpr int max_cells = 1 << 20;
 /// Rings of triangles beyond the border of a chart in its raster: cuts are straightened.
 inline constexpr int rings_beyond = 2;
 
