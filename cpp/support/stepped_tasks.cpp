@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "support/helpers.h"
+#include "support/threads/helpers.h"
 
 namespace carreau {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "support/helpers.h"
+#include "support/threads/helpers.h"
 
 // oneTBB is not instrumented, so the thread sanitizer needs to know when it hands work to another thread.
 #if defined(__has_feature)

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/helpers.h"
+#include "support/threads/helpers.h"
 
 namespace carreau {
 
