@@ -107,7 +107,7 @@ void MeshRounds::refine(Inspector& inspector) {
     best_.reset();
     inspector.keep();
   }
-  restore();
+  restore(inspector.keeps_patches());
   inspector.report(run_);
 }
 
@@ -157,7 +157,9 @@ void MeshRounds::apply(const RefinementRequests& requests) {
 }
 
 // Gives the run the best mesh with its input, and reports failed faces that no message has named yet.
-void MeshRounds::restore() {
+void MeshRounds::restore(bool keeps_patches) {
+  if (!keeps_patches) run_.known.end();
+  if (best_) run_.known.clear();  // known are patches of the discarded mesh, without its spaces
   run_.options.max_triangles = max_triangles_;
   if (best_) {
     run_.result = std::move(best_->result);
@@ -167,7 +169,6 @@ void MeshRounds::restore() {
     best_.reset();
   }
   run_.trying = false;
-  run_.known.end();
   for (const FaceMesh& face : run_.result.mesh.faces)
     if (face.status == FaceStatus::failed) run_.report(Level::error, face.why);
 }

@@ -37,7 +37,7 @@ class MeshRounds {
   [[nodiscard]] bool mesh_again(const RefinementRequests& requests);
   void put_aside();
   void apply(const RefinementRequests& requests);
-  void restore();
+  void restore(bool keeps_patches);
 
   CompositeRun& run_;
   const NarrowModel narrow_;

@@ -271,8 +271,8 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
   if (has_discrete(known) && !s.triangles)
     throw InvalidModel("the model has faces given by triangles, and no triangles");
-  if (has_discrete(known) && !known.periodicities.empty())
-    throw InvalidModel("faces given by triangles cannot be periodic: their meshes are made in space");
+  if (has_discrete(known) && !is_discrete(known) && !known.periodicities.empty())
+    throw InvalidModel("faces given by triangles cannot be periodic beside faces with curves");
   if (is_discrete(known)) {
     make_discrete_mesh(known, whole_cad, making, measuring, run);
     if (part != nullptr) *part = part_of_mesh();

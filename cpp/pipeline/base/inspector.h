@@ -39,6 +39,8 @@ class Inspector {
   [[nodiscard]] virtual std::optional<RefinementRequests> requests(const CompositeRun& run) = 0;
   /// The mesh that the last requests describe could not be made. Gives whether other requests may follow.
   [[nodiscard]] virtual bool continues_after_failure() { return false; }
+  /// Later inspectors find the patches and control spaces as the rounds made them: faces that do not change keep theirs.
+  [[nodiscard]] virtual bool keeps_patches() const { return false; }
   /// Writes the findings on the kept mesh into the result, and reports them.
   virtual void report(CompositeRun& run) = 0;
 };

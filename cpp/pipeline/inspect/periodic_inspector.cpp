@@ -21,6 +21,7 @@ class PeriodicInspector final : public Inspector {
     if (round_++ == run.options.crossing_rounds || now_ == 0) return {};
     return RefinementRequests{.segments = {}, .sizes = run.turned};
   }
+  [[nodiscard]] bool keeps_patches() const override { return true; }
   // The loop reports the faces that stay failed.
   void report(CompositeRun& /*run*/) override {}
 

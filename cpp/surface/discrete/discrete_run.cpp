@@ -5,6 +5,8 @@
 #include <chrono>
 #include <numbers>
 
+#include "support/error.h"
+#include "surface/discrete/periodic_triangles.h"
 #include "surface/discrete/start_mesh.h"
 #include "surface/elements/cross_patch/cross_patch_elements.h"
 #include "surface/remesh/strategies.h"
@@ -50,16 +52,30 @@ struct Start {
   discrete::RefinedMesh refined;
   MeshSizes wanted;
   CompositeResult result;
+  PeriodicTriangles periodic = {};
 };
+
+/// Finds pairs, and gives both sides the smaller sizes: their lines need as many vertices. Returns whether they have.
+bool begin_periodic(const Model& model, const discrete::DiscreteCad& surface, Start& start, double& longest_of_lines) {
+  start.periodic = find_periodic_triangles(model, surface.discrete().mesh().diagonal(), start.result.mesh);
+  const double least = share_sizes(start.periodic, start.result.mesh, start.wanted.h);
+  start.result.vertex_size = start.wanted.h;
+  const bool enough = least >= longest_of_lines * (1 - same_size);
+  longest_of_lines = std::min(longest_of_lines, least);
+  return enough;
+}
 
 void begin(const Model& model, const discrete::DiscreteCad& surface, const DiscreteSizes& sizes,
            const CompositeOptions& options, double longest, Monitor& monitor, Start& start) {
   monitor.progress(Phase::curves, 0, 0);
-  start.refined = refine_by_sizes(surface.discrete(), sizes, options, monitor, longest);
-  start.wanted = sizes.at_vertices(start.refined, monitor);
-  start.result = {};
-  start.result.vertex_size = start.wanted.h;
-  start.result.mesh = start_mesh(model, surface, start.refined);
+  double longest_of_lines = 1;
+  do {
+    start.refined = refine_by_sizes(surface.discrete(), sizes, options, monitor, longest, longest_of_lines);
+    start.wanted = sizes.at_vertices(start.refined, monitor);
+    start.result = {};
+    start.result.vertex_size = start.wanted.h;
+    start.result.mesh = start_mesh(model, surface, start.refined);
+  } while (!model.periodicities.empty() && !begin_periodic(model, surface, start, longest_of_lines));
   start.result.interfaces.resize(model.faces.size());
   start.result.spaces.resize(model.faces.size());
   monitor.progress(Phase::patches, 0, 0.2);
@@ -79,6 +95,11 @@ double longest_of_atlas(const MeshSizes& wanted) {
 bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor,
                     Start& start) {
   RemeshingFrame frame = start_frame(surface, start.refined, start.result.mesh, start.wanted, options, cad, monitor);
+  if (!start.periodic.empty()) {
+    frame.twin = start.periodic.twins(frame.lines.size());
+    frame.corners.insert(frame.corners.end(), start.periodic.corners.begin(), start.periodic.corners.end());
+    std::ranges::sort(frame.corners);
+  }
   frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
@@ -118,10 +139,16 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   const MeshSizes known = sizes.at_vertices(unrefined(surface.discrete()), monitor);
   Start start;
   bool made = false;
-  if (may_be_made_in_planes(options, known)) {
+  const bool periodic = !model.periodicities.empty();
+  if (periodic && (options.element != Element::p1 || known.by_direction()))
+    throw InvalidArgument("faces given by triangles are periodic: their mesh needs the element p1 and sizes without direction");
+  if (periodic || may_be_made_in_planes(options, known)) {
     begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
     made = make_in_planes(surface, options, cad, monitor, start);
   }
+  if (periodic && !made)
+    throw DomainError("faces given by triangles are periodic, and parametric remeshing is not possible: only it divides periodic lines alike");
+  make_periodic(start.periodic, cad, start.result, monitor);
   if (!made) {
     begin(model, surface, sizes, options, std::numbers::sqrt2, monitor, start);
     make_by_edits(surface, options, cad, monitor, start);

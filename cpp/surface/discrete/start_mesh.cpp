@@ -128,7 +128,8 @@ class PatchLine final : public LineGeometry {
 double angle_slack_of(const CompositeOptions& options) { return options.size.geo_guarantee ? 1 : angle_slack; }
 
 RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
-                            const CompositeOptions& options, Monitor& monitor, double longest) {
+                            const CompositeOptions& options, Monitor& monitor, double longest,
+                            double longest_of_lines) {
   MeshSizes size;
   std::vector<char> on_line;
   discrete::RefinementWish wish;
@@ -140,7 +141,7 @@ RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const Disc
         for (const std::int32_t k : line) on_line[index(k)] = 1;
     }
     const bool line = on_line[index(v)] != 0 && on_line[index(w)] != 0;
-    const double most = line ? 1 : longest;
+    const double most = line ? longest_of_lines : longest;
     if (size.by_direction()) return size.length(mesh, v, w) > most;
     const double h = 0.5 * (size.h[index(v)] + size.h[index(w)]);
     return norm(mesh.vertices[index(w)] - mesh.vertices[index(v)]) > most * h;

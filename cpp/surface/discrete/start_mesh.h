@@ -11,9 +11,10 @@
 namespace carreau {
 
 /// Cuts triangles until edges are short enough for their sizes: edges of sharp lines at most 1 size, others at most
-/// sqrt(2) sizes. Throws LimitError when there would be too many. `longest` replaces the limit of the other edges.
+/// sqrt(2) sizes. Throws LimitError when there would be too many. `longest_of_lines`, `longest` replace these limits.
 discrete::RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
-                                      const CompositeOptions& options, Monitor& monitor, double longest = std::numbers::sqrt2);
+                                      const CompositeOptions& options, Monitor& monitor, double longest = std::numbers::sqrt2,
+                                      double longest_of_lines = 1);
 
 /// Each triangle has (u, v) on the tile of its patch; curves are the sharp lines. Faces as in the model.
 SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface, const discrete::RefinedMesh& refined);

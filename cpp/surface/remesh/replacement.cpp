@@ -59,7 +59,10 @@ Replacement::Replacement(RemeshingFrame& frame, Cad& cad, const CompositeOptions
 
 std::vector<WorkedLine> Replacement::lines() const {
   std::vector<WorkedLine> worked;
-  for (const SharpLine& line : frame_.lines) worked.emplace_back(line, frame_.geometry(line));
+  for (std::size_t k = 0; k < frame_.lines.size(); ++k) {
+    worked.emplace_back(frame_.lines[k], frame_.geometry(frame_.lines[k]));
+    worked.back().fixed = !frame_.twin.empty() && frame_.twin[k] >= 0;
+  }
   return worked;
 }
 

@@ -4,6 +4,7 @@
 import ctypes
 import glob
 import importlib
+import itertools
 import math
 import os
 import shutil
@@ -48,6 +49,50 @@ def six_tubes(inner=0.5, opening=0.35):
     lines = [str(len(patches))]
     for rows in patches:
         lines += ["3 3", *(" ".join(repr(x) for x in point) for point in rows)]
+    return "\n".join(lines) + "\n"
+
+
+def gyroid(n):
+    """Triangles of the gyroid in [0, 2 pi]^3 by tetrahedra of n^3 cubes, as a file .off: opposite sides have equal vertices."""
+    step = 2 * math.pi / n
+    waves = [math.sin(step * i) for i in range(n)], [math.cos(step * i) for i in range(n)]
+
+    def level(p):
+        (s, c), (x, y, z) = waves, (i % n for i in p)
+        return s[x] * c[y] + s[y] * c[z] + s[z] * c[x] + 1e-3
+
+    paths = [(0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)]
+    number, points, triangles = {}, [], []
+
+    def crossing(p, q):
+        if (key := (min(p, q), max(p, q))) not in number:
+            (a, b), number[key] = key, len(points)
+            share = level(a) / (level(a) - level(b))
+            points.append([step * (x + share * (y - x)) for x, y in zip(a, b)])
+        return number[key]
+
+    for cube in itertools.product(range(n), repeat=3):
+        for path in paths:
+            corners = [cube]
+            for axis in path:
+                corners.append(tuple(x + (k == axis) for k, x in enumerate(corners[-1])))
+            above = [p for p in corners if level(p) > 0]
+            below = [p for p in corners if level(p) <= 0]
+            if len(above) == 2:
+                (a, b), (c, d) = above, below
+                ring = [crossing(a, c), crossing(a, d), crossing(b, d), crossing(b, c)]
+            elif len(above) in (1, 3):
+                ring = [crossing(p, q) for p in above for q in below]
+            else:
+                continue
+            for k in range(1, len(ring) - 1):
+                triangle = [ring[0], ring[k], ring[k + 1]]
+                (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (points[v] for v in triangle)
+                u, v = (bx - ax, by - ay, bz - az), (cx - ax, cy - ay, cz - az)
+                normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+                up = sum(m * (sum(p[i] for p in above) / len(above) - sum(p[i] for p in below) / len(below)) for i, m in enumerate(normal))
+                triangles.append(triangle if up > 0 else triangle[::-1])
+    lines = ["OFF", f"{len(points)} {len(triangles)} 0", *(" ".join(map(repr, p)) for p in points), *(f"3 {a} {b} {c}" for a, b, c in triangles)]
     return "\n".join(lines) + "\n"
 
 
@@ -114,11 +159,59 @@ class Cells(unittest.TestCase):
                     self.assertTrue(made.same_cells(slave, master, nodes))
                 self.assertEqual(made.euler_of_skin(), 8)
 
-    def test_faces_of_triangles_are_reported(self):
-        stl = self.mesh(os.path.join(CELLS, "cube.step"), name="cube.stl", size="0.3")
+    def check_triangles(self, path, pairs):
+        """Faces of triangles: exact images, equal elements, a sound mesh."""
+        made = Mesh(path)
+        self.assertEqual(len(made.faces()), pairs)
+        self.assertLess(made.mismatch(), 2e-12)
+        for _, slave, master, _, nodes in made.faces():
+            self.assertTrue(made.same_cells(slave, master, nodes), (slave, master))
+        self.assertEqual(run("check", path).returncode, 0)
+        return made
+
+    def test_a_cube_of_triangles(self):
+        """Both sides have different triangles: the cube is exported without pairs."""
+        stl = self.mesh(os.path.join(CELLS, "cube.step"), "--face-size", "1=.11", name="cube.stl", size="0.3")
+        for options in ((), ("--size-map", ".04 + .1*x"), ("--threads", "3")):
+            with self.subTest(options):
+                made = self.check_triangles(self.mesh(stl, *AXES, *options), 3)
+                self.assertEqual(sum(pair[0] == 1 for pair in made.pairs), 9)  # twelve edges in three classes
+                self.assertEqual(sum(pair[0] == 0 for pair in made.pairs), 7)  # eight corners in one
+                self.assertEqual(euler([c for f in made.cells.values() for c in f]), 2)
+
+    def test_spheres_of_triangles_in_the_corners_and_faces_of_a_cube(self):
+        """Glued, the surface in the cell is four whole spheres; sizes are uniform or follow curvature."""
+        stl = self.mesh(os.path.join(CELLS, "fcc.step"), *AXES, name="fcc.stl", size="0.04")
+        for options in ((), ("--angle", "12")):
+            with self.subTest(options):
+                made = self.check_triangles(self.mesh(stl, *AXES, *options, size="0.08"), 3)
+                self.assertEqual(made.euler_of_skin(), 8)
+
+    def test_a_sector_of_triangles(self):
+        """Both sides of the sector meet in its axis, whose vertices are their own images."""
+        stl = self.mesh(os.path.join(CELLS, "sector.step"), "--periodic", "rotate:0,0,0:0,0,1:60", name="sector.stl", size="0.05")
+        self.check_triangles(self.mesh(stl, "--periodic", "rotate:0,0,0:0,0,1:60"), 1)
+
+    def test_a_minimal_surface_of_triangles(self):
+        """The gyroid sin x cos y + sin y cos z + sin z cos x = 0 in its cell, an open sheet: glued, it has no border and genus 3 for each of two
+        primitive cells, so V - E + F = -8."""
+        made = Mesh(self.mesh(self.path("gyroid.off", gyroid(16)), *AXES, size="0.4"))
+        self.assertEqual(made.faces(), [])
+        self.assertLess(made.mismatch(), 2e-12)
+        self.assertEqual(self.euler_of(made), -8)
+
+    def test_triangles_that_do_not_match_are_reported(self):
+        stl = self.mesh(os.path.join(CELLS, "mismatch.step"), name="mismatch.stl", size="0.1")
         done = run("mesh", stl, "-o", self.path("none.msh"), "--periodic", "x")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("given by triangles", done.stderr)
+        self.assertIn("do not match", done.stderr)
+        self.assertIn("apart at (", done.stderr)
+        cube = self.mesh(os.path.join(CELLS, "cube.step"), name="cube.stl", size="0.3")
+        for options, words in ((("--element", "p2"), "need the element p1"), (("--anisotropic", "--angle", "10"), "need the element p1"),
+                               (("--periodic", "7=1"), "no such face with triangles")):
+            done = run("mesh", cube, "-o", self.path("none.msh"), "--periodic", "x", *options)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(words, done.stderr)
 
     def test_med_has_an_equivalence_for_each_pair(self):
         libraries = sorted(glob.glob("/usr/lib/*/libmedC.so.*"))

@@ -55,6 +55,14 @@ TopoDS_Shape cut(const TopoDS_Shape& from, const TopTools_ListOfShape& tools) {
   return operation.Shape();
 }
 
+// Direction of the seams of a sphere and its images, into the cell from the faces that cut the sphere: OpenCASCADE 7.6 reads a sphere
+// that is cut across its seam back from STEP as a part of its complement.
+gp_Dir seam_of(const Centre& c, double radius) {
+  const auto inwards = [radius](double x) { return x < radius ? 1. : x > 1 - radius ? -1. : 0.; };
+  const double x = inwards(c[0]), y = inwards(c[1]);
+  return x == 0 && y == 0 ? gp_Dir(1, 0, 0) : gp_Dir(x, y, 0);
+}
+
 // Spheres with their periodic images as far as these meet the unit cube.
 TopoDS_Shape without_spheres(const std::vector<Centre>& centres, double radius) {
   TopTools_ListOfShape spheres;
@@ -63,7 +71,7 @@ TopoDS_Shape without_spheres(const std::vector<Centre>& centres, double radius) 
       const Centre p{c[0] + image % 3 - 1, c[1] + image / 3 % 3 - 1, c[2] + image / 9 - 1};
       double distance = 0;
       for (const double x : p) distance += std::pow(std::max({-x, x - 1, 0.}), 2);
-      if (std::sqrt(distance) < radius) spheres.Append(BRepPrimAPI_MakeSphere(gp_Pnt(p[0], p[1], p[2]), radius).Shape());
+      if (std::sqrt(distance) < radius) spheres.Append(BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(p[0], p[1], p[2]), gp_Dir(0, 0, 1), seam_of(c, radius)), radius).Shape());
     }
   return cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), spheres);
 }

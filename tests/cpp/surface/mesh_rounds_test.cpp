@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include "common/analytic_cad.h"
@@ -19,7 +21,8 @@ using testing::AnalyticCad;
 /// A unit square in space, with edges of a half.
 struct Square {
   Square() {
-    cad.faces[1] = {[](Vec2 p) {
+    cad.faces[1] = {[this](Vec2 p) {
+                      ++evaluations;
                       return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
                     },
                     testing::rectangle({0, 0}, {1, 1})};
@@ -43,6 +46,7 @@ struct Square {
     return edges;
   }
 
+  std::atomic<std::int64_t> evaluations{0};
   AnalyticCad cad;
   Monitor monitor;
   Model model;
@@ -57,7 +61,7 @@ struct Square {
 class Scripted final : public Inspector {
  public:
   int rounds = 0;
-  bool better = true, survives = false;
+  bool better = true, survives = false, keeps = false;
   std::function<RefinementRequests(const CompositeRun&)> request;
   int inspected = 0, kept = 0, reported = 0;
 
@@ -69,6 +73,7 @@ class Scripted final : public Inspector {
     return request(run);
   }
   [[nodiscard]] bool continues_after_failure() override { return survives; }
+  [[nodiscard]] bool keeps_patches() const override { return keeps; }
   void report(CompositeRun& /*run*/) override { ++reported; }
 };
 
@@ -140,6 +145,39 @@ TEST(MeshRounds, BeginAgainWithTheFirstCurves) {
     return RefinementRequests{.first_curves = true};
   };
   square.rounds->refine(inspector);
+  EXPECT_EQ(square.run->result.mesh.vertices, before);
+}
+
+// A round that requests nothing meshes no face, unless an inspector before it may have changed patches or spaces.
+TEST(MeshRounds, KeepPatchesOfFacesThatDoNotChange) {
+  std::int64_t evaluations[2] = {};
+  for (const bool keeps : {false, true}) {
+    Square square;
+    const std::vector<Vec3> before = square.run->result.mesh.vertices;
+    Scripted first, second;
+    first.keeps = keeps;
+    square.rounds->refine(first);
+    second.rounds = 1;
+    second.request = [](const CompositeRun& /*run*/) { return RefinementRequests{}; };
+    const std::int64_t first_mesh = square.evaluations;
+    square.rounds->refine(second);
+    evaluations[keeps ? 1 : 0] = square.evaluations - first_mesh;
+    EXPECT_EQ(square.run->result.mesh.vertices, before);
+  }
+  EXPECT_GT(evaluations[0], 0);
+  EXPECT_EQ(evaluations[1], 0);
+}
+
+// After a discarded mesh the patches of the kept mesh are made again: a later round never mixes both.
+TEST(MeshRounds, ForgetPatchesOfADiscardedMesh) {
+  Square square;
+  const std::vector<Vec3> before = square.run->result.mesh.vertices;
+  Scripted first, second;
+  first.keeps = true, first.better = false, first.rounds = second.rounds = 1;
+  first.request = halve_all;
+  second.request = [](const CompositeRun& /*run*/) { return RefinementRequests{}; };
+  square.rounds->refine(first);
+  square.rounds->refine(second);
   EXPECT_EQ(square.run->result.mesh.vertices, before);
 }
 

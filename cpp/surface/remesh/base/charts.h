@@ -49,6 +49,7 @@ class Charts {
   [[nodiscard]] std::vector<OnEdge> triangles_on(const MeshEdge& barrier) const;
   [[nodiscard]] std::int32_t face(const Foot& f) const { return triangles_[f.triangle].face; }
   [[nodiscard]] int reference(std::int32_t face) const { return ref_[face]; }
+  [[nodiscard]] const Vec3& xyz(std::int32_t vertex) const { return xyz_[vertex]; }
   [[nodiscard]] Vec2 uv(std::int32_t triangle, int corner) const {
     const Triangle& t = triangles_[triangle];
     return uv_[t.face][t.local[corner]];

@@ -191,7 +191,7 @@ WorkedLine::WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geom
 std::vector<std::int32_t> remesh_lines(CrossPatchMesh& mesh, std::span<WorkedLine> lines, Monitor& monitor) {
   std::vector<std::int32_t> changed;
   for (WorkedLine& line : lines) {
-    if (line.left.size() < 3) continue;
+    if (line.fixed || line.left.size() < 3) continue;
     const auto more = LineRemesher(mesh, line, monitor).run();
     changed.insert(changed.end(), more.begin(), more.end());
   }

@@ -24,6 +24,7 @@ struct WorkedLine {
   std::unique_ptr<LineGeometry> places;
   std::vector<LineNode> left;
   bool closed;
+  bool fixed = false;  ///< its vertices stay
 
   WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geometry);
 };

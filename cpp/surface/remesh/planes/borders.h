@@ -38,6 +38,7 @@ struct BorderInput {
   std::span<const char> kept;          ///< for each vertex of the previous mesh: its chart stays as it is
   SurfaceTolerances tolerance;
   Cad& cad;
+  std::span<const std::int32_t> twin = {};  ///< RemeshingFrame::twin
 };
 
 /// Returns nothing if edges have more than two triangles, or lines too few vertices for the sizes.

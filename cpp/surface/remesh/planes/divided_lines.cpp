@@ -116,6 +116,27 @@ std::optional<DividedLine> divide_line(const BorderInput& input, std::size_t ran
   return {};
 }
 
+namespace {
+
+/// The line with the nodes of its twin at the same shares of its length. Returns nothing if it has fewer vertices.
+std::optional<DividedLine> divide_like(const BorderInput& input, std::size_t rank, const std::vector<LineNode>& twin) {
+  const WorkedLine& worked = input.worked[rank];
+  const std::vector<double>& arcs = worked.places->arcs();
+  if (twin.size() > arcs.size()) return {};
+  std::vector<double> to;
+  for (const LineNode& node : twin) to.push_back(node.arc / twin.back().arc * arcs.back());
+  const std::vector<std::size_t> ranks = nearest_ranks(arcs, to);
+  DividedLine divided;
+  for (std::size_t j = 0; j < to.size(); ++j) {
+    const bool end = j == 0 || j + 1 == to.size();
+    divided.nodes.push_back({input.lines[rank].vertices[ranks[j]], end ? arcs[ranks[j]] : to[j]});
+    divided.places.push_back(end ? KeptPlaces{} : worked.places->at(to[j]));
+  }
+  return divided;
+}
+
+}  // namespace
+
 std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor) {
   Borders borders;
   borders.number.assign(input.atlas.mesh.vertices.size(), -1);
@@ -123,8 +144,13 @@ std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor) {
   for (std::size_t line = 0; line < input.lines.size(); ++line) {
     monitor.checkpoint();
     const bool exact = is_exact(input, line);
-    std::optional<DividedLine> divided = exact ? every_vertex(input, line) : divide_line(input, line, 1);
-    if (!exact && divided && divided->nodes.size() == 2) {
+    const std::int32_t twin = input.twin.empty() ? -1 : input.twin[line];
+    const bool follows = twin >= 0 && twin < static_cast<std::int32_t>(line);
+    std::optional<DividedLine> divided = follows ? divide_like(input, line, borders.lines[twin])
+                                         : exact ? every_vertex(input, line)
+                                                 : divide_line(input, line, 1);
+    if (!divided && follows) return {};
+    if (!exact && !follows && divided && divided->nodes.size() == 2) {
       const auto& [first, last] = std::pair{divided->nodes.front().vertex, divided->nodes.back().vertex};
       if (!lone.insert(mesh_edge(first, last)).second) divided = divide_line(input, line, 2);
     }

@@ -101,6 +101,7 @@ struct BorderSource {
   SurfaceTolerances tolerance;
   int threads;
   Cad& cad;
+  std::span<const std::int32_t> twin;
 };
 
 /// Charts with their borders in their planes; charts with invalid borders are wrong.
@@ -123,7 +124,8 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
       for (const std::int32_t v : source.atlas.at(static_cast<std::int32_t>(t)).vertex) kept[v] = 1;
   }
   auto borders = cut_borders(
-      {source.atlas, found, source.lines, source.worked, source.size, exact, kept, source.tolerance, source.cad},
+      {source.atlas, found, source.lines, source.worked, source.size, exact, kept, source.tolerance, source.cad,
+       source.twin},
       monitor);
   if (!borders) return {};
   Plan plan{std::move(*borders), {}, {}, {}, {}};
@@ -293,7 +295,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     return refuse("a face is turned");
   const FlatAtlas flat(atlas, before, frame.jets);
   const BorderSource source{
-      flat, frame.lines, worked, size, tolerances, options.crew.threads, cad};
+      flat, frame.lines, worked, size, tolerances, options.crew.threads, cad, frame.twin};
   ProjectedCharts found = find_charts(flat, monitor);
   if (!frame.kept.empty()) keep_triangles(flat, frame.kept, found);
   std::optional<Plan> plan;

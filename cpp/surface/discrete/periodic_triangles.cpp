@@ -1,0 +1,591 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/discrete/periodic_triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "mesh/triangle_search.h"
+#include "model/format_point.h"
+#include "model/traces.h"
+#include "periodic/find_map.h"
+#include "periodic/thresholds.h"
+#include "support/error.h"
+#include "support/format.h"
+#include "support/infinity.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::periodic;
+
+struct Miss {
+  double distance = 0;
+  Vec3 where{0, 0, 0};
+};
+
+// Fractions of a line where its direction is compared.
+constexpr double quarter = 0.25;
+
+class Finder {
+ public:
+  Finder(const Model& model, double diag, SurfaceMesh& mesh) : model_(model), mesh_(mesh), lines_of_(mesh.faces.size()), boxes_(mesh.faces.size()) {
+    result_.gap = max_gap * diag;
+    for (const Periodicity& given : model.periodicities) add_map(given);
+    cut_at_images();
+    for (std::size_t c = 0; c < mesh.curves.size(); ++c)
+      for (const CurveMeshUse& use : mesh.curves[c].uses) lines_of_[use.face].insert(static_cast<int>(c));
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (const std::int32_t v : mesh.faces[f].vertex) boxes_[f].add(mesh.vertices[v]);
+  }
+
+  PeriodicTriangles run() {
+    for (const Periodicity& given : model_.periodicities) add(given);
+    collect(face_steps_, mesh_.faces.size(), false, result_.faces);
+    collect(line_steps_, mesh_.curves.size(), true, result_.lines);
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] int ref(int face) const { return mesh_.faces[face].ref; }
+  [[nodiscard]] std::vector<Vec3> trace_of(int line) const {
+    std::vector<Vec3> trace;
+    for (const std::int32_t v : mesh_.curves[line].vertices) trace.push_back(mesh_.vertices[v]);
+    return trace;
+  }
+  [[nodiscard]] bool is_closed(int line) const { return mesh_.curves[line].vertices.front() == mesh_.curves[line].vertices.back(); }
+  [[nodiscard]] std::vector<Vec3> image_of(int line, const Isometry& map) const {
+    std::vector<Vec3> image = trace_of(line);
+    for (Vec3& p : image) p = map(p);
+    return image;
+  }
+
+  [[nodiscard]] int index_of(int reference) const {
+    for (int f = 0; f < std::ssize(mesh_.faces); ++f)
+      if (ref(f) == reference && !mesh_.faces[f].triangles.empty()) return f;
+    throw InvalidModel(Where{.face = reference}, "the face is periodic, and the model has no such face with triangles");
+  }
+
+  void add(const Periodicity& given) {
+    if (norm(given.direction) > 0) return add_found(translation_along(given.direction));
+    if (given.slaves.empty()) return add_found(*given.map);
+    for (std::size_t i = 0; i < given.slaves.size(); ++i) {
+      const int slave = index_of(given.slaves[i]), master = index_of(given.masters[i]);
+      if (slave == master) throw InvalidModel(Where{.face = given.slaves[i]}, "the face is periodic with itself: divide it into a master and a slave");
+      std::optional<Isometry> map = given.map;
+      if (!map) map = find_map(ends_of(master), ends_of(slave), result_.gap, [&](const Isometry& m) { return lines_between(master, slave, m).has_value(); });
+      if (!map) throw InvalidModel(Where{.face = ref(slave)}, "no map carries face " + std::to_string(ref(master)) + " onto the face");
+      if (!add_face(master, slave, *map)) throw InvalidModel(Where{.face = ref(slave)}, why_not(master, slave, *map));
+    }
+  }
+
+  [[nodiscard]] std::vector<Vec3> ends_of(int face) const {
+    std::set<std::int32_t> ends;
+    for (const int c : lines_of_[face]) ends.insert({mesh_.curves[c].vertices.front(), mesh_.curves[c].vertices.back()});
+    std::vector<Vec3> points;
+    for (const std::int32_t v : ends) points.push_back(mesh_.vertices[v]);
+    return points;
+  }
+
+  [[nodiscard]] Isometry translation_along(const Vec3& direction) const {
+    const Vec3 along = direction / norm(direction);
+    double low = infinity, high = -infinity;
+    for (const Vec3& p : mesh_.vertices) low = std::min(low, dot(p, along)), high = std::max(high, dot(p, along));
+    char text[32];
+    std::snprintf(text, sizeof text, "%.12g", high - low);
+    Isometry map;
+    map.shift = std::strtod(text, nullptr) * along;
+    for (int i = 0; i < 3; ++i)
+      if (along[i] == 0) map.shift[i] = 0;
+    return map;
+  }
+
+  void add_map(const Periodicity& given) {
+    const bool known = given.map || norm(given.direction) > 0;
+    if (!known) return;
+    const Isometry map = norm(given.direction) > 0 ? translation_along(given.direction) : *given.map;
+    maps_.push_back(map), maps_.push_back(map.inverse());
+  }
+
+  // Angles of lines decide on corners, and rounding on angles: images of corners are corners.
+  void cut_at_images() {
+    std::vector<std::int32_t> corners;
+    std::set<std::int32_t> on_lines;
+    for (const CurveMesh& curve : mesh_.curves)
+      for (const std::int32_t v : curve.vertices)
+        if (on_lines.insert(v).second && mesh_.vertex_ref[v] != 0) corners.push_back(v);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      for (const Isometry& map : maps_) {
+        const Vec3 image = map(mesh_.vertices[corners[i]]);
+        const auto apart = [&](std::int32_t v) { return norm(mesh_.vertices[v] - image); };
+        const auto nearest = std::ranges::min_element(on_lines, {}, apart);
+        if (apart(*nearest) > result_.gap || mesh_.vertex_ref[*nearest] != 0) continue;
+        cut_line_at(*nearest);
+        mesh_.vertex_ref[*nearest] = *std::ranges::max_element(mesh_.vertex_ref) + 1;
+        corners.push_back(*nearest), result_.corners.push_back(*nearest);
+      }
+    std::ranges::sort(result_.corners);
+  }
+
+  void cut_line_at(std::int32_t v) {
+    for (std::size_t c = 0; c < mesh_.curves.size(); ++c) {
+      std::vector<std::int32_t>& chain = mesh_.curves[c].vertices;
+      const auto at = std::ranges::find(chain, v);
+      if (at == chain.end()) continue;
+      if (chain.front() == chain.back() && mesh_.vertex_ref[chain.front()] == 0) {
+        chain.pop_back();
+        std::rotate(chain.begin(), at, chain.end());
+        chain.push_back(v);
+        return;
+      }
+      CurveMesh rest = mesh_.curves[c];
+      rest.ref = static_cast<int>(mesh_.curves.size()) + 1;
+      rest.vertices.assign(at, chain.end());
+      chain.erase(at + 1, chain.end());
+      mesh_.curves.push_back(std::move(rest));
+      return;
+    }
+  }
+
+  // Pairs of faces, else pairs of open borders.
+  void add_found(const Isometry& map) {
+    std::size_t found = 0;
+    for (int m = 0; m < std::ssize(mesh_.faces); ++m)
+      for (int s = 0; s < std::ssize(mesh_.faces); ++s)
+        if (s != m && box_distance(m, s, map) <= result_.gap && add_face(m, s, map)) ++found;
+    for (int c = 0; c < std::ssize(mesh_.curves) && found == 0; ++c)
+      if (mesh_.curves[c].uses.size() == 1) found += add_border(c, map) ? 1 : 0;
+    if (found == 0) throw InvalidModel("the map of a periodicity carries no face and no border of the triangles onto another one; " + nearest_miss(map));
+  }
+
+  bool add_border(int from, const Isometry& map) {
+    for (int to = 0; to < std::ssize(mesh_.curves); ++to)
+      if (to != from && mesh_.curves[to].uses.size() == 1 && carries(from, to, map)) {
+        line_steps_.push_back({from, to, map});
+        return true;
+      }
+    return false;
+  }
+
+  [[nodiscard]] double box_distance(int master, int slave, const Isometry& map) const {
+    if (lines_of_[master].empty() || lines_of_[slave].empty()) return infinity;
+    BoxTree::Box image;
+    for (const std::int32_t v : mesh_.faces[master].vertex) image.add(map(mesh_.vertices[v]));
+    return std::max(norm(image.low - boxes_[slave].low), norm(image.high - boxes_[slave].high));
+  }
+
+  bool add_face(int master, int slave, const Isometry& map) {
+    const auto lines = lines_between(master, slave, map);
+    if (!lines) return false;
+    face_steps_.push_back({master, slave, map});
+    for (const auto& [from, to] : *lines)
+      if (from != to) line_steps_.push_back({from, to, map});
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::vector<std::pair<int, int>>> lines_between(int master, int slave, const Isometry& map) const {
+    const std::set<int>&from = lines_of_[master], &to = lines_of_[slave];
+    if (from.empty() || from.size() != to.size()) return {};
+    std::vector<std::pair<int, int>> pairs;
+    std::set<int> left = to;
+    for (const int c : from) {
+      const auto found = std::ranges::find_if(left, [&](int d) { return carries(c, d, map); });
+      if (found == left.end()) return {};
+      pairs.emplace_back(c, *found);
+      left.erase(found);
+    }
+    return pairs;
+  }
+
+  [[nodiscard]] bool carries(int from, int to, const Isometry& map) const {
+    if (is_closed(from) != is_closed(to)) return false;
+    const std::vector<Vec3> image = image_of(from, map), trace = trace_of(to);
+    const double gap = result_.gap;
+    const auto near = [gap](const Vec3& p, const Vec3& q) { return norm(p - q) <= gap; };
+    if (!is_closed(from) && !(near(image.front(), trace.front()) && near(image.back(), trace.back())) &&
+        !(near(image.front(), trace.back()) && near(image.back(), trace.front())))
+      return false;
+    return one_sided_distance(image, trace, gap) <= gap && one_sided_distance(trace, image, gap) <= gap;
+  }
+
+  [[nodiscard]] Miss miss_between(int master, int slave, const Isometry& map) const {
+    Miss worst;
+    const auto look = [&](int from, int to, const Isometry& by, bool there) {
+      for (const int c : lines_of_[from])
+        for (const Vec3& p : trace_of(c)) {
+          double nearest = infinity;
+          for (const int d : lines_of_[to]) nearest = std::min(nearest, nearest_on_trace(trace_of(d), by(p)).distance);
+          if (nearest > worst.distance) worst = {nearest, there ? by(p) : p};
+        }
+    };
+    look(master, slave, map, true);
+    look(slave, master, map.inverse(), false);
+    return worst;
+  }
+
+  [[nodiscard]] std::string why_not(int master, int slave, const Isometry& map) const {
+    const Miss miss = miss_between(master, slave, map);
+    return "the image of face " + std::to_string(ref(master)) + " and face " + std::to_string(ref(slave)) + " do not match: their boundaries " +
+           (miss.distance > result_.gap ? "are " + format_number(miss.distance) + " apart at " + format_point(miss.where)
+                                        : "are one, but their lines end at different corners");
+  }
+
+  [[nodiscard]] std::string nearest_miss(const Isometry& map) const {
+    double nearest = infinity;
+    int master = -1, slave = -1;
+    for (int m = 0; m < std::ssize(mesh_.faces); ++m)
+      for (int s = 0; s < std::ssize(mesh_.faces); ++s)
+        if (const double miss = s == m ? infinity : box_distance(m, s, map); miss < nearest) nearest = miss, master = m, slave = s;
+    return master < 0 ? "it has no two faces with lines" : "nearest is face " + std::to_string(ref(slave)) + ": " + why_not(master, slave, map);
+  }
+
+  // ---- classes ----
+
+  // Each slave once, with the map of the lowest of its class.
+  void collect(const std::vector<TrianglePair>& steps, std::size_t n, bool turns, std::vector<TrianglePair>& pairs) {
+    std::vector<std::vector<TrianglePair>> from(n);
+    for (const TrianglePair& step : steps) {
+      from[step.master].push_back(step);
+      from[step.slave].push_back({step.slave, step.master, step.map.inverse()});
+    }
+    std::vector<char> known(n, 0);
+    for (int root = 0; root < static_cast<int>(n); ++root) {
+      if (from[root].empty() || known[root] != 0) continue;
+      known[root] = 1;
+      std::vector<TrianglePair> reached{{root, root, {}}};
+      for (std::size_t i = 0; i < reached.size(); ++i) {
+        const TrianglePair at = reached[i];
+        for (const TrianglePair& step : from[at.slave]) {
+          if (known[step.slave] != 0) {
+            if (turns) require_way(at.slave, step);
+            continue;
+          }
+          known[step.slave] = 1;
+          if (turns) align(at.slave, step);
+          reached.push_back({root, step.slave, step.map.after(at.map)});
+        }
+      }
+      pairs.insert(pairs.end(), reached.begin() + 1, reached.end());
+    }
+  }
+
+  [[nodiscard]] bool runs_alike(const std::vector<Vec3>& image, const std::vector<Vec3>& trace) const {
+    return norm(image.front() - trace.front()) <= result_.gap &&
+           norm(trace_point(image, quarter) - trace_point(trace, quarter)) <= norm(trace_point(image, quarter) - trace_point(trace, 1 - quarter));
+  }
+
+  void require_way(int from, const TrianglePair& step) const {
+    if (runs_alike(image_of(from, step.map), trace_of(step.slave))) return;
+    throw InvalidModel("two chains of periodicities carry a line of the triangles onto itself, reversed or shifted, near " +
+                       format_point(trace_of(step.slave).front()) + ": such a line cannot be divided");
+  }
+
+  void align(int from, const TrianglePair& step) {
+    std::vector<std::int32_t>& chain = mesh_.curves[step.slave].vertices;
+    const std::vector<Vec3> image = image_of(from, step.map);
+    if (is_closed(step.slave)) {
+      chain.pop_back();
+      const auto apart = [&](std::int32_t v) { return norm(mesh_.vertices[v] - image.front()); };
+      const auto first = std::ranges::min_element(chain, {}, apart);
+      if (apart(*first) > result_.gap)
+        throw InvalidModel("a closed line of the triangles has no vertex at the image " + format_point(image.front()) +
+                           " of the first vertex of its periodic partner: the nearest is " + format_number(apart(*first)) + " away");
+      std::rotate(chain.begin(), first, chain.end());
+      chain.push_back(chain.front());
+    }
+    if (!runs_alike(image, trace_of(step.slave))) std::ranges::reverse(chain);
+    require_way(from, step);
+  }
+
+  const Model& model_;
+  SurfaceMesh& mesh_;
+  std::vector<std::set<int>> lines_of_;  // by face
+  std::vector<BoxTree::Box> boxes_;      // by face
+  std::vector<Isometry> maps_;           // that are given, and their inverses
+  std::vector<TrianglePair> face_steps_, line_steps_;
+  PeriodicTriangles result_;
+};
+
+/// The triangles of a face of the atlas.
+struct FaceSearch {
+  std::vector<std::int32_t> triangles;  // of the atlas
+  TriangleSearch search;
+};
+
+double size_on(const std::vector<double>& arcs, const std::vector<std::int32_t>& chain, std::span<const double> size, double arc) {
+  const auto next = std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(arcs, arc) - arcs.begin(), 1, std::ssize(arcs) - 1);
+  const double share = std::clamp((arc - arcs[next - 1]) / (arcs[next] - arcs[next - 1]), 0., 1.);
+  return (1 - share) * size[chain[next - 1]] + share * size[chain[next]];
+}
+
+std::vector<double> shares_of(const SurfaceMesh& mesh, const std::vector<std::int32_t>& chain) {
+  std::vector<double> arcs{0};
+  for (std::size_t k = 1; k < chain.size(); ++k) arcs.push_back(arcs.back() + norm(mesh.vertices[chain[k]] - mesh.vertices[chain[k - 1]]));
+  for (double& arc : arcs) arc /= arcs.back();
+  return arcs;
+}
+
+/// Replaces faces and links vertices.
+class Maker {
+ public:
+  Maker(const PeriodicTriangles& periodic, Cad& cad, CompositeResult& result, Monitor& monitor)
+      : periodic_(periodic), cad_(cad), result_(result), mesh_(result.mesh), monitor_(monitor) {}
+
+  void run() {
+    for (const TrianglePair& pair : periodic_.lines) link_line(pair);
+    for (const TrianglePair& pair : periodic_.faces) {
+      monitor_.checkpoint();
+      replace_face(pair);
+    }
+    drop_unused();
+    report();
+  }
+
+ private:
+  void link_line(const TrianglePair& pair) {
+    const std::vector<std::int32_t>&from = mesh_.curves[pair.master].vertices, &to = mesh_.curves[pair.slave].vertices;
+    const bool same = from.size() == to.size();
+    for (std::size_t k = 0; same && k < from.size(); ++k) join(pair.map, from[k], to[k]);
+    if (!same || worst_ > periodic_.gap)
+      throw InvalidModel("lines of the triangles that are periodic could not be divided alike, near " + format_point(mesh_.vertices[to.front()]) + ": " +
+                         std::to_string(from.size() - 1) + " and " + std::to_string(to.size() - 1) + " edges");
+  }
+
+  // Smooth curves of triangles depend on the triangles of one side: the image is as good a place.
+  void join(const Isometry& map, std::int32_t from, std::int32_t to) {
+    image_[{from, to}] = map;
+    const Vec3 target = map(mesh_.vertices[from]);
+    if (const double apart = norm(target - mesh_.vertices[to]); apart <= periodic_.gap && placed_.insert(to).second && placed_.insert(from).second)
+      mesh_.vertices[to] = target;
+    worst_ = std::max(worst_, norm(map(mesh_.vertices[from]) - mesh_.vertices[to]));
+  }
+
+  FaceSearch& search_of(int face) {
+    const auto known = searches_.find(face);
+    if (known != searches_.end()) return known->second;
+    FaceSearch& made = searches_[face];
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    const std::vector<Charts::Triangle>& all = result_.atlas->triangles();
+    for (std::size_t t = 0; t < all.size(); ++t) {
+      if (all[t].face != face) continue;
+      const auto first = static_cast<std::int32_t>(vertices.size());
+      for (int k = 0; k < 3; ++k) vertices.push_back(result_.atlas->xyz(all[t].vertex[k]));
+      made.triangles.push_back(static_cast<std::int32_t>(t)), triangles.push_back({first, first + 1, first + 2});
+    }
+    made.search = TriangleSearch(vertices, triangles, &monitor_);
+    return made;
+  }
+
+  [[nodiscard]] SurfacePlace closest(int face, const Vec3& target) {
+    const FaceSearch& search = search_of(face);
+    const NearestOnMesh near = search.search.nearest(target);
+    const std::int32_t t = search.triangles[near.triangle];
+    Foot foot{t, Vec2(0, 0)};
+    for (int k = 0; k < 3; ++k) foot.uv += near.weight[k] * result_.atlas->uv(t, k);
+    const SurfacePlace place = result_.atlas->evaluate(cad_, foot);
+    if (!(norm(place.xyz - target) > 0) || !place.regular) return place;
+    const std::optional<SurfacePlace> better = result_.atlas->towards(cad_, place, target);
+    return better && result_.atlas->face(better->foot) == face && norm(better->xyz - target) < norm(place.xyz - target) ? *better : place;
+  }
+
+  void replace_face(const TrianglePair& pair) {
+    const FaceMesh& from = mesh_.faces[pair.master];
+    FaceMesh& to = mesh_.faces[pair.slave];
+    std::map<std::int32_t, std::int32_t> on_lines;  // vertices of the master to vertices of the slave
+    for (const auto& [master, slave] : chained(pair.map)) on_lines.emplace(master, slave);
+    const std::set<std::int32_t> of_slave(to.vertex.begin(), to.vertex.end());
+    for (const std::int32_t v : from.vertex)  // on axes and in mirror planes
+      if (of_slave.contains(v) && norm(pair.map(mesh_.vertices[v]) - mesh_.vertices[v]) <= periodic_.gap) on_lines.emplace(v, v);
+    FaceMesh made;
+    made.ref = to.ref, made.name = to.name, made.rgb = to.rgb, made.status = to.status, made.why = to.why, made.part_of = to.part_of;
+    std::vector<std::int32_t> feet;
+    std::map<std::int32_t, std::int32_t> number;  // of the slave's vertices, by vertex of the master
+    for (std::size_t v = 0; v < from.vertex.size(); ++v) {
+      const std::int32_t x = from.vertex[v];
+      const Vec3 target = pair.map(mesh_.vertices[x]);
+      const SurfacePlace place = closest(pair.slave, target);
+      const auto known = on_lines.find(x);
+      if (known != on_lines.end()) {
+        made.vertex.push_back(known->second);
+      } else if (const auto again = number.find(x); again != number.end()) {
+        made.vertex.push_back(again->second);
+      } else {
+        const double apart = norm(place.xyz - target);
+        if (apart > periodic_.gap)
+          throw InvalidModel(Where{.face = to.ref}, "the image of the mesh of face " + std::to_string(from.ref) + " is " + format_number(apart) +
+                                                        " away from the triangles at " + format_point(target));
+        number[x] = static_cast<std::int32_t>(mesh_.vertices.size());
+        made.vertex.push_back(number[x]);
+        mesh_.vertices.push_back(target);
+        mesh_.vertex_ref.push_back(0);
+        result_.vertex_size.push_back(result_.vertex_size[x]);
+        worst_ = std::max(worst_, norm(mesh_.vertices.back() - target));
+      }
+      made.uv.push_back(place.foot.uv);
+      made.uv_face.push_back(pair.slave);
+      feet.push_back(place.foot.triangle);
+    }
+    const bool turned = turns_over(pair, from, to, on_lines);
+    for (const auto& t : from.triangles) {
+      made.triangles.push_back(turned ? std::array{t[0], t[2], t[1]} : t);
+      const bool one = feet[t[0]] == feet[t[1]] && feet[t[1]] == feet[t[2]];
+      made.spread.push_back(one ? 0 : 1);
+    }
+    PeriodicLink& link = mesh_.periodic.emplace_back(PeriodicLink{.dimension = 2, .master = from.shown_ref(), .slave = to.shown_ref(), .map = pair.map});
+    for (std::size_t v = 0; v < from.vertex.size(); ++v) link.nodes.push_back({made.vertex[v], from.vertex[v]});
+    to = std::move(made);
+    result_.feet[pair.slave] = std::move(feet);
+  }
+
+  static bool same_map(const Isometry& a, const Isometry& b) {
+    double apart = norm(a.shift - b.shift) / (1 + norm(a.shift));
+    for (int i = 0; i < 3; ++i) apart = std::max(apart, norm(a.row[i] - b.row[i]));
+    return apart <= 1e-9;
+  }
+
+  // Vertices of lines whose maps together are the map: the roots of classes lie between them.
+  [[nodiscard]] std::map<std::int32_t, std::int32_t> chained(const Isometry& map) const {
+    std::map<std::int32_t, std::vector<std::pair<std::int32_t, Isometry>>> of_root;
+    for (const auto& [vertices, known] : image_) of_root[vertices.first].push_back({vertices.second, known});
+    std::map<std::int32_t, std::int32_t> found;
+    for (auto& [root, members] : of_root) {
+      members.push_back({root, {}});
+      for (const auto& [master, first] : members)
+        for (const auto& [slave, second] : members)
+          if (same_map(map.after(first), second)) found.emplace(master, slave);
+    }
+    return found;
+  }
+
+  // An edge of a line runs in the master's triangles as its image does in the slave's, or against it.
+  [[nodiscard]] static bool turns_over(const TrianglePair& pair, const FaceMesh& from, const FaceMesh& to, const std::map<std::int32_t, std::int32_t>& on_lines) {
+    std::set<std::array<std::int32_t, 2>> edges;
+    for (const auto& t : to.triangles)
+      for (std::size_t i = 0; i < 3; ++i) edges.insert({to.vertex[t[i]], to.vertex[t[(i + 1) % 3]]});
+    for (const auto& t : from.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto a = on_lines.find(from.vertex[t[i]]), b = on_lines.find(from.vertex[t[(i + 1) % 3]]);
+        if (a == on_lines.end() || b == on_lines.end()) continue;
+        const bool along = edges.contains({a->second, b->second}), against = edges.contains({b->second, a->second});
+        if (along != against) return against;
+      }
+    return pair.map.reflects();
+  }
+
+  void drop_unused() {
+    std::vector<std::int32_t> number(mesh_.vertices.size(), -1);
+    for (const FaceMesh& face : mesh_.faces)
+      for (const auto& t : face.triangles)
+        for (const std::int32_t v : t) number[face.vertex[v]] = 0;
+    std::int32_t n = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] < 0) continue;
+      mesh_.vertices[n] = mesh_.vertices[v], mesh_.vertex_ref[n] = mesh_.vertex_ref[v], result_.vertex_size[n] = result_.vertex_size[v];
+      number[v] = n++;
+    }
+    mesh_.vertices.resize(n), mesh_.vertex_ref.resize(n), result_.vertex_size.resize(n);
+    for (FaceMesh& face : mesh_.faces)
+      for (std::int32_t& v : face.vertex) v = number[v];
+    for (CurveMesh& curve : mesh_.curves)
+      for (std::int32_t& v : curve.vertices) v = number[v];
+    for (PeriodicLink& link : mesh_.periodic)
+      for (auto& pair : link.nodes) pair = {number[pair[0]], number[pair[1]]};
+  }
+
+  void report() {
+    std::vector<PeriodicLink> faces = std::move(mesh_.periodic);
+    mesh_.periodic.clear();
+    std::set<std::int32_t> ends;
+    for (const TrianglePair& pair : periodic_.lines) {
+      const std::vector<std::int32_t>&from = mesh_.curves[pair.master].vertices, &to = mesh_.curves[pair.slave].vertices;
+      for (const bool last : {false, true}) {
+        const std::int32_t v = last ? from.back() : from.front(), w = last ? to.back() : to.front();
+        if (v == w || mesh_.vertex_ref[v] == 0 || mesh_.vertex_ref[w] == 0 || !ends.insert(w).second) continue;
+        mesh_.periodic.push_back({.dimension = 0, .master = mesh_.vertex_ref[v], .slave = mesh_.vertex_ref[w], .map = pair.map, .nodes = {{w, v}}});
+      }
+    }
+    std::size_t nodes = 0;
+    for (const TrianglePair& pair : periodic_.lines) {
+      const CurveMesh &from = mesh_.curves[pair.master], &to = mesh_.curves[pair.slave];
+      PeriodicLink link{.dimension = 1, .master = from.shown_ref(), .slave = to.shown_ref(), .map = pair.map};
+      for (std::size_t k = 0; k < from.vertices.size(); ++k) link.nodes.push_back({to.vertices[k], from.vertices[k]});
+      nodes += faces.empty() ? from.vertices.size() : 0;
+      mesh_.periodic.push_back(std::move(link));
+    }
+    for (PeriodicLink& link : faces) nodes += link.nodes.size(), mesh_.periodic.push_back(std::move(link));
+    for (PeriodicLink& link : mesh_.periodic) {
+      std::ranges::sort(link.nodes);
+      link.nodes.erase(std::unique(link.nodes.begin(), link.nodes.end()), link.nodes.end());
+    }
+    const std::size_t count = faces.empty() ? periodic_.lines.size() : faces.size();
+    monitor_.message(Level::summary, "periodic: " + std::to_string(count) + (count == 1 ? " pair of " : " pairs of ") + (faces.empty() ? "lines, " : "faces, ") +
+                                         std::to_string(nodes) + " pairs of vertices, " + format_number(worst_) + " apart at most");
+  }
+
+  const PeriodicTriangles& periodic_;
+  Cad& cad_;
+  CompositeResult& result_;
+  SurfaceMesh& mesh_;
+  Monitor& monitor_;
+  std::map<std::pair<std::int32_t, std::int32_t>, Isometry> image_;  // {master, slave} vertices of lines
+  std::set<std::int32_t> placed_;                                     // vertices that move no more
+  std::map<int, FaceSearch> searches_;                                // by face
+  double worst_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> PeriodicTriangles::twins(std::size_t n) const {
+  std::vector<std::int32_t> twin(n, -1);
+  for (const TrianglePair& pair : lines) twin[pair.master] = twin[pair.slave] = pair.master;
+  return twin;
+}
+
+PeriodicTriangles find_periodic_triangles(const Model& model, double diag, SurfaceMesh& mesh) {
+  if (model.periodicities.empty()) return {};
+  return Finder(model, diag, mesh).run();
+}
+
+double share_sizes(const PeriodicTriangles& periodic, const SurfaceMesh& mesh, std::span<double> size) {
+  double least = 1;
+  const auto lower = [&](std::int32_t v, double h, bool on_line) {
+    if (on_line) least = std::min(least, h / size[v]);
+    size[v] = std::min(size[v], h);
+  };
+  for (const TrianglePair& pair : periodic.faces) {
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    const FaceMesh& slave = mesh.faces[pair.slave];
+    for (const auto& t : slave.triangles) triangles.push_back({slave.vertex[t[0]], slave.vertex[t[1]], slave.vertex[t[2]]});
+    const TriangleSearch search(mesh.vertices, triangles);
+    for (const std::int32_t v : mesh.faces[pair.master].vertex) {
+      const NearestOnMesh near = search.nearest(pair.map(mesh.vertices[v]));
+      double h = 0;
+      for (std::size_t k = 0; k < 3; ++k) h += near.weight[k] * size[triangles[near.triangle][k]];
+      lower(v, h, false);
+    }
+  }
+  for (const bool back : {false, true})  // to the masters, and to all slaves
+    for (const TrianglePair& pair : periodic.lines) {
+      const std::vector<std::int32_t>& from = mesh.curves[back ? pair.master : pair.slave].vertices;
+      const std::vector<std::int32_t>& to = mesh.curves[back ? pair.slave : pair.master].vertices;
+      const std::vector<double> there = shares_of(mesh, from), here = shares_of(mesh, to);
+      for (std::size_t k = 0; k < to.size(); ++k) lower(to[k], size_on(there, from, size, here[k]), true);
+    }
+  return least;
+}
+
+void make_periodic(const PeriodicTriangles& periodic, Cad& cad, CompositeResult& result, Monitor& monitor) {
+  if (!periodic.empty()) Maker(periodic, cad, result, monitor).run();
+}
+
+}  // namespace carreau

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Faces and lines of triangulated surfaces that maps of space carry onto each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/isometry.h"
+#include "model/model.h"
+#include "surface/remesh/base/charts.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// Indices in SurfaceMesh::faces or SurfaceMesh::curves.
+struct TrianglePair {
+  int master = -1, slave = -1;
+  Isometry map;  ///< of the master onto the slave
+};
+
+struct PeriodicTriangles {
+  std::vector<TrianglePair> faces;  ///< each slave once; its master is no slave
+  std::vector<TrianglePair> lines;  ///< the same; a slave runs like the image of its master
+  std::vector<std::int32_t> corners;  ///< images of corners that became corners, vertices of the mesh
+  double gap = 0;                   ///< model length: images may miss by it
+
+  [[nodiscard]] bool empty() const noexcept { return lines.empty(); }
+  /// By line: the line that is divided for it, or -1.
+  [[nodiscard]] std::vector<std::int32_t> twins(std::size_t n) const;
+};
+
+/// Finds the pairs of the model's periodicities. `mesh`: of start_mesh(); images of corners cut its lines, and lines that are slaves are
+/// turned to run like the images of their masters. Throws InvalidModel: nothing matches, with the distance and the place.
+PeriodicTriangles find_periodic_triangles(const Model& model, double diag, SurfaceMesh& mesh);
+
+/// Gives lines and masters the least size of both sides. `size`: by vertex of `mesh`. Returns the least factor of a size on a line.
+double share_sizes(const PeriodicTriangles& periodic, const SurfaceMesh& mesh, std::span<double> size);
+
+/// Replaces meshes of slaves by images of their masters' meshes, on the slaves' own triangles of the atlas, and links the vertices. Throws
+/// InvalidModel: an image misses the slave.
+void make_periodic(const PeriodicTriangles& periodic, Cad& cad, CompositeResult& result, Monitor& monitor);
+
+}  // namespace carreau
