@@ -37,31 +37,6 @@ std::vector<Rows> rows_of(const HighOrderMesh& mesh) {
           {2, 4, quads[k], (p + 1) * (p + 1), mesh.quads, mesh.quad_refs}};
 }
 
-// VTK orders nodes of quadrilaterals along s and t: the third and fourth edge run backwards, and inner nodes are rows.
-std::vector<std::size_t> vtk_of_quad(int order) {
-  const std::vector<std::array<int, 2>> gmsh = node_indices(true, order);
-  std::vector<std::array<int, 2>> vtk(gmsh.begin(), gmsh.begin() + 4);
-  for (int i = 1; i < order; ++i) vtk.push_back({i, 0});
-  for (int i = 1; i < order; ++i) vtk.push_back({order, i});
-  for (int i = 1; i < order; ++i) vtk.push_back({i, order});
-  for (int i = 1; i < order; ++i) vtk.push_back({0, i});
-  for (int k = 1; k < order; ++k)
-    for (int i = 1; i < order; ++i) vtk.push_back({i, k});
-  std::vector<std::size_t> rank;
-  for (const auto& index : vtk) rank.push_back(static_cast<std::size_t>(std::find(gmsh.begin(), gmsh.end(), index) - gmsh.begin()));
-  return rank;
-}
-
-// MFEM orders nodes of discontinuous elements by rows of t.
-std::vector<std::size_t> mfem_of(bool quad, int order) {
-  const std::vector<std::array<int, 2>> gmsh = node_indices(quad, order);
-  std::vector<std::size_t> rank;
-  for (int k = 0; k <= order; ++k)
-    for (int i = 0; i <= (quad ? order : order - k); ++i)
-      rank.push_back(static_cast<std::size_t>(std::find(gmsh.begin(), gmsh.end(), std::array<int, 2>{i, k}) - gmsh.begin()));
-  return rank;
-}
-
 std::string suffix(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   std::string end = dot == std::string::npos ? "" : path.substr(dot);
@@ -78,6 +53,29 @@ HighOrderMesh at_places(const HighOrderMesh& mesh, NodePlaces places, bool assoc
 
 }  // namespace
 
+std::vector<std::size_t> vtk_ranks_of_quad(int order) {
+  const std::vector<std::array<int, 2>> gmsh = node_indices(true, order);
+  std::vector<std::array<int, 2>> vtk(gmsh.begin(), gmsh.begin() + 4);
+  for (int i = 1; i < order; ++i) vtk.push_back({i, 0});
+  for (int i = 1; i < order; ++i) vtk.push_back({order, i});
+  for (int i = 1; i < order; ++i) vtk.push_back({i, order});
+  for (int i = 1; i < order; ++i) vtk.push_back({0, i});
+  for (int k = 1; k < order; ++k)
+    for (int i = 1; i < order; ++i) vtk.push_back({i, k});
+  std::vector<std::size_t> rank;
+  for (const auto& index : vtk) rank.push_back(static_cast<std::size_t>(std::find(gmsh.begin(), gmsh.end(), index) - gmsh.begin()));
+  return rank;
+}
+
+std::vector<std::size_t> mfem_ranks(bool quad, int order) {
+  const std::vector<std::array<int, 2>> gmsh = node_indices(quad, order);
+  std::vector<std::size_t> rank;
+  for (int k = 0; k <= order; ++k)
+    for (int i = 0; i <= (quad ? order : order - k); ++i)
+      rank.push_back(static_cast<std::size_t>(std::find(gmsh.begin(), gmsh.end(), std::array<int, 2>{i, k}) - gmsh.begin()));
+  return rank;
+}
+
 std::string curved_msh(const HighOrderMesh& given, bool association, bool version_2) {
   const HighOrderMesh mesh = at_places(given, NodePlaces::equidistant, association);
   MshMesh file;
@@ -86,7 +84,9 @@ std::string curved_msh(const HighOrderMesh& given, bool association, bool versio
   refs.resize(mesh.nodes.size(), 0);
   std::vector<FlatFace> faces;
   for (const auto& [ref, name] : mesh.face_names) faces.push_back({.ref = ref, .name = name});
-  file.node_refs = &refs, file.names = &mesh.names, file.faces = &faces;
+  EntityNames names = mesh.names;
+  names.face_solids.clear();  // dolfinx rejects groups of solids, which have no elements here
+  file.node_refs = &refs, file.names = &names, file.faces = &faces;
   for (const Rows& rows : rows_of(mesh))
     for (std::size_t e = 0; e < rows.refs.size(); ++e)
       file.elements.push_back({rows.dimension, rows.gmsh, rows.corners, rows.refs[e], std::span(rows.nodes).subspan(e * rows.width, rows.width)});
@@ -95,7 +95,7 @@ std::string curved_msh(const HighOrderMesh& given, bool association, bool versio
 
 std::string curved_vtu(const HighOrderMesh& given, bool association) {
   HighOrderMesh mesh = at_places(given, NodePlaces::equidistant, association);
-  const std::vector<std::size_t> quad = vtk_of_quad(mesh.order);
+  const std::vector<std::size_t> quad = vtk_ranks_of_quad(mesh.order);
   std::vector<std::int32_t> connectivity, refs;
   std::vector<std::int64_t> offsets;
   std::vector<std::uint8_t> types;
@@ -144,7 +144,7 @@ std::string curved_mfem(const HighOrderMesh& given) {
   const std::vector<Rows> all = rows_of(mesh);
   for (const Rows& rows : {all[1], all[2]}) {
     const bool quad = rows.gmsh == all[2].gmsh;
-    const std::vector<std::size_t> order = mfem_of(quad, mesh.order);
+    const std::vector<std::size_t> order = mfem_ranks(quad, mesh.order);
     for (std::size_t e = 0; e < rows.refs.size(); ++e) {
       if (rows.refs[e] < 1) throw InvalidArgument("MFEM's files have no face of reference " + std::to_string(rows.refs[e]) + ": attributes are positive");
       text += std::to_string(rows.refs[e]) + (quad ? " 3" : " 2");
