@@ -325,11 +325,11 @@ void choose_order(MeshOptions& options) {
     options.order = 2;
     return;
   }
-  if (asked.size() != 2 || (asked[1] != '3' && asked[1] != '4')) return;
+  if (asked.size() < 2 || (asked[1] != '3' && asked[1] != '4')) return;
   if (options.volume.is_volume || options.adapt.is_adapt || options.parts)
     throw Failure("Elements " + asked + " are made by `carreau mesh` and `carreau plane` without --parts.");
   options.order = asked[1] - '0';
-  options.element = asked[0] == 'p' ? "p2" : "q2.0";
+  options.element = asked[0] == 'p' ? "p2" : asked.ends_with(".1") ? "q2.1" : "q2.0";
 }
 
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
