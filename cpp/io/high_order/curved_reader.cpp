@@ -164,6 +164,8 @@ class MfemReader {
     mesh_.nodes.assign(static_cast<std::size_t>(vertices), Vec3(0, 0, 0)), mesh_.corner_refs.assign(mesh_.nodes.size(), 0), mesh_.corners = vertices;
     for (std::size_t e = 0; e < elements.size(); ++e) add_element(elements[e], refs[e]);
     for (const auto& [a, b, ref] : boundary) add_side(a, b, ref);
+    // A file that ends inside a line may have lost a part of its last number.
+    if (const char last = in_.end()[-1]; last != '\n' && last != '\r' && last != ' ') in_.fail(in_.end(), "the last line does not end: the file may be truncated");
     return std::move(mesh_);
   }
 

@@ -167,7 +167,7 @@ TEST(Msh, BothVersionsHoldTheSameMesh) {
 TEST(Msh, EntitiesKnowTheirBorders) {
   // The square's border as curves 1 to 4 between points 1 to 4, and its diagonal as curve 9.
   FlatMesh mesh = named_square();
-  mesh.vertex_refs = {1, 2, 3, 4};
+  mesh.vertex_refs = {1, 2, 3, 4}, mesh.fields.clear();
   const auto [a, b, c] = mesh.triangles[0];
   const auto& second = mesh.triangles[1];
   mesh.edges.clear(), mesh.edge_refs.clear();
