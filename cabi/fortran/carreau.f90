@@ -49,7 +49,7 @@ module carreau
   public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
   public :: carreau_session_mesh, carreau_mesh_create, carreau_mesh_free, carreau_mesh_last_error
   public :: carreau_mesh_from_arrays
-  public :: carreau_mesh_read, carreau_mesh_write, carreau_mesh_count, carreau_mesh_dimension
+  public :: carreau_mesh_read, carreau_mesh_write, carreau_mesh_count, carreau_mesh_dimension, carreau_mesh_order
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv, carreau_mesh_corner_faces
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
@@ -1464,6 +1464,13 @@ contains
     dimension = 0
     status = c_mesh_dimension(mesh%handle, dimension)
   end subroutine carreau_mesh_dimension
+
+  subroutine carreau_mesh_order(mesh, order, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(out) :: order, status
+    order = 0
+    status = c_mesh_order(mesh%handle, order)
+  end subroutine carreau_mesh_order
 
   !> xyz(3, n)
   subroutine carreau_mesh_vertices(mesh, xyz, status)

@@ -1032,6 +1032,16 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_count
 
+    !> Gives the order of the elements: 1, 2, or, of a file, 3 or 4. carreau_mesh_write keeps orders 3 and 4 in the
+    !! formats that have them; other formats are errors.
+    function c_mesh_order(mesh, order) result(status) bind(c, name="carreau_mesh_order")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(inout) :: order
+      integer(c_int32_t) :: status
+    end function c_mesh_order
+
     !> Gives the dimension: 3, or 2 when the mesh was read from a plane mesh.
     function c_mesh_dimension(mesh, dimension) result(status) bind(c, name="carreau_mesh_dimension")
       import :: c_int32_t, c_ptr

@@ -820,7 +820,8 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
  * binary), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2, .off (text), .obj, .ply (text and binary), whose
  * polygons become triangles, .vtk (VTK's legacy format, text and binary), .tri (Cart3D). Without a surface the outer
  * faces of solids are read. It restores meshes of carreau_mesh_write: points, exactly except in binary .stl, and the references and
- * names that the format holds. A .vtu holds all of them, with status and colour of faces; a .msh the references of faces and
+ * names that the format holds. Elements of order 3 and 4 of .msh, .msh2, .vtu (Lagrange cells) and .mesh (MFEM, as carreau_raised_write has
+ * it) are kept: the arrays have elements of order 2 through the middles of their edges. A .vtu holds all of them, with status and colour of faces; a .msh the references of faces and
  * curves, and of corners if positive; a .stl has solids as faces. On an error the old content stays.
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
@@ -850,7 +851,8 @@ CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const ca
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2,
  * with named sets; .off, .obj, .ply, .vtk, .tri. Surfaces for programs that fill solids, which are not read: .smesh, .poly (TetGen), .vol
  * (Netgen), .geo (a script of Gmsh for the .msh file of the same name). Elements of order 2 are an error in .su2, .off, .obj, .ply and .tri. The parameters
- * option, refs and flag choose how the mesh of a session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves
+ * option, refs and flag choose how the mesh of a session is written (RT-0232 sec. 4); association = 1 adds the places of nodes on the geometry
+ * to .mesh, .meshb, .vtu, .msh and .msh2. onesurf2d of a face that has failed gives its curves
  * in the parameter plane. .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl.
  * The file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
@@ -902,6 +904,9 @@ CARREAU_API carreau_status carreau_mesh_part_triangles(carreau_mesh* part, int64
  * ARGUMENT, SEQUENCE (no mesh). */
 CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
                                               int64_t* out_edges, int64_t* out_faces);
+/* Gives the order of the elements: 1, 2, or, of a file, 3 or 4. carreau_mesh_write keeps orders 3 and 4 in the formats that have them; other
+ * formats are errors. Errors as above. */
+CARREAU_API carreau_status carreau_mesh_order(carreau_mesh* mesh, int32_t* out_order);
 /* Gives the dimension: 3, or 2 when the mesh was read from a plane mesh. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
 
@@ -958,7 +963,8 @@ CARREAU_API carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t ca
 /* The quality of the elements. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides
  * that meet (HDR sec. 1.1.1). scaled_jacobian is the least sine of an element's angles over the sine of the regular
  * polygon's angle. Both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein
- * coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element. */
+ * coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element. Of elements of order 3 and 4 (carreau_mesh_order)
+ * it, the number of invalid elements and the area are their own, other figures those of their elements of order 2. */
 typedef struct carreau_cell_quality {
   size_t struct_size;
   int64_t triangles3, triangles6, quads4, quads8; /* elements by kind */

@@ -499,8 +499,10 @@ CARREAU_API carreau_status carreau_raise_order(carreau_session* session, int32_t
 
 /* Give the numbers of these elements: all nodes, vertices of the mesh first, triangles, quadrilaterals, edges of curves. Each may be NULL. The
  * nodes, n x 3. The elements with `corners` corners, 3, 4, or 2 (edges of curves): rows of (p + 1)(p + 2) / 2, (p + 1)^2 or p + 1 nodes from 0, in
- * the order of Gmsh's types 21, 23, 36, 37, 26, 27, and unless NULL the references of faces or curves. Write a file: .msh (Gmsh 4.1), .vtu (Lagrange
- * cells), .mesh (MFEM v1.0, discontinuous nodes, positive references). Files have the nodes that their formats require, on the same polynomials.
+ * the order of Gmsh's types 21, 23, 36, 37, 26, 27, and unless NULL the references of faces or curves. Order 2 has type 10
+ * for quadrilaterals. Write a file: .msh, .msh2 (Gmsh 4.1 and 2.2), .vtu (Lagrange cells), .mesh (MFEM v1.0, discontinuous nodes, positive
+ * references). Files have the nodes that their formats require, on the same polynomials; with the parameter association = 1 the places of
+ * equidistant nodes on the geometry, too (not .mesh).
  * Errors: SEQUENCE (carreau_raise_order did not succeed since the last mesh), ARGUMENT (capacity in rows, corners, suffix, references), FILE. */
 CARREAU_API carreau_status carreau_raised_count(carreau_session* session, int64_t* out_nodes, int64_t* out_triangles, int64_t* out_quads,
                                                 int64_t* out_edges);

@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "carreau.h"
 #include "guard.h"
+#include "high_order/curved_quality.h"
 #include "mesh/elements/cell_quality.h"
 #include "mesh_content.h"
 
@@ -145,6 +146,11 @@ carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_qualit
     result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
     result.area = summary.area, result.triangle_share = summary.triangle_share;
     result.invalid = std::int64_t(summary.invalid);
+    if (mesh->curved) {
+      const carreau::CurvedQuality curved = carreau::measure_curved(*mesh->curved);
+      result.invalid = curved.invalid, result.area = curved.area;
+      result.least_jacobian_mean = curved.least_jacobian_mean, result.least_jacobian_min = curved.least_jacobian_min;
+    }
     write_struct(result, out_quality, "out_quality");
   });
 }

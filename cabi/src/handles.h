@@ -93,6 +93,7 @@ struct carreau_mesh {
 
   carreau_session* session;  // nullptr: the mesh is `flat`
   carreau::FlatMesh flat;
+  std::shared_ptr<const carreau::HighOrderMesh> curved = {};  // elements of a file of which `flat` has those of order 2; null: `flat` has all
   struct FaceOfFile {
     carreau::FlatFace face;
     std::int64_t triangles = 0;

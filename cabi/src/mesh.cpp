@@ -8,6 +8,8 @@
 #include "carreau.h"
 #include "guard.h"
 #include "io/medit/part_files.h"
+#include "io/high_order/curved_files.h"
+#include "io/high_order/curved_reader.h"
 #include "io/mesh_files.h"
 #include "mesh/crossings/intersections.h"
 #include "mesh/defects/flat_defects.h"
@@ -164,9 +166,9 @@ carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path) {
   return guarded(mesh, [&] {
     if (mesh->session != nullptr)
       throw InvalidArgument("the mesh of a session cannot be replaced by a file: use carreau_mesh_create");
-    FlatMesh flat = carreau::read_mesh(required(path, "path"));
-    mesh->flat_faces = faces_of(flat);
-    mesh->flat = std::move(flat);
+    carreau::MeshOfFile file = carreau::read_mesh_of_any_order(required(path, "path"));
+    mesh->flat_faces = faces_of(file.flat);
+    mesh->flat = std::move(file.flat), mesh->curved = std::move(file.curved);
     mesh->filled = true;
     mesh->corner_uv.clear();
     mesh->remeshed.reset();
@@ -181,6 +183,8 @@ carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path) {
     if (mesh->session != nullptr) {
       mesh->session->monitor.begin_run();
       mesh->session->session.write(path);
+    } else if (mesh->curved) {
+      carreau::write_curved(*mesh->curved, path);
     } else {
       carreau::write_mesh(mesh->flat, path, carreau::mesh_format_of(path));
     }
@@ -219,6 +223,14 @@ carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension
   return guarded(mesh, [&] {
     require_content(*mesh);
     *required(out_dimension, "out_dimension") = mesh->session != nullptr ? 3 : mesh->flat.dimension;
+  });
+}
+
+carreau_status carreau_mesh_order(carreau_mesh* mesh, int32_t* out_order) {
+  return guarded(mesh, [&] {
+    require_content(*mesh);
+    const auto is_quadratic = [&] { return mesh->session != nullptr ? !surface_of(*mesh).mid_vertices.empty() : mesh->flat.is_quadratic(); };
+    *required(out_order, "out_order") = mesh->curved ? mesh->curved->order : is_quadratic() ? 2 : 1;
   });
 }
 

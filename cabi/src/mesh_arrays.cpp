@@ -87,6 +87,7 @@ carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const carreau_mesh_a
     mesh->corner_uv = std::move(uv);
     mesh->filled = true;
     mesh->part.reset();
+    mesh->curved.reset();
     mesh->remeshed.reset();
   });
 }

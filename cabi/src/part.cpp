@@ -32,6 +32,7 @@ void carreau::abi::keep_part(PartMesh part, carreau_mesh& mesh) {
   mesh.part = std::move(part);
   mesh.filled = true;
   mesh.corner_uv.clear();
+  mesh.curved.reset();
   mesh.remeshed.reset();
 }
 

@@ -4,7 +4,6 @@
 #include "carreau_geometry.h"
 #include "guard.h"
 #include "handles.h"
-#include "io/high_order/curved_files.h"
 
 using carreau::HighOrderMesh;
 using carreau::InvalidArgument;
@@ -66,5 +65,8 @@ carreau_status carreau_raised_elements(carreau_session* session, int32_t corners
 }
 
 carreau_status carreau_raised_write(carreau_session* session, const char* path) {
-  return guarded(session, [&] { carreau::write_curved(raised_of(*session), required(path, "path")); });
+  return guarded(session, [&] {
+    (void)raised_of(*session);
+    session->session.write_raised(required(path, "path"));
+  });
 }

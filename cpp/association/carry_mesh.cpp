@@ -13,6 +13,7 @@
 #include "association/thresholds.h"
 #include "cad/batches.h"
 #include "model/format_point.h"
+#include "periodic/closest.h"
 #include "predicates/predicates.h"
 #include "support/error.h"
 #include "support/infinity.h"
@@ -34,6 +35,7 @@ class Carrier {
           Monitor& monitor, CompositeResult& out)
       : from_(from), to_(to), match_(match), rules_(rules), options_(options), monitor_(monitor), out_(out) {
     curves_from_ = curves_of_mesh(from.model, from.result.mesh, from.result.curve_parameters);
+    flipped_.resize(from.result.mesh.faces.size(), 0);
   }
 
   CarryReport run() {
@@ -53,7 +55,7 @@ class Carrier {
       monitor_.progress(Phase::patches, to_.model.faces[match_.face[f]].ref, static_cast<double>(f + 1) / static_cast<double>(faces));
     }
     if (report_.failed > 0) drop_unused_vertices();
-    if (!old.mid_vertices.empty()) make_nodes();
+    if (!old.mid_vertices.empty() && !carry_nodes()) make_nodes();
     return report_;
   }
 
@@ -254,6 +256,7 @@ class Carrier {
       map_harmonically(before.uv, all, places.known, after.uv);
     ++(same ? report_.kept : report_.relaxed);
     const bool flipped = places.area < 0;
+    flipped_[f] = flipped ? 1 : 0;
     std::vector<std::int32_t> identity(before.uv.size());
     std::iota(identity.begin(), identity.end(), 0);
     carry_elements(before, identity, flipped, after);
@@ -323,6 +326,125 @@ class Carrier {
     all([&](std::int32_t& v) { v = number[v]; });
   }
 
+  /// The edge of a curve of the mesh before that has a node.
+  struct NodeOfCurve {
+    std::size_t curve = 0, segment = 0;
+    bool is_known = false;  ///< false: the node lies inside a face
+  };
+
+  // Nodes of curves keep their shares of the length, nodes inside their places beside the ends of their edges, so that they too are smooth
+  // functions of the geometry. Returns false, with no node, if an element is invalid then: nodes are to be made anew.
+  bool carry_nodes() {
+    const SurfaceMesh& old = from_.result.mesh;
+    SurfaceMesh& mesh = out_.mesh;
+    if (report_.failed > 0) return false;
+    mesh.mid_vertices = old.mid_vertices;
+    std::vector<NodeOfCurve> on_curve(old.mid_vertices.size());
+    std::vector<DiscreteCurve> fine(old.curves.size());
+    for (std::size_t c = 0; c < old.curves.size(); ++c)
+      if (!old.curves[c].mid.empty() && !carry_curve_nodes(c, fine[c], on_curve)) return discard_nodes();
+    for (std::size_t f = 0; f < old.faces.size(); ++f)
+      if (!old.faces[f].mid.empty()) carry_face_nodes(f, fine, on_curve);
+    const ElementWork work{to_, curves_to_, rules_, options_, out_, monitor_};
+    QuadraticReport report;
+    report.finer.resize(mesh.faces.size()), report.quads.resize(mesh.faces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      if (!mesh.faces[f].mid.empty()) find_invalid(work, f, report);
+    return report.invalid.empty() || discard_nodes();
+  }
+
+  bool discard_nodes() {
+    out_.mesh.mid_vertices.clear();
+    for (CurveMesh& curve : out_.mesh.curves) curve.mid.clear();
+    for (FaceMesh& face : out_.mesh.faces) face.mid.clear(), face.mid_uv.clear(), face.mid_vertex.clear();
+    return false;
+  }
+
+  // `fine`: the curve with its nodes between its vertices.
+  bool carry_curve_nodes(std::size_t c, DiscreteCurve& fine, std::vector<NodeOfCurve>& on_curve) {
+    const SurfaceMesh& old = from_.result.mesh;
+    const CurveMesh& before = old.curves[c];
+    const auto d = static_cast<std::size_t>(match_.curve[c]);
+    const DiscreteCurve &known = curves_from_[c], &to = curves_to_[d];
+    const bool back = match_.reversed[c] != 0;
+    const auto n = static_cast<std::size_t>(known.segments());
+    if (to.indivisible || known.indivisible || before.mid.size() != n || to.segments() != known.segments()) return false;
+    const auto owner = static_cast<std::size_t>(known.owner);
+    const CurveUse &use = from_.model.curve(known.curve).uses[owner], &first = to_.curve(to.curve).uses.front();
+    const CurveSupport& support = from_.model.support(use);
+    std::vector<double> r;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto [low, high] = std::minmax(known.t_of_use[owner][k], known.t_of_use[owner][k + 1]);
+      const double t = find_closest(from_.model, use, (low + high) / 2, low, high, old.mid_vertices[before.mid[k]]).t;
+      const double share = support.arc_at_t(t) / support.length();
+      r.push_back(use.reversed ? 1 - share : share);
+      if (k + 1 < n) r.push_back(known.r[k + 1]);
+      on_curve[before.mid[k]] = {c, k, true};
+    }
+    if (back) {
+      std::reverse(r.begin(), r.end());
+      for (double& share : r) share = 1 - share;
+    }
+    std::vector<double> t;
+    for (const double share : r) t.push_back(parameter_at(to_, first, share));
+    fine = to;
+    place_vertices_at(fine, r, t, to_);
+    CurveMesh& after = out_.mesh.curves[d];
+    after.mid = before.mid;
+    if (back) std::reverse(after.mid.begin(), after.mid.end());
+    for (std::size_t k = 0; k < n; ++k) out_.mesh.mid_vertices[after.mid[k]] = fine.xyz[2 * k + 1];
+    return true;
+  }
+
+  void carry_face_nodes(std::size_t f, const std::vector<DiscreteCurve>& fine, const std::vector<NodeOfCurve>& on_curve) {
+    const FaceMesh& before = from_.result.mesh.faces[f];
+    FaceMesh& after = out_.mesh.faces[match_.face[f]];
+    const bool flipped = flipped_[f] != 0;
+    after.mid.assign(before.mid.size(), {-1, -1, -1});
+    after.mid_vertex = before.mid_vertex, after.mid_uv.assign(before.mid_uv.size(), Vec2{0, 0});
+    std::vector<char> done(before.mid_uv.size(), 0);
+    std::vector<std::int32_t> inside;
+    std::vector<Vec2> uv;
+    for (std::size_t t = 0; t < before.mid.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t mid = before.mid[t][i];
+        if (mid < 0) continue;
+        const std::size_t image = flipped && t < 2 * static_cast<std::size_t>(before.quads) ? t ^ 1U : t;
+        after.mid[image][flipped ? 2 - i : i] = mid;
+        if (std::exchange(done[mid], 1) != 0) continue;
+        const std::int32_t a = before.triangles[t][i], b = before.triangles[t][(i + 1) % 3];
+        const Vec2 &p = before.uv[a], &q = after.uv[a];
+        const Vec2 edge = before.uv[b] - p, there = after.uv[b] - q, off = before.mid_uv[mid] - p;
+        if (const NodeOfCurve& on = on_curve[before.mid_vertex[mid]]; on.is_known) {
+          after.mid_uv[mid] = nearest_side(f, fine[on.curve], on, q + 0.5 * there);
+          continue;
+        }
+        // The quotient of complex numbers off / edge, turned if the face is.
+        const double square = dot(edge, edge), along = dot(off, edge) / square, beside = (flipped ? -1 : 1) * (edge.x() * off.y() - edge.y() * off.x()) / square;
+        after.mid_uv[mid] = agrees(before, after, a, b) ? before.mid_uv[mid] : Vec2(q + along * there + beside * Vec2(-there.y(), there.x()));
+        inside.push_back(mid), uv.push_back(after.mid_uv[mid]);
+      }
+    for_batches(to_.cad, after.ref, want_position, uv, monitor_, [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
+      for (std::size_t k = 0; k < here.size(); ++k) out_.mesh.mid_vertices[after.mid_vertex[inside[first + k]]] = jets[k].s;
+    });
+  }
+
+  static bool agrees(const FaceMesh& before, const FaceMesh& after, std::int32_t a, std::int32_t b) {
+    return before.uv[a] == after.uv[a] && before.uv[b] == after.uv[b];
+  }
+
+  // (u, v) of a node of a curve in the face, near a place: a seam has two.
+  [[nodiscard]] Vec2 nearest_side(std::size_t f, const DiscreteCurve& fine, const NodeOfCurve& on, const Vec2& near) const {
+    const std::vector<CurveUse>& uses = to_.curve(fine.curve).uses;
+    const std::size_t k = match_.reversed[on.curve] != 0 ? static_cast<std::size_t>(curves_from_[on.curve].segments()) - 1 - on.segment : on.segment;
+    Vec2 best = near;
+    double least = infinity;
+    for (std::size_t u = 0; u < uses.size(); ++u)
+      if (uses[u].face == match_.face[f])
+        if (const double apart = norm(fine.uv_of_use[u][2 * k + 1] - near); apart < least) best = fine.uv_of_use[u][2 * k + 1], least = apart;
+    return best;
+  }
+
   void make_nodes() {
     const ElementWork work{to_, curves_to_, rules_, options_, out_, monitor_};
     QuadraticReport made = make_quadratic(work);
@@ -338,6 +460,7 @@ class Carrier {
   const CompositeOptions& options_;
   Monitor& monitor_;
   CompositeResult& out_;
+  std::vector<char> flipped_;  // by face of the mesh before: its elements turn the other way
   std::vector<DiscreteCurve> curves_from_, curves_to_;  // by curve of either topology
   CarryReport report_;
 };

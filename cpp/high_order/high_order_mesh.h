@@ -7,6 +7,7 @@
 
 #include "high_order/shape.h"
 #include "model/names.h"
+#include "projection/mesh_association.h"
 
 namespace carreau {
 
@@ -19,15 +20,16 @@ struct HighOrderMesh {
   std::vector<std::int32_t> triangles, triangle_refs;  ///< rows of (p + 1)(p + 2) / 2 nodes
   std::vector<std::int32_t> quads, quad_refs;          ///< rows of (p + 1)^2 nodes
   std::vector<std::int32_t> edges, edge_refs;          ///< rows of p + 1 nodes: both ends, then the others
-  std::vector<std::int32_t> corner_refs;               ///< by vertex
+  std::vector<std::int32_t> corner_refs;               ///< by vertex; positive: of points
   EntityNames names = {};                              ///< of curves and points
   std::vector<std::pair<std::int32_t, std::string>> face_names = {};
   std::int64_t repaired = 0;              ///< elements that were invalid at first, and are valid
   std::vector<std::int32_t> invalid;      ///< elements that stay invalid: triangles, then quadrilaterals behind them
   std::vector<std::array<std::int32_t, 2>> coarse = {};  ///< their edges off curves, by vertices; all edges of elements between curves
+  MeshAssociation association = {};  ///< of the nodes; cell_uv of triangles, then of quadrilaterals. Empty: not known
 };
 
-/// The mesh with nodes of its elements at equidistant or other places: the polynomials stay.
+/// The mesh with nodes of its elements at equidistant or other places: the polynomials stay. Nodes that move lose their association.
 HighOrderMesh with_places(const HighOrderMesh& mesh, NodePlaces places);
 
 }  // namespace carreau

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -50,6 +51,7 @@ class Raiser {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) place_inside(f);
     repair();
     fill();
+    associate_nodes();
     return std::move(out_);
   }
 
@@ -92,7 +94,14 @@ class Raiser {
         const auto [found, is_new] = edges_.try_emplace(ordered(chain[k - 1], chain[k]), Edge{});
         if (!is_new) continue;
         found->second = {add_nodes(p_ - 1), true};
-        for (std::size_t i = 1; i < p_; ++i) out_.nodes[found->second.first + (forward ? i : p_ - i) - 1] = fine.xyz[(k - 1) * p_ + i];
+        for (std::size_t i = 1; i < p_; ++i) {
+          const std::int32_t node = found->second.first + static_cast<std::int32_t>(forward ? i : p_ - i) - 1;
+          const std::size_t at = (k - 1) * p_ + i;
+          out_.nodes[node] = fine.xyz[at];
+          on_curves_.push_back({node, mesh_.curves[c].shown_ref(), fine.t_of_use[owner][at]});
+          const std::vector<CurveUse>& uses = model_.curve(d.curve).uses;
+          for (std::size_t u = 0; u < uses.size(); ++u) on_sides_.push_back({node, uses[u].face, fine.uv_of_use[u][at]});
+        }
       }
     }
   }
@@ -395,13 +404,14 @@ class Raiser {
       const Vec3 &p = out_.nodes[e.node[i]], &q = out_.nodes[e.node[(i + 1) % e.corners]], &m = mesh_.mid_vertices[face.mid_vertex[mid]];
       for (std::size_t n = 1; n < p_; ++n) {
         const double s = places_[n];
-        out_.nodes[e.node[static_cast<std::size_t>(e.corners) + static_cast<std::size_t>(i) * (p_ - 1) + n - 1]] =
-            (1 - s) * (1 - 2 * s) * p + 4 * s * (1 - s) * m + s * (2 * s - 1) * q;
+        const std::int32_t node = e.node[static_cast<std::size_t>(e.corners) + static_cast<std::size_t>(i) * (p_ - 1) + n - 1];
+        out_.nodes[node] = (1 - s) * (1 - 2 * s) * p + 4 * s * (1 - s) * m + s * (2 * s - 1) * q;
+        node_uv_[node] = {nan, nan};  // beside the surface
       }
     }
     std::array<Vec3, 25> x = positions(e);
     shape(e).place_inner(std::span(x.data(), shape(e).node_count()));
-    for (std::size_t i = shape(e).first_inner(); i < shape(e).node_count(); ++i) out_.nodes[e.node[i]] = x[i];
+    for (std::size_t i = shape(e).first_inner(); i < shape(e).node_count(); ++i) out_.nodes[e.node[i]] = x[i], node_uv_[e.node[i]] = {nan, nan};
   }
 
   // Elements of order 2 are valid: as polynomials of a higher order they are, too. Neighbours that become invalid follow.
@@ -518,6 +528,57 @@ class Raiser {
       if (!face.name.empty()) out_.face_names.emplace_back(face.shown_ref(), face.name);
   }
 
+  // Nodes that repairs have moved off the surface have no parameters.
+  void associate_nodes() {
+    MeshAssociation& all = out_.association;
+    const auto shown = [this](std::int32_t ref) {
+      const auto found = model_.model.shown_points.find(ref);
+      return found != model_.model.shown_points.end() ? found->second : ref;
+    };
+    all = associate(mesh_, result_.curve_parameters, {}, shown, [](std::size_t face, std::int32_t) { return face; });
+    const auto corner = [this](const auto& record) { return record.node < out_.corners; };
+    std::erase_if(all.curves, std::not_fn(corner)), std::erase_if(all.faces, std::not_fn(corner));
+    all.entities.resize(static_cast<std::size_t>(out_.corners)), all.entities.resize(out_.nodes.size());
+    all.cell_uv.clear();
+    const auto is_on_surface = [this](std::int32_t node) { return is_finite(node_uv_[node]); };
+    for (const MeshAssociation::OnCurve& on : on_curves_) {
+      all.entities[on.node] = {1, on.ref};
+      if (is_on_surface(on.node)) all.curves.push_back(on);
+    }
+    std::stable_sort(on_sides_.begin(), on_sides_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+    for (const auto& [node, face, uv] : on_sides_)
+      if (is_on_surface(node)) all.faces.push_back({node, mesh_.faces[face].shown_ref(), uv});
+    for (const int corners : {3, 4})
+      for (const Element& e : elements_)
+        if (e.corners == corners) associate_element(e, all);
+    all.sort();
+  }
+
+  void associate_element(const Element& e, MeshAssociation& all) {
+    const FaceMesh& face = mesh_.faces[e.face];
+    const auto corner = [&](int i) -> Vec2 { return face.uv[e.local[i]]; };
+    const auto inner = static_cast<std::size_t>(e.corners);
+    for (std::size_t i = 0; i < shape(e).node_count(); ++i) {
+      const std::int32_t node = e.node[i];
+      if (i < inner) {
+        all.cell_uv.push_back(corner(static_cast<int>(i)));
+      } else if (all.entities[node].dimension == 2) {
+        all.entities[node].ref = face.shown_ref();
+        if (is_finite(node_uv_[node])) all.faces.push_back({node, face.shown_ref(), node_uv_[node]});
+        all.cell_uv.push_back(node_uv_[node]);
+      } else {  // on a curve, whose side of a seam is near the element
+        const double s = shape(e).reference()[i].x(), t = shape(e).reference()[i].y();
+        const Vec2 near = e.corners == 4 ? Vec2((1 - s) * (1 - t) * corner(0) + s * (1 - t) * corner(1) + s * t * corner(2) + (1 - s) * t * corner(3))
+                                         : Vec2((1 - s - t) * corner(0) + s * corner(1) + t * corner(2));
+        Vec2 best{nan, nan};
+        auto on = std::lower_bound(on_sides_.begin(), on_sides_.end(), node, [](const auto& side, std::int32_t n) { return side.node < n; });
+        for (; on != on_sides_.end() && on->node == node && is_finite(node_uv_[node]); ++on)
+          if (on->face == e.face && !(norm(on->uv - near) >= norm(best - near))) best = on->uv;
+        all.cell_uv.push_back(best);
+      }
+    }
+  }
+
   void list_coarse(const Element& e) {
     const FaceMesh& face = mesh_.faces[e.face];
     const auto list = [&](bool of_curves) {
@@ -546,6 +607,13 @@ class Raiser {
   HighOrderMesh out_;
   std::vector<Vec2> node_uv_;  // of inner nodes and nodes of inner edges
   std::map<Key, Edge> edges_;
+  struct OnSide {
+    std::int32_t node;
+    int face;  // by index
+    Vec2 uv;
+  };
+  std::vector<MeshAssociation::OnCurve> on_curves_;  // nodes of curves
+  std::vector<OnSide> on_sides_;                     // the same by use
   std::vector<Element> elements_;
   std::vector<std::size_t> first_element_;  // by face
   std::map<Key, std::vector<std::size_t>> around_;
@@ -564,7 +632,7 @@ HighOrderMesh raise_order(const CurveModel& model, const CompositeResult& result
 HighOrderMesh with_places(const HighOrderMesh& mesh, NodePlaces places) {
   if (mesh.places == places) return mesh;
   HighOrderMesh out = mesh;
-  out.places = places;
+  out.places = places, out.association = {};
   const auto move = [&](bool quad, const std::vector<std::int32_t>& rows) {
     const ElementShape before(quad, mesh.order, mesh.places), after(quad, mesh.order, places);
     const std::vector<double> values = before.values_at(after.reference());

@@ -135,17 +135,17 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
   check_mesh(mesh);
   switch (format) {
     case MeshFormat::mesh:
-      return medit_text(mesh);
+      return medit_text(mesh, options.association);
     case MeshFormat::meshb:
-      return gmf_bytes(mesh, gmf_needs_64_bits(mesh) ? 3 : 2);
+      return gmf_bytes(mesh, gmf_needs_64_bits(mesh, options.association) ? 3 : 2, options.association);
     case MeshFormat::vtu:
-      return vtu_bytes(mesh);
+      return vtu_bytes(mesh, options.association);
     case MeshFormat::stl:
       return options.ascii_stl ? stl_text(mesh) : stl_bytes(mesh);
     case MeshFormat::msh:
-      return msh_text(mesh, false, options.curve_groups);
+      return msh_text(mesh, false, options.curve_groups, options.association);
     case MeshFormat::msh2:
-      return msh_text(mesh, true, options.curve_groups);
+      return msh_text(mesh, true, options.curve_groups, options.association);
     case MeshFormat::bl2d:
       return bl2d_text(mesh);
     case MeshFormat::inp:
@@ -193,9 +193,9 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
     at += block.size();
   };
   if (format == MeshFormat::vtu)
-    write_vtu(mesh, write);
+    write_vtu(mesh, options.association, write);
   else
-    write_gmf(mesh, gmf_needs_64_bits(mesh) ? 3 : 2, write);
+    write_gmf(mesh, gmf_needs_64_bits(mesh, options.association) ? 3 : 2, options.association, write);
   file.commit();
 }
 

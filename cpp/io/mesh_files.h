@@ -10,6 +10,8 @@
 
 namespace carreau {
 
+struct MeshAssociation;
+
 /// Medit ASCII (`.mesh`, version 2), its binary form (`.meshb`, GMF version 2; 3 when the file would exceed 2 GiB). VTK
 /// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only). Gmsh ASCII (`.msh`,
 /// version 4.1; `.msh2`, version 2.2; both with physical names). BL2D (`.bl2d`, meshes of the plane z = 0). Solvers:
@@ -26,6 +28,8 @@ struct MeshFileOptions {
   /// Gmsh's formats: edges of curves and corners are elements, each curve and corner a physical group; otherwise there
   /// are triangles only.
   bool curve_groups = true;
+  /// Gmsh, Medit and .vtu: the places of nodes on the geometry, written too; nullptr: none.
+  const MeshAssociation* association = nullptr;
   std::string surface = "surface.msh";  ///< `.geo`: the file that has the surface; write_mesh() takes the name of its own file
 };
 

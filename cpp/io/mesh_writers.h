@@ -7,26 +7,28 @@
 #include <string_view>
 
 #include "mesh/flat_mesh.h"
+#include "projection/mesh_association.h"
 
 namespace carreau {
 
 /// Takes the bytes of a file one after the other.
 using ByteSink = std::function<void(std::string_view)>;
 
-std::string medit_text(const FlatMesh& mesh);
+/// With `association` (nullptr: none) the places of nodes on the geometry.
+std::string medit_text(const FlatMesh& mesh, const MeshAssociation* association = nullptr);
 /// Version 2 (32-bit positions) or 3 (64-bit positions).
-std::string gmf_bytes(const FlatMesh& mesh, int version);
-void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink);
+std::string gmf_bytes(const FlatMesh& mesh, int version, const MeshAssociation* association = nullptr);
+void write_gmf(const FlatMesh& mesh, int version, const MeshAssociation* association, const ByteSink& sink);
 /// True when positions of the file need version 3.
-bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept;
-std::string vtu_bytes(const FlatMesh& mesh);
+bool gmf_needs_64_bits(const FlatMesh& mesh, const MeshAssociation* association = nullptr) noexcept;
+std::string vtu_bytes(const FlatMesh& mesh, const MeshAssociation* association = nullptr);
 /// VTK's legacy format, as text or in binary form.
 std::string vtk_text(const FlatMesh& mesh, bool ascii);
-void write_vtu(const FlatMesh& mesh, const ByteSink& sink);
+void write_vtu(const FlatMesh& mesh, const MeshAssociation* association, const ByteSink& sink);
 std::string stl_bytes(const FlatMesh& mesh);
 std::string stl_text(const FlatMesh& mesh);
 /// Version 4.1 or 2.2 of Gmsh's format, with or without curves and corners as elements of groups of their own.
-std::string msh_text(const FlatMesh& mesh, bool version_2, bool curve_groups);
+std::string msh_text(const FlatMesh& mesh, bool version_2, bool curve_groups, const MeshAssociation* association = nullptr);
 /// A mesh of straight triangles of the plane z = 0, else InvalidArgument.
 std::string bl2d_text(const FlatMesh& mesh);
 /// Abaqus and CalculiX, Nastran, I-DEAS, SU2: elements in named sets (solver/element_sets.h). SU2 has no elements of

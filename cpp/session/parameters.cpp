@@ -71,6 +71,8 @@ constexpr std::array kTable = {
     real_row("angle_smo", 0.001, 89, 1, "angle between the supports of curves and their tangents, degrees"),
     real_row("anisotropy_max", 1, infinity, 1000,
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
+    integer_row("association", 0, 1, 0,
+                "1: .msh, .mesh, .meshb and .vtu files have the places of nodes on the geometry: entities, t, (u, v); MFEM and libMesh stop at such a .msh"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
     by_effort(integer_row("certify", 0, 2, 1,

@@ -117,6 +117,8 @@ class Session {
   /// Throws InvalidArgument without them.
   [[nodiscard]] const HighOrderMesh& raised() const;
   [[nodiscard]] bool has_raised() const noexcept;
+  /// Writes raised() (io/high_order/curved_files.h), by the parameter association with the places of its nodes.
+  void write_raised(const std::string& path) const;
 
   /// Like make_mesh(), by all processes of the team: patches stay in the processes that made them. The parts form the mesh of
   /// make_mesh(), with equal numbers, which no process holds; mesh() does not change. With options that need the whole mesh
@@ -225,7 +227,9 @@ class Session {
   /// The refined mesh of the same model.
   void keep_refined(CompositeResult result, Monitor& measuring);
   FlatMesh exported_as(MeshFormat format);
-  [[nodiscard]] MeshFileOptions file_options() const;
+  /// `association` keeps what the options refer to.
+  [[nodiscard]] MeshFileOptions file_options(MeshFormat format, MeshAssociation& association) const;
+  [[nodiscard]] MeshAssociation associate_nodes() const;
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
   std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);
   [[nodiscard]] bool has_model_from_host() const noexcept;

@@ -149,16 +149,16 @@ TEST(Carry, SameGeometryGivesTheSameMesh) {
     EXPECT_EQ(p.triangles, q.triangles);
     EXPECT_EQ(p.vertex_refs, q.vertex_refs);
     ASSERT_EQ(p.xyz.size(), q.xyz.size());
-    const std::size_t n = element[1] == '2' ? 0 : p.xyz.size();  // nodes of order 2 are made anew
-    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(p.xyz[i], q.xyz[i], 1e-12);
+    for (std::size_t i = 0; i < p.xyz.size(); ++i) EXPECT_NEAR(p.xyz[i], q.xyz[i], 1e-12);
     expect_sound(b);
   }
 }
 
 // x = r (cos u, sin u), so that dx/dr is the unit vector of each vertex, whatever the parametrisation.
 TEST(Carry, DerivativesByTheRadiusOfACylinder) {
-  for (const bool by_length : {false, true}) {
-    const ShapeRun a(cylinder(1, 1, by_length)), up(cylinder(1 + 1e-4, 1, by_length)), down(cylinder(1 - 1e-4, 1, by_length));
+  for (const auto& [by_length, element] : {std::pair(false, "p1"), {true, "p1"}, {false, "p2"}, {true, "p2"}, {true, "q2.0"}}) {
+    const ShapeRun a(cylinder(1, 1, by_length), 0.2, element), up(cylinder(1 + 1e-4, 1, by_length), 0.2, element),
+        down(cylinder(1 - 1e-4, 1, by_length), 0.2, element);
     a.generate();
     for (const ShapeRun* run : {&up, &down}) ASSERT_EQ(carreau_mesh_carry(run->session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << run->error();
     const MeshData at = a.data(), p = up.data(), q = down.data();

@@ -120,6 +120,8 @@ program model_fortran_test
   call carreau_mesh_read(copy, 'squares.mesh', status)
   call carreau_mesh_dimension(copy, dimension, status)
   call check(dimension == 3, 'dimension')
+  call carreau_mesh_order(copy, dimension, status)
+  call check(dimension == 1, 'order')
   call write_sol('size.sol', spread(0.25d0, 1, size(xyz, 2)))
   call carreau_mesh_read_metrics(copy, 'size.sol', metrics, status)
   call check(status == CARREAU_OK, carreau_mesh_last_error(copy))

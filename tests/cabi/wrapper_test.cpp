@@ -103,6 +103,7 @@ TEST(Wrapper, GivesTheArraysOfTheCInterface) {
   EXPECT_EQ(mesh.edge_mids(), std::vector<std::int32_t>(data.edge_count(), -1));
   EXPECT_EQ(mesh.corner_faces().size(), data.triangle_count());
   EXPECT_EQ(mesh.dimension(), 3);
+  EXPECT_EQ(mesh.order(), 1);
   EXPECT_TRUE(mesh.defects().empty());
   EXPECT_FALSE(mesh.defects(/*closed=*/true).empty());
   EXPECT_EQ(mesh.intersections().count, 0);

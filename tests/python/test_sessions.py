@@ -113,6 +113,9 @@ def test_elements_of_order_three_and_four(tmp_path, places):
         assert np.allclose(np.hypot(np.hypot(raised.nodes[:, 0], raised.nodes[:, 1]) - 3, raised.nodes[:, 2]), 1, atol=1e-9)
         for suffix in ("msh", "vtu", "mesh"):
             session.write_raised(str(tmp_path / f"x.{suffix}"))
+            read = carreau.read(tmp_path / f"x.{suffix}")
+            assert read.order == order and len(read.triangles) == len(session.mesh.triangles)
+            assert len(read.vertices) == len(session.mesh.vertices) and len(read.edges) == len(session.mesh.edges)
         text = (tmp_path / "x.mesh").read_text()
         assert text.startswith("MFEM mesh v1.0") and f"L2_T1_2D_P{order}" in text
         points = np.array(text[text.index("Ordering: 1") + 11:].split(), dtype=float).reshape(-1, 3)

@@ -131,6 +131,12 @@ class Mesh {
     done(carreau_mesh_dimension(mesh_, &out));
     return out;
   }
+  /// Order of the elements: 1, 2, or, of a file, 3 or 4.
+  [[nodiscard]] int order() const {
+    std::int32_t out = 0;
+    done(carreau_mesh_order(mesh_, &out));
+    return out;
+  }
   [[nodiscard]] std::vector<Point3> vertices() const {
     return rows<double, 3>(counts().vertices, carreau_mesh_vertices);
   }

@@ -1055,6 +1055,7 @@ CARREAU = {
     "carreau_mesh_part_vertices": (c_int32, [c_void_p, c_int64, Int64s, Int32s, Int64s]),
     "carreau_mesh_part_triangles": (c_int32, [c_void_p, c_int64, Int64s, Int32s]),
     "carreau_mesh_count": (c_int32, [c_void_p, POINTER(c_int64), POINTER(c_int64), POINTER(c_int64), POINTER(c_int64)]),
+    "carreau_mesh_order": (c_int32, [c_void_p, POINTER(c_int32)]),
     "carreau_mesh_dimension": (c_int32, [c_void_p, POINTER(c_int32)]),
     "carreau_mesh_vertices": (c_int32, [c_void_p, c_int64, Doubles]),
     "carreau_mesh_vertex_refs": (c_int32, [c_void_p, c_int64, Int32s]),

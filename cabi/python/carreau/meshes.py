@@ -114,6 +114,9 @@ class Mesh:
         dimension = c_int32()
         self._require(lib().mesh_dimension(self._handle, byref(dimension)))
         self.dimension = dimension.value
+        order = c_int32()
+        self._require(lib().mesh_order(self._handle, byref(order)))
+        self.order = order.value
         self.faces: list[Face] = self._faces()
         self.fields: dict[str, Reals] = {}
         self.cells: dict[str, tuple[Ints, Ints]] = self._cells()

@@ -71,6 +71,7 @@ void ask_shapes(carreau_mesh* mesh, const std::vector<std::int32_t>& refs, const
   c.quality.struct_size = sizeof c.quality;
   require(mesh, carreau_mesh_quality(mesh, &c.quality));
   c.cells.struct_size = sizeof c.cells;
+  require(mesh, carreau_mesh_order(mesh, &c.order));
   if (holds_elements(mesh)) require(mesh, carreau_mesh_cell_quality(mesh, &c.cells));
   c.crossings = known != nullptr ? *known : crossings_of(mesh, refs, 0);
 }
@@ -128,7 +129,10 @@ Json check_json(const MeshCheck& c, const std::string& name, int limit, bool all
         {{"reference", face.ref}, {"name", face.name}, {"status", status_word(face.status)}, {"why", face.why}});
   if (c.measured) {
     result["quality"] = quality_json(c.quality);
-    if (has_elements(c.cells)) result["elements"] = elements_json(c.cells);
+    if (has_elements(c.cells)) {
+      result["elements"] = elements_json(c.cells);
+      result["elements"]["order"] = c.order;
+    }
     result["report"] = json_of(c.report);
     result["intersections"] = crossings_json(c.crossings);
   }

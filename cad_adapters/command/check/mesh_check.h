@@ -20,6 +20,7 @@ struct MeshCheck {
   std::string sentences;  ///< of defects, a line each
   carreau_quality quality{};
   carreau_cell_quality cells{};
+  std::int32_t order = 1;  ///< of the elements
   MeshReport report;
   Crossings crossings;
   std::vector<FaceResult> not_meshed;  ///< faces that the file knows of and has no triangles of

@@ -127,6 +127,8 @@ void CommandLine::add_mesh() {
       ->type_name(kind::number);
   mesh->add_option("--nodes", mesh_.nodes, "Places of nodes of orders 3 and 4: equidistant (default) or gauss-lobatto")
       ->check(CLI::IsMember({"equidistant", "gauss-lobatto"}));
+  mesh->add_flag("--centre-nodes", mesh_.centre_nodes, "Quads of order 2 have 9 nodes, all on the surface: Gmsh's type 10, for dolfinx");
+  mesh->add_flag("--association", mesh_.association, "Write entities and parameters of nodes (.msh, .msh2, .mesh, .meshb, .vtu)");
   add_parts_option(mesh, mesh_);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Print errors only");

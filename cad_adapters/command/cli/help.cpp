@@ -36,7 +36,7 @@ constexpr GroupOf groups_of_options[] = {
     {"--chord", "Curvature"},         {"--anisotropic", "Curvature"},
     {"--depth", "Curvature"},         {"--element", "Elements"},    {"--cross-patch", "Elements"},
     {"--sharp-angle", "Elements"},    {"--periodic", "Elements"},   {"--mirror", "Elements"},       {"--halvings", "Elements"},
-    {"--nodes", "Elements"},
+    {"--nodes", "Elements"},          {"--centre-nodes", "Elements"}, {"--association", "Elements"},
     {"--carry-from", "Last mesh"},    {"--match", "Last mesh"},     {"--mesh", "Last mesh"},      {"--sol", "Last mesh"},
     {"--use", "Last mesh"},           {"--transfer", "Last mesh"},  {"--formula", "Field by a formula"},
     {"--iterations", "Field by a formula"},                         {"--convergence", "Field by a formula"},

@@ -49,14 +49,15 @@ void print_quality(const carreau_quality& q, const MeshReport& r) {
   std::printf("degree 6    %.1f %% of interior vertices\n", 100 * q.degree6);
 }
 
-void print_elements(const carreau_cell_quality& q) {
+void print_elements(const carreau_cell_quality& q, int order) {
   if (!has_elements(q)) return;
   std::string kinds;
-  const auto add = [&](std::int64_t n, const char* kind) {
+  const auto add = [&](std::int64_t n, const std::string& kind) {
     if (n > 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(n) + " " + kind;
   };
-  add(q.triangles3, "triangles"), add(q.triangles6, "triangles of order 2");
-  add(q.quads4, "quadrilaterals"), add(q.quads8, "quadrilaterals of order 2");
+  const std::string curved = " of order " + std::to_string(order);
+  add(q.triangles3, "triangles"), add(q.triangles6, "triangles" + curved);
+  add(q.quads4, "quadrilaterals"), add(q.quads8, "quadrilaterals" + curved);
   std::printf("elements    %s\n", kinds.c_str());
   std::printf("  area      %.12g, of triangles %.3g %%\n", q.area, 100 * q.triangle_share);
   std::printf("  shape     mean %.4f, worst %.4f; scaled Jacobian mean %.4f, worst %.4f\n", q.shape_mean, q.shape_min,
@@ -121,7 +122,7 @@ int check(const CheckOptions& options) {
     std::printf("%-11s face %d%s%s\n", status_word(face.status), static_cast<int>(face.ref),
                 face.name.empty() ? "" : (" (" + face.name + ")").c_str(), reason_of(face).c_str());
   if (c.measured) {
-    print_elements(c.cells);
+    print_elements(c.cells, c.order);
     print_quality(c.quality, c.report);
     print_report(c.report, options.faces);
     std::printf("crossing    %" PRId64 " pairs of triangles\n", c.crossings.pairs);

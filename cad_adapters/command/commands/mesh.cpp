@@ -82,8 +82,8 @@ bool is_one_of(const std::string& suffix, std::initializer_list<const char*> lis
 void refuse_elements(carreau_session* session, const MeshOptions& options) {
   const std::vector<std::string>& outputs = options.outputs;
   for (const std::string& path : outputs)
-    if (options.order > 0 && !is_one_of(suffix_of(path), {".msh", ".vtu", ".mesh", ".html"}))
-      throw Failure("'" + path + "' cannot hold elements of order " + std::to_string(options.order) + ": .msh, .vtu and .mesh (of MFEM) can.");
+    if (options.order > 0 && !is_one_of(suffix_of(path), {".msh", ".msh2", ".vtu", ".mesh", ".html"}))
+      throw Failure("'" + path + "' cannot hold elements of order " + std::to_string(options.order) + ": .msh, .msh2, .vtu and .mesh (of MFEM) can.");
   const char* element = nullptr;
   require(session, carreau_get_text(session, "element", &element));
   const std::string asked = element;
@@ -297,7 +297,7 @@ std::vector<std::string> with_group_tables(const MeshOptions& options, std::vect
 /// Files of failed faces need the whole mesh.
 void refuse_with_parts(const MeshOptions& options) {
   for (const auto& [given, name] : {std::pair{!options.dump_failed.empty(), "--dump-failed"}, {!options.carry_from.empty(), "--carry-from"},
-                                    {options.halvings > 0, "--halvings"}, {options.order > 0, "--element of order 3 and 4"}})
+                                    {options.halvings > 0, "--halvings"}, {options.order > 0, "--element of order 3 and 4"}, {options.association, "--association"}})
     if (given) throw Failure(std::string("--parts and ") + name + " exclude each other: no process has the whole mesh.");
   for (const std::string& path : options.outputs)
     if (!is_one_of(suffix_of(path), {".meshb", ".pvtu"}))
@@ -317,14 +317,19 @@ std::string kept_surface(const MeshOptions& options) {
   return path.substr(0, path.size() - suffix_of(path).size()) + ".surface.msh";
 }
 
-/// Elements of order 3 and 4 are made over elements of order 2.
+/// Elements of order 3 and 4, and all nodes of order 2, are made over elements of order 2.
 void choose_order(MeshOptions& options) {
   const std::string asked = options.element;
-  if (asked.size() != 2 || (asked[1] != '3' && asked[1] != '4')) return;
+  if (options.centre_nodes) {
+    if (!asked.starts_with("p2") && !asked.starts_with("q2")) throw Failure("--centre-nodes requires --element p2, q2.0 or q2.1.");
+    options.order = 2;
+    return;
+  }
+  if (asked.size() < 2 || (asked[1] != '3' && asked[1] != '4')) return;
   if (options.volume.is_volume || options.adapt.is_adapt || options.parts)
     throw Failure("Elements " + asked + " are made by `carreau mesh` and `carreau plane` without --parts.");
   options.order = asked[1] - '0';
-  options.element = asked[0] == 'p' ? "p2" : "q2.0";
+  options.element = asked[0] == 'p' ? "p2" : asked.ends_with(".1") ? "q2.1" : "q2.0";
 }
 
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {

@@ -40,8 +40,10 @@ struct MeshOptions : InputChoice {
   double angle = 0;                           ///< degrees; 0: not given
   std::optional<double> gradation;            ///< 0: none
   std::string element;                        ///< p1, p2, q1.0, ...; "": as in the env file, else p1
-  int order = 0;                              ///< of elements over `element`: 3 or 4; 0: none
+  int order = 0;                              ///< of elements over `element`: 3, 4, 2 with centre_nodes; 0: none
   std::string nodes = "equidistant";          ///< places of their nodes, or "gauss-lobatto"
+  bool centre_nodes = false;                  ///< elements of order 2 have all nodes of their order
+  bool association = false;                   ///< files have the places of nodes on the geometry
   bool independent = false;                   ///< ignores borders of patches that are not sharp
   std::optional<double> sharp_angle;          ///< degrees
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic

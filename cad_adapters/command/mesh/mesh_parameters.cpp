@@ -372,6 +372,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   else
     set_own_choices(session, input);
   set(session, "flag", 1);
+  if (options.association) set(session, "association", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));
   // Glues faces that the file does not connect; the others stay as the file connects them.

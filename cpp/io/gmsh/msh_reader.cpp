@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "io/element_lists.h"
 #include "io/gmsh/msh_numbers.h"
+#include "io/high_order/curved_reader.h"
 #include "io/mesh_files.h"
 #include "io/solid_skin.h"
 #include "io/text.h"
@@ -33,7 +35,20 @@ std::size_t vertices_of_type(std::int32_t type) {
   return 0;
 }
 
+/// Elements of order 3 and 4.
+struct CurvedType {
+  std::int32_t type;
+  int order, corners;
+  std::size_t nodes;
+};
+const CurvedType* curved_of(std::int32_t type) noexcept {
+  static constexpr CurvedType known[] = {{26, 3, 2, 4}, {27, 4, 2, 5}, {21, 3, 3, 10}, {23, 4, 3, 15}, {36, 3, 4, 16}, {37, 4, 4, 25}};
+  const auto* const found = std::find_if(std::begin(known), std::end(known), [&](const CurvedType& each) { return each.type == type; });
+  return found != std::end(known) ? found : nullptr;
+}
+
 bool is_surface(std::int32_t type) noexcept {
+  if (const CurvedType* const curved = curved_of(type)) return curved->corners > 2;
   return type == triangle_type || type == quad_type || type == triangle_of_order_2_type ||
          type == quad_of_eight_nodes_type || type == quad_of_nine_nodes_type;
 }
@@ -66,7 +81,8 @@ using Key = std::pair<std::int32_t, std::int32_t>;  // dimension and tag, of an 
 
 class MshReader {
  public:
-  MshReader(std::string_view content, const std::string& name) : in_(content, name) {}
+  /// `curved`: takes elements of order 3 and 4; nullptr: they are errors.
+  MshReader(std::string_view content, const std::string& name, HighOrderMesh* curved) : in_(content, name), curved_(curved) {}
 
   FlatMesh read();
 
@@ -88,7 +104,10 @@ class MshReader {
   Vec3 point();
   void name_faces();
 
+  [[nodiscard]] bool has_curved() const { return curved_ != nullptr && !(curved_->triangle_refs.empty() && curved_->quad_refs.empty()); }
+
   MshNumbers in_;
+  HighOrderMesh* curved_;
   FlatMesh mesh_;
   ElementLists lists_;
   ElementList<9> quads9_;
@@ -223,6 +242,7 @@ std::int32_t MshReader::vertex_of(std::int64_t tag, const char* at) const {
 }
 
 std::size_t MshReader::check_type(std::int32_t type, const char* at) const {
+  if (const CurvedType* const curved = curved_of(type); curved != nullptr && curved_ != nullptr) return curved->nodes;
   const std::size_t vertices = vertices_of_type(type);
   if (vertices == 0)
     in_.fail(at, "an element has type " + std::to_string(type) +
@@ -244,6 +264,8 @@ void MshReader::element(std::int32_t type, std::int32_t ref, std::size_t vertice
     std::copy_n(nodes.begin(), own.size(), own.begin());
     list.refs.push_back(ref);
   };
+  if (const CurvedType* const curved = curved_of(type))
+    if (!add_curved(*curved_, curved->order, curved->corners, std::span(nodes).first(vertices), ref)) in_.fail(in_.here(), "elements of orders 3 and 4 are mixed");
   if (type == point_type) mesh_.vertex_refs[static_cast<std::size_t>(nodes[0])] = ref;
   if (type == tetrahedron_type) mesh_.tetrahedra.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
   if (type == line_type) add(lists_.edges);
@@ -340,7 +362,11 @@ void MshReader::section(std::string_view name, const char* at) {
 
 /// Names that were made of references, because a face had none, are not taken for names.
 void MshReader::name_faces() {
-  const std::set<std::int32_t> meshed(mesh_.triangle_refs.begin(), mesh_.triangle_refs.end());
+  std::set<std::int32_t> meshed(mesh_.triangle_refs.begin(), mesh_.triangle_refs.end());
+  if (has_curved()) {
+    meshed.insert(curved_->triangle_refs.begin(), curved_->triangle_refs.end());
+    meshed.insert(curved_->quad_refs.begin(), curved_->quad_refs.end());
+  }
   for (const auto& [entity, group] : group_of_entity_) {
     const auto name = names_.find({2, group});
     if (entity.first != 2 || name == names_.end() || !meshed.contains(entity.second)) continue;
@@ -354,6 +380,13 @@ FlatMesh MshReader::read() {
   if (!has_format_) in_.fail(in_.end(), "the file is empty");
   if (!has_nodes_) in_.fail(in_.end(), "the file has no $Nodes");
   if (!has_elements_) in_.fail(in_.end(), "the file has no $Elements");
+  if (has_curved()) {
+    if (!lists_.triangles.nodes.empty() || !lists_.triangles6.nodes.empty() || !lists_.quads.nodes.empty() || !lists_.quads8.nodes.empty() ||
+        !quads9_.nodes.empty())
+      in_.fail(in_.end(), "elements of order " + std::to_string(curved_->order) + " and of a lower order are mixed");
+    name_faces();
+    return std::move(mesh_);
+  }
   if (quads9_.nodes.empty()) skin_.give_to(lists_, mesh_.vertices);
   take_quads9(quads9_.nodes, quads9_.refs, lists_, mesh_);
   try {
@@ -368,7 +401,10 @@ FlatMesh MshReader::read() {
 }  // namespace
 
 FlatMesh read_mesh_msh(std::string_view content, const std::string& name) {
-  return MshReader(without_byte_order_mark(content), name).read();
+  return MshReader(without_byte_order_mark(content), name, nullptr).read();
+}
+FlatMesh read_mesh_msh(std::string_view content, const std::string& name, HighOrderMesh& curved) {
+  return MshReader(without_byte_order_mark(content), name, &curved).read();
 }
 
 }  // namespace carreau

@@ -3,18 +3,25 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "high_order/high_order_mesh.h"
 
 namespace carreau {
 
-/// Gmsh 4.1 ASCII (`.msh`, element types 8, 9, 10, 21, 23, 26, 27, 36, 37), VTK XML (`.vtu`, Lagrange cells 68, 69, 70) and MFEM (`.mesh`, v1.0 with
+/// Gmsh 4.1 or 2.2, ASCII (`.msh`, `.msh2`; element types 8, 9, 10, 21, 23, 26, 27, 36, 37), VTK XML (`.vtu`, Lagrange cells 68, 69, 70) and MFEM (`.mesh`, v1.0 with
 /// a section of nodes, collection L2_T1_2D_Pp). The first two have equidistant nodes, the last one Gauss-Lobatto's: nodes at other places are
-/// evaluated on the elements. Throws InvalidArgument for another suffix, and for a reference below 1 in `.mesh`; FileError.
-void write_curved(const HighOrderMesh& mesh, const std::string& path);
+/// evaluated on the elements. `association`: the places of nodes on the geometry are written, too; `.mesh` cannot hold them. Throws
+/// InvalidArgument for another suffix, for a reference below 1 in `.mesh`, and for an association of nodes that are not equidistant; FileError.
+void write_curved(const HighOrderMesh& mesh, const std::string& path, bool association = false);
 
-std::string curved_msh(const HighOrderMesh& mesh);
-std::string curved_vtu(const HighOrderMesh& mesh);
+std::string curved_msh(const HighOrderMesh& mesh, bool association = false, bool version_2 = false);
+std::string curved_vtu(const HighOrderMesh& mesh, bool association = false);
 std::string curved_mfem(const HighOrderMesh& mesh);
+
+/// For each node in another order its rank in Gmsh's. VTK orders nodes of quadrilaterals along s and t: the third and fourth edge run backwards,
+/// and inner nodes are rows. MFEM orders nodes of discontinuous elements by rows of t.
+std::vector<std::size_t> vtk_ranks_of_quad(int order);
+std::vector<std::size_t> mfem_ranks(bool quad, int order);
 
 }  // namespace carreau

@@ -28,6 +28,10 @@ enum class GmfCode : std::int32_t {
   edges_of_order_2 = 25,
   quadrilaterals_of_order_2 = 27,
   tetrahedra_of_order_2 = 30,
+  vertices_on_points = 40,  // VerticesOnGeometricVertices, ...Edges, ...Triangles
+  vertices_on_curves = 41,
+  vertices_on_faces = 42,
+  edges_on_curves = 44,
   pyramids = 49,
   end = 54,
   sol_at_vertices = 62
@@ -60,9 +64,9 @@ constexpr std::uint64_t gmf_most_bytes(const GmfCounts& of) noexcept {
   // An element of second order takes at most 40 bytes, and a vertex if it is a quadrilateral.
   return 300 + vertex * (of.vertices + of.cells) + 16 * of.triangles + 40 * of.cells + 16 * of.edges;
 }
-/// True if positions may need version 3.
-constexpr bool gmf_needs_64_bits(const GmfCounts& of) noexcept {
-  return gmf_most_bytes(of) > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
+/// True if positions may need version 3. `more`: bytes of further sections.
+constexpr bool gmf_needs_64_bits(const GmfCounts& of, std::uint64_t more = 0) noexcept {
+  return gmf_most_bytes(of) + more > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
 }
 
 }  // namespace carreau

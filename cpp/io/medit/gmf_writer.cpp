@@ -88,18 +88,41 @@ GmfCounts counts_of(const FlatMesh& mesh) noexcept {
           .cells = mesh.cells.size()};
 }
 
+constexpr std::size_t on_point_bytes = 8, on_curve_bytes = 24, on_face_bytes = 32;
+
+std::uint64_t bytes_of(const MeshAssociation& association, const FlatMesh& mesh) noexcept {
+  constexpr std::uint64_t headers = 4 * 20;
+  return headers + on_point_bytes * (association.points.size() + mesh.edges.size()) + on_curve_bytes * association.curves.size() +
+         on_face_bytes * association.faces.size();
+}
+
+/// Records as libMeshb has them: vertex, entity, parameters, distance from it.
+void write_association(const MeshAssociation& association, const ElementList<2>& edges, GmfWriter& writer) {
+  const auto entity = [&](std::size_t index, std::int32_t ref) { writer.append(std::array{static_cast<std::int32_t>(index) + 1, ref}); };
+  if (!association.points.empty()) writer.section(GmfCode::vertices_on_points, association.points.size(), on_point_bytes);
+  for (const MeshAssociation::OnPoint& on : association.points) entity(on.node, on.ref);
+  if (!association.curves.empty()) writer.section(GmfCode::vertices_on_curves, association.curves.size(), on_curve_bytes);
+  for (const MeshAssociation::OnCurve& on : association.curves) entity(on.node, on.ref), writer.append(std::array{on.t, 0.0});
+  if (!association.faces.empty()) writer.section(GmfCode::vertices_on_faces, association.faces.size(), on_face_bytes);
+  for (const MeshAssociation::OnFace& on : association.faces) entity(on.node, on.ref), writer.append(std::array{on.uv.x(), on.uv.y(), 0.0});
+  if (!edges.nodes.empty()) writer.section(GmfCode::edges_on_curves, edges.nodes.size(), on_point_bytes);
+  for (std::size_t e = 0; e < edges.nodes.size(); ++e) entity(e, edges.refs[e]);
+}
+
 }  // namespace
 
-bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept { return gmf_needs_64_bits(counts_of(mesh)); }
+bool gmf_needs_64_bits(const FlatMesh& mesh, const MeshAssociation* association) noexcept {
+  return gmf_needs_64_bits(counts_of(mesh), association != nullptr ? bytes_of(*association, mesh) : 0);
+}
 
-std::string gmf_bytes(const FlatMesh& mesh, int version) {
+std::string gmf_bytes(const FlatMesh& mesh, int version, const MeshAssociation* association) {
   std::string bytes;
-  bytes.reserve(gmf_most_bytes(counts_of(mesh)));
-  write_gmf(mesh, version, [&](std::string_view block) { bytes += block; });
+  bytes.reserve(gmf_most_bytes(counts_of(mesh)) + (association != nullptr ? bytes_of(*association, mesh) : 0));
+  write_gmf(mesh, version, association, [&](std::string_view block) { bytes += block; });
   return bytes;
 }
 
-void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink) {
+void write_gmf(const FlatMesh& mesh, int version, const MeshAssociation* association, const ByteSink& sink) {
   GmfWriter writer(version, sink);
   writer.dimension(mesh.dimension);
   const MeditElements elements(mesh);
@@ -121,6 +144,7 @@ void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink) {
   writer.entities(GmfCode::triangles_of_order_2, lists.triangles6.nodes, lists.triangles6.refs);
   writer.entities(GmfCode::edges_of_order_2, lists.edges3.nodes, lists.edges3.refs);
   writer.entities(GmfCode::quadrilaterals_of_order_2, elements.quads9.nodes, elements.quads9.refs);
+  if (association != nullptr) write_association(*association, lists.edges, writer);
   writer.end();
 }
 

@@ -39,6 +39,27 @@ void append_entities(std::string& text, const char* keyword, const std::vector<s
   }
 }
 
+template <typename Record>
+void append_record(std::string& text, const Record& record, const double* parameters, int count) {
+  append_integer(text, std::int64_t{record.node} + 1);
+  text += ' ';
+  append_integer(text, record.ref);
+  for (int i = 0; i < count; ++i) text += ' ', append_number(text, parameters[i]);
+  text += count > 0 ? " 0\n" : "\n";  // the distance
+}
+
+void append_association(std::string& text, const MeshAssociation& association, const ElementList<2>& edges) {
+  if (!association.points.empty()) append_header(text, "VerticesOnGeometricVertices", association.points.size());
+  for (const MeshAssociation::OnPoint& on : association.points) append_record(text, on, nullptr, 0);
+  if (!association.curves.empty()) append_header(text, "VerticesOnGeometricEdges", association.curves.size());
+  for (const MeshAssociation::OnCurve& on : association.curves) append_record(text, on, &on.t, 1);
+  if (!association.faces.empty()) append_header(text, "VerticesOnGeometricTriangles", association.faces.size());
+  for (const MeshAssociation::OnFace& on : association.faces) append_record(text, on, on.uv.data(), 2);
+  if (!edges.nodes.empty()) append_header(text, "EdgesOnGeometricEdges", edges.nodes.size());
+  for (std::size_t e = 0; e < edges.nodes.size(); ++e)
+    append_record(text, MeshAssociation::OnPoint{static_cast<std::int32_t>(e), edges.refs[e]}, nullptr, 0);
+}
+
 void append_vertex(std::string& text, int dimension, const Vec3& p, std::int32_t ref) {
   append_number(text, p.x());
   text += ' ';
@@ -55,7 +76,7 @@ void append_vertex(std::string& text, int dimension, const Vec3& p, std::int32_t
 }  // namespace
 
 // RT-0232 sec. 4, with version 2 (reals of 64 bits) instead of 0, which today's readers reject.
-std::string medit_text(const FlatMesh& mesh) {
+std::string medit_text(const FlatMesh& mesh, const MeshAssociation* association) {
   std::string text;
   text.reserve(200 + 56 * mesh.vertices.size() + 28 * mesh.triangles.size() + 20 * mesh.edges.size());
   // Gmsh requires the version on the line of its keyword; all programs read the dimension from a separate line.
@@ -74,6 +95,7 @@ std::string medit_text(const FlatMesh& mesh) {
   append_entities(text, "Quadrilaterals", lists.quads.nodes, lists.quads.refs);
   append_entities(text, "TrianglesP2", lists.triangles6.nodes, lists.triangles6.refs);
   append_entities(text, "QuadrilateralsQ2", elements.quads9.nodes, elements.quads9.refs);
+  if (association != nullptr) append_association(text, *association, lists.edges);
   text += "\nEnd\n";
   return text;
 }

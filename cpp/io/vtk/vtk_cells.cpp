@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "io/high_order/curved_files.h"
+#include "io/high_order/curved_reader.h"
 #include "io/polygons/polygon_cutter.h"
 
 namespace carreau {
@@ -47,8 +49,14 @@ constexpr SolidType solid_types[] = {
 std::string VtkCells::add(std::int64_t type, std::span<const std::int32_t> corners, std::size_t cell,
                           const std::vector<Vec3>& vertices) {
   if (type == 0 || type == vtk_vertex || type == vtk_points || type == vtk_polyhedron) return "";
+  if (add_curved_cell(type, corners, cell)) {
+    if (wrong_.empty() && !elements_.empty()) wrong_ = "elements of different orders are mixed";
+    return wrong_;
+  }
   if (add_edges(type, corners, cell) || add_surface(type, corners, cell, vertices) || add_solid(type, corners, cell)) {
     const bool first_order = !is_quadratic(elements_.empty() ? CellKind::triangle3 : elements_.front().cell.kind);
+    const bool mixes_curved = !elements_.empty() && !(cell_of_curved_[1].empty() && cell_of_curved_[2].empty());
+    if (mixes_curved) return "elements of different orders are mixed";
     const bool mixed = !elements_.empty() && is_quadratic(elements_.back().cell.kind) == first_order;
     return mixed ? "elements of first and of second order are mixed" : "";
   }
@@ -56,6 +64,28 @@ std::string VtkCells::add(std::int64_t type, std::span<const std::int32_t> corne
          std::to_string(corners.size()) +
          " points; triangles and quadrilaterals of order 1 and 2 (types 5, 9, 22, 23, 28, 34, 69, 70), pixels, polygons, "
          "strips and solids are read only";
+}
+
+bool VtkCells::add_curved_cell(std::int64_t type, std::span<const std::int32_t> nodes, std::size_t cell) {
+  struct Curved {
+    std::int64_t type;
+    std::size_t nodes;
+    int order, corners;
+  };
+  static constexpr Curved known[] = {{68, 4, 3, 2}, {68, 5, 4, 2}, {69, 10, 3, 3}, {69, 15, 4, 3}, {70, 16, 3, 4}, {70, 25, 4, 4}};
+  if (curved_ == nullptr) return false;
+  for (const Curved& each : known) {
+    if (each.type != type || each.nodes != nodes.size()) continue;
+    std::vector<std::int32_t> row(nodes.begin(), nodes.end());
+    if (each.corners == 4) {
+      const std::vector<std::size_t> rank = vtk_ranks_of_quad(each.order);
+      for (std::size_t i = 0; i < rank.size(); ++i) row[rank[i]] = nodes[i];
+    }
+    if (!add_curved(*curved_, each.order, each.corners, row, 0)) wrong_ = "elements of orders 3 and 4 are mixed";
+    cell_of_curved_[each.corners - 2].push_back(cell);
+    return true;
+  }
+  return false;
 }
 
 bool VtkCells::add_edges(std::int64_t type, std::span<const std::int32_t> corners, std::size_t cell) {

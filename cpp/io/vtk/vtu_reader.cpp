@@ -10,6 +10,7 @@
 #include "io/mesh_files.h"
 #include "io/text.h"
 #include "io/vtk/vtk_cells.h"
+#include "io/high_order/curved_reader.h"
 #include "io/vtk/vtu_arrays.h"
 #include "support/format.h"
 
@@ -22,7 +23,10 @@ using Arrays = std::map<std::string, VtuArray>;
 
 class VtuReader {
  public:
-  VtuReader(std::string_view content, const std::string& name) : content_(content), name_(name), tags_(content, name) {}
+  /// `curved`: takes elements of order 3 and 4; nullptr: they are errors.
+  VtuReader(std::string_view content, const std::string& name, HighOrderMesh* curved) : content_(content), name_(name), tags_(content, name), curved_(curved) {
+    if (curved != nullptr) elements_.set_curved(*curved);
+  }
 
   FlatMesh read() {
     const XmlTag root = tags_.next();
@@ -67,6 +71,7 @@ class VtuReader {
   std::string_view content_;
   const std::string& name_;
   XmlTags tags_;
+  HighOrderMesh* curved_;
   std::vector<Piece> pieces_;
   Arrays field_data_;
   FlatMesh mesh_;
@@ -247,6 +252,9 @@ void VtuReader::add_refs(VtuArrays& numbers, bool on_vertices) {
   if (on_vertices) return;
   for (const std::size_t cell : elements_.cell_of_triangle()) mesh_.triangle_refs.push_back(found[cell]);
   for (const std::size_t cell : elements_.cell_of_edge()) mesh_.edge_refs.push_back(found[cell]);
+  for (const int corners : {2, 3, 4})
+    for (std::size_t k = 0; k < elements_.cell_of_curved(corners).size(); ++k)
+      (corners == 2 ? curved_->edge_refs : corners == 3 ? curved_->triangle_refs : curved_->quad_refs)[k] = found[elements_.cell_of_curved(corners)[k]];
 }
 
 int VtuReader::components_of(const VtuArray& array) const {
@@ -341,7 +349,10 @@ void VtuReader::add_faces(VtuArrays& numbers) {
 }  // namespace
 
 FlatMesh read_mesh_vtu(std::string_view content, const std::string& name) {
-  return VtuReader(without_byte_order_mark(content), name).read();
+  return VtuReader(without_byte_order_mark(content), name, nullptr).read();
+}
+FlatMesh read_mesh_vtu(std::string_view content, const std::string& name, HighOrderMesh& curved) {
+  return VtuReader(without_byte_order_mark(content), name, &curved).read();
 }
 
 }  // namespace carreau

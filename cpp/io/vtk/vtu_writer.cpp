@@ -1,93 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK XML (UnstructuredGrid, version 1.0): the arrays follow the XML as raw bytes ("appended"), each preceded by its
 // length in bytes; `offset` counts from the byte after the underscore.
-#include <bit>
-#include <cstring>
 #include <map>
 
 #include "io/mesh_writers.h"
 #include "io/vtk/vtk_output.h"
+#include "io/vtk/vtu_places.h"
 
 namespace carreau {
 
 namespace {
-
-template <typename T>
-struct VtkType;
-template <>
-struct VtkType<double> {
-  static constexpr const char* name = "Float64";
-};
-template <>
-struct VtkType<std::int32_t> {
-  static constexpr const char* name = "Int32";
-};
-template <>
-struct VtkType<std::int64_t> {
-  static constexpr const char* name = "Int64";
-};
-template <>
-struct VtkType<std::uint8_t> {
-  static constexpr const char* name = "UInt8";
-};
-
-std::string escaped(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (c == '&')
-      text += "&amp;";
-    else if (c == '<')
-      text += "&lt;";
-    else if (c == '>')
-      text += "&gt;";
-    else if (c == '"')
-      text += "&quot;";
-    else
-      text += static_cast<unsigned char>(c) < ' ' ? '_' : c;  // XML 1.0 has no way to write most control characters
-  }
-  return text;
-}
-
-/// The XML so far and the data that will follow it.
-class VtuFile {
- public:
-  void xml(const std::string& text) { xml_ += text; }
-
-  template <typename T>
-  void array(const std::string& name, int components, const std::vector<T>& values) {
-    xml_ += std::string("<DataArray type=\"") + VtkType<T>::name + "\" Name=\"" + escaped(name) +
-            "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
-            std::to_string(offset_) + "\"/>\n";
-    const std::uint64_t length = values.size() * sizeof(T);
-    std::string& bytes = data_.emplace_back(sizeof length + length, '\0');
-    std::memcpy(bytes.data(), &length, sizeof length);
-    if (length > 0) std::memcpy(bytes.data() + sizeof length, values.data(), length);
-    offset_ += bytes.size();
-  }
-
-  /// An array of the whole file instead of its points or cells.
-  void field(const std::string& name, const std::vector<std::int32_t>& values) {
-    xml_ += "<DataArray type=\"Int32\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"" +
-            std::to_string(values.size()) + "\" format=\"ascii\">\n";
-    for (const std::int32_t value : values) xml_ += std::to_string(value) + "\n";
-    xml_ += "</DataArray>\n";
-  }
-
-  /// Gives everything away, array by array.
-  void finish(const ByteSink& sink) {
-    sink(xml_ + "<AppendedData encoding=\"raw\">\n_");
-    for (std::string& bytes : data_) {
-      sink(bytes);
-      std::string().swap(bytes);
-    }
-    sink("\n</AppendedData>\n</VTKFile>\n");
-  }
-
- private:
-  std::string xml_;
-  std::vector<std::string> data_;
-  std::uint64_t offset_ = 0;
-};
 
 std::vector<std::int32_t> all_refs(const std::vector<std::int32_t>& refs, std::size_t count) {
   return refs.empty() ? std::vector<std::int32_t>(count, 0) : refs;
@@ -148,7 +70,17 @@ void add_face_data(VtuFile& file, const VtkOutput& all) {
   add_solids(file, all);
 }
 
-void add_cell_data(VtuFile& file, const VtkOutput& cells) {
+std::vector<std::size_t> node_counts(const VtkOutput& cells) {
+  std::vector<std::int32_t> nodes;
+  std::vector<std::size_t> counts;
+  for (std::size_t c = 0; c < cells.elements(); ++c) {
+    nodes.clear(), cells.append_nodes(c, nodes);
+    counts.push_back(nodes.size());
+  }
+  return counts;
+}
+
+void add_cell_data(VtuFile& file, const VtkOutput& cells, const MeshAssociation* association) {
   std::vector<std::int32_t> refs;
   for (std::size_t c = 0; c < cells.size(); ++c) refs.push_back(cells.ref(c));
   file.xml("<CellData Scalars=\"reference\">\n");
@@ -157,6 +89,7 @@ void add_cell_data(VtuFile& file, const VtkOutput& cells) {
   // VTK requires a value for every cell; NaN marks a cell without a value, which colour ranges leave out.
   for (const MeshField& field : cells.mesh().fields)
     if (!field.on_vertices) file.array(field.name, field.components, cells.values(field));
+  if (association != nullptr && !association->cell_uv.empty()) add_cell_places(file, node_counts(cells), cells.size(), *association);
   file.xml("</CellData>\n");
 }
 
@@ -208,25 +141,23 @@ void add_faces(VtuFile& file, const FlatMesh& mesh) {
 
 }  // namespace
 
-std::string vtu_bytes(const FlatMesh& mesh) {
+std::string vtu_bytes(const FlatMesh& mesh, const MeshAssociation* association) {
   std::string bytes;
-  write_vtu(mesh, [&](std::string_view block) { bytes += block; });
+  write_vtu(mesh, association, [&](std::string_view block) { bytes += block; });
   return bytes;
 }
 
-void write_vtu(const FlatMesh& mesh, const ByteSink& sink) {
+void write_vtu(const FlatMesh& mesh, const MeshAssociation* association, const ByteSink& sink) {
   VtuFile file;
   const VtkOutput cells(mesh);
-  const std::string order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-  file.xml("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" + order +
-           "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-           std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(cells.size()) + "\">\n");
+  file.open("1.0", mesh.vertices.size(), cells.size());
   file.xml("<PointData Scalars=\"reference\">\n");
   file.array("reference", 1, all_refs(mesh.vertex_refs, mesh.vertices.size()));
   for (const MeshField& field : mesh.fields)
     if (field.on_vertices) file.array(field.name, field.components, field.values);
+  if (association != nullptr) add_node_places(file, *association);
   file.xml("</PointData>\n");
-  add_cell_data(file, cells);
+  add_cell_data(file, cells, association);
   std::vector<double> points;
   points.reserve(3 * mesh.vertices.size());
   for (const Vec3& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), mesh.dimension == 3 ? p.z() : 0});

@@ -148,6 +148,7 @@ const HighOrderMesh& Session::raise_order(int order, NodePlaces places) {
   if (!made.invalid.empty()) made = carreau::raise_order(model, finer ? *finer : s.result, order, places, true, run);
   if (finer) keep_refined(std::move(*finer), run);
   made.names = names();
+  show_points(meshed.model, made.corner_refs);
   if (!made.invalid.empty()) {
     const auto n = static_cast<std::size_t>(made.invalid.front());
     const std::size_t triangles = made.triangle_refs.size();

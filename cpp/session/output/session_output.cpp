@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of a session: its mesh, its fields, its measures.
+#include <algorithm>
+#include <array>
+
 #include "cad/checked_cad.h"
 #include "cad/part_cad.h"
 #include "fields/field_files.h"
 #include "io/delivered_json.h"
 #include "io/files.h"
+#include "io/high_order/curved_files.h"
 #include "io/mesh_files.h"
 #include "model/geometries.h"
+#include "periodic/closest.h"
+#include "projection/mesh_association.h"
 #include "session/options.h"
 #include "session/output/export.h"
 #include "session/output/field_attributes.h"
 #include "session/state.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -121,10 +128,20 @@ void Session::write(const std::string& path) {
     return;
   }
   const MeshFormat format = mesh_format_of(path);
-  write_mesh(exported_as(format), path, format, file_options());
+  MeshAssociation association;
+  const MeshFileOptions file = file_options(format, association);
+  write_mesh(exported_as(format), path, format, file);
 }
 
-std::string Session::encoded(MeshFormat format) { return mesh_bytes(exported_as(format), format, file_options()); }
+std::string Session::encoded(MeshFormat format) {
+  MeshAssociation association;
+  const MeshFileOptions file = file_options(format, association);
+  return mesh_bytes(exported_as(format), format, file);
+}
+
+void Session::write_raised(const std::string& path) const {
+  write_curved(raised(), path, state_->parameters.integer("association") == 1);
+}
 
 FlatMesh Session::exported_as(MeshFormat format) {
   const MeshEvaluation* measures = nullptr;  // other formats have no place for them
@@ -134,8 +151,43 @@ FlatMesh Session::exported_as(MeshFormat format) {
   return exported(measures, format == MeshFormat::vtu);
 }
 
-MeshFileOptions Session::file_options() const {
-  return {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1};
+MeshFileOptions Session::file_options(MeshFormat format, MeshAssociation& association) const {
+  MeshFileOptions file{.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1};
+  constexpr std::array with_places{MeshFormat::msh, MeshFormat::msh2, MeshFormat::mesh, MeshFormat::meshb, MeshFormat::vtu};
+  if (state_->parameters.integer("association") == 0 || std::find(with_places.begin(), with_places.end(), format) == with_places.end()) return file;
+  const std::string option = state_->parameters.text("option");
+  if (!option.empty() && option != "allsurf3d") throw InvalidArgument("association: the export \"" + option + "\" is not the whole mesh in space");
+  association = associate_nodes();
+  file.association = &association;
+  return file;
+}
+
+MeshAssociation Session::associate_nodes() const {
+  const State& s = *state_;
+  const Meshed& meshed = s.meshed;
+  const SurfaceMesh& mesh = this->mesh();
+  const std::vector<CurveParameters>& known = s.result.curve_parameters;
+  std::vector<std::vector<double>> mid_t(mesh.curves.size());
+  CheckedCad whole_cad(*meshed.cad);
+  PartCad cad(whole_cad, parts_of(meshed.model));
+  const CurveModel model{meshed.model, meshed.topology, meshed.supports.of_face, cad};
+  for (std::size_t c = 0; c < std::min(known.size(), meshed.topology.curves.size()); ++c) {
+    const CurveMesh& curve = mesh.curves[c];
+    const std::vector<CurveUse>& uses = meshed.topology.curves[c].uses;
+    const auto use = std::find_if(uses.begin(), uses.end(),
+                                  [&](const CurveUse& each) { return model.face_ref(each) == known[c].face && each.curve + 1 == known[c].ic; });
+    if (use == uses.end() || known[c].t.size() != curve.vertices.size()) continue;
+    for (std::size_t k = 0; k < curve.mid.size(); ++k) {
+      const auto [low, high] = std::minmax(known[c].t[k], known[c].t[k + 1]);
+      mid_t[c].push_back(curve.mid[k] >= 0 && low < high ? find_closest(model, *use, (low + high) / 2, low, high, mesh.mid_vertices[curve.mid[k]]).t
+                                                         : nan);
+    }
+  }
+  const auto shown = [&](std::int32_t ref) {
+    const auto found = meshed.model.shown_points.find(ref);
+    return found != meshed.model.shown_points.end() ? found->second : ref;
+  };
+  return associate(mesh, known, mid_t, shown, [this](std::size_t face, std::int32_t node) { return uv_face(face, node); });
 }
 
 }  // namespace carreau

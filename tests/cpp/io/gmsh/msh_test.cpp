@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -29,6 +31,7 @@ struct Content {
   std::map<std::pair<int, int>, std::string> names;  // dimension and tag
   std::map<int, Vec3> nodes;
   std::map<int, Element> elements;
+  std::map<std::pair<int, int>, std::vector<int>> bounds;  // of version 4.1, by dimension and tag
 };
 
 int nodes_of(int type) { return type == 15 ? 1 : type == 1 ? 2 : 3; }
@@ -92,7 +95,8 @@ Content read_4(const std::string& text) {
       words >> n >> physical[{dim, tag}];
       EXPECT_EQ(n, 1);
       words >> n;
-      EXPECT_EQ(n, 0);
+      std::vector<int>& bounds = content.bounds[{dim, tag}];
+      for (int k = 0; k < n; ++k) words >> bounds.emplace_back();
     }
   EXPECT_EQ(counts[3], 0);
   words = section(text, "Nodes");
@@ -158,6 +162,43 @@ TEST(Msh, BothVersionsHoldTheSameMesh) {
   const std::map<std::pair<int, int>, std::string> names{
       {{0, 4}, "point_4"}, {{1, 5}, "curve_5"}, {{2, 3}, "lid _A_"}, {{2, 7}, "face_7"}};
   EXPECT_EQ(now.names, names);
+}
+
+TEST(Msh, EntitiesKnowTheirBorders) {
+  // The square's border as curves 1 to 4 between points 1 to 4, and its diagonal as curve 9.
+  FlatMesh mesh = named_square();
+  mesh.vertex_refs = {1, 2, 3, 4}, mesh.fields.clear();
+  const auto [a, b, c] = mesh.triangles[0];
+  const auto& second = mesh.triangles[1];
+  mesh.edges.clear(), mesh.edge_refs.clear();
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (const auto& t : {mesh.triangles[0], second})
+    for (std::size_t i = 0; i < 3; ++i) sides.push_back({t[i], t[(i + 1) % 3]});
+  int ref = 0;
+  std::map<int, std::vector<int>> expected;  // of the faces
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const auto twin = std::find(sides.begin(), sides.end(), std::array{sides[s][1], sides[s][0]});
+    if (twin != sides.end() && twin - sides.begin() < static_cast<std::ptrdiff_t>(s)) continue;
+    mesh.edges.push_back(sides[s]), mesh.edge_refs.push_back(++ref);
+    expected[s < 3 ? 3 : 7].push_back(ref);
+    if (twin != sides.end()) expected[s < 3 ? 7 : 3].push_back(-ref);
+  }
+  ASSERT_EQ(ref, 5);
+  Content content = read_4(mesh_bytes(mesh, MeshFormat::msh));
+  for (auto& [face, bounds] : expected) {
+    std::sort(bounds.begin(), bounds.end()), std::sort(content.bounds[{2, face}].begin(), content.bounds[{2, face}].end());
+    EXPECT_EQ((content.bounds[{2, face}]), bounds) << face;
+  }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    EXPECT_EQ((content.bounds[{1, mesh.edge_refs[e]}]), (std::vector{mesh.vertex_refs[mesh.edges[e][0]], -mesh.vertex_refs[mesh.edges[e][1]]}));
+  // A closed curve starts and ends at its point; a seam bounds its face from both sides.
+  mesh.triangles.push_back({mesh.triangles[0][0], mesh.triangles[0][2], mesh.triangles[0][1]});
+  mesh.triangle_refs = {3, 3, 3};
+  mesh.vertex_refs = {0, 0, 0, 0}, mesh.vertex_refs[a] = 6;
+  mesh.edges = {{a, b}, {b, c}, {c, a}}, mesh.edge_refs = {5, 5, 5};
+  content = read_4(mesh_bytes(mesh, MeshFormat::msh));
+  EXPECT_EQ((content.bounds[{1, 5}]), (std::vector{6, -6}));
+  EXPECT_EQ((content.bounds[{2, 3}]), (std::vector{5, -5}));
 }
 
 TEST(Msh, CurvesAndCornersAreLeftOutWithoutTheirGroups) {

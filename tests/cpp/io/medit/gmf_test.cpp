@@ -141,7 +141,7 @@ TEST(Gmf, ComesInBlocks) {
   for (const int version : {2, 3}) {
     std::string all;
     std::size_t largest = 0, blocks = 0;
-    write_gmf(mesh, version, [&](std::string_view block) {
+    write_gmf(mesh, version, nullptr, [&](std::string_view block) {
       all += block;
       largest = std::max(largest, block.size());
       ++blocks;
