@@ -790,6 +790,7 @@ class carreau_remesh_input(Structure):
         ("remove_overlaps", c_int32),
         ("has_reach", c_int32),
         ("reach", c_double),
+        ("vertex_kinds", c_void_p),
     ]
 
 
