@@ -151,7 +151,7 @@ module carreau
 
   type :: carreau_background_report
     integer(c_int64_t) :: asked = 0, outside = 0
-    real(c_double) :: farthest = 0
+    real(c_double) :: farthest = 0, estimated_error = 0, tolerance = 0
   end type carreau_background_report
 
   type :: carreau_layers_report
@@ -176,6 +176,9 @@ module carreau
     real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0, size_min = 0, &
       stretch_max = 0
     integer(c_int64_t) :: outside = 0
+    integer(c_int32_t) :: best = 0
+    logical :: within = .false.
+    real(c_double) :: tolerance = 0, estimated_error = 0
   end type carreau_adaptation_report
 
   type :: carreau_exr_options
@@ -2186,6 +2189,8 @@ contains
     report%asked = c%asked
     report%outside = c%outside
     report%farthest = c%farthest
+    report%estimated_error = c%estimated_error
+    report%tolerance = c%tolerance
   end subroutine carreau_session_background
 
   ! ---- Adaptation ----
@@ -2271,6 +2276,7 @@ contains
     status = c_adapt(session%handle, a, c)
     if (status /= CARREAU_OK .and. status /= CARREAU_ERR_PARTIAL) return
     report = carreau_adaptation_report(c%iterations, c%converged /= 0, c%vertices, c%triangles, c%triangles_before, &
-      c%error_max, c%error_rms, c%error_max_before, c%error_rms_before, c%size_min, c%stretch_max, c%outside)
+      c%error_max, c%error_rms, c%error_max_before, c%error_rms_before, c%size_min, c%stretch_max, c%outside, &
+      c%best, c%within /= 0, c%tolerance, c%estimated_error)
   end subroutine carreau_adapt
 end module carreau

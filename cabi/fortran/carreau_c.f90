@@ -91,7 +91,7 @@ module carreau_c
   type, bind(c) :: c_background_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: asked = 0, outside = 0
-    real(c_double) :: farthest = 0
+    real(c_double) :: farthest = 0, estimated_error = 0, tolerance = 0
   end type c_background_report
 
   !> One set of layers of the last mesh.
@@ -127,6 +127,8 @@ module carreau_c
     real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0, size_min = 0, &
       stretch_max = 0
     integer(c_int64_t) :: outside = 0
+    integer(c_int32_t) :: best = 0, within = 0
+    real(c_double) :: tolerance = 0, estimated_error = 0
   end type c_adaptation_report
 
   !> A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the

@@ -26,6 +26,7 @@ module carreau_remesh_c
     integer(c_int64_t) :: max_triangles = 0
     integer(c_int32_t) :: remove_overlaps = 0, has_reach = 0
     real(c_double) :: reach = 0
+    type(c_ptr) :: vertex_kinds = c_null_ptr
   end type c_remesh_input
 
   !> The events of a remeshing.

@@ -27,6 +27,7 @@ module carreau_remeshing
     integer(c_int32_t), allocatable :: triangles(:, :)     !< (3, m)
     real(c_double), allocatable :: displacements(:, :)     !< (2, n)
     real(c_double), allocatable :: damage(:)               !< (m)
+    integer(c_int32_t), allocatable :: vertex_kinds(:)     !< (n), by carreau_mesh_vertex_refs after the last increment
     integer(c_int64_t), allocatable :: tool_starts(:)
     real(c_double), allocatable :: tool_points(:, :)       !< (2, points)
     real(c_double), allocatable :: tool_radii(:)           !< (points)
@@ -81,6 +82,7 @@ contains
     c%triangles = c_loc(triangles(1))
     if (allocated(input%displacements)) c%displacements = c_loc(input%displacements(1, 1))
     if (allocated(input%damage)) c%damage = c_loc(input%damage(1))
+    if (allocated(input%vertex_kinds)) c%vertex_kinds = c_loc(input%vertex_kinds(1))
     if (allocated(input%tool_starts)) then
       allocate (starts(size(input%tool_starts)))
       starts = input%tool_starts - 1
@@ -142,6 +144,7 @@ contains
     fit = size(input%vertices, 1) == 2 .and. size(input%triangles, 1) == 3
     if (allocated(input%displacements)) fit = fit .and. all(shape(input%displacements) == [2, n])
     if (allocated(input%damage)) fit = fit .and. size(input%damage) == m
+    if (allocated(input%vertex_kinds)) fit = fit .and. size(input%vertex_kinds) == n
     if (allocated(input%nodal_values)) fit = fit .and. size(input%nodal_values, 2) == n
     if (allocated(input%element_values)) then
       fit = fit .and. size(input%element_values, 2) == m

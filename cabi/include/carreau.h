@@ -660,6 +660,8 @@ typedef struct carreau_background_report {
   int64_t asked;   /* points looked up */
   int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest element */
   double farthest; /* distance of the farthest one; model length, or parameter length */
+  double estimated_error; /* of the fields of carreau_set_background_fields on the background mesh, in the unit of the tolerance */
+  double tolerance;       /* of the estimate; 0: there was none. A loop ends when estimated_error is below it */
 } carreau_background_report;
 /* Gives the report on the background of the last mesh. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
@@ -773,7 +775,7 @@ typedef struct carreau_adaptation {
   const carreau_estimator* estimator;
   carreau_field_fn field;
   void* user;          /* handed to field */
-  int32_t iterations;  /* at most; 0: 5 */
+  int32_t iterations;  /* at most; 0: 5. The first mesh whose estimated error is within the tolerance ends the loop */
   int32_t differences; /* 1: derivatives of the field itself, by differences (plane z = 0 only); 0: from values at the
                           vertices alone, as carreau_estimate does, best with a gradation of 2 */
   double convergence;  /* ends when the number of triangles changes by a smaller share; 0: makes all iterations */
@@ -787,16 +789,21 @@ typedef struct carreau_adaptation_report {
   int32_t converged;  /* 1: ended by `convergence` */
   int64_t vertices, triangles;
   int64_t triangles_before;
-  double error_max, error_rms;               /* on the last mesh */
+  double error_max, error_rms;               /* on the session's mesh, as vertices, triangles and the next ones */
   double error_max_before, error_rms_before; /* on the mesh that it started with */
-  double size_min;                           /* smallest size that was prescribed for the last mesh */
+  double size_min;                           /* smallest size that was prescribed for it */
   double stretch_max;                        /* largest ratio of two sizes of one metric */
-  int64_t outside;                           /* points outside of the last background mesh */
+  int64_t outside;                           /* points outside of its background mesh */
+  int32_t best;                              /* the iteration that made it, from 1: the one with the smallest estimate */
+  int32_t within;                            /* 1: its estimated error is not above the tolerance */
+  double tolerance;                          /* of the estimator */
+  double estimated_error; /* in the unit of the tolerance. HESSIAN: error_max, or the largest share of the field's value. CURVATURE,
+                             DEFORMATION: largest angle or distance between an edge of the graph and the tangent plane at its end */
 } carreau_adaptation_report;
 
 /* Adapts the mesh in a loop: it estimates, sets new sizes on the mesh, and meshes again. It starts with the session's
  * mesh, or makes one by the parameters. To look at each mesh, set iterations = 1 and call it again. In the end the
- * session has the last mesh, and no background mesh. hphymin and hphymax, unless they are set, are the bounds of the
+ * session has the mesh with the smallest estimated error (HDR sec. 1.2), and no background mesh. hphymin and hphymax, unless they are set, are the bounds of the
  * estimator. out_report may be NULL. Errors: as carreau_mesh_generate; the session then has the last mesh that was
  * made. */
 CARREAU_API carreau_status carreau_adapt(carreau_session* session, const carreau_adaptation* adaptation,

@@ -87,6 +87,9 @@ typedef struct carreau_remesh_input {
   int32_t has_reach;           /* 1: `reach` holds; 0: it is the step */
   double reach;                /* nodes outside of a tool are bound within this, at most the step: a surface that leaves a
                                   tool by less in an increment never comes off */
+  const int32_t* vertex_kinds; /* vertex_count, CARREAU_NODE_... as carreau_mesh_vertex_refs gives them after the last
+                                  increment: edges of the boundary between two imposed vertices stay imposed, and are not
+                                  smoothed again. NULL: only faces that this increment lays bare are imposed */
 } carreau_remesh_input;
 
 /* The events of a remeshing. */
@@ -112,6 +115,7 @@ typedef struct carreau_remesh_summary {
  * references of triangles are parts, from 1. `out_summary` may be NULL. Equal input gives an identical mesh. On an
  * error the mesh and the summary stay as they were. Errors: ARGUMENT (counts, indices, numbers that are not finite; a
  * triangle that the displacement has turned over; a displacement or a step larger than h_min; damage outside [0, 1]; a
+ * negative kind; a
  * tool deeper than the step in the piece, or the piece in a tool; radii that do not fit; nothing is left of the piece;
  * mesh of a session), DOMAIN (the piece overlaps itself), LIMIT, MEMORY. */
 CARREAU_API carreau_status carreau_remesh(carreau_mesh* mesh, const carreau_remesh_input* input,

@@ -50,6 +50,7 @@ void add_piece(const carreau_remesh_input& given, variable::RemeshInput& input) 
     input.piece.triangles.push_back({given.triangles[3 * t], given.triangles[3 * t + 1], given.triangles[3 * t + 2]});
   if (given.displacements != nullptr) input.displacement = points_of(given.displacements, n);
   if (given.damage != nullptr) input.damage.assign(given.damage, given.damage + m);
+  if (given.vertex_kinds != nullptr) input.vertex_kinds.assign(given.vertex_kinds, given.vertex_kinds + input.piece.vertices.size());
 }
 
 void add_tools(const carreau_remesh_input& given, variable::RemeshInput& input) {

@@ -84,7 +84,8 @@ std::vector<Loaded> loaded_elements(const SurfaceMesh& mesh, std::span<const dou
 
 }  // namespace
 
-InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const double> values, const FieldFunction& exact) {
+InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const double> values, const FieldFunction& exact,
+                                       double relative_floor) {
   const std::vector<Loaded> elements = loaded_elements(mesh, values);
   const Samples of_triangles(CellKind::triangle6), of_quads(CellKind::quad8);
   const auto samples = [&](const Loaded& e) -> const Samples& {
@@ -96,14 +97,16 @@ InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const 
   std::vector<double> known(points.size());
   exact(points, known);
   InterpolationError error;
+  const double floor = relative_floor * largest_value(values);
   double area = 0, squares = 0;
   std::size_t next = 0;
   for (const Loaded& e : elements) {
     const Samples& all = samples(e);
     for (std::size_t i = 0; i < all.places().size(); ++i) {
       check_value(known[next], "at a point");
-      const double away = std::abs(known[next++] - e.value_at(all.places()[i]));
+      const double value = known[next++], away = std::abs(value - e.value_at(all.places()[i]));
       error.largest = std::max(error.largest, away);
+      if (away > 0) error.largest_share = std::max(error.largest_share, away / std::max(std::abs(value), floor));
       const auto& [a, b, c] = all.triangles()[i / 4];
       const double part = norm(cross(e.at(b) - e.at(a), e.at(c) - e.at(a))) / 6;  // a third of the area
       if (i % 4 < 3) area += part, squares += part * away * away;

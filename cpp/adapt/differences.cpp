@@ -48,20 +48,20 @@ Refined refine(std::span<const Vec3> vertices, std::span<const std::array<std::i
   return fine;
 }
 
-std::vector<double> steps_of(const Refined& mesh) {
+/// `share` of the shortest edge at each vertex.
+std::vector<double> steps_of(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles, double share) {
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  for (const Vec3& p : mesh.vertices) {
+  for (const Vec3& p : vertices) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
   const double diagonal = norm(high - low);
-  std::vector<double> steps(mesh.vertices.size(), largest_step * diagonal);
-  for (const auto& t : mesh.triangles)
+  std::vector<double> steps(vertices.size(), largest_step * diagonal);
+  for (const auto& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
-      // Half edges: the step is a quarter of the whole edge. Shorter steps would be lost in rounding.
-      const double step =
-          std::max(0.5 * norm(mesh.vertices[b] - mesh.vertices[a]), largest_step * largest_step * diagonal);
+      // Shorter steps would be lost in rounding.
+      const double step = std::max(share * norm(vertices[b] - vertices[a]), largest_step * largest_step * diagonal);
       steps[a] = std::min(steps[a], step);
       steps[b] = std::min(steps[b], step);
     }
@@ -124,6 +124,11 @@ FieldFunction shared_function(const FieldFunction& exact, const Crew& crew, Moni
   };
 }
 
+double estimated_error(const ScalarField& field, const FieldFunction& exact, const EstimatorOptions& options) {
+  check_field(field);
+  return estimated_error(field, difference_derivatives(field.vertices, steps_of(field.vertices, field.triangles, 0.25), exact), options);
+}
+
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
                                       const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew,
@@ -135,7 +140,7 @@ VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
   std::vector<double> values(fine.vertices.size());
   exact(fine.vertices, values);
   const VertexPrescriptions all = estimate({fine.vertices, fine.triangles, values},
-                                           difference_derivatives(fine.vertices, steps_of(fine), exact), options, crew,
+                                           difference_derivatives(fine.vertices, steps_of(fine.vertices, fine.triangles, 0.5), exact), options, crew,
                                            monitor);
   VertexPrescriptions result = all;
   for (std::size_t e = 0; e < fine.edges.size(); ++e) {

@@ -29,6 +29,9 @@ VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew = {},
                                       Monitor* monitor = nullptr);
 
+/// estimated_error() by derivatives of the field itself, with these steps.
+double estimated_error(const ScalarField& field, const FieldFunction& exact, const EstimatorOptions& options);
+
 /// Returns a function whose values the processes share: each evaluates its own `exact` at some of the points, and all receive all values.
 /// Each process also evaluates some compared points: InvalidModel names the rank if its values differ from the values of rank 0. For a
 /// single process it is `exact` itself. References only. All processes call it together.

@@ -72,7 +72,7 @@ Graph graph_at(const LocalDerivatives& d) noexcept {
 class Estimate {
  public:
   Estimate(const ScalarField& field, const EstimatorOptions& options) : field_(field), options_(options) {
-    for (const double value : field.values) largest_ = std::max(largest_, std::abs(value));
+    largest_ = largest_value(field.values);
     if (options.source == ErrorSource::deformation && options.shape != ErrorShape::anisotropic)
       neighbours_ = neighbours_of(field.vertices.size(), field.triangles);
   }
@@ -93,6 +93,20 @@ class Estimate {
     // The circle's projection, or the largest circle inside it (HDR sec. 3.4.3 a.2).
     if (options_.shape == ErrorShape::graph) return limited_ratio(sandwich(graph.root, isotropic(h)));
     return isotropic(h / std::sqrt(1 + graph.slope2));
+  }
+
+  /// The error that the vertex sees along the edge to w, in the unit of the tolerance.
+  [[nodiscard]] double error_along(std::size_t v, std::size_t w, const LocalDerivatives& d) const {
+    const Vec2 r = d.frame.in_plane(field_.vertices[w] - field_.vertices[v]);
+    const double share = options_.tolerance / tolerance_at(v);
+    if (options_.source == ErrorSource::hessian)
+      return 2.0 / 9 * share *
+             std::abs(d.hessian.a * r.x() * r.x() + 2 * d.hessian.b * r.x() * r.y() + d.hessian.c * r.y() * r.y());
+    const double rise = field_.values[w] - field_.values[v];
+    const double away = std::abs(rise - dot(d.gradient, r)) / std::sqrt(1 + dot(d.gradient, d.gradient));
+    if (options_.source == ErrorSource::deformation) return share * away;
+    const double length = std::sqrt(dot(r, r) + rise * rise);
+    return length > 0 ? std::asin(std::min(1.0, away / length)) * 180 / std::numbers::pi : 0;
   }
 
  private:
@@ -258,6 +272,25 @@ VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDe
   return prescriptions_of(plane_metrics(field, derivatives, options, sharing), derivatives, options.shape);
 }
 
+double estimated_error(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives, const EstimatorOptions& options) {
+  check_options(field, options);
+  const Estimate estimate(field, options);
+  double largest = 0;
+  for (const auto& t : field.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(t[k]), w = static_cast<std::size_t>(t[(k + 1) % 3]);
+      if (derivatives[v].reliable) largest = std::max(largest, estimate.error_along(v, w, derivatives[v]));
+      if (derivatives[w].reliable) largest = std::max(largest, estimate.error_along(w, v, derivatives[w]));
+    }
+  return largest;
+}
+
+double estimated_error(const ScalarField& field, const EstimatorOptions& options, const Crew& crew, Monitor* monitor) {
+  check_field(field);
+  Sharing sharing(crew, monitor);
+  return estimated_error(field, derivatives_of(field, options, sharing), options);
+}
+
 VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Crew& crew,
                              Monitor* monitor) {
   check_field(field);
@@ -286,6 +319,18 @@ VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
     each.push_back(plane_metrics(field, derivatives, options, sharing));
   }
   return prescriptions_of(intersection_of(std::move(each), sharing), derivatives, options.shape);
+}
+
+double estimated_error_of_all(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                              std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
+                              const Crew& crew, Monitor* monitor) {
+  double largest = 0;
+  std::vector<double> one(vertices.size());
+  for (std::size_t f = 0; f < fields; ++f) {
+    for (std::size_t v = 0; v < one.size(); ++v) one[v] = values[v * fields + f];
+    largest = std::max(largest, estimated_error({vertices, triangles, one}, options, crew, monitor));
+  }
+  return largest;
 }
 
 }  // namespace carreau

@@ -35,6 +35,12 @@ void check_field(const ScalarField& field) {
                               std::to_string(v) + "; there are " + std::to_string(field.vertices.size()));
 }
 
+double largest_value(std::span<const double> values) noexcept {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
 Neighbours neighbours_of(std::size_t vertices, std::span<const std::array<std::int32_t, 3>> triangles) {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   pairs.reserve(6 * triangles.size());

@@ -28,6 +28,9 @@ void check_value(double value, const std::string& where);
 /// not too large (check_value).
 void check_field(const ScalarField& field);
 
+/// Largest absolute value.
+double largest_value(std::span<const double> values) noexcept;
+
 /// The vertices beside each vertex: vertex v has neighbour[start[v]] .. neighbour[start[v + 1] - 1], ascending.
 struct Neighbours {
   std::vector<std::int32_t> start, neighbour;

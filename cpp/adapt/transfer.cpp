@@ -303,7 +303,7 @@ TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, 
   return Transfer(from, to, values, components).run(crew, monitor != nullptr ? *monitor : silent);
 }
 
-InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact) {
+InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact, double relative_floor) {
   check_field(field);
   // Three middles and the centre of each triangle.
   std::vector<Vec3> points;
@@ -323,6 +323,7 @@ InterpolationError interpolation_error(const ScalarField& field, const FieldFunc
   std::vector<double> values(points.size());
   exact(points, values);
   InterpolationError error;
+  const double floor = relative_floor * largest_value(field.values);
   double area = 0, squares = 0;
   for (std::size_t i = 0; i < field.triangles.size(); ++i) {
     const auto& t = field.triangles[i];
@@ -335,6 +336,7 @@ InterpolationError interpolation_error(const ScalarField& field, const FieldFunc
       check_value(value, "at a point");
       const double away = std::abs(value - linear[4 * i + k]);
       error.largest = std::max(error.largest, away);
+      if (away > 0) error.largest_share = std::max(error.largest_share, away / std::max(std::abs(value), floor));
       if (k < 3) squares += a / 3 * away * away;
     }
   }

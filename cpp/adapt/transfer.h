@@ -38,14 +38,16 @@ TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, 
 
 /// Distance between a field and its linear interpolation on a mesh, in the field's unit.
 struct InterpolationError {
-  double largest = 0;  ///< at the centres of triangles and the middles of edges
+  double largest = 0;        ///< at the centres of triangles and the middles of edges
+  double largest_share = 0;  ///< there, over the field's absolute value, or over relative_floor of its largest value at nodes
   double rms = 0;      ///< root of the mean square over the area, by the middles of edges (exact to degree 2)
 };
 /// Throws the exceptions of check_field; InvalidArgument when the function returns a number that is not finite.
-InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact);
+InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact, double relative_floor = 0.1);
 /// Error of a field on all nodes (node_count) of elements of second order, interpolated by their shape functions. It is evaluated at the
 /// centres and at the middles of edges of a quarter of each. The root mean square is taken of the middles, over the straight triangles.
 /// Throws InvalidArgument unless the mesh has elements, all of second order, and values fit, are finite and not too large.
-InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const double> values, const FieldFunction& exact);
+InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const double> values, const FieldFunction& exact,
+                                       double relative_floor = 0.1);
 
 }  // namespace carreau

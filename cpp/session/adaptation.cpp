@@ -64,7 +64,10 @@ class Loop {
     if (!session_.has_mesh()) session_.make_mesh(0, share);
     const NoBackgroundAfterwards afterwards(session_);
     look({});
-    for (int i = 0; i < options_.iterations && !report_.converged; ++i) {
+    std::shared_ptr<const KeptMesh> best;
+    for (int i = 0; i < options_.iterations && !report_.converged && (i == 0 || !within()); ++i) {
+      // The mesh of the start is no result of the loop, however fine it is.
+      if (i > 0 && report_.best == report_.steps.size() - 1) best = session_.kept_mesh();
       const VertexPrescriptions wanted = estimated();
       const SizeRange range = range_of(wanted);
       {
@@ -76,12 +79,34 @@ class Loop {
       look(range);
       const auto now = static_cast<double>(report_.steps.back().triangles);
       report_.converged = std::abs(now - before) < options_.convergence * before;
+      const std::size_t last = report_.steps.size() - 1;
+      if (i == 0 || report_.steps[last].estimate < report_.steps[report_.best].estimate) report_.best = last;
     }
+    if (report_.best + 1 < report_.steps.size()) session_.restore(*best);
+    describe_end();
     monitor_.progress(Phase::idle, 0, 1);
     return std::move(report_);
   }
 
  private:
+  [[nodiscard]] bool within() const { return report_.within(options_.estimator.tolerance); }
+
+  void describe_end() {
+    const AdaptationStep& best = report_.steps[report_.best];
+    monitor_.message(Level::summary, "kept adaptation " + std::to_string(report_.best) + " of " +
+                                         std::to_string(report_.steps.size() - 1) + ": estimated error " + format_number(best.estimate) +
+                                         (within() ? ", within" : ", above") + " the tolerance of " +
+                                         format_number(options_.estimator.tolerance));
+  }
+
+  /// Of the session's mesh, whose values are values_.
+  [[nodiscard]] double estimate_of(const FlatMesh& mesh, const InterpolationError& error, const FieldFunction& field, const Crew& crew) {
+    const EstimatorOptions options = with_bounds(session_, options_.estimator);
+    if (options.source == ErrorSource::hessian) return options.relative ? error.largest_share : error.largest;
+    const ScalarField on_mesh{mesh.vertices, mesh.triangles, values_};
+    return options_.differences ? estimated_error(on_mesh, field, options) : estimated_error(on_mesh, options, crew, &monitor_);
+  }
+
   VertexPrescriptions estimated() {
     monitor_.checkpoint();
     return options_.differences ? estimate_on_mesh(session_, field_, options_.estimator)
@@ -98,8 +123,10 @@ class Loop {
       const FieldFunction field = shared_function(field_, crew, monitor_);
       field(mesh.vertices, values_);
       monitor_.checkpoint();
-      step.error = own.mid_vertices.empty() ? interpolation_error({mesh.vertices, mesh.triangles, values_}, field)
-                                            : interpolation_error(own, values_, field);
+      const double floor = options_.estimator.relative_floor;
+      step.error = own.mid_vertices.empty() ? interpolation_error({mesh.vertices, mesh.triangles, values_}, field, floor)
+                                            : interpolation_error(own, values_, field, floor);
+      step.estimate = estimate_of(mesh, step.error, field, crew);
     });
     step.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     step.triangles = static_cast<std::int64_t>(own.triangle_count());

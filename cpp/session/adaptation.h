@@ -34,7 +34,7 @@ struct AdaptationOptions {
   /// Derivatives of the field by differences (meshes of the plane z = 0), in place of derivatives recovered from its
   /// values at the vertices.
   bool differences = false;
-  int iterations = 5;  ///< at most; > 0
+  int iterations = 5;  ///< at most; > 0. The first mesh whose estimated error is within the tolerance ends the loop (HDR sec. 1.2)
   /// Ends when the number of triangles changes by less than this share; 0: never.
   double convergence = 0.01;
 };
@@ -43,6 +43,9 @@ struct AdaptationOptions {
 struct AdaptationStep {
   std::int64_t vertices = 0, triangles = 0;
   InterpolationError error;     ///< of the field on that mesh
+  /// Estimate in the unit of the tolerance. Hessian: the largest interpolation error, or its share of the field; other sources:
+  /// estimated_error().
+  double estimate = 0;
   double smallest_size = 0;     ///< prescribed for that mesh; 0 for the first one
   double largest_stretch = 1;   ///< of prescribed metrics, in the tangent plane
   BackgroundReport background;  ///< of that run
@@ -50,11 +53,13 @@ struct AdaptationStep {
 
 struct AdaptationReport {
   std::vector<AdaptationStep> steps;  ///< the first step describes the mesh that the loop started with
-  bool converged = false;
+  std::size_t best = 0;     ///< the session's mesh: the step with the smallest estimate, not the first step
+  bool converged = false;  ///< the number of triangles no longer changed
+  [[nodiscard]] bool within(double tolerance) const { return steps[best].estimate <= tolerance; }
 };
 
 /// Adapts the session's mesh to a field, by all processes of its team together. If there is no mesh, makes one first, by the parameters
-/// alone. The session keeps the last mesh that was made, also when this throws, and has no background mesh afterwards. If hphymin or
+/// alone. The session then has the mesh with the smallest estimated error, or the last mesh when this throws, and no background mesh. If hphymin or
 /// hphymax is not set, the runs take the bounds of the estimator's prescriptions. Throws InvalidArgument (options; hphy_flag = 0: sizes
 /// would be ignored), and the exceptions of make_mesh() and of `field`.
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,

@@ -217,16 +217,22 @@ std::vector<double> scalars_of(const Solution& fields, const std::string& path) 
   return fields.values;
 }
 
-VertexPrescriptions estimate_fields(Session& session, const FlatMesh& mesh, const Solution& fields,
-                                    const std::string& path) {
+struct EstimatedFields {
+  VertexPrescriptions wanted;
+  double error = 0, tolerance = 0;
+};
+
+EstimatedFields estimate_fields(Session& session, const FlatMesh& mesh, const Solution& fields, const std::string& path) {
   const std::vector<double> values = scalars_of(fields, path);
   const EstimatorOptions options = estimator_of(session.parameters(), mesh.vertices);
-  VertexPrescriptions wanted;
+  EstimatedFields result{.wanted = {}, .error = 0, .tolerance = options.tolerance};
   session.together([&](const Crew& crew) {
     require_same_values(crew, values, options);
-    wanted = estimate_all(mesh.vertices, mesh.triangles, values, fields.components(), options, crew, &session.monitor());
+    Monitor& monitor = session.monitor();
+    result.wanted = estimate_all(mesh.vertices, mesh.triangles, values, fields.components(), options, crew, &monitor);
+    result.error = estimated_error_of_all(mesh.vertices, mesh.triangles, values, fields.components(), options, crew, &monitor);
   });
-  return wanted;
+  return result;
 }
 
 std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, VertexValues values) {
@@ -324,9 +330,11 @@ std::shared_ptr<BackgroundField> background_of_fields_here(Session& session, con
   const std::int32_t field = session.parameters().integer("sol_field");
   const Solution fields = read_fields(sol_path, mesh, mesh_path, field);
   if (is_metric(fields)) return field_of(mesh, one_plane, metrics_of(sol_path, mesh.dimension, mesh_path, field));
-  VertexValues values = values_on(mesh.dimension, estimate_fields(session, mesh, fields, sol_path));
+  const EstimatedFields estimated = estimate_fields(session, mesh, fields, sol_path);
   keep_triangles(mesh);
-  return field_of(mesh, one_plane, std::move(values));
+  std::shared_ptr<BackgroundField> background = field_of(mesh, one_plane, values_on(mesh.dimension, estimated.wanted));
+  background->set_estimate(estimated.error, estimated.tolerance);
+  return background;
 }
 
 }  // namespace
@@ -383,7 +391,7 @@ Start start_of(Session& session) {
 }
 
 VertexPrescriptions wanted_by(Session& session, const Start& start) {
-  if (!is_metric(start.fields)) return estimate_fields(session, start.mesh, start.fields, start.sol_path);
+  if (!is_metric(start.fields)) return estimate_fields(session, start.mesh, start.fields, start.sol_path).wanted;
   VertexPrescriptions wanted;
   wanted.metrics = metrics_of(start.sol_path, 3, "the model", session.parameters().integer("sol_field")).space;
   return wanted;

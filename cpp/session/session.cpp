@@ -416,6 +416,25 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   if (s.delivered) describe_evaluation(s.result.mesh, *s.delivered, s.monitor);
 }
 
+std::shared_ptr<const KeptMesh> Session::kept_mesh() const {
+  const State& s = *state_;
+  (void)mesh();
+  return std::make_shared<const KeptMesh>(KeptMesh{s.result, s.parts, s.meshed, s.previous, s.has_previous, s.meshed_parameters,
+                                                   s.background_report, s.layer_figures, s.delivered, s.interfaces, s.whole_faces});
+}
+
+void Session::restore(const KeptMesh& kept) {
+  State& s = *state_;
+  s.result = kept.result, s.parts = kept.parts, s.meshed = kept.meshed;
+  s.previous = kept.previous, s.has_previous = kept.has_previous, s.has_mesh = true;
+  s.meshed_parameters = s.tried_parameters = kept.parameters;
+  s.last_failed = false;
+  s.background_report = kept.background_report, s.layer_figures = kept.layer_figures, s.delivered = kept.delivered;
+  s.interfaces = kept.interfaces, s.whole_faces = kept.whole_faces;
+  s.shapes.reset(), s.quality.reset(), s.raised.reset();
+  s.forget_trees();
+}
+
 const MeshEvaluation& Session::delivered() {
   State& s = *state_;
   (void)mesh();

@@ -44,6 +44,7 @@ class DiscreteCad;
 struct PartResults;
 class Embedder;
 struct GluedModel;
+struct KeptMesh;
 struct PreparedModel;
 
 /// Independent of any other session; used by one thread at a time.
@@ -131,6 +132,9 @@ class Session {
   /// The mesh before mesh(), from which fields are transferred. Throws InvalidArgument before the second make_mesh().
   [[nodiscard]] const SurfaceMesh& previous_mesh() const;
   [[nodiscard]] bool has_previous_mesh() const noexcept;
+  /// A copy of the mesh, with the previous mesh and everything that is known about them, for restore().
+  [[nodiscard]] std::shared_ptr<const KeptMesh> kept_mesh() const;
+  void restore(const KeptMesh& kept);
   /// The face whose (u, v) a node has (local_cells()), as an index in mesh().faces. On a cross-patch mesh it may differ from the face that
   /// lists the node.
   [[nodiscard]] std::size_t uv_face(std::size_t face, std::int32_t node) const;

@@ -32,6 +32,21 @@ struct PreparedModel {
   std::shared_ptr<BackgroundField> background;
 };
 
+/// Everything that belongs to the mesh of a session.
+struct KeptMesh {
+  CompositeResult result;
+  std::shared_ptr<const PartResults> parts;
+  Meshed meshed;
+  SurfaceMesh previous;
+  bool has_previous = false;
+  Parameters parameters;
+  BackgroundReport background_report;
+  std::vector<LayerFigures> layer_figures;
+  std::optional<MeshEvaluation> delivered;
+  std::vector<Interface> interfaces;
+  std::vector<WholeFace> whole_faces;
+};
+
 struct Session::State {
   explicit State(Monitor& m) : monitor(m) {}
 

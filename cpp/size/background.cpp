@@ -226,7 +226,8 @@ double BackgroundField::accuracy() const noexcept { return 0.05; }
 
 void BackgroundField::begin_run(MetricLaw law) {
   law_ = law;
-  report_ = {};
+  report_.asked = report_.outside = 0;
+  report_.farthest = 0;
 }
 
 std::vector<std::string> BackgroundField::remarks() const {

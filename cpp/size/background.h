@@ -46,6 +46,8 @@ struct BackgroundReport {
   std::int64_t asked = 0;
   std::int64_t outside = 0;  ///< farther from the mesh than 1/8 of the longest edge of the nearest element
   double farthest = 0;       ///< distance of the farthest point outside; model length, or parameter length
+  /// Estimated error of the fields on the background mesh, in the unit of the tolerance; a tolerance of 0: no estimate.
+  double estimated_error = 0, tolerance = 0;
   friend bool operator==(const BackgroundReport&, const BackgroundReport&) = default;
 };
 
@@ -79,6 +81,7 @@ class BackgroundField final : public PrescriptionSource {
   /// A plane mesh does not answer.
   Prescription at_point(int point, Vec3 xyz) override;
 
+  void set_estimate(double error, double tolerance) noexcept { report_.estimated_error = error, report_.tolerance = tolerance; }
   /// Since the last begin_run().
   [[nodiscard]] const BackgroundReport& report() const noexcept { return report_; }
 

@@ -76,6 +76,15 @@ void check_damage(const RemeshInput& in) {
       refuse("the damage of triangle " + std::to_string(t) + " is " + text(in.damage[t]) + "; it must lie in [0, 1]");
 }
 
+void check_kinds(const RemeshInput& in) {
+  if (in.vertex_kinds.empty()) return;
+  if (in.vertex_kinds.size() != in.piece.vertices.size())
+    refuse("there are " + std::to_string(in.vertex_kinds.size()) + " kinds of " + std::to_string(in.piece.vertices.size()) + " vertices");
+  for (std::size_t v = 0; v < in.vertex_kinds.size(); ++v)
+    if (in.vertex_kinds[v] < Kind::inside)
+      refuse("the kind of vertex " + std::to_string(v) + " is " + std::to_string(in.vertex_kinds[v]) + "; it must not be negative");
+}
+
 void check_fields(const RemeshInput& in) {
   for (const RemeshField& field : in.fields) {
     const bool nodal = field.kind == FieldKind::nodal;
@@ -104,6 +113,7 @@ void check_input(const RemeshInput& input) {
   check_bounds(input);
   check_displacement(input);
   check_damage(input);
+  check_kinds(input);
   check_mesh(input);
   check_fields(input);
 }

@@ -56,7 +56,7 @@ class Remeshing {
   }
 
  private:
-  void erode_piece() { eroded_ = erode(in_.piece, damage_, in_.damage_limit, in_.keep_all_parts); }
+  void erode_piece() { eroded_ = erode(in_.piece, damage_, in_.damage_limit, in_.keep_all_parts, in_.vertex_kinds); }
 
   /// Overlapping elements are removed as damaged ones are; the elements that they bare may overlap, too.
   void remove_overlaps() {

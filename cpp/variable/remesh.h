@@ -33,6 +33,7 @@ struct RemeshInput {
   Piece piece;                     ///< the displacement of the increment already added
   std::vector<Vec2> displacement;  ///< of the increment, by vertex, to be checked; empty: not checked
   std::vector<double> damage;      ///< in [0, 1], by triangle; empty: none
+  std::vector<std::int32_t> vertex_kinds;  ///< RemeshResult::vertex_kinds of the last increment: imposed faces stay so; empty: unknown
   std::vector<Tool> tools;         ///< at their current places
   std::vector<RemeshField> fields;
 

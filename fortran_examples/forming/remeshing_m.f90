@@ -63,6 +63,7 @@ contains
     input%vertices = b%x
     input%triangles = b%t
     input%damage = b%damage
+    if (allocated(b%kind)) input%vertex_kinds = b%kind
     input%nodal_values = b%v
     allocate (input%element_values(5, size(b%t, 2)))
     input%element_values(1:4, :) = b%stress
@@ -81,6 +82,7 @@ contains
     b%x = xyz(1:2, :)
     call carreau_mesh_triangles(mesh, b%t, status)
     call carreau_mesh_edges(mesh, b%edge, status)
+    call carreau_mesh_vertex_refs(mesh, b%kind, status) ! faces that are laid bare stay imposed
     call carreau_remesh_nodal_values(mesh, 2, b%v, status)
     call carreau_remesh_element_values(mesh, 5, values, status)
     b%stress = values(1:4, :)

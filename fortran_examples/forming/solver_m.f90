@@ -28,6 +28,7 @@ module solver_m
     real(dp), allocatable :: stress(:, :)          !< (4, m): xx, yy, zz, xy
     real(dp), allocatable :: plastic(:), damage(:) !< (m)
     integer(c_int32_t), allocatable :: edge(:, :)  !< (2, k): boundary, the body on the left
+    integer(c_int32_t), allocatable :: kind(:)     !< (n): CARREAU_NODE_..., after a remeshing
     logical, allocatable :: fixed(:)
     logical :: self_contact = .false.
     real(dp), allocatable :: mass(:)

@@ -590,6 +590,74 @@ TEST_F(Adaptation, SteepFrontsAreFoundFromValuesAloneWithAGradation) {
   }
 }
 
+// A front tanh(k x), k = 10, bends by at most 4 k^2 / (3 sqrt 3), so the interpolation error on triangles of edges h, one direction of
+// bending, is at most that times h^2 / 6.
+TEST_F(Adaptation, TheFirstMeshWithinTheToleranceEndsTheLoop) {
+  constexpr double k = 10, h = 0.03;
+  Field field{[](double x, double) { return std::tanh(k * (x - 0.3)); }};
+  auto estimator = abi_tests::sized<carreau_estimator>();
+  estimator.hmin = h, estimator.hmax = h * (1 + 1e-9);  // the bounds determine the size
+  const double bound = 4 * k * k / (3 * std::sqrt(3)) * h * h / 6;
+  estimator.tolerance = 2 * bound;  // edges are up to sqrt 2 longer than h
+  carreau_adaptation a = adaptation(estimator, field);
+  auto report = abi_tests::sized<carreau_adaptation_report>();
+  ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+  EXPECT_EQ(report.iterations, 1);
+  EXPECT_EQ(report.best, 1);
+  EXPECT_EQ(report.within, 1);
+  EXPECT_EQ(report.tolerance, estimator.tolerance);
+  EXPECT_EQ(report.estimated_error, report.error_max);
+  EXPECT_LE(report.estimated_error, report.tolerance);
+  EXPECT_GT(report.estimated_error, 0.5 * bound);
+  // A mesh is always made, and a share of the field's value is another scale: here it is 1 / 200 of the error to within 1 %.
+  field.at = [](double x, double) { return 200 + std::tanh(k * (x - 0.3)); };
+  estimator.relative = 1, estimator.tolerance = 1;
+  ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+  EXPECT_EQ(report.iterations, 1);
+  EXPECT_NEAR(200 * report.estimated_error / report.error_max, 1, 0.01);
+}
+
+// Meshes of single steps: the loop over all of them returns the best.
+TEST_F(Adaptation, TheBestMeshOfTheLoopIsReturned) {
+  Field field{[](double x, double y) { return std::tanh(20 * (y - x * x / 2)); }};
+  auto estimator = abi_tests::sized<carreau_estimator>();
+  estimator.shape = CARREAU_ANISOTROPIC;
+  estimator.tolerance = 1e-9;  // out of reach
+  estimator.hmin = 0.02, estimator.hmax = 0.4;
+  carreau_adaptation a = adaptation(estimator, field);
+  auto report = abi_tests::sized<carreau_adaptation_report>();
+  const auto start = run();
+  a.iterations = 1;
+  std::vector<double> errors;
+  std::vector<std::vector<double>> meshes;
+  constexpr int steps = 5;
+  for (int i = 0; i < steps; ++i) {
+    ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+    errors.push_back(report.estimated_error);
+    meshes.push_back(abi_tests::data_of(mesh()).xyz);
+  }
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  ASSERT_EQ(abi_tests::data_of(mesh()).xyz, start.xyz);
+  bool last_is_best = true;
+  for (int n = 1; n <= steps; ++n) {
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    a.iterations = n;
+    ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+    const auto best = std::min_element(errors.begin(), errors.begin() + n) - errors.begin();
+    last_is_best = last_is_best && best == n - 1;
+    EXPECT_EQ(report.iterations, n);
+    EXPECT_EQ(report.best, best + 1);
+    EXPECT_EQ(report.within, 0);
+    EXPECT_EQ(report.estimated_error, errors[std::size_t(best)]);
+    EXPECT_EQ(abi_tests::data_of(mesh()).xyz, meshes[std::size_t(best)]);
+    EXPECT_EQ(report.vertices, int64_t(meshes[std::size_t(best)].size() / 3));
+    EXPECT_EQ(abi_tests::defects_of(mesh()), "");
+    auto delivered = abi_tests::sized<carreau_delivered>();
+    EXPECT_EQ(carreau_session_delivered(session, &delivered), CARREAU_OK) << error();
+  }
+  EXPECT_FALSE(last_is_best);
+}
+
 TEST_F(Adaptation, TheLoopEndsWhenTheMeshNoLongerChanges) {
   // The size is the same everywhere: one mesh, and one to see it.
   Field field{[](double x, double y) { return x * x + y * y; }};

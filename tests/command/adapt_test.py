@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/how-to/adapt.md as it stands there, sizes and metrics by
 files, several fields at once, surfaces in space, a sentence for each mistake. FORMULAS is 1 when the program has muParser."""
+import json
 import math
 import os
 import re
@@ -166,6 +167,24 @@ class Adapt(WorkFolder):
         found = count("--source", "curvature", "--shape", "graph", "--min", "0.02", tolerance="8")
         self.assertAlmostEqual(found / wanted, 1, delta=0.15)
 
+    def summary(self, *words):
+        result = self.run_program("adapt", *words, "-o", "next.mesh", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["adaptation"]
+
+    def widths(self, name):
+        mesh = read_mesh(self.path(name))
+        return [abs(mesh.vertices[t[k]][0] - mesh.vertices[t[k - 1]][0]) for t in mesh.triangles for k in range(3)]
+
+    def test_the_error_of_the_last_mesh_is_estimated(self):
+        """The field 10 x^2 bends by 20: 2/9 20 dx^2 on each edge (HDR eq. 3.3)."""
+        self.solution("u.sol", self.start(), [1], lambda x, y: [10 * x * x])
+        wanted = 2 / 9 * 20 * max(self.widths("0.mesh")) ** 2
+        for tolerance in (wanted / 2, wanted * 1.01):
+            loop = self.summary("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--tolerance", repr(tolerance))
+            self.assertAlmostEqual(loop["estimated_error_of_last_mesh"], wanted, delta=1e-6 * wanted)
+            self.assertEqual((loop["tolerance"], loop["reached_by_last_mesh"]), (tolerance, tolerance > wanted))
+
     def test_surfaces_in_space_are_adapted(self):
         self.done("mesh", TEAPOT, "-o", "0.mesh", "--size", "2%")
         mesh = read_mesh(self.path("0.mesh"))
@@ -191,8 +210,14 @@ class Adapt(WorkFolder):
         told = self.done("adapt", "square.poly", "--formula", "10 * x^2", "--tolerance", "0.02", "--iterations", "2", "--size", "0.2", "-o",
                          "next.mesh")
         self.assertEqual(told.count("\nadaptation "), 2)
+        self.assertIn("tolerance  0.02 not reached: estimated error ", told)
         size = math.sqrt(4.5 * 0.02 / 20)
         self.assertAlmostEqual(len(read_mesh(self.path("next.mesh")).triangles) / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
+        # The first mesh within the tolerance ends the loop: its error is at most 20 h^2 / 8 on edges h.
+        loop = self.summary("square.poly", "--formula", "10 * x^2", "--tolerance", "0.02", "--min", "0.03", "--max", "0.03")
+        self.assertEqual((loop["meshes"], loop["mesh"], loop["reached"]), (1, 1, True))
+        self.assertLess(loop["estimated_error"], 0.02)
+        self.assertAlmostEqual(loop["estimated_error"], 20 / 8 * max(self.widths("next.mesh")) ** 2, delta=1e-6)
         self.fails("square.poly", "--formula", "1 / (x - x)", "-o", "next.vtu", sentence="has no finite value at x =")
         self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--convergence", "0.1", "-o", "next.vtu", sentence="it does not go with --mesh")
         # From the formula itself; the loop ends when the mesh no longer changes.

@@ -340,6 +340,8 @@ class carreau_background_report(Structure):
         ("asked", c_int64),
         ("outside", c_int64),
         ("farthest", c_double),
+        ("estimated_error", c_double),
+        ("tolerance", c_double),
     ]
 
 
@@ -400,6 +402,10 @@ class carreau_adaptation_report(Structure):
         ("size_min", c_double),
         ("stretch_max", c_double),
         ("outside", c_int64),
+        ("best", c_int32),
+        ("within", c_int32),
+        ("tolerance", c_double),
+        ("estimated_error", c_double),
     ]
 
 
@@ -784,6 +790,7 @@ class carreau_remesh_input(Structure):
         ("remove_overlaps", c_int32),
         ("has_reach", c_int32),
         ("reach", c_double),
+        ("vertex_kinds", c_void_p),
     ]
 
 

@@ -77,6 +77,8 @@ class BackgroundReport(NamedTuple):
     asked: int
     outside: int
     farthest: float
+    estimated_error: float
+    tolerance: float
 
 
 class LayersReport(NamedTuple):
@@ -108,6 +110,10 @@ class AdaptationReport(NamedTuple):
     size_min: float
     stretch_max: float
     outside: int
+    best: int
+    within: int
+    tolerance: float
+    estimated_error: float
 
 
 class PartCounts(NamedTuple):

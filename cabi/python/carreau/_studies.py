@@ -157,12 +157,13 @@ class Studies:
 
     def adapt(self, field: Callable[..., Any], tolerance: float = 0.01, *, iterations: int = 5, convergence: float = 0,
               differences: bool = False, progress: Progress = None, **estimator: Any) -> Any:
-        """Adapts the mesh to a field in a loop; returns the last mesh, and self.adaptation has the report.
+        """Adapts the mesh to a field in a loop; returns the mesh with the smallest estimated error, and self.adaptation has the report.
 
         field         of the place; its parameters name the values it takes: x, y, z (n each) or xyz (n, 3). Gives n
                       values
         tolerance     largest error of interpolation, and estimator: as for estimate()
-        iterations    at most; convergence: ends when the number of triangles changes by a smaller share
+        iterations    at most: the first mesh within the tolerance ends the loop; convergence: ends when the number of
+                      triangles changes by a smaller share
         differences   derivatives of the field itself, by differences (plane z = 0 only)"""
         asks = Named(field, ("x", "y", "z", "xyz"), 3, "xyz")
 

@@ -55,7 +55,7 @@ def _columns(values: Optional[ArrayLike], rows: int, name: str) -> Optional[Real
 
 def remesh(vertices: ArrayLike, triangles: ArrayLike, *, h_min: float, h_max: float, step: float, tools: Sequence[Tool] = (),
            displacements: Optional[ArrayLike] = None, damage: Optional[ArrayLike] = None, nodal: Optional[ArrayLike] = None,
-           elements: Optional[ArrayLike] = None, conserved: Sequence[bool] = (), curves: str = "tangent", error: str = "",
+           elements: Optional[ArrayLike] = None, vertex_kinds: Optional[ArrayLike] = None, conserved: Sequence[bool] = (), curves: str = "tangent", error: str = "",
            **options: Any) -> Remeshed:
     """Meshes a piece anew after an increment.
 
@@ -63,6 +63,7 @@ def remesh(vertices: ArrayLike, triangles: ArrayLike, *, h_min: float, h_max: fl
     h_min, h_max   bounds of sizes; step: vertices as near to a tool are bound, at most h_min
     displacements  (n, 2), to be checked
     damage         (m), in [0, 1]: totally damaged triangles are removed
+    vertex_kinds   (n): mesh.vertex_refs of the last increment; faces that were laid bare stay imposed
     nodal          (n) or (n, k), elements (m) or (m, k): fields to be carried on; conserved: for each column of
                    elements, whether its integral stays, in place of means
     curves         between corners: "tangent", "natural" (splines), "polygon"
@@ -83,6 +84,7 @@ def remesh(vertices: ArrayLike, triangles: ArrayLike, *, h_min: float, h_max: fl
     arrays: dict[str, Any] = {
         "vertices": xy, "triangles": corners, "displacements": None if displacements is None else doubles(displacements, "displacements", len(xy), 2),
         "damage": None if damage is None else doubles(damage, "damage", len(corners)), "nodal_values": at_nodes,
+        "vertex_kinds": None if vertex_kinds is None else int32s(vertex_kinds, "vertex_kinds", len(xy)),
         "element_values": in_elements, "element_kinds": kinds if len(kinds) else None, **_tools(tools)}
     options["has_reach"] = int("reach" in options)
     given = struct(c.carreau_remesh_input, vertex_count=len(xy), triangle_count=len(corners), tool_count=len(tools), h_min=h_min,

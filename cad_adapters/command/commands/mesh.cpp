@@ -371,6 +371,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   if (ranks != nullptr && !options.parts) ranks->attach(session.get());
   Ranks::Part part;
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
+  run.adaptation = &adaptation;
   run.seconds_reading = reading.seconds();
   progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
   progress.line(input->summary());

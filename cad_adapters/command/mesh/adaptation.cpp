@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/failure.h"
 #include "base/text_file.h"
@@ -60,6 +62,13 @@ carreau_estimator estimator_of(carreau_session* session, double diagonal) {
   estimator.hmin = low > 0 ? low : smallest_share * diagonal;
   estimator.hmax = high > 0 ? high : largest_share * diagonal;
   return estimator;
+}
+
+carreau_background_report background_of(carreau_session* session) {
+  carreau_background_report report{};
+  report.struct_size = sizeof report;
+  require(session, carreau_session_background(session, &report));
+  return report;
 }
 
 }  // namespace
@@ -123,7 +132,9 @@ carreau_status Adaptation::run_formula(carreau_session* session, double diagonal
   adaptation.iterations = choice_.iterations;
   adaptation.differences = choice_.differences ? 1 : 0;
   adaptation.convergence = choice_.convergence;
-  const carreau_status status = carreau_adapt(session, &adaptation, nullptr);
+  report_ = {};
+  report_.struct_size = sizeof report_;
+  const carreau_status status = carreau_adapt(session, &adaptation, &report_);
   // The formula of another process may have failed at a place that this process did not evaluate.
   const std::string sentence = carreau_last_error(session);
   if (status == CARREAU_ERR_CALLBACK && failure_.empty() && sentence.find("callback of the field") != std::string::npos)
@@ -145,6 +156,33 @@ std::int32_t Adaptation::field_at(std::int64_t n, const double* xyz, double* val
     return 1;
   }
   return 0;
+}
+
+std::string Adaptation::line(carreau_session* session) const {
+  if (!choice_.is_adapt) return "";
+  const auto sentence = [](double error, double tolerance, const std::string& mesh) {
+    std::ostringstream line;
+    line << "tolerance  " << tolerance << (error <= tolerance ? " reached" : " not reached") << ": estimated error " << error << " on " << mesh;
+    return line.str();
+  };
+  if (formula_)
+    return sentence(report_.estimated_error, report_.tolerance,
+                    "adaptation " + std::to_string(report_.best) + " of " + std::to_string(report_.iterations));
+  const carreau_background_report report = background_of(session);
+  return report.tolerance > 0 ? sentence(report.estimated_error, report.tolerance, "the last mesh") : "";
+}
+
+nlohmann::ordered_json Adaptation::json(carreau_session* session) const {
+  if (!choice_.is_adapt) return nullptr;
+  if (formula_)
+    return {{"tolerance", report_.tolerance},   {"estimated_error", report_.estimated_error}, {"reached", report_.within != 0},
+            {"mesh", report_.best},             {"meshes", report_.iterations},               {"error_max", report_.error_max},
+            {"error_rms", report_.error_rms}};
+  const carreau_background_report report = background_of(session);
+  if (!(report.tolerance > 0)) return nullptr;
+  return {{"tolerance", report.tolerance},
+          {"estimated_error_of_last_mesh", report.estimated_error},
+          {"reached_by_last_mesh", report.estimated_error <= report.tolerance}};
 }
 
 void Adaptation::write_fields(carreau_session* session, const std::string& path, Progress& progress) const {

@@ -5,6 +5,7 @@
 #include <carreau.h>
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,11 @@ class Adaptation {
   carreau_status run(carreau_session* session, double diagonal);
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
 
+  /// The tolerance and the estimated error, as a line of the summary and as JSON. By a formula they are about the session's mesh, by
+  /// files about the last mesh. "" and null: there was no estimate.
+  [[nodiscard]] std::string line(carreau_session* session) const;
+  [[nodiscard]] nlohmann::ordered_json json(carreau_session* session) const;
+
   /// Writes the fields on the session's mesh. Throws Failure.
   void write_fields(carreau_session* session, const std::string& path, Progress& progress) const;
 
@@ -56,6 +62,7 @@ class Adaptation {
 
   AdaptChoice choice_;
   std::unique_ptr<Formula> formula_;
+  carreau_adaptation_report report_{};  ///< of the loop by a formula
   std::string failure_;
 };
 

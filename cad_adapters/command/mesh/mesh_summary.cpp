@@ -12,6 +12,7 @@
 #include "check/part_crossings.h"
 #include "check/quality_json.h"
 #include "files/session_handle.h"
+#include "mesh/adaptation.h"
 #include "mesh/curve_edges.h"
 
 namespace command {
@@ -315,6 +316,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   if (std::string line = gradation_line(run); !line.empty()) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
   if (std::string line = contacts_line(run); !line.empty()) lines.push_back(std::move(line));
+  if (std::string line = run.adaptation != nullptr ? run.adaptation->line(run.session) : ""; !line.empty()) lines.push_back(std::move(line));
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,
                        r.seconds_total, static_cast<int>(threads), threads == 1 ? "thread" : "threads",
@@ -385,6 +387,8 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                                       {"total", r.seconds_total},
                                       {"writing", run.seconds_writing},
                                       {"processor", run.seconds_processor}}}};
+  if (nlohmann::ordered_json loop = run.adaptation != nullptr ? run.adaptation->json(run.session) : nullptr; !loop.is_null())
+    summary["adaptation"] = std::move(loop);
   if (!run.options.layers.empty()) summary["layers"] = layers_json(run.session, run.options);
   if (delivered) summary["delivered"] = delivered_json(run.session);
   return summary;

@@ -20,6 +20,8 @@ namespace command {
 /// The figures of the last run of a session.
 carreau_report report_of(carreau_session* session);
 
+class Adaptation;
+
 /// A run with its results, besides the data of session and mesh.
 struct MeshRun {
   const MeshOptions& options;
@@ -33,6 +35,7 @@ struct MeshRun {
   ShortEdges short_edges = {};
   Crossings crossings = {};
   carreau_quality quality = {};
+  const Adaptation* adaptation = nullptr;
   std::function<std::string(const std::string& suffix)> volume_text = {};  ///< content of files of tetrahedra; empty: files have the mesh
 };
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/blended_surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "geometry/atlas/fold_check.h"
+#include "geometry/atlas/thresholds.h"
+#include "support/error.h"
 
 namespace carreau::atlas {
 namespace {
@@ -19,27 +23,29 @@ SurfaceJet jet_of(const std::array<Jet, 3>& p) {
 
 }  // namespace
 
-BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering)) {
+BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering)), heights_(covering_) {
   for (const Chart& chart : covering_.charts()) {
-    heights_.push_back(fine_heights(covering_, chart));
     primitives_.push_back(primitive_of(coarse_heights(covering_, chart), chart.frame));
   }
   const std::vector<Primitive> before = primitives_;
-  folds_ = mend_folds(covering_, primitives_);
-  for (std::size_t i = 0; i < before.size(); ++i)
-    is_moved_.push_back(before[i].coefficient != primitives_[i].coefficient);
-  require_no_folds(*this);
+  is_moved_.assign(before.size(), false);
+  std::string fold;
+  for (int parts = thresholds::grid_of_t; parts <= thresholds::finest_grid_of_t; parts *= 2) {
+    const FoldReport report = mend_folds(covering_, heights_, primitives_, parts);
+    if (parts == thresholds::grid_of_t) folds_ = report;
+    folds_.folded_after = report.folded_after;
+    for (std::size_t i = 0; i < before.size(); ++i) is_moved_[i] = before[i].coefficient != primitives_[i].coefficient;
+    folds_.mended_charts = static_cast<std::size_t>(std::count(is_moved_.begin(), is_moved_.end(), true));
+    fold = find_fold(*this);
+    if (fold.empty()) return;
+  }
+  throw DomainError(fold);
 }
 
 template <typename Number>
-std::array<Number, 3> BlendedSurface::onto(std::size_t chart, const std::array<Number, 3>& x) const {
-  const Frame& frame = covering_.charts()[chart].frame;
-  const auto along = [&](const Vec3& axis) {
-    return Number(axis.x() * (x[0] - frame.origin.x()) + axis.y() * (x[1] - frame.origin.y()) +
-                  axis.z() * (x[2] - frame.origin.z()));
-  };
-  const Number missing = heights_[chart].at(Pair<Number>{along(frame.u), along(frame.v)}) - along(frame.normal);
-  return {x[0] + frame.normal.x() * missing, x[1] + frame.normal.y() * missing, x[2] + frame.normal.z() * missing};
+std::array<Number, 3> BlendedSurface::onto(const std::vector<std::int32_t>& charts, std::size_t own, const std::array<Number, 3>& x) const {
+  // The heights do not move points of the surface. The first step leaves a share of the distance, and the second a share of that.
+  return heights_.onto(charts, own, heights_.onto(charts, own, x));
 }
 
 template <typename Number>
@@ -53,26 +59,22 @@ template <typename Number>
 std::array<Number, 3> BlendedSurface::blended(std::size_t triple, const Pair<Number>& place, int corner,
                                               const std::array<Number, 3>& own) const {
   const std::array<Number, 3> weights = Covering::weights(place);
-  std::array<Number, 3> sum, moved;
+  std::array<Number, 3> sum;
   for (int c = 0; c < 3; ++c) {
     const Number& weight = weights[static_cast<std::size_t>(c)];
     if (weight.f <= 0) continue;
     const std::array<Number, 3> p = c == corner ? own : placed(triple, place, c);
     for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weight * p[i];
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (weights[k].f <= 0) continue;
-    const std::array<Number, 3> p = onto(static_cast<std::size_t>(covering_.triples()[triple].chart[k]), sum);
-    for (std::size_t i = 0; i < 3; ++i) moved[i] = moved[i] + weights[k] * p[i];
-  }
-  return moved;
+  const auto first = static_cast<std::size_t>(covering_.triples()[triple].chart[0]);
+  return onto(heights_.near_triple(triple), first, sum);
 }
 
 template <typename Number>
 std::array<Number, 3> BlendedSurface::blended(std::size_t chart, const Pair<Number>& place) const {
   const std::array<Number, 3> own = primitives_[chart].at(place);
   const auto on = covering_.on_t(chart, place);
-  if (!on) return onto(chart, own);
+  if (!on) return onto(heights_.near_chart(chart), chart, own);
   return blended(static_cast<std::size_t>(on->corner.triple), on->place, on->corner.corner, own);
 }
 

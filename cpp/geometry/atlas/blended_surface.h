@@ -5,15 +5,15 @@
 #include <memory>
 
 #include "cad/cad.h"
+#include "geometry/atlas/height_blend.h"
 #include "geometry/atlas/mend_folds.h"
 #include "geometry/built_geometry.h"
 
 namespace carreau::atlas {
 
-/// S(m) = sum of alpha_j H_j(x) at x = sum of alpha_j P_j(phi_ij m): the primitives P_j place m in space, and H_j moves
-/// the place along the normal of chart j onto its height field. Transitions are not projections: the P_j of a place
-/// lie apart on the surface, and x is below it by the height of their chord. The point does not depend on the chart
-/// of m.
+/// S(m) = H(x) at x = sum of alpha_j P_j(phi_ij m): the primitives P_j place m in space, and H moves the place onto the heights of all
+/// charts, which are blended by weights of space. Transitions are not projections: the P_j of a place lie apart on the surface, and x is
+/// below it by the height of their chord. The point does not depend on the chart of m.
 class BlendedSurface {
  public:
   explicit BlendedSurface(Covering covering);
@@ -45,12 +45,12 @@ class BlendedSurface {
                                               const std::array<Number, 3>& own) const;
   template <typename Number>
   [[nodiscard]] std::array<Number, 3> placed(std::size_t triple, const Pair<Number>& place, int corner) const;
-  /// x moved along the normal of a chart onto its height field.
+  /// x on the heights of the charts around.
   template <typename Number>
-  [[nodiscard]] std::array<Number, 3> onto(std::size_t chart, const std::array<Number, 3>& x) const;
+  [[nodiscard]] std::array<Number, 3> onto(const std::vector<std::int32_t>& charts, std::size_t own, const std::array<Number, 3>& x) const;
 
   Covering covering_;
-  std::vector<HeightField> heights_;
+  HeightBlend heights_;
   std::vector<Primitive> primitives_;
   std::vector<bool> is_moved_;
   FoldReport folds_;

@@ -21,13 +21,22 @@ FoldPlace::Tangents FoldPlace::tangents(const std::vector<Primitive>& primitives
   return t;
 }
 
+Vec3 FoldPlace::point(const std::vector<Primitive>& primitives) const {
+  Vec3 x(0, 0, 0);
+  for (std::size_t c = 0; c < shares; ++c) {
+    const std::array<double, 3> p = primitives[share[c].chart].at(pair_of(value_of(share[c].at)));
+    x += share[c].weight.f * Vec3(p[0], p[1], p[2]);
+  }
+  return x;
+}
+
 double FoldPlace::jacobian(const std::vector<Primitive>& primitives) const {
   const Tangents t = tangents(primitives);
   return dot(cross(t.by_u, t.by_v), normal);
 }
 
-FoldGrid::FoldGrid(const Covering& covering) : covering_(covering) {
-  constexpr int n = thresholds::grid_of_t;
+FoldGrid::FoldGrid(const Covering& covering, int parts) : covering_(covering) {
+  const int n = parts;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j) {
       const Pair<Slope> p = parameters_at<Slope>((i * corner_of_t(1) + j * corner_of_t(2)) / n);

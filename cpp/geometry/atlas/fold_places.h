@@ -24,6 +24,7 @@ struct FoldPlace {
   struct Tangents {
     Vec3 by_u{0, 0, 0}, by_v{0, 0, 0};
   };
+  [[nodiscard]] Vec3 point(const std::vector<Primitive>& primitives) const;
   [[nodiscard]] Tangents tangents(const std::vector<Primitive>& primitives) const;
   /// Jacobian of the surface over the Jacobian of its charts' planes: 1 on the planes, below 0 where it is turned over.
   [[nodiscard]] double jacobian(const std::vector<Primitive>& primitives) const;
@@ -32,7 +33,8 @@ struct FoldPlace {
 /// Places of all T on a grid; values common to all T are computed once.
 class FoldGrid {
  public:
-  explicit FoldGrid(const Covering& covering);
+  /// `parts` of the sides of T.
+  FoldGrid(const Covering& covering, int parts);
 
   /// Places of a T where charts share it.
   template <typename Visit>

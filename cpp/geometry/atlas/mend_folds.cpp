@@ -45,8 +45,8 @@ std::vector<std::size_t> sorted(std::vector<std::size_t> list) {
 
 class FoldMender {
  public:
-  FoldMender(const Covering& covering, std::vector<Primitive>& primitives)
-      : covering_(covering), primitives_(primitives), grid_(covering), rank_(primitives.size(), none) {}
+  FoldMender(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives, int parts)
+      : covering_(covering), heights_(heights), primitives_(primitives), grid_(covering, parts), rank_(primitives.size(), none) {}
 
   FoldReport mend() {
     FoldReport report;
@@ -80,18 +80,21 @@ class FoldMender {
     watched_.clear();
     for (const std::size_t t : triples)
       grid_.visit_triple(t, [&](const FoldPlace& place) {
-        if (note(place, folds)) folds.triples.push_back(t);
+        if (note(place, heights_.near_triple(t), folds)) folds.triples.push_back(t);
       });
     for (const std::size_t i : active_)
       for (const FoldPlace& place : grid_.of_pure_zone(i))
-        if (note(place, folds))
+        if (note(place, heights_.near_chart(i), folds))
           folds.triples.push_back(static_cast<std::size_t>(covering_.charts()[i].corners[0].triple));
     folds.triples = sorted(std::move(folds.triples)), folds.charts = sorted(std::move(folds.charts));
     return folds;
   }
-  bool note(const FoldPlace& place, Folds& folds) {
+  bool note(FoldPlace place, const std::vector<std::int32_t>& charts, Folds& folds) {
+    if (place.jacobian(primitives_) > thresholds::watched_jacobian) return false;
+    // The heights move a place along their own direction, which differs from the mean of the planes' normals on coarse surfaces.
+    place.normal = norm(place.normal) * heights_.direction(charts, place.share[0].chart, place.point(primitives_));
     const double jacobian = place.jacobian(primitives_);
-    if (!(jacobian > thresholds::watched_jacobian)) watched_.push_back(place);
+    watched_.push_back(place);
     if (jacobian > thresholds::least_jacobian) return false;
     for (std::size_t c = 0; c < place.shares; ++c) folds.charts.push_back(place.share[c].chart);
     return true;
@@ -209,6 +212,7 @@ class FoldMender {
   }
 
   const Covering& covering_;
+  const HeightBlend& heights_;
   std::vector<Primitive>& primitives_;
   FoldGrid grid_;
   std::vector<std::size_t> rank_;    ///< of each chart among the active ones, or none
@@ -221,8 +225,8 @@ class FoldMender {
 
 }  // namespace
 
-FoldReport mend_folds(const Covering& covering, std::vector<Primitive>& primitives) {
-  return FoldMender(covering, primitives).mend();
+FoldReport mend_folds(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives, int parts) {
+  return FoldMender(covering, heights, primitives, parts).mend();
 }
 
 }  // namespace carreau::atlas

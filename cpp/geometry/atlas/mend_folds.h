@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "atlas/covering/covering.h"
+#include "geometry/atlas/height_blend.h"
 #include "geometry/atlas/primitive.h"
 
 namespace carreau::atlas {
@@ -15,9 +16,9 @@ struct FoldReport {
   std::size_t mended_charts = 0;
 };
 
-/// Moves primitives of charts at folds: places of a fine grid on a T where the blended surface is turned over (ours). A
+/// Moves primitives of charts at folds: places of a grid of `parts` parts on a T where the blended surface is turned over (ours). A
 /// least-squares fit combines the missing Jacobians and the distances from the initial positions; the distances'
 /// weights fall from round to round. Other primitives are not changed. Deterministic.
-FoldReport mend_folds(const Covering& covering, std::vector<Primitive>& primitives);
+FoldReport mend_folds(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives, int parts);
 
 }  // namespace carreau::atlas

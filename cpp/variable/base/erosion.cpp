@@ -112,7 +112,8 @@ void copy_kept(const Piece& piece, Eroded& result) {
 
 }  // namespace
 
-Eroded erode(const Piece& piece, std::span<const double> damage, double limit, bool keep_all_parts) {
+Eroded erode(const Piece& piece, std::span<const double> damage, double limit, bool keep_all_parts,
+             std::span<const std::int32_t> kinds) {
   Eroded result;
   const Adjacency whole = adjacency_of(piece);
   Flags kept(piece.triangles.size(), 1);
@@ -139,9 +140,15 @@ Eroded erode(const Piece& piece, std::span<const double> damage, double limit, b
   copy_kept(piece, result);
   for (const std::int32_t t : result.triangle_of) {
     auto& bared = result.bared.emplace_back();
+    auto& imposed = result.imposed.emplace_back();
+    const auto& corners = piece.triangles[static_cast<std::size_t>(t)];
+    const auto was_imposed = [&](std::size_t k) {
+      return !kinds.empty() && kinds[static_cast<std::size_t>(corners[k % 3])] == Kind::imposed;
+    };
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t other = whole[static_cast<std::size_t>(t)][k];
       bared[k] = other >= 0 && !kept[static_cast<std::size_t>(other)];
+      imposed[k] = other < 0 && was_imposed(k) && was_imposed(k + 1);
     }
   }
   for (std::size_t t = 0; t < kept.size(); ++t)

@@ -105,7 +105,7 @@ void smooth_imposed(BoundaryLoop& loop, int rounds) {
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 p = loop.nodes[i].point;
       moved.push_back(p);
-      if (!loop.edges[i].imposed || !loop.edges[loop.before(i)].imposed || loop.nodes[i].is_bound()) continue;
+      if (!loop.edges[i].bared || !loop.edges[loop.before(i)].bared || loop.nodes[i].is_bound()) continue;
       const Vec2 middle = (loop.nodes[loop.before(i)].point + loop.nodes[loop.after(i)].point) / 2;
       const Vec2 move = (middle - p) / 2;
       const double most = std::min(loop.length(i), loop.length(loop.before(i))) / 4, length = norm(move);

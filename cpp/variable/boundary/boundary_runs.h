@@ -29,7 +29,7 @@ void join_close_ends(BoundaryLoop& loop, const Tools& tools, double corner_angle
 /// has a shape.
 void cut_tips(BoundaryLoop& loop, const Tools& tools, double h_min);
 
-/// Nodes that the removal of elements has laid bare go `rounds` times halfway to the middle of their neighbours, by at
+/// Nodes that the removal of elements has just laid bare go `rounds` times halfway to the middle of their neighbours, by at
 /// most a quarter of the shorter edge.
 void smooth_imposed(BoundaryLoop& loop, int rounds);
 

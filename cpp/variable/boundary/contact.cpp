@@ -28,7 +28,7 @@ std::int32_t BoundaryLoop::kind_of_node(std::size_t i) const noexcept {
 void BoundaryLoop::remove(std::size_t i) {
   // The longer of the two edges defines the edge that replaces them.
   const std::size_t previous = before(i);
-  if (length(i) > length(previous)) edges[previous].imposed = edges[i].imposed;
+  if (length(i) > length(previous)) edges[previous].imposed = edges[i].imposed, edges[previous].bared = edges[i].bared;
   edges[previous].follows_tool = false;
   nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(i));
   edges.erase(edges.begin() + static_cast<std::ptrdiff_t>(i));
@@ -38,13 +38,14 @@ std::vector<BoundaryLoop> boundary_of(const Eroded& eroded) {
   const Piece& piece = eroded.piece;
   struct Out {
     std::int32_t to = -1;
-    bool imposed = false;
+    bool imposed = false, bared = false;
   };
   std::vector<Out> out(piece.vertices.size());
   for (std::size_t t = 0; t < piece.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
       if (eroded.adjacency[t][k] < 0)
-        out[static_cast<std::size_t>(piece.triangles[t][k])] = {piece.triangles[t][(k + 1) % 3], eroded.bared[t][k]};
+        out[static_cast<std::size_t>(piece.triangles[t][k])] = {piece.triangles[t][(k + 1) % 3],
+                                                                eroded.bared[t][k] || eroded.imposed[t][k], eroded.bared[t][k]};
   std::vector<BoundaryLoop> loops;
   for (std::size_t first = 0; first < out.size(); ++first) {
     if (out[first].to < 0) continue;
@@ -54,7 +55,7 @@ std::vector<BoundaryLoop> boundary_of(const Eroded& eroded) {
       BoundaryNode node;
       node.point = piece.vertices[static_cast<std::size_t>(v)], node.vertex = v, node.on = {v, v};
       loop.nodes.push_back(node);
-      loop.edges.push_back({next.imposed, false, 0});
+      loop.edges.push_back({.imposed = next.imposed, .bared = next.bared});
       v = next.to;
       next.to = -1;
     }

@@ -23,6 +23,7 @@ struct BoundaryNode {
 struct BoundaryLoop {
   struct Edge {
     bool imposed = false;       ///< laid bare by the removal of elements
+    bool bared = false;         ///< by this one
     bool follows_tool = false;  ///< its geometry is the tool's
     double way = 0;             ///< then: the distance along the tool, against its direction
   };

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "adapt/differences.h"
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
 #include "test_meshes.h"
@@ -32,6 +33,44 @@ TEST(HessianEstimator, SolvesTheBoundForTheSize) {
   ASSERT_EQ(result.sizes.size(), mesh.vertices.size());
   EXPECT_TRUE(result.metrics.empty());
   for (const double h : result.sizes) EXPECT_NEAR(h, std::sqrt(9 * 0.02 / (2 * 8)), 1e-9);
+}
+
+/// The largest value of along(from, to) over the edges, in both directions.
+template <typename Along>
+double largest_along_edges(const TestMesh& mesh, const Along& along) {
+  double largest = 0;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = mesh.vertices[static_cast<std::size_t>(t[k])], q = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+      largest = std::max({largest, along(p, q), along(q, p)});
+    }
+  return largest;
+}
+
+// f = x^2 bends by 2, and the edge d leaves the tangent plane at x by dx^2 in height.
+TEST(EstimatedError, HasTheClosedFormsOfAParabola) {
+  TestMesh mesh = square_mesh(12);
+  mesh.with([](Vec3 p) { return p.x() * p.x(); });
+  const auto square = [](double x) { return x * x; };
+  const auto away = [&](const Vec3& p, const Vec3& q) { return square(q.x() - p.x()) / std::sqrt(1 + square(2 * p.x())); };
+  EstimatorOptions options{.tolerance = 0.02, .hmin = 1e-4, .hmax = 10};
+  EXPECT_NEAR(estimated_error(mesh.field(), options),
+              largest_along_edges(mesh, [&](const Vec3& p, const Vec3& q) { return 2.0 / 9 * 2 * square(q.x() - p.x()); }), 1e-9);
+  options.relative = true, options.relative_floor = 0.5;  // of the largest value, 1
+  EXPECT_NEAR(estimated_error(mesh.field(), options), largest_along_edges(mesh, [&](const Vec3& p, const Vec3& q) {
+                return 2.0 / 9 * 2 * square(q.x() - p.x()) / std::max(p.x() * p.x(), 0.5);
+              }), 1e-9);
+  options.relative = false, options.source = ErrorSource::deformation;
+  EXPECT_NEAR(estimated_error(mesh.field(), options), largest_along_edges(mesh, away), 1e-9);
+  options.source = ErrorSource::curvature;
+  EXPECT_NEAR(estimated_error(mesh.field(), options), largest_along_edges(mesh, [&](const Vec3& p, const Vec3& q) {
+                const double rise = q.x() * q.x() - p.x() * p.x();
+                return std::asin(away(p, q) / std::sqrt(square(norm(q - p)) + rise * rise)) / degree;
+              }), 1e-6);
+  const FieldFunction exact = [](std::span<const Vec3> points, std::span<double> values) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].x() * points[i].x();
+  };
+  EXPECT_NEAR(estimated_error(mesh.field(), exact, options), estimated_error(mesh.field(), options), 1e-5);
 }
 
 TEST(HessianEstimator, GivesBothSizesAlongTheAxes) {

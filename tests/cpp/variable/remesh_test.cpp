@@ -48,6 +48,67 @@ TEST(Remesh, CarriesLinearFieldsExactly) {
   }
 }
 
+/// The square [0, n]^2 in squares of side 1, of two triangles each; the damage of the squares in [from, to[^2 is 1.
+RemeshInput square_with_a_hole(int n, int from, int to) {
+  Piece piece;
+  std::vector<double> damage;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) piece.vertices.emplace_back(i, j);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      piece.triangles.push_back({a, a + 1, a + n + 2});
+      piece.triangles.push_back({a, a + n + 2, a + n + 1});
+      const bool goes = i >= from && i < to && j >= from && j < to;
+      damage.insert(damage.end(), 2, goes ? 1 : 0);
+    }
+  RemeshInput input = input_of(std::move(piece), 0.5, 2);
+  input.damage = std::move(damage);
+  return input;
+}
+
+// The sides of the hole are straight and meet in corners: every edge lies on them in every increment, and the area is exact.
+TEST(Remesh, FacesLaidBareStayImposedFromIncrementToIncrement) {
+  RemeshInput input = square_with_a_hole(10, 4, 6);
+  input.imposed_smoothing = 0;
+  Monitor monitor;
+  for (int increment = 0; increment < 10; ++increment) {
+    const RemeshResult result = remesh(input, monitor);
+    EXPECT_EQ(find_defects(input, result), std::vector<std::string>{}) << increment;
+    EXPECT_NEAR(result.summary.area, 100 - 4, 1e-12) << increment;
+    double imposed = 0, free = 0;
+    for (std::size_t e = 0; e < result.edges.size(); ++e) {
+      const Vec2 a = result.piece.vertices[static_cast<std::size_t>(result.edges[e][0])],
+                 b = result.piece.vertices[static_cast<std::size_t>(result.edges[e][1])];
+      const Vec2 middle = (a + b) / 2 - Vec2(5, 5);
+      const bool in_hole = std::max(std::abs(middle.x()), std::abs(middle.y())) < 2;
+      EXPECT_EQ(result.edge_kinds[e], in_hole ? Kind::imposed : Kind::free_boundary) << increment;
+      (in_hole ? imposed : free) += norm(b - a);
+    }
+    EXPECT_NEAR(imposed, 8, 1e-12);
+    EXPECT_NEAR(free, 40, 1e-12);
+    input.piece = result.piece, input.damage = result.damage, input.vertex_kinds = result.vertex_kinds;
+  }
+  input.vertex_kinds.clear();
+  EXPECT_EQ(remesh(input, monitor).summary.imposed_vertices, 0);  // the piece alone does not tell how it came to be
+  input.vertex_kinds.assign(3, 0);
+  EXPECT_THROW(remesh(input, monitor), InvalidArgument);
+  input.vertex_kinds.assign(input.piece.vertices.size(), -1);
+  EXPECT_THROW(remesh(input, monitor), InvalidArgument);
+}
+
+// Rounds of smoothing are for new faces: they would wear old ones away.
+TEST(Remesh, FacesLaidBareEarlierAreNotSmoothedAgain) {
+  RemeshInput input = square_with_a_hole(10, 4, 6);
+  input.imposed_smoothing = 2;
+  Monitor monitor;
+  const RemeshResult first = remesh(input, monitor);
+  EXPECT_GT(first.summary.area, 100 - 4 + 0.1);
+  input.piece = first.piece, input.damage = first.damage, input.vertex_kinds = first.vertex_kinds;
+  input.corner_angle = 1;  // all bends are corners, so that polygons are cut at their nodes
+  EXPECT_NEAR(remesh(input, monitor).summary.area, first.summary.area, 1e-12);
+}
+
 TEST(Remesh, KeepsIntegralsAndBounds) {
   RemeshInput input = disc_input();
   std::mt19937 random(7);

@@ -110,10 +110,10 @@ TEST(HeightField, ReproducesPolynomialsOfItsDegree) {
   EXPECT_NEAR(field.at(Pair<double>{.3, -.7}), height(.3, -.7), 1e-5);
 }
 
-/// Angles between normals of the surface and true ones, over the angle of the longest chord: the largest one, and the
-/// one that 999 of 1000 places do not exceed. The principal curvature that 99 of 100 places do not exceed.
+/// The largest angle between normals of the surface and true ones, over the angle of the longest chord. The principal curvature
+/// that 99 of 100 places do not exceed.
 struct Faults {
-  double worst = 0, nearly_worst = 0, curvature = 0;
+  double worst = 0, curvature = 0;
 };
 
 template <typename Normal>
@@ -141,25 +141,28 @@ Faults faults_of(const Triangulation& given, Normal&& normal_at) {
       const double mean = (e * p - 2 * f * m + g * l) / (2 * d), gauss = (l * p - m * m) / d;
       curvatures.push_back(std::abs(mean) + std::sqrt(std::max(0., mean * mean - gauss)));
     }
-  std::sort(curvatures.begin(), curvatures.end()), std::sort(angles.begin(), angles.end());
-  return {angles.back(), angles[angles.size() * 999 / 1000], curvatures[curvatures.size() * 99 / 100]};
+  std::sort(curvatures.begin(), curvatures.end());
+  return {*std::max_element(angles.begin(), angles.end()), curvatures[curvatures.size() * 99 / 100]};
 }
 
 Vec3 normal_of_sphere(const Vec3& p) { return p / norm(p); }
 
-/// A few places, where the parameters are squeezed, exceed the tenth.
+/// Weights of space: places where charts squeeze their parameters are no exceptions.
 TEST(BlendedSurface, NormalsAreWithinATenthOfTheAngleOfChords) {
   const auto check = [](const Triangulation& given, const auto& normal_at) {
     const Faults faults = faults_of(given, normal_at);
-    EXPECT_LT(faults.nearly_worst, .1);
-    EXPECT_LT(faults.worst, .3);
+    EXPECT_LT(faults.worst, .1);
   };
   check(test::icosphere(2), normal_of_sphere);
   check(test::icosphere(3), normal_of_sphere);
-  check(test::torus(1, .4, 48, 24), [](const Vec3& p) -> Vec3 {
-    const double inwards = 1 - 1 / std::hypot(p.x(), p.y());
-    return normal_of_sphere({p.x() * inwards, p.y() * inwards, p.z()});
-  });
+  const auto normal_of_torus = [](double radius) {
+    return [radius](const Vec3& p) -> Vec3 {
+      const double inwards = 1 - radius / std::hypot(p.x(), p.y());
+      return normal_of_sphere({p.x() * inwards, p.y() * inwards, p.z()});
+    };
+  };
+  check(test::torus(1, .4, 48, 24), normal_of_torus(1));
+  check(test::torus(2, .8, 36, 18), normal_of_torus(2));
   Triangulation ellipsoid = test::icosphere(3);
   for (Vec3& p : ellipsoid.vertices) p = Vec3(2 * p.x(), p.y(), .7 * p.z());
   check(ellipsoid, [](const Vec3& p) -> Vec3 { return normal_of_sphere({p.x() / 4, p.y(), p.z() / .49}); });
