@@ -247,6 +247,11 @@ def test_estimates_and_transfers():
     sizes = session.estimate(values, tolerance=0.005)
     inside = np.all((mesh.vertices[:, :2] > 0.2) & (mesh.vertices[:, :2] < 0.8), axis=1)
     assert np.ptp(sizes[inside]) < 0.05 * sizes[inside].mean()
+    # The graph of the field is a sphere of radius 2: sizes are 2 R sin(8 degrees) in its tangent planes, and z / R of it in the plane.
+    z = np.sqrt(4 - np.sum(mesh.vertices[:, :2] ** 2, axis=1))
+    xx, xy, _, yy = session.estimate(z, tolerance=8, source="curvature", shape="graph", recovery="quadric")[:, :4].T
+    shortest = ((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy)) ** -0.5
+    assert abs(np.mean((shortest / (2 * np.sin(np.radians(8)) * z))[inside]) - 1) < 0.1
     session.set_vertex_sizes(np.full(len(sizes), 0.05))
     fine = session.generate()
     assert len(fine.triangles) > 3 * len(mesh.triangles)
