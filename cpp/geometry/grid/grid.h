@@ -48,6 +48,8 @@ struct Smoothing {
   int rounds = 0;       ///< 0: nodes stay as they are
   double inward = 0.06;   ///< w1 of HDR sec. 4.7.1
   double outward = 0.061;  ///< w2, a little larger
+  /// Neighbours of heights and radii weigh by the other one's distance in space, as the paper has it; false: evenly.
+  bool by_distance = false;
 };
 
 struct Options {
