@@ -123,7 +123,7 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
       ->type_name("X,Y,Z");
   repeated(app->add_option("--embed-curve", options.embed.curves, "File of points of a polyline on the surface, which becomes edges; repeatable"))
       ->type_name(kind::file);
-  app->add_option("--ridges", options.embed.ridges, "Lines of extremal curvature of a grid whose radius is smaller become edges, length; off by default")
+  app->add_option("--ridges", options.embed.ridges, "Edges along lines of a grid where its curvature is extremal, its radius below this length")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
   app->add_flag("--embed-wires", options.embed.wires, "Edges of no face that lie on faces become edges of their meshes");
@@ -170,7 +170,7 @@ void add_grid_options(CLI::App* app, GridChoice& choice) {
   app->add_option("--grid", choice.format, "Format of a grid: plot3d, heights, scan or nodes; by the suffix by default")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(grid_formats), std::end(grid_formats))));
   app->add_option("--smooth", choice.smoothing,
-                  "Rounds of Taubin's filter: N or N,w1,w2 (.06, .061), and ',distance' to weigh neighbours by distance; 0 by default")
+                  "Rounds of Taubin's filter: N or N,w1,w2 (.06, .061); ',distance' behind weighs by distance")
       ->check(smoothing_defect)
       ->type_name(kind::rounds);
   app->add_flag("--lengths", choice.lengths, "Parameters by lengths of edges, for grids with abrupt steps");

@@ -77,14 +77,14 @@ double volume(const Block& block) {
   return sum * 2 * pi / (block.columns - 1);
 }
 
-Block noisy_scan() {
+Block noisy_scan(int around = 180, int up = 144) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.01);
-  Block block = block_of(181, 144, [&](int i, int j) -> Vec3 {
-    const double theta = 2 * pi * i / 180, z = -0.95 + 1.9 * j / 143, r = std::sqrt(1 - z * z) * (1 + noise(random));
+  Block block = block_of(around + 1, up, [&](int i, int j) -> Vec3 {
+    const double theta = 2 * pi * i / around, z = -0.95 + 1.9 * j / (up - 1), r = std::sqrt(1 - z * z) * (1 + noise(random));
     return {r * std::cos(theta), r * std::sin(theta), z};
   });
-  for (int j = 0; j < block.rows; ++j) block.nodes[block.index(180, j)] = block.node(0, j);
+  for (int j = 0; j < block.rows; ++j) block.nodes[block.index(around, j)] = block.node(0, j);
   block.measured = Measured::radii;
   return block;
 }
@@ -120,7 +120,7 @@ TEST(Smoothing, RadiiWeighByDistancesOnRequest) {
   EXPECT_NEAR(std::hypot(three.node(1, 0).x(), three.node(1, 0).y()), (1.3 + (d2 * 1 + d1 * 2) / (d1 + d2)) / 2, 1e-15);
   EXPECT_NEAR(std::hypot(even.node(1, 0).x(), even.node(1, 0).y()), (1.3 + 1.5) / 2, 1e-15);
   // The scan of a noisy sphere: the noise goes and the volume stays, as with even weights.
-  const Block before = noisy_scan();
+  const Block before = noisy_scan(60, 48);
   const Closed closed = closed_directions(before, 1e-12);
   Block by_distance = before;
   Smoothing weighted = voltaire;
