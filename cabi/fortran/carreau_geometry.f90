@@ -33,7 +33,7 @@ module carreau_geometry
   public :: carreau_raise_order, carreau_raised_count, carreau_raised_nodes, carreau_raised_elements, carreau_raised_write
   integer(c_int32_t), parameter, public :: CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1
   integer(c_int32_t), parameter, public :: CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2
-  public :: carreau_model_embed_point, carreau_model_embed_polyline, carreau_model_embed_wires
+  public :: carreau_model_embed_point, carreau_model_embed_polyline, carreau_model_embed_wires, carreau_model_embed_ridges
   public :: carreau_evaluate, carreau_project, carreau_mesh_vertex_entities, carreau_mesh_edge_parameters
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
@@ -62,7 +62,8 @@ module carreau_geometry
   type :: carreau_grid_options
     integer(c_int32_t) :: measured = CARREAU_MEASURED_POINTS, smoothing_rounds = 0
     real(c_double) :: smoothing_inward = 0.06_c_double, smoothing_outward = 0.061_c_double
-    logical :: lengths = .false., orient = .false., fill = .false.
+    logical :: lengths = .false., orient = .false., fill = .false., smoothing_by_distance = .false.
+    integer(c_int32_t) :: continuity = 1
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
   end type carreau_grid_options
 
@@ -346,6 +347,8 @@ contains
     c%join_angle = options%join_angle
     c%tolerance = options%tolerance
     c%step = options%step
+    c%continuity = options%continuity
+    c%smoothing_by_distance = merge(1, 0, options%smoothing_by_distance)
   end function c_grid
 
   ! ---- Surfaces given as triangles ----
@@ -534,6 +537,16 @@ contains
     count = 0
     status = c_model_embed_wires(session%handle, count)
   end subroutine carreau_model_embed_wires
+
+  !> Embeds the ridges of grids whose radius of curvature is smaller; count of them
+  subroutine carreau_model_embed_ridges(session, radius, count, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: radius
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), intent(out) :: status
+    count = 0
+    status = c_model_embed_ridges(session%handle, radius, count)
+  end subroutine carreau_model_embed_ridges
 
   !> Entities that vertices lie on: 0 points, 1 curves, 2 faces, and their references
   subroutine carreau_mesh_vertex_entities(mesh, dimensions, references, status)

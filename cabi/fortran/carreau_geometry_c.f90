@@ -56,7 +56,7 @@ module carreau_geometry_c
     real(c_double) :: smoothing_inward = 0, smoothing_outward = 0
     integer(c_int32_t) :: lengths = 0, orient = 0
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
-    integer(c_int32_t) :: fill = 0, reserved = 0
+    integer(c_int32_t) :: fill = 0, continuity = 0, smoothing_by_distance = 0, reserved = 0
   end type c_grid_options
 
   !> The lines of a surface given as triangles.
@@ -396,6 +396,18 @@ module carreau_geometry_c
       integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function c_model_embed_wires
+
+    !> Embeds the ridges of the session's structured grids as carreau_model_embed_polyline() does: lines where the
+    !! principal curvature of larger absolute value is maximal along its direction and its radius is below `radius`
+    !! (model length), sharp convex and concave lines alike.
+    function c_model_embed_ridges(session, radius, count) result(status) bind(c, name="carreau_model_embed_ridges")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), value :: radius
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function c_model_embed_ridges
 
     !> Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on
     !! edges included: a point (0, corners and imposed points), a curve (1, free edges too) or a face (2), by the

@@ -267,12 +267,15 @@ typedef struct carreau_grid_options {
   double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
   double step; /* of heights and scans whose file does not give it; 0: 1 */
   int32_t fill; /* 1: holes that no side of a block touches are filled, and a message reports it; 0: they stay */
+  int32_t continuity; /* between cells: 2: C2, by cubic splines; 0 or 1: C1, by differences */
+  int32_t smoothing_by_distance; /* 1: neighbours of heights and radii weigh by the other one's distance in space (HDR
+                                    sec. 4.7.1), as neighbours of points do; 0: both weigh as much */
   int32_t reserved; /* 0 */
 } carreau_grid_options;
 
 /* Adds a surface through the nodes of n structured grids to a session. Block b has counts[2 b] columns and counts[2 b + 1] rows, and its
  * nodes (x, y, z) lie behind the nodes of block b - 1, columns running fastest. A node with a NaN is missing, and with it the cells around.
- * Each block is a face, whose reference is its rank from 1; it is bicubic on each cell and C1 between cells (HDR eq. 4.87-4.91). If missing
+ * Each block is a face, whose reference is its rank from 1; it is bicubic on each cell and C1 or C2 between cells (HDR eq. 4.87-4.91). If missing
  * nodes cut a block in two, all its parts have its reference in results, and a message reports it. Common nodes of borders glue blocks, and
  * the sides of one block; a side may be one point. Messages report cells that fold and cells without area, which are left out. Errors:
  * ARGUMENT (counts below 2, infinite coordinates, options), SEQUENCE (see carreau_geometry_begin), MODEL (no cell at all, blocks that
@@ -434,6 +437,14 @@ CARREAU_API carreau_status carreau_model_embed_polyline(carreau_session* session
  * wires. These wires leave the model; *out_count, which may be NULL, receives their number. A warning names each other wire, which stays.
  * Errors: SEQUENCE (no geometry, no model), MODEL, CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. */
 CARREAU_API carreau_status carreau_model_embed_wires(carreau_session* session, int64_t* out_count);
+
+/* Embeds the ridges of the session's structured grids as carreau_model_embed_polyline() does: lines where the principal curvature of larger
+ * absolute value is maximal along its direction and its radius is below `radius` (model length), sharp convex and concave lines alike.
+ * Curvatures are those of the cubic spline through the nodes, so that noise has to be smoothed first. Lines that are shorter than `radius`
+ * and surfaces of constant curvature, such as circular fillets, have no ridges. *out_count, which may be NULL, receives the number of lines;
+ * files with groups call them "ridge 1", "ridge 2"... A warning names each line that cannot be embedded.
+ * Errors: SEQUENCE (no grid), ARGUMENT (radius), MODEL, CANCELLED, MEMORY; BUSY inside a callback. */
+CARREAU_API carreau_status carreau_model_embed_ridges(carreau_session* session, double radius, int64_t* out_count);
 
 /* Gives the entity of lowest dimension that each vertex lies on, in the order of carreau_mesh_vertices, nodes on edges included: a point (0,
  * corners and imposed points), a curve (1, free edges too) or a face (2), by the references that carreau_project takes. Vertices on several

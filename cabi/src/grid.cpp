@@ -41,6 +41,10 @@ Asked asked_of(const carreau_grid_options* given) {
     throw InvalidArgument("the join_angle of a grid must lie between 0 and 180 degrees");
   options.join_angle = known.join_angle * std::numbers::pi / half_turn;
   options.tolerance = known.tolerance;
+  if (known.continuity < 0 || known.continuity > 2)
+    throw InvalidArgument("the continuity of a grid is " + std::to_string(known.continuity) + "; it must be 0, 1 or 2");
+  options.splines = known.continuity == 2;
+  options.smoothing.by_distance = known.smoothing_by_distance != 0;
   return asked;
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places of the model of a session.
+#include <cmath>
 #include <limits>
 #include <map>
 
 #include "arguments.h"
 #include "carreau_geometry.h"
+#include "geometry/grid/grid_cad.h"
+#include "geometry/grid/ridges/ridges.h"
 #include "guard.h"
 #include "mesh_content.h"
+#include "support/format.h"
 
 using carreau::InvalidArgument;
 using carreau::ProjectedPoint;
@@ -120,6 +124,30 @@ carreau_status carreau_model_embed_wires(carreau_session* session, int64_t* out_
     prepare_places(*session, 2, 2, 0);
     const int wires = session->session.embed_wires();
     if (out_count != nullptr) *out_count = wires;
+  });
+}
+
+carreau_status carreau_model_embed_ridges(carreau_session* session, double radius, int64_t* out_count) {
+  return guarded(session, [&] {
+    prepare_places(*session, 2, 2, 0);
+    if (!(radius > 0) || !std::isfinite(radius)) throw InvalidArgument("the radius of ridges must be positive and finite; it is " + carreau::format_number(radius));
+    std::vector<std::vector<Vec3>> lines;
+    bool grids = false;
+    for (const AddedGeometry& geometry : session->added) {
+      if (geometry.kind != CARREAU_GEOMETRY_GRID) continue;
+      grids = true;
+      for (const auto& surface : static_cast<const carreau::grid::GridCad&>(*geometry.cad).surfaces())
+        for (std::vector<Vec3>& line : carreau::grid::find_ridges(*surface, radius, session->monitor)) lines.push_back(std::move(line));
+    }
+    if (!grids) throw StatusError(CARREAU_ERR_SEQUENCE, "ridges are found on structured grids, and the session has none");
+    std::int64_t embedded = 0;
+    for (const std::vector<Vec3>& line : lines) try {
+        session->session.embed_polyline(line, "ridge " + std::to_string(embedded + 1));
+        ++embedded;
+      } catch (const InvalidArgument& failure) {
+        session->monitor.message(carreau::Level::warning, "a ridge is left out: " + std::string(failure.what()));
+      }
+    if (out_count != nullptr) *out_count = embedded;
   });
 }
 

@@ -23,7 +23,7 @@ struct PartResults;
 struct Meshed {
   std::shared_ptr<Cad> cad;
   std::shared_ptr<const discrete::DiscreteCad> triangles;
-  std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;  // of `options`, as is the next
+  std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source, uniform_parameters;  // of `options`, as is the next
   std::shared_ptr<BackgroundField> background;
   Model model;
   ModelSupports supports;

@@ -140,6 +140,8 @@ constexpr std::array kTable = {
              "faces narrower than narrow_ratio: as others, with one layer of triangles, or collapsed"),
     real_row("narrow_ratio", 0, 1, 0.1, "narrow_faces: largest width, as a share of the size prescribed there"),
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "content of exports (\"\": allsurf3d)"),
+    real_row("parameter_size", 0, infinity, 0,
+             "length of edges in the parameter planes of faces, between hphymin and hphymax in space (0: sizes are lengths of space)"),
     text_row("patches", "dependent", "dependent|independent",
              "borders between patches that are not sharp: kept, or ignored by cross-patch remeshing"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),

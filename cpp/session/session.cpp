@@ -389,6 +389,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
                 s.triangles,
                 s.metric_callbacks,
                 s.prescription_source,
+                s.uniform_parameters,
                 background,
                 std::move(model),
                 std::move(supports),

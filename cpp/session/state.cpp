@@ -9,6 +9,7 @@
 #include "model/places.h"
 #include "session/file_adaptation.h"
 #include "session/left_out.h"
+#include "size/uniform_parameters.h"
 
 namespace carreau {
 
@@ -31,11 +32,13 @@ void Session::State::update_cad() {
   if (host && !embedded.empty()) cad = std::make_shared<EmbeddedCad>(host, embedded);
 }
 
-std::vector<PrescriptionSource*> Session::State::sources(BackgroundField* of_this_run) const {
+std::vector<PrescriptionSource*> Session::State::sources(BackgroundField* of_this_run) {
+  const double parameter_size = parameters.real("parameter_size");
+  uniform_parameters = parameter_size > 0 ? std::make_shared<UniformParameters>(parameter_size) : nullptr;
   std::vector<PrescriptionSource*> all;
   for (PrescriptionSource* source :
        {metric_callbacks.get(), prescription_source.get(), static_cast<PrescriptionSource*>(of_this_run),
-        static_cast<PrescriptionSource*>(attractors.get())})
+        static_cast<PrescriptionSource*>(attractors.get()), uniform_parameters.get()})
     if (source != nullptr) all.push_back(source);
   if (!all.empty() && parameters.integer("hphy_flag") == 0)
     monitor.message(Level::warning, "hphy_flag = 0: the prescribed sizes and metrics are ignored");

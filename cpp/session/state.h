@@ -56,6 +56,7 @@ struct Session::State {
   std::unique_ptr<Embedder> embedder;  // of `host` and the model; null: it is to be made
   std::shared_ptr<const discrete::DiscreteCad> triangles;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
+  std::shared_ptr<PrescriptionSource> uniform_parameters;  // of parameter_size; null: it is 0
   std::shared_ptr<BackgroundField> background;
   std::shared_ptr<Attractors> attractors;  // null: none
   std::vector<CurveLayers> layers;
@@ -90,7 +91,7 @@ struct Session::State {
   void forget_trees() noexcept { projector.reset(), embedder.reset(); }
 
   /// The host first.
-  [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const;
+  [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run);
 
   /// Finds missing references and, if required, curves that are one.
   void glue_model(Model& known, ModelSupports& supports, Cad& whole_cad, std::vector<std::string>& remarks);

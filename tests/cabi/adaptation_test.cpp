@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <random>
 
 #include "abi_fixture.h"
@@ -439,6 +440,35 @@ TEST_F(Adaptation, EstimatesOfAQuadraticAreExact) {
   EXPECT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), metrics.data()),
             CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(error(), "estimator->source is 3; it must be 0, 1 or 2");
+}
+
+// The graph of z is a sphere of radius 2: circles of radius 2 R sin(8 degrees) in its tangent planes are ellipses of the plane, whose short
+// axes have that length times z / R (HDR sec. 3.4.3 a.2).
+TEST_F(Adaptation, QuadricsFindTheCurvatureOfASphere) {
+  set("hphydef", 0.1);
+  const auto data = run();
+  const auto n = int64_t(data.vertex_count());
+  std::vector<double> values, sizes(data.vertex_count()), fitted(data.vertex_count()), metrics(6 * data.vertex_count());
+  for (std::size_t v = 0; v < data.vertex_count(); ++v)
+    values.push_back(std::sqrt(4 - std::pow(data.xyz[3 * v], 2) - std::pow(data.xyz[3 * v + 1], 2)));
+  auto estimator = abi_tests::sized<carreau_estimator>();
+  estimator.source = CARREAU_CURVATURE, estimator.shape = CARREAU_GRAPH, estimator.tolerance = 8;
+  estimator.hmin = 1e-3, estimator.hmax = 10;
+  estimator.recovery = CARREAU_QUADRIC;
+  ASSERT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), metrics.data()), CARREAU_OK) << error();
+  estimator.recovery = CARREAU_FIT;
+  ASSERT_EQ(carreau_estimate(session, &estimator, n, values.data(), fitted.data(), metrics.data()), CARREAU_OK) << error();
+  EXPECT_NE(sizes, fitted);
+  double sum = 0, worst = 0, count = 0;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (std::max(std::abs(data.xyz[3 * v]), std::abs(data.xyz[3 * v + 1])) > 0.8) continue;
+    const double ratio = sizes[v] / (2 * std::sin(8 * std::numbers::pi / 180) * values[v]);
+    sum += ratio, worst = std::max(worst, std::abs(ratio - 1)), ++count;
+  }
+  EXPECT_NEAR(sum / count, 1, 0.1);
+  EXPECT_LT(worst, 0.3);
+  estimator.recovery = 3;
+  EXPECT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), metrics.data()), CARREAU_ERR_ARGUMENT);
 }
 
 // A file of values at all nodes of the mesh that was made last.

@@ -16,7 +16,7 @@ program files_fortran_test
   character(len=1000) :: clone
   real(c_double), allocatable :: convex(:), torus(:), concave(:)
   integer(c_int32_t) :: status
-  integer(c_int64_t) :: faces, curves, points
+  integer(c_int64_t) :: faces, curves, points, ridges
   logical :: answer
 
   call get_command_argument(1, clone)
@@ -37,8 +37,17 @@ program files_fortran_test
 
   call carreau_model_clear(session, status)
   grid%step = 10
+  grid%continuity = 2
+  grid%smoothing_rounds = 100
+  grid%smoothing_by_distance = .true.
   call carreau_load_grid(session, grid, trim(clone)//'/tests/data/grid/volcano.txt', status)
   call check(status == CARREAU_OK)
+  call carreau_model_embed_ridges(session, 1d-3, ridges, status)
+  call check(status == CARREAU_OK)
+  if (ridges /= 0) error stop 'heights at steps of 10 m have no radius of a millimetre'
+  call carreau_model_embed_ridges(session, 40d0, ridges, status)
+  call check(status == CARREAU_OK)
+  if (ridges < 1) error stop 'the rim of the crater is a ridge'
 
   call carreau_model_clear(session, status)
   call carreau_load_plane_domain(session, trim(clone)//'/tests/data/plane/plate.poly', status)

@@ -267,8 +267,32 @@ contains
     end do
     area = 2 * n(1) * sin(2 * pi / n(1)) - n(2) / 2._c_double * sin(2 * pi / n(2))
     call check(n(1) > 50 .and. abs(of_made%area - area) < 1e-6_c_double, 'a ring of arcs')
+    call quadrics_of_a_sphere(other, made)
     call carreau_session_free(other)
   end subroutine ring_of_arcs
+  !> The graph of a field is a sphere of radius 3: sizes are 2 R sin(8 degrees) in its tangent planes, and z / R of it in the plane.
+  subroutine quadrics_of_a_sphere(other, made)
+    type(carreau_session), intent(inout) :: other
+    type(carreau_mesh), intent(inout) :: made
+    type(carreau_estimator) :: estimator
+    real(c_double), allocatable :: at(:, :), sizes(:), metrics(:, :), ratios(:), z(:)
+    real(c_double), parameter :: angle = 8 * 3.14159265358979323846_c_double / 180
+    logical, allocatable :: inside(:)
+    call carreau_mesh_vertices(made, at, status)
+    z = sqrt(9 - at(1, :)**2 - at(2, :)**2)
+    estimator%source = CARREAU_CURVATURE
+    estimator%shape = CARREAU_GRAPH
+    estimator%tolerance = 8
+    estimator%hmin = 1e-3_c_double
+    estimator%hmax = 10
+    estimator%recovery = CARREAU_QUADRIC
+    call carreau_estimate(other, estimator, z, sizes, metrics, status)
+    call check(status == CARREAU_OK, carreau_last_error(other))
+    inside = abs(norm2(at(1:2, :), 1) - 1.5_c_double) < 0.25_c_double
+    ratios = pack(sizes / (2 * sin(angle) * z), inside)
+    call check(size(ratios) > 50, 'the ring has vertices inside')
+    call check(abs(sum(ratios) / size(ratios) - 1) < 0.1_c_double, 'quadrics find the curvature of a sphere')
+  end subroutine quadrics_of_a_sphere
   subroutine check(good, what)
     logical, intent(in) :: good
     character(len=*), intent(in) :: what

@@ -77,6 +77,59 @@ TEST_F(Grids, AFileIsSmoothedOnRequest) {
   EXPECT_NEAR(x[1], 600, 1e-9);
 }
 
+/// Half an elliptic cylinder (2 cos t, y, sin t): its radius of curvature is .5 along its ridge x = 2, z = 0, between two columns.
+struct EllipticCylinder {
+  std::array<std::int32_t, 2> counts{32, 11};
+  std::vector<double> nodes;
+  EllipticCylinder() {
+    for (int j = 0; j < 11; ++j)
+      for (int i = 0; i < 32; ++i)
+        for (const double t = -1.25 + 2.5 * i / 31; const double x : {2 * std::cos(t), j / 5.0, std::sin(t)}) nodes.push_back(x);
+  }
+};
+
+TEST_F(Grids, RidgesBecomeEdges) {
+  const EllipticCylinder cylinder;
+  std::int64_t count = -1;
+  EXPECT_EQ(carreau_model_embed_ridges(session, 0.6, &count), CARREAU_ERR_SEQUENCE);
+  ASSERT_EQ(carreau_add_grid(session, nullptr, 1, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_OK);
+  EXPECT_EQ(carreau_model_embed_ridges(session, 0, &count), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_model_embed_ridges(session, 0.4, &count), CARREAU_OK) << carreau_last_error(session);
+  EXPECT_EQ(count, 0);
+  ASSERT_EQ(carreau_model_embed_ridges(session, 0.6, &count), CARREAU_OK) << carreau_last_error(session);
+  EXPECT_EQ(count, 1);
+  const MeshData data = mesh_of(0.25);
+  double length = 0;
+  for (std::size_t e = 0; e < data.edge_refs.size(); ++e) {
+    const double *p = &data.xyz[3 * std::size_t(data.edges[2 * e])], *q = &data.xyz[3 * std::size_t(data.edges[2 * e + 1])];
+    if (std::hypot(p[0] - 2, p[2]) < 1e-3 && std::hypot(q[0] - 2, q[2]) < 1e-3) length += std::abs(q[1] - p[1]);
+  }
+  EXPECT_NEAR(length, 2, 1e-6);
+}
+
+TEST_F(Grids, SplinesHaveContinuousSecondDerivatives) {
+  const EllipticCylinder cylinder;
+  carreau_grid_options options = sized<carreau_grid_options>();
+  for (const int continuity : {1, 2}) {
+    carreau_session* other = nullptr;
+    ASSERT_EQ(carreau_session_create(&other), CARREAU_OK);
+    options.continuity = continuity;
+    ASSERT_EQ(carreau_add_grid(other, &options, 1, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_OK);
+    const std::array<double, 4> uv{8 - 1e-9, 4.5, 8 + 1e-9, 4.5};
+    std::array<double, 18> second{};
+    ASSERT_EQ(carreau_evaluate(other, 2, 1, 2, uv.data(), 2, nullptr, nullptr, second.data()), CARREAU_OK);
+    const double jump = std::hypot(second[0] - second[9], second[1] - second[10], second[2] - second[11]);
+    if (continuity == 2)
+      EXPECT_LT(jump, 1e-9);
+    else
+      EXPECT_GT(jump, 1e-5);
+    carreau_session_free(other);
+  }
+  options.continuity = 3;
+  EXPECT_EQ(carreau_add_grid(session, &options, 1, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_STREQ(carreau_last_error(session), "the continuity of a grid is 3; it must be 0, 1 or 2");
+}
+
 TEST_F(Grids, MistakesAreReportedAndLeaveTheSessionAsItWas) {
   const Cylinder cylinder;
   carreau_grid_options options = sized<carreau_grid_options>();

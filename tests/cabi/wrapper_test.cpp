@@ -392,7 +392,10 @@ TEST(Wrapper, AddsGeometriesOfTheLibrary) {
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) nodes.push_back({10.0 + i, 1.0 * j, 0});
   const carreau::GridBlock block{3, 3, nodes};
-  carreau::add_grid(session, std::span(&block, 1));
+  carreau_grid_options splines{};
+  splines.continuity = 2;
+  carreau::add_grid(session, std::span(&block, 1), splines);
+  EXPECT_EQ(carreau::embed_ridges(session, 1), 0);  // a plane
   carreau::add_geometry(session, paraboloid(), [&] { add_sides(session); });
   ASSERT_EQ(carreau::geometries(session).size(), 4U);
   EXPECT_EQ(carreau::geometries(session)[3].kind, CARREAU_GEOMETRY_CALLBACKS);

@@ -89,6 +89,21 @@ class Grids(unittest.TestCase):
         done = self.run_command("mesh", path, "--grid", "radii", "-o", "x.mesh", code=2)
         self.assertIn("--grid", done.stderr)
 
+    def test_ridges_become_edges(self):
+        """Half an elliptic cylinder (2 cos t, y, sin t) has the radius .5 along x = 2, z = 0."""
+        at = [-1.25 + 2.5 * i / 31 for i in range(32)]
+        nodes = [(2 * math.cos(t), j / 5, math.sin(t)) for j in range(11) for t in at]
+        path = self.write("ellipse.fmt", "1\n32 11 1\n" + "\n".join(f"{p[axis]:.15g}" for axis in range(3) for p in nodes) + "\n")
+        for radius, expected in (("0.6", 2), ("0.4", 0)):
+            self.mesh(path, "--size", "0.25", "--ridges", radius, "--continuity", "2")
+            mesh = mesh_files.read_mesh(os.path.join(self.folder, "x.mesh"))
+            length = 0
+            for edge in mesh.edges:
+                p, q = (mesh.vertices[v] for v in edge[:2])
+                if all(math.hypot(v[0] - 2, v[2]) < 1e-3 for v in (p, q)):
+                    length += abs(q[1] - p[1])
+            self.assertAlmostEqual(length, expected, delta=1e-6)
+
     def test_mistakes_name_file_and_line(self):
         path = self.write("bad.fmt", "1\n2 2 1\n0 1 0 1\n0 0 x 1\n")
         done = self.run_command("mesh", path, "-o", "x.mesh", code=2)
@@ -96,6 +111,7 @@ class Grids(unittest.TestCase):
         self.assertFalse(os.path.exists(os.path.join(self.folder, "x.mesh")))
         done = self.run_command("mesh", path, "--smooth", "10,2", "-o", "x.mesh", code=2)
         self.assertIn("'10,2'", done.stderr)
+        self.run_command("mesh", self.write("plain.txt", "1 2 1\n2 3 2\n1 2 1\n"), "--smooth", "10,distance", "-o", "x.mesh")
 
     def test_a_hole_that_cuts_a_block_is_reported_and_both_parts_are_meshed(self):
         rows = [["nan" if i == 4 else "0" for i in range(9)] for _ in range(6)]

@@ -160,6 +160,18 @@ def test_a_grid_of_a_cylinder():
     assert session.generate().quality.area == pytest.approx(2 * math.pi, rel=2e-3)
 
 
+def test_ridges_of_a_grid_are_edges():
+    t, y = np.linspace(-1.25, 1.25, 32), np.linspace(0, 2, 11)  # an elliptic cylinder: its radius is .5 along (2, y, 0)
+    nodes = np.stack(np.broadcast_arrays(2 * np.cos(t)[None, :], y[:, None], np.sin(t)[None, :]), axis=2)
+    session = carreau.Session(hphydef=0.25)
+    session.add_grid(nodes, continuity=2)
+    assert session.embed_ridges(0.4) == 0 and session.embed_ridges(0.6) == 1
+    mesh = session.generate()
+    on = np.hypot(mesh.vertices[:, 0] - 2, mesh.vertices[:, 2]) < 1e-3
+    ridge = mesh.edges[np.all(on[mesh.edges], axis=1)]
+    assert np.abs(np.diff(mesh.vertices[ridge][:, :, 1], axis=1)).sum() == pytest.approx(2)
+
+
 def test_another_mesh_of_triangles():
     first = carreau.mesh(torus, domain=TORUS_BOX, size=0.15)
     again = carreau.mesh((first.vertices, first.triangles), size=0.3)
@@ -247,6 +259,11 @@ def test_estimates_and_transfers():
     sizes = session.estimate(values, tolerance=0.005)
     inside = np.all((mesh.vertices[:, :2] > 0.2) & (mesh.vertices[:, :2] < 0.8), axis=1)
     assert np.ptp(sizes[inside]) < 0.05 * sizes[inside].mean()
+    # The graph of the field is a sphere of radius 2: sizes are 2 R sin(8 degrees) in its tangent planes, and z / R of it in the plane.
+    z = np.sqrt(4 - np.sum(mesh.vertices[:, :2] ** 2, axis=1))
+    xx, xy, _, yy = session.estimate(z, tolerance=8, source="curvature", shape="graph", recovery="quadric")[:, :4].T
+    shortest = ((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy)) ** -0.5
+    assert abs(np.mean((shortest / (2 * np.sin(np.radians(8)) * z))[inside]) - 1) < 0.1
     session.set_vertex_sizes(np.full(len(sizes), 0.05))
     fine = session.generate()
     assert len(fine.triangles) > 3 * len(mesh.triangles)

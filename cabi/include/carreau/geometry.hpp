@@ -92,6 +92,12 @@ inline std::int64_t embed_wires(Session& session) {
   session.done(carreau_model_embed_wires(session.get(), &count));
   return count;
 }
+/// Embeds the ridges of grids whose radius of curvature is below `radius`; returns their number.
+inline std::int64_t embed_ridges(Session& session, double radius) {
+  std::int64_t count = 0;
+  session.done(carreau_model_embed_ridges(session.get(), radius, &count));
+  return count;
+}
 
 /// The entities that vertices of a mesh lie on: points (dimension 0), curves (1) and faces (2).
 struct VertexEntities {

@@ -694,6 +694,8 @@ class carreau_grid_options(Structure):
         ("tolerance", c_double),
         ("step", c_double),
         ("fill", c_int32),
+        ("continuity", c_int32),
+        ("smoothing_by_distance", c_int32),
         ("reserved", c_int32),
     ]
 
@@ -1163,6 +1165,7 @@ CARREAU = {
     "carreau_model_embed_point": (c_int32, [c_void_p, Doubles, c_char_p, POINTER(c_int32)]),
     "carreau_model_embed_polyline": (c_int32, [c_void_p, c_int64, Doubles, c_char_p, POINTER(c_int32)]),
     "carreau_model_embed_wires": (c_int32, [c_void_p, POINTER(c_int64)]),
+    "carreau_model_embed_ridges": (c_int32, [c_void_p, c_double, POINTER(c_int64)]),
     "carreau_mesh_vertex_entities": (c_int32, [c_void_p, c_int64, Int32s, Int32s]),
     "carreau_mesh_edge_parameters": (c_int32, [c_void_p, c_int64, Doubles, Int32s, Int32s]),
     "carreau_mesh_carry": (c_int32, [c_void_p, c_void_p, c_int32]),

@@ -37,12 +37,14 @@ def molecule_options(surface: str = "vws", probe: float = 1.4, drop_cavities: bo
 
 
 def grid_options(*, measured: str = "points", smooth: Union[int, tuple[int, float, float]] = 0, lengths: bool = False,
-                 orient: bool = True, join_angle: float = 0, tolerance: float = 0, step: float = 0, fill: bool = False) -> Any:
+                 orient: bool = True, join_angle: float = 0, tolerance: float = 0, step: float = 0, fill: bool = False,
+                 continuity: int = 1, by_distance: bool = False) -> Any:
     rounds, *weights = smooth if isinstance(smooth, tuple) else (smooth,)
     inward, outward = weights or (0.0, 0.0)
     return struct(c.carreau_grid_options, measured=choice(MEASURED, measured, "measured"), smoothing_rounds=rounds,
                   smoothing_inward=inward, smoothing_outward=outward, lengths=int(lengths), orient=int(orient),
-                  join_angle=join_angle, tolerance=tolerance, step=step, fill=int(fill))
+                  join_angle=join_angle, tolerance=tolerance, step=step, fill=int(fill), continuity=continuity,
+                  smoothing_by_distance=int(by_distance))
 
 
 def triangles_options(*, sharp: float = 0, corner: float = 0, given_edges: bool = False, ignore_references: bool = False,
@@ -146,7 +148,7 @@ class Geometries:
     def add_grid(self, *blocks: ArrayLike, **options: Any) -> None:
         """Adds a surface through the nodes of structured grids: (rows, columns, 3) each, NaN: a node is missing. options:
         measured ("points", "heights", "radii"), smooth (rounds, or rounds and two weights), lengths, orient, join_angle
-        (degrees), tolerance, step, fill."""
+        (degrees), tolerance, step, fill, continuity (1 or 2), by_distance (weights of smoothing, HDR sec. 4.7.1)."""
         grids = [doubles(each, "a grid", None, None, 3) for each in blocks]
         counts = np.array([(grid.shape[1], grid.shape[0]) for grid in grids], dtype=np.int32)
         nodes = np.concatenate([grid.ravel() for grid in grids]) if grids else np.empty(0)
@@ -307,6 +309,12 @@ class Geometries:
         """Embeds the wires that lie on faces; returns their number."""
         count = c_int64()
         self._call(lib().model_embed_wires, byref(count))
+        return count.value
+
+    def embed_ridges(self, radius: float) -> int:
+        """Embeds the ridges of structured grids whose radius of curvature is below `radius`; returns their number."""
+        count = c_int64()
+        self._call(lib().model_embed_ridges, radius, byref(count))
         return count.value
 
     def clear(self) -> None:

@@ -123,6 +123,9 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
       ->type_name("X,Y,Z");
   repeated(app->add_option("--embed-curve", options.embed.curves, "File of points of a polyline on the surface, which becomes edges; repeatable"))
       ->type_name(kind::file);
+  app->add_option("--ridges", options.embed.ridges, "Edges along lines of a grid where its curvature is extremal, its radius below this length")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
   app->add_flag("--embed-wires", options.embed.wires, "Edges of no face that lie on faces become edges of their meshes");
   app->add_option("--env", options.env, "Parameters of a blsurf.env up to its first action; options take precedence")
       ->check(not_empty)
@@ -167,7 +170,7 @@ void add_grid_options(CLI::App* app, GridChoice& choice) {
   app->add_option("--grid", choice.format, "Format of a grid: plot3d, heights, scan or nodes; by the suffix by default")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(grid_formats), std::end(grid_formats))));
   app->add_option("--smooth", choice.smoothing,
-                  "Rounds of Taubin's filter: N or N,w1,w2 (.06 and .061 by default); 0 by default")
+                  "Rounds of Taubin's filter: N or N,w1,w2 (.06, .061); ',distance' behind weighs by distance")
       ->check(smoothing_defect)
       ->type_name(kind::rounds);
   app->add_flag("--lengths", choice.lengths, "Parameters by lengths of edges, for grids with abrupt steps");
@@ -176,6 +179,9 @@ void add_grid_options(CLI::App* app, GridChoice& choice) {
       ->check(CLI::Range(0.0, 180.0))
       ->type_name(kind::number);
   app->add_flag("--fill", choice.fill, "Fill holes inside");
+  app->add_option("--continuity", choice.continuity, "Between cells of a grid: 1 (default) or 2, curvature continuous, by cubic splines")
+      ->check(CLI::Range(1, 2))
+      ->type_name(kind::number);
   app->add_option("--step", choice.step, "Step of heights and scans if the file has none, length; 1 by default")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);

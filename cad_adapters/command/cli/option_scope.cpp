@@ -45,6 +45,8 @@ const std::vector<Scope>& scopes() {
       {"--join", {grid}, "a grid"},
       {"--fill", {grid}, "a grid"},
       {"--step", {grid}, "a grid"},
+      {"--continuity", {grid}, "a grid"},
+      {"--ridges", {grid}, "a grid"},
       {"--join-nodes", {grid}, "a grid"},
       {"--domain", {formula}, "a surface by formulas"},
       {"--sharp", {triangles}, "triangles"},

@@ -48,6 +48,8 @@ struct Smoothing {
   int rounds = 0;       ///< 0: nodes stay as they are
   double inward = 0.06;   ///< w1 of HDR sec. 4.7.1
   double outward = 0.061;  ///< w2, a little larger
+  /// Neighbours of heights and radii weigh by the other one's distance in space, as the paper has it; false: evenly.
+  bool by_distance = false;
 };
 
 struct Options {
@@ -64,6 +66,9 @@ struct Options {
   /// Blocks are turned over, by running their columns backwards, so that normals agree across common borders. The first
   /// block stays; where blocks enclose a volume normals point outwards. No message reports this.
   bool orient = false;
+  /// Derivatives at nodes are derivatives of cubic splines: second derivatives are continuous between cells, except beside missing nodes, where
+  /// borders of blocks match over a part of their length, and near points where four joined blocks meet.
+  bool splines = false;
   bool cross_derivatives = true;  ///< false: zero as in Ferguson's patches, which flatten (HDR sec. 4.7.2); for comparisons
 };
 
@@ -72,7 +77,7 @@ struct GridGeometry {
   std::vector<std::string> warnings;
 };
 
-/// Smooths the nodes, then interpolates each block by bicubic Coons patches with C1 between cells (HDR eq. 4.87-4.91).
+/// Smooths the nodes, then interpolates each block by bicubic Coons patches with C1 or C2 between cells (HDR eq. 4.87-4.91).
 /// The reference of a face is the rank of its block, from 1. Cells without all four nodes are left out. If they cut a
 /// block in two, the other parts have references behind all blocks, results have the block's reference (Face::part_of),
 /// and a warning reports it. Nodes of borders that are one within the tolerance are glued, also the two sides of one

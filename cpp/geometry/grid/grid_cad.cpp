@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/grid/grid_cad.h"
 
+#include <algorithm>
+
 #include "support/error.h"
 
 namespace carreau::grid {
 
 void GridCad::add(int ref, std::shared_ptr<const CoonsSurface> surface, std::vector<SideLine> sides) {
   parts_[ref] = {std::move(surface), std::move(sides)};
+}
+
+std::vector<std::shared_ptr<const CoonsSurface>> GridCad::surfaces() const {
+  std::vector<std::shared_ptr<const CoonsSurface>> all;
+  for (const auto& [ref, part] : parts_)
+    if (std::find(all.begin(), all.end(), part.surface) == all.end()) all.push_back(part.surface);
+  return all;
 }
 
 const GridCad::Part& GridCad::part(int face) const {

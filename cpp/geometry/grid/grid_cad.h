@@ -2,8 +2,8 @@
 // Grids as an evaluator of the engine.
 #pragma once
 
+#include <map>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include "cad/cad.h"
@@ -21,6 +21,9 @@ class GridCad final : public Cad {
   /// Adds a face that is part of a block; several faces may share a surface. Not while others evaluate.
   void add(int ref, std::shared_ptr<const CoonsSurface> surface, std::vector<SideLine> sides);
 
+  /// The surfaces of faces, by the smallest reference of a face on them.
+  [[nodiscard]] std::vector<std::shared_ptr<const CoonsSurface>> surfaces() const;
+
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override;
   Interval curve_interval(int face, int ic) override;
   CurveJet curve(int face, int ic, unsigned want, double t) override;
@@ -34,7 +37,7 @@ class GridCad final : public Cad {
   [[nodiscard]] const Part& part(int face) const;
   [[nodiscard]] const SideLine& side(int face, int ic) const;
 
-  std::unordered_map<int, Part> parts_;
+  std::map<int, Part> parts_;
 };
 
 }  // namespace carreau::grid

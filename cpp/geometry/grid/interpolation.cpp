@@ -2,7 +2,9 @@
 #include "geometry/grid/interpolation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -27,21 +29,27 @@ std::vector<Line> lines_of(const Block& block, bool along_u) {
   return lines;
 }
 
-/// Derivatives of value(node) along u or v at all nodes.
+/// Derivatives that nodes must have; empty: none.
+using Prescribed = std::vector<std::optional<Vec3>>;
+
+/// Derivatives of value(node) along u or v at all nodes, by parabolas or splines.
 template <typename Value>
 std::vector<Vec3> differentiate(const Block& block, const Knots& knots, const Closed& closed, bool along_u,
-                                Value&& value) {
+                                Value&& value, bool splines, const Prescribed& prescribed = {}) {
   const std::vector<double>& x = along_u ? knots.u : knots.v;
   std::vector<Vec3> out(block.nodes.size());
   std::vector<Sample> samples(x.size());
   std::vector<char> there(x.size());
+  Prescribed given(prescribed.empty() ? 0 : x.size());
   for (const Line& line : lines_of(block, along_u)) {
     for (std::size_t k = 0; k < line.count; ++k) {
       const std::size_t node = line.first + k * line.step;
       samples[k] = {x[k], value(node)};
       there[k] = is_finite(block.nodes[node]) ? 1 : 0;
     }
-    const std::vector<Vec3> d = line_derivatives(samples, there, along_u ? closed.columns : closed.rows);
+    for (std::size_t k = 0; k < given.size(); ++k) given[k] = prescribed[line.first + k * line.step];
+    const bool around = along_u ? closed.columns : closed.rows;
+    const std::vector<Vec3> d = splines ? spline_derivatives(samples, there, around, given) : line_derivatives(samples, there, around);
     for (std::size_t k = 0; k < line.count; ++k) out[line.first + k * line.step] = d[k];
   }
   return out;
@@ -60,6 +68,7 @@ class Interpolator {
     for (std::size_t b = 0; b < blocks_.size(); ++b) add_surface(b);
     share_along_edges();
     if (options_.join_angle > 0) join_chains();
+    if (options_.splines) fit_splines();
     shared_.for_values([&](const SharedDerivatives::Slot& slot, const Vec3& value) {
       Node& node = surfaces_[static_cast<std::size_t>(slot.block)].nodes[slot.node];
       (slot.along_u ? node.su : node.sv) = value;
@@ -92,10 +101,29 @@ class Interpolator {
     const Block& block = blocks_[b];
     CoonsSurface surface{knots_[b].u, knots_[b].v, std::vector<Node>(block.nodes.size())};
     const auto position = [&](std::size_t node) -> const Vec3& { return block.nodes[node]; };
-    const std::vector<Vec3> su = differentiate(block, knots_[b], closed_[b], true, position);
-    const std::vector<Vec3> sv = differentiate(block, knots_[b], closed_[b], false, position);
+    const std::vector<Vec3> su = differentiate(block, knots_[b], closed_[b], true, position, options_.splines);
+    const std::vector<Vec3> sv = differentiate(block, knots_[b], closed_[b], false, position, options_.splines);
     for (std::size_t k = 0; k < block.nodes.size(); ++k) surface.nodes[k] = {block.nodes[k], su[k], sv[k], {}};
     surfaces_.push_back(std::move(surface));
+  }
+
+  /// Splines end with the derivatives that joined blocks share, and are shared along edges again.
+  void fit_splines() {
+    shared_.keep(Rank::across);
+    std::vector<std::array<Prescribed, 2>> ends(blocks_.size());
+    shared_.for_values([&](const SharedDerivatives::Slot& slot, const Vec3& value) {
+      Prescribed& given = ends[static_cast<std::size_t>(slot.block)][slot.along_u ? 0 : 1];
+      given.resize(surfaces_[static_cast<std::size_t>(slot.block)].nodes.size());
+      given[slot.node] = value;
+    });
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      std::vector<Node>& nodes = surfaces_[b].nodes;
+      const auto position = [&](std::size_t node) -> const Vec3& { return nodes[node].s; };
+      const std::vector<Vec3> su = differentiate(blocks_[b], knots_[b], closed_[b], true, position, true, ends[b][0]);
+      const std::vector<Vec3> sv = differentiate(blocks_[b], knots_[b], closed_[b], false, position, true, ends[b][1]);
+      for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].su = su[k], nodes[k].sv = sv[k];
+    }
+    share_along_edges();
   }
 
   /// Returns whether a node has neighbours on both sides.
@@ -199,6 +227,11 @@ class Interpolator {
     return dot(in, out) > std::cos(most) * norm(in) * norm(out);
   }
 
+  [[nodiscard]] const Vec3& derivative_across(const EdgeUse& use, const Place& at) const {
+    const Node& node = surfaces_[at.block].nodes[at.node];
+    return use.edge.along_u() ? node.sv : node.su;
+  }
+
   /// The derivatives of a and b across their edge are one.
   void join(const EdgeUse& a, const EdgeUse& b) {
     for (const Place& at : {place(a, a.edge.start()), place(a, a.edge.end())}) {
@@ -206,7 +239,8 @@ class Interpolator {
       if (!goes_on(a, b, at)) continue;
       const Sample before{-height(b), position(behind(b, other))}, here{0, position(at)},
           after{height(a), position(behind(a, at))};
-      const Vec3 d = parabola_derivative(before, here, after, 0);
+      const Vec3 d = options_.splines ? Vec3((inward(a.edge) * derivative_across(a, at) - inward(b.edge) * derivative_across(b, other)) / 2)
+                                      : parabola_derivative(before, here, after, 0);
       const std::size_t slot = number(at, !a.edge.along_u());
       shared_.unite(slot, number(other, !b.edge.along_u()), -inward(a.edge) * inward(b.edge));
       shared_.offer(slot, Rank::across, inward(a.edge) * d);
@@ -221,23 +255,35 @@ class Interpolator {
     }
   };
 
-  void add_cross_derivatives() {
-    std::vector<Twists> twists;
+  /// Twists of all blocks; prescribed[block][0] at ends of rows, [1] of columns.
+  [[nodiscard]] std::vector<Twists> twists(const std::vector<std::array<Prescribed, 2>>& prescribed) const {
+    std::vector<Twists> all;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      std::vector<Node>& nodes = surfaces_[b].nodes;
+      const std::vector<Node>& nodes = surfaces_[b].nodes;
       const auto sv = [&](std::size_t node) -> const Vec3& { return nodes[node].sv; };
       const auto su = [&](std::size_t node) -> const Vec3& { return nodes[node].su; };
-      twists.push_back({differentiate(blocks_[b], knots_[b], closed_[b], true, sv),
-                        differentiate(blocks_[b], knots_[b], closed_[b], false, su)});
-      for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].suv = (twists[b].uv[k] + twists[b].vu[k]) / 2;
+      all.push_back({differentiate(blocks_[b], knots_[b], closed_[b], true, sv, options_.splines, prescribed[b][0]),
+                     differentiate(blocks_[b], knots_[b], closed_[b], false, su, options_.splines, prescribed[b][1])});
     }
-    share_twists(twists);
+    return all;
+  }
+
+  void add_cross_derivatives() {
+    std::vector<std::array<Prescribed, 2>> prescribed(blocks_.size());
+    std::vector<Twists> found = twists(prescribed);
+    SharedDerivatives shared;
+    share_twists(found, shared, prescribed);
+    if (options_.splines && !joined_edges_.empty()) found = twists(prescribed);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      for (std::size_t k = 0; k < surfaces_[b].nodes.size(); ++k) surfaces_[b].nodes[k].suv = (found[b].uv[k] + found[b].vu[k]) / 2;
+    shared.for_values([&](const SharedDerivatives::Slot& at, const Vec3& value) {
+      surfaces_[static_cast<std::size_t>(at.block)].nodes[at.node].suv = value;
+    });
   }
 
   /// Derivatives that cross a joined edge are differenced along it, once for both blocks: then their derivatives across
-  /// it agree at every point.
-  void share_twists(const std::vector<Twists>& twists) {
-    SharedDerivatives shared;
+  /// it agree at every point. Lines that cross the edge end with the shared twists.
+  void share_twists(const std::vector<Twists>& twists, SharedDerivatives& shared, std::vector<std::array<Prescribed, 2>>& ends) const {
     const auto slot = [&](const Place& at) { return shared.number({static_cast<int>(at.block), at.node, false}); };
     for (const auto& [a, b] : joined_edges_) {
       const bool same_way = point(place(*a, a->edge.start())) == point(place(*b, b->edge.start()));
@@ -246,12 +292,19 @@ class Interpolator {
       for (const Place& at : {place(*a, a->edge.start()), place(*a, a->edge.end())}) {
         if (!goes_on(*a, *b, at)) continue;
         const Rank rank = is_inner(at, a->edge.along_u()) ? Rank::inner : Rank::one_sided;
-        shared.unite(slot(at), slot(same_place(at, *b)), along * across);
+        const Place other = same_place(at, *b);
+        shared.unite(slot(at), slot(other), along * across);
         shared.offer(slot(at), rank, twists[at.block].along(a->edge, at.node));
+        for (const auto& [use, end] : {std::pair{a, at}, std::pair{b, other}}) {
+          Prescribed& given = ends[end.block][use->edge.along_u() ? 1 : 0];
+          given.resize(surfaces_[end.block].nodes.size());
+          given[end.node] = Vec3::Zero();  // until all are known
+        }
       }
     }
     shared.for_values([&](const SharedDerivatives::Slot& at, const Vec3& value) {
-      surfaces_[static_cast<std::size_t>(at.block)].nodes[at.node].suv = value;
+      for (Prescribed& given : ends[static_cast<std::size_t>(at.block)])
+        if (!given.empty() && given[at.node]) given[at.node] = value;
     });
   }
 

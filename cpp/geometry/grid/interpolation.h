@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C1 surface through the nodes of each block, and common data of blocks on their borders.
+// The C1 or C2 surface through the nodes of each block, and common data of blocks on their borders.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ namespace carreau::grid {
 
 /// A surface for each block. The derivative along a common border is equal in all its blocks, the best of them, so that
 /// the border is one curve. If `join_angle` (radians) is positive and the normals of two blocks differ by less all
-/// along a chain, derivatives across it are central differences over both blocks. Their normals then agree; `joined`
-/// counts such chains.
+/// along a chain, derivatives across it are central differences over both blocks, or the mean of both splines. Their
+/// normals then agree; `joined` counts such chains.
 std::vector<CoonsSurface> interpolate(const std::vector<Block>& blocks, const Borders& borders,
                                       const std::vector<Knots>& knots, const std::vector<Closed>& closed,
                                       const Options& options, std::size_t* joined = nullptr);

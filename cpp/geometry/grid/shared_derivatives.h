@@ -29,6 +29,11 @@ class SharedDerivatives {
   void unite(std::size_t a, std::size_t b, int sign);
   /// Offers a value for slot a; the best rank wins, and the first of equal ranks.
   void offer(std::size_t a, Rank rank, const Vec3& value);
+  /// Forgets the values of other ranks.
+  void keep(Rank rank) {
+    for (Best& best : best_)
+      if (best.rank != rank) best = {};
+  }
   /// Calls set(slot, value) for every slot whose set has a value.
   template <typename Set>
   void for_values(Set&& set) {

@@ -22,6 +22,26 @@ Vec3 mean(const Neighbours<Vec3>& n) {
   return d1 + d2 > 0 ? Vec3((d2 * n.before + d1 * n.after) / (d1 + d2)) : n.here;
 }
 
+/// A height or radius on its line of space.
+struct Placed {
+  double value = 0;
+  Vec3 base, direction;
+
+  [[nodiscard]] Vec3 position() const { return base + value * direction; }
+};
+
+double mean(const Neighbours<Placed>& n) {
+  const Vec3 here = n.here.position();
+  const double d1 = norm(here - n.before.position()), d2 = norm(n.after.position() - here);
+  return d1 + d2 > 0 ? (d2 * n.before.value + d1 * n.after.value) / (d1 + d2) : n.here.value;
+}
+
+template <typename Value>
+Value moved(const Value& from, double weight, const Value& to) {
+  return from + weight * (to - from);
+}
+Placed moved(const Placed& from, double weight, double to) { return {from.value + weight * (to - from.value), from.base, from.direction}; }
+
 /// to[i] = from[i] + weight (mean - from[i]), except at the ends of an open line.
 template <typename Value>
 void pass(std::span<const Value> from, std::span<Value> to, bool closed, double weight) {
@@ -33,16 +53,16 @@ void pass(std::span<const Value> from, std::span<Value> to, bool closed, double 
       continue;
     }
     const Neighbours<Value> near{from[i == 0 ? n - 1 : i - 1], from[i], from[i + 1 == n ? 0 : i + 1]};
-    to[i] = from[i] + weight * (mean(near) - from[i]);
+    to[i] = moved(from[i], weight, mean(near));
   }
 }
 
-/// `moved` is scratch space of equal size.
+/// `scratch` has equal size.
 template <typename Value>
-void smooth(std::span<Value> values, std::span<Value> moved, bool closed, const Smoothing& smoothing) {
+void smooth(std::span<Value> values, std::span<Value> scratch, bool closed, const Smoothing& smoothing) {
   if (values.size() < 3) return;
-  pass<Value>(values, moved, closed, smoothing.inward);
-  pass<Value>(moved, values, closed, -smoothing.outward);
+  pass<Value>(values, scratch, closed, smoothing.inward);
+  pass<Value>(scratch, values, closed, -smoothing.outward);
 }
 
 bool same(const Vec3& p, const Vec3& q, double tolerance) {
@@ -117,6 +137,21 @@ void set_moved(const Block& block, double value, Vec3& p) {
     p.x() *= value / before, p.y() *= value / before;
 }
 
+void smooth_by_distance(Block& block, const std::vector<Run>& runs, const Smoothing& smoothing, Monitor& monitor) {
+  const bool heights = block.measured == Measured::heights;
+  std::vector<Placed> values;
+  for (const Vec3& p : block.nodes) {
+    const double r = radius_of(p);
+    if (heights)
+      values.push_back({p.z(), {p.x(), p.y(), 0}, {0, 0, 1}});
+    else
+      values.push_back({r, {0, 0, p.z()}, r > 0 ? Vec3(p.x() / r, p.y() / r, 0) : Vec3::Zero()});
+  }
+  smooth_runs(values, runs, smoothing, monitor);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (is_finite(block.nodes[k])) set_moved(block, values[k].value, block.nodes[k]);
+}
+
 }  // namespace
 
 void smooth_line(std::span<double> values, bool closed, const Smoothing& smoothing) {
@@ -144,6 +179,7 @@ void smooth_block(Block& block, const Closed& closed, const Smoothing& smoothing
   if (smoothing.rounds == 0) return;
   const std::vector<Run> runs = runs_of(block, closed);
   if (block.measured == Measured::points) return smooth_runs(block.nodes, runs, smoothing, monitor);
+  if (smoothing.by_distance) return smooth_by_distance(block, runs, smoothing, monitor);
   std::vector<double> values;
   for (const Vec3& p : block.nodes) values.push_back(block.measured == Measured::heights ? p.z() : radius_of(p));
   smooth_runs(values, runs, smoothing, monitor);

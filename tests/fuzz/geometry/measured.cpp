@@ -64,10 +64,13 @@ Outcome run_grid(std::uint64_t seed) {
   options.lengths = random.below(2), options.orient = random.below(2), options.fill = random.below(2);
   options.join_angle = random.chance(0.3) ? random.uniform(1, 90) : 0;
   options.smoothing_rounds = random.chance(0.2) ? 1 + random.below(3) : 0;
+  options.continuity = seed % 2 == 1 ? 2 : 1;
   const SessionHandle session;
-  const carreau_status status = carreau_add_grid(session, &options, blocks, counts.data(), nodes.data());
+  carreau_status status = carreau_add_grid(session, &options, blocks, counts.data(), nodes.data());
   if (status != CARREAU_OK) return {Result::rejected, fault_of(session, status, "carreau_add_grid")};
   set_parameters(session, 2 * scale, random);
+  if (seed % 4 == 1) status = carreau_model_embed_ridges(session, scale / 2, nullptr);
+  if (status != CARREAU_OK) return {Result::rejected, fault_of(session, status, "carreau_model_embed_ridges")};
   return mesh_and_check(session, false, random);
 }
 

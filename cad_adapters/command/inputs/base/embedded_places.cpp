@@ -17,6 +17,7 @@ void embed(carreau_session* session, const EmbedChoice& choice) {
     require(session, carreau_model_embed_wires(session, &wires));
     if (wires == 0) throw Failure("--embed-wires: no wire of the file lies on a face.");
   }
+  if (choice.ridges > 0) require(session, carreau_model_embed_ridges(session, choice.ridges, nullptr));
   for (const std::string& file : choice.curves) {
     const std::vector<XYZ> points = read_points(file);
     const std::string name = std::filesystem::path(file).stem().string();

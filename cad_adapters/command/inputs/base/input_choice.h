@@ -18,11 +18,12 @@ struct MoleculeChoice {
 /// How a grid is read and made a surface.
 struct GridChoice {
   std::string format;        ///< one of grid_formats; empty: by suffix
-  std::string smoothing;     ///< "rounds" or "rounds,w1,w2" of Taubin's filter; empty: none
+  std::string smoothing;     ///< "rounds", "rounds,w1,w2" of Taubin's filter, and ",distance" behind; empty: none
   bool lengths = false;      ///< parameters are cumulated lengths of edges
   double join_angle = 0;     ///< degrees; 0: borders of blocks keep their angles
   double tolerance = 0;      ///< below which nodes of borders are one; 0: a millionth of the diagonal
   bool fill = false;         ///< holes inside
+  int continuity = 1;        ///< between cells, 1 or 2
   double step = 0;           ///< of heights and scans whose file has no step; 0: 1
 };
 

@@ -16,9 +16,12 @@
 namespace command {
 namespace {
 
-/// "rounds" or "rounds,w1,w2".
+/// "rounds" or "rounds,w1,w2"; ",distance" may follow.
 bool read_smoothing(const std::string& text, carreau_grid_options& options) {
-  const char *p = text.data(), *const end = p + text.size();
+  const std::string by_distance = ",distance";
+  const bool weighted = text.size() > by_distance.size() && text.compare(text.size() - by_distance.size(), by_distance.size(), by_distance) == 0;
+  options.smoothing_by_distance = weighted ? 1 : 0;
+  const char *p = text.data(), *const end = p + text.size() - (weighted ? by_distance.size() : 0);
   auto result = std::from_chars(p, end, options.smoothing_rounds);
   if (result.ec != std::errc() || options.smoothing_rounds < 0) return false;
   if (result.ptr == end) return true;
@@ -40,6 +43,7 @@ carreau_grid_options options_of(const GridChoice& choice) {
   options.join_angle = choice.join_angle;
   options.tolerance = choice.tolerance;
   options.step = choice.step;
+  options.continuity = choice.continuity;
   return options;
 }
 
@@ -107,7 +111,7 @@ bool is_grid(const std::string& path, const GridChoice& choice) {
 
 std::string smoothing_defect(const std::string& text) {
   carreau_grid_options options{};
-  return read_smoothing(text, options) ? "" : "'" + text + "' is not a number of rounds, alone or with two weights: 2000,0.06,0.061";
+  return read_smoothing(text, options) ? "" : "'" + text + "' is not a number of rounds, alone or with two weights: 2000,0.06,0.061, and ',distance' behind";
 }
 
 std::unique_ptr<CadInput> open_grid(const std::string& path, const GridChoice& choice) {

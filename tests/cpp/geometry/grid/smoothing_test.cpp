@@ -77,14 +77,14 @@ double volume(const Block& block) {
   return sum * 2 * pi / (block.columns - 1);
 }
 
-Block noisy_scan() {
+Block noisy_scan(int around = 180, int up = 144) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.01);
-  Block block = block_of(181, 144, [&](int i, int j) -> Vec3 {
-    const double theta = 2 * pi * i / 180, z = -0.95 + 1.9 * j / 143, r = std::sqrt(1 - z * z) * (1 + noise(random));
+  Block block = block_of(around + 1, up, [&](int i, int j) -> Vec3 {
+    const double theta = 2 * pi * i / around, z = -0.95 + 1.9 * j / (up - 1), r = std::sqrt(1 - z * z) * (1 + noise(random));
     return {r * std::cos(theta), r * std::sin(theta), z};
   });
-  for (int j = 0; j < block.rows; ++j) block.nodes[block.index(180, j)] = block.node(0, j);
+  for (int j = 0; j < block.rows; ++j) block.nodes[block.index(around, j)] = block.node(0, j);
   block.measured = Measured::radii;
   return block;
 }
@@ -103,6 +103,32 @@ TEST(Smoothing, NoiseOfAScanGoesAndItsVolumeStays) {
   EXPECT_NEAR(volume(taubin), exact, 0.005 * exact);
   EXPECT_LT(volume(laplace), 0.97 * exact);
   EXPECT_LT(roughness(taubin), 1e-3 * roughness(before));
+}
+
+TEST(Smoothing, RadiiWeighByDistancesOnRequest) {
+  Monitor silent;
+  // One round of three nodes: the middle moves to the mean that the paper defines, with distances in space.
+  Block three = block_of(3, 2, [](int i, int j) -> Vec3 {
+    const double theta = 0.1 * i, r = i == 2 ? 2 : 1 + 0.3 * i;
+    return {r * std::cos(theta), r * std::sin(theta), double(j)};
+  });
+  three.measured = Measured::radii;
+  const double d1 = norm(three.node(1, 0) - three.node(0, 0)), d2 = norm(three.node(2, 0) - three.node(1, 0));
+  Block even = three;
+  smooth_block(three, {}, {.rounds = 1, .inward = 0.5, .outward = 0, .by_distance = true}, silent);
+  smooth_block(even, {}, {.rounds = 1, .inward = 0.5, .outward = 0}, silent);
+  EXPECT_NEAR(std::hypot(three.node(1, 0).x(), three.node(1, 0).y()), (1.3 + (d2 * 1 + d1 * 2) / (d1 + d2)) / 2, 1e-15);
+  EXPECT_NEAR(std::hypot(even.node(1, 0).x(), even.node(1, 0).y()), (1.3 + 1.5) / 2, 1e-15);
+  // The scan of a noisy sphere: the noise goes and the volume stays, as with even weights.
+  const Block before = noisy_scan(60, 48);
+  const Closed closed = closed_directions(before, 1e-12);
+  Block by_distance = before;
+  Smoothing weighted = voltaire;
+  weighted.by_distance = true;
+  smooth_block(by_distance, closed, weighted, silent);
+  const double exact = pi * (1.9 - 2 * 0.95 * 0.95 * 0.95 / 3);
+  EXPECT_NEAR(volume(by_distance), exact, 0.005 * exact);
+  EXPECT_LT(roughness(by_distance), 1e-3 * roughness(before));
 }
 
 TEST(Smoothing, MissingNodesEndLines) {
