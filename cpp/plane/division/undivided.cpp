@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plane/kernel/boundary.h"
+#include "plane/optimise/delaunay_swaps.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
 #include "plane/placement/advancing_front.h"
@@ -44,6 +45,8 @@ namespace {
 void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame, const PlaneMesherOptions& options) {
   Placement placement(work, options.max_triangles);
   placement.resting = options.resting;
+  // In the frame a long strip is fans of hundreds of triangles, and no later pass swaps edges of squares.
+  if (options.squares) swap_to_delaunay(work);
   surround_degenerate_sides(placement, domain);
   work.fixed = static_cast<int>(work.mesh.vertices.size());
   if (options.squares) place_squares(placement);

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "session_of_size.h"
@@ -56,8 +58,16 @@ AnalyticCad wing(std::function<SurfaceJet(Vec2)> surface, Vec2 low, Vec2 high, V
 }
 
 struct Layered {
-  Layered(const AnalyticCad& cad, double size, const std::vector<CurveLayers>& layers, const char* element = "p1", int threads = 1)
+  /// The last `inner` curves of face 1 lie inside it.
+  Layered(const AnalyticCad& cad, double size, const std::vector<CurveLayers>& layers, const char* element = "p1", int threads = 1,
+          std::size_t inner = 0)
       : session(session_of_command(cad, size, monitor)) {
+    if (inner > 0) {
+      Model model = unglued(cad);
+      std::vector<FaceCurve>& curves = model.faces[0].curves;
+      for (std::size_t c = curves.size() - inner; c < curves.size(); ++c) curves[c].type = CurveType::internal;
+      session->set_model(model);
+    }
     session->parameters().set("element", element);
     session->parameters().set("threads", threads);
     for (const CurveLayers& each : layers) session->add_layers(each);
@@ -157,6 +167,70 @@ TEST(LayerRows, CornersHaveFansAndMerge) {
   }
   EXPECT_LT(bisector, 1e-9);
   EXPECT_LT(around, 1e-9);
+}
+
+std::int64_t count_at(const SurfaceMesh& mesh, const std::function<double(const Vec3&)>& distance, double height, double tolerance = 1e-9) {
+  return std::count_if(mesh.vertices.begin(), mesh.vertices.end(), [&](const Vec3& p) { return std::abs(distance(p) - height) < tolerance; });
+}
+
+TEST(LayerRows, AnInnerCurveHasRowsOnBothSidesAndFansAtItsEnds) {
+  std::vector<AnalyticCurve> curves = rectangle({0, 0}, {3, 2});
+  curves.push_back(segment({1, 1}, {2, 1}));
+  const CurveLayers layers{.curves = {5}, .first = 0.01, .ratio = 1.2, .count = 6};
+  const Layered run(plane_of(curves), 0.1, {layers}, "p1", 1, 1);
+  EXPECT_EQ(run.figures[0].rows, 6);
+  EXPECT_EQ(run.figures[0].fewest_rows, 6);
+  expect_as_given(run.figures[0], layers);
+  // Ten edges on each side, and six steps of 30 degrees at each end.
+  EXPECT_EQ(run.figures[0].cells, 6 * (2 * 10 + 2 * 6));
+  const auto distance = [](const Vec3& p) { return norm(p - Vec3(std::clamp(p.x(), 1., 2.), 1, 0)); };
+  for (int k = 1; k <= 6; ++k)
+    EXPECT_EQ(count_at(run.session->mesh(), distance, layers.first * (std::pow(1.2, k) - 1) / 0.2), 2 * 11 + 2 * 5) << k;
+}
+
+TEST(LayerRows, AClosedInnerCurveHasRowsOnBothSides) {
+  std::vector<AnalyticCurve> curves = rectangle({-2, -2}, {2, 2});
+  curves.push_back(arc({0, 0}, 1, 0, pi));
+  curves.push_back(arc({0, 0}, 1, pi, 2 * pi));
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.005, .ratio = 1.2, .count = 8};
+  const Layered run(plane_of(curves), 0.1, {layers}, "p1", 1, 2);
+  EXPECT_EQ(run.figures[0].fewest_rows, 8);
+  expect_as_given(run.figures[0], layers);
+  const auto radius = [](const Vec3& p) { return norm(p); };
+  const std::int64_t edges = count_at(run.session->mesh(), radius, 1);
+  EXPECT_EQ(run.figures[0].cells, 2 * 8 * edges);
+  for (const double side : {-1, 1}) EXPECT_EQ(count_at(run.session->mesh(), radius, 1 + side * 0.005, 1e-5), edges);
+}
+
+TEST(LayerRows, InnerCurvesThatMeetTheBoundaryMergeWithItsRows) {
+  std::vector<AnalyticCurve> curves{segment({0, 0}, {1, 0}), segment({1, 0}, {2, 0}), segment({2, 0}, {2, 1}), segment({2, 1}, {0, 1}),
+                                    segment({0, 1}, {0, 0})};
+  curves.push_back(segment({1, 0}, {1, 0.6}));
+  const CurveLayers layers{.curves = {1, 2, 6}, .first = 0.01, .ratio = 1.2, .count = 5};
+  const Layered both(plane_of(curves), 0.1, {layers}, "p1", 1, 1);
+  EXPECT_EQ(both.figures[0].fewest_rows, 5);
+  expect_as_given(both.figures[0], layers);
+  EXPECT_EQ(count_at(both.session->mesh(), [](const Vec3& p) { return norm(p - Vec3(1 + 0.01, 0.01, 0)); }, 0), 1);
+  // Without layers, both parts of the boundary have vertices at the heights.
+  const CurveLayers alone{.curves = {6}, .first = 0.01, .ratio = 1.2, .count = 5};
+  const Layered one(plane_of(curves), 0.1, {alone}, "p1", 1, 1);
+  EXPECT_EQ(one.figures[0].fewest_rows, 5);
+  expect_as_given(one.figures[0], alone);
+  for (const double x : {0.99, 1.01}) EXPECT_EQ(count_at(one.session->mesh(), [x](const Vec3& p) { return norm(p - Vec3(x, 0, 0)); }, 0), 1);
+}
+
+AnalyticCad two_walls() {
+  AnalyticCad cad = plane_of(rectangle({0, 0}, {2, 1}));
+  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{p.x(), 0, -p.y()}, {1, 0, 0}, {0, 0, -1}, {}, {}, {}}; }, rectangle({0, 0}, {2, 1})};
+  return cad;
+}
+
+TEST(LayerRows, ACurveOfTwoFacesHasRowsOnBoth) {
+  const CurveLayers layers{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 8};
+  const Layered run(two_walls(), 0.1, {layers});
+  EXPECT_EQ(run.figures[0].fewest_rows, 8);
+  EXPECT_EQ(run.figures[0].cells, 2 * 8 * 20);
+  expect_as_given(run.figures[0], layers, 1e-6);
 }
 
 TEST(LayerRows, RowsThatMeetEnd) {

@@ -141,6 +141,26 @@ TEST(Quadrilaterals, LieOnCurvedSurfaces) {
 }
 
 // Right angles must not be bought by long rectangles beside them: where angles alone decide, .004 to .17.
+/// A helical ribbon of nine turns, radius 3: 170 long, 1.2 wide. One row of squares fits.
+TEST(Quadrilaterals, ALongRibbonHasNoLongOnes) {
+  const auto ribbon = [](Vec2 p) {
+    const double c = std::cos(p.x()), s = std::sin(p.x());
+    SurfaceJet jet;
+    jet.s = {3 * c, 3 * s, 0.16 * p.x() + 1.2 * p.y()}, jet.su = {-3 * s, 3 * c, 0.16}, jet.sv = {0, 0, 1.2};
+    jet.suu = {-3 * c, -3 * s, 0};
+    return jet;
+  };
+  AnalyticCad cad;
+  cad.faces[1] = {ribbon, testing::rectangle({0, 0}, {18 * std::numbers::pi, 1})};
+  const SurfaceMesh mesh = mesh_of(cad, 0.7, "q1.0");
+  double longest = 0;
+  for (const Cell& cell : cells_of(mesh, mesh.faces[0]))
+    for (int k = 0, n = corner_count(cell.kind); k < n; ++k)
+      longest = std::max(longest, norm(mesh.vertices[cell.nodes[(k + 1) % n]] - mesh.vertices[cell.nodes[k]]));
+  EXPECT_LT(longest, 2 * 0.7);
+  EXPECT_EQ(euler(mesh), 1);
+}
+
 TEST(Quadrilaterals, TheTeapotHasNoLongOnes) {
   for (const double h : {0.3, 0.2, 0.15, 0.1, 0.08})
     EXPECT_GE(figures_of(mesh_of(testing::teapot(), h, "q1.1")).worst, 0.2) << h;
