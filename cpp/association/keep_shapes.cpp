@@ -108,12 +108,11 @@ ShapeKeeper::ShapeKeeper(SurfaceMesh& mesh, Cad& cad, bool isotropic, Monitor& m
 
 bool ShapeKeeper::is_curve_edge(std::int32_t v, std::int32_t w) const { return std::binary_search(curve_edges_.begin(), curve_edges_.end(), ordered(v, w)); }
 
-std::vector<std::int32_t> ShapeKeeper::worse_triangles(const FaceMesh& face, std::span<const float> before) const {
+template <typename Kept>
+std::vector<std::int32_t> ShapeKeeper::triangles_below(const FaceMesh& face, const Kept& kept) const {
   std::vector<std::int32_t> worse;
-  for (std::size_t t = 2 * static_cast<std::size_t>(face.quads); t < face.triangles.size(); ++t) {
-    const double kept = isotropic_ ? std::max(std::min<double>(before[t], kept_shape) - shape_loss, poor_shape) : 0;
-    if (shape_of(face, face.triangles[t], mesh_.vertices) < kept) worse.push_back(static_cast<std::int32_t>(t));
-  }
+  for (std::size_t t = 2 * static_cast<std::size_t>(face.quads); t < face.triangles.size(); ++t)
+    if (shape_of(face, face.triangles[t], mesh_.vertices) < kept(t)) worse.push_back(static_cast<std::int32_t>(t));
   return worse;
 }
 
@@ -146,8 +145,14 @@ bool ShapeKeeper::repeats_chord(std::size_t f, std::vector<Chord> before) {
 }
 
 void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
+  const FaceMesh& face = mesh_.faces[f];
+  const double poor = isotropic_ ? poor_shape : 0;
+  repair(f, triangles_below(face, [&](std::size_t) { return poor; }), false);
+  if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::min<double>(before[t], kept_shape) - shape_loss; }), true);
+}
+
+void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, bool moves) {
   FaceMesh& face = mesh_.faces[f];
-  const std::vector<std::int32_t> worse = worse_triangles(face, before);
   if (worse.empty()) return;
   std::vector<char> fixed(face.uv.size());
   for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = fixed_[face.vertex[v]];
@@ -169,7 +174,7 @@ void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
     const BadRegion region(around.domain, patch.plane, patch.xyz, std::move(all), 1, monitor_);
     for (int round = 0; round < restoring_rounds; ++round) {
       const bool swapped = swap_in_space(region, around.domain, patch.plane, patch.xyz, monitor_);
-      if (smooth_in_space(region, around.domain, face.ref, cad_, patch, monitor_).empty() && !swapped) break;
+      if (!moves || (smooth_in_space(region, around.domain, face.ref, cad_, patch, monitor_).empty() && !swapped)) break;
     }
   }
   std::vector<Chord> chords;

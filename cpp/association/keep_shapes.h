@@ -32,7 +32,9 @@ class ShapeKeeper {
   };
   void list_chords(std::size_t face, std::vector<Chord>& to) const;
   [[nodiscard]] bool repeats_chord(std::size_t face, std::vector<Chord> before);
-  [[nodiscard]] std::vector<std::int32_t> worse_triangles(const FaceMesh& face, std::span<const float> before) const;
+  template <typename Kept>
+  [[nodiscard]] std::vector<std::int32_t> triangles_below(const FaceMesh& face, const Kept& kept) const;
+  void repair(std::size_t face, const std::vector<std::int32_t>& worse, bool moves);
   [[nodiscard]] bool is_curve_edge(std::int32_t v, std::int32_t w) const;
 
   SurfaceMesh& mesh_;

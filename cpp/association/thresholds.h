@@ -31,7 +31,7 @@ inline constexpr double min_swap_gain = 1e-3, swap_cosine = 0.8;
 /// Shape (Q2). Triangles are restored whose shape is lower than the parent's, or than a good one, by the loss.
 /// [Refine.HalvingKeepsShapesBesideCurves]
 inline constexpr double kept_shape = 0.8, shape_loss = 0.05;
-/// Shape (Q2). Poorer triangles are improved whatever their parents were: finer ones have room.
+/// Shape (Q2). Edges of poorer triangles are swapped whatever their parents were.
 inline constexpr double poor_shape = 0.5;
 /// Swaps and moves make room for each other.
 inline constexpr int restoring_rounds = 4;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "abi_fixture.h"
 #include "carreau_geometry.h"
@@ -378,6 +379,22 @@ TEST(Refine, SizesAreReached) {
       if (data.xyz[3 * a] < 0.3 || data.xyz[3 * b] < 0.3) continue;
       EXPECT_LT(std::hypot(data.xyz[3 * a] - data.xyz[3 * b], data.xyz[3 * a + 1] - data.xyz[3 * b + 1]), 0.0708);
     }
+}
+
+// The true curve lies outside of the chords of a coarse mesh: triangles beside it lose height.
+TEST(Refine, HalvingKeepsShapesBesideCurves) {
+  for (const auto& [radius, size, element] : {std::tuple(0.1, 0.9, "p1"), std::tuple(0.3, 0.9, "p1"), std::tuple(0.6, 0.9, "p1"), std::tuple(0.93, 0.5, "p1"), std::tuple(0.3, 0.9, "p2")}) {
+    const ShapeRun run(plate(radius), size, element);
+    run.generate();
+    const double before = run.quality().q2_min;
+    const std::int64_t n = run.cells(CARREAU_CELL_TRIANGLE3) + run.cells(CARREAU_CELL_TRIANGLE6);
+    for (int level = 1, count = 4; level <= 4; ++level, count *= 4) {
+      ASSERT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_OK) << run.error();
+      expect_sound(run);
+      EXPECT_EQ(run.cells(CARREAU_CELL_TRIANGLE3) + run.cells(CARREAU_CELL_TRIANGLE6), count * n);
+      EXPECT_GE(run.quality().q2_min, std::min(before, 0.6) - 1e-9) << radius << " " << element << " level " << level;
+    }
+  }
 }
 
 TEST(Refine, NamesErrorsAndKeepsTheMesh) {
