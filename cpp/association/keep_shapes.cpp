@@ -201,16 +201,13 @@ std::vector<WorstShape> worst_shapes(const SurfaceMesh& mesh) {
   return worst;
 }
 
-void report_losses(const SurfaceMesh& mesh, std::span<const WorstShape> before, Monitor& monitor) {
+void report_losses(const SurfaceMesh& mesh, std::span<const WorstShape> before, const char* by, Monitor& monitor) {
   const std::vector<WorstShape> after = worst_shapes(mesh);
   for (std::size_t f = 0; f < after.size(); ++f) {
     const auto& [shape, vertex] = after[f];
     if (shape >= reported_loss * std::min(before[f].shape, kept_shape)) continue;
-    const std::string at = " at " + format_point(mesh.vertices[vertex]);
-    monitor.message(Level::warning, Where{.face = mesh.faces[f].shown_ref()}.prefix() +
-                                        (shape < 0 ? "the refinement has turned a triangle" + at
-                                                   : "the refinement has lowered the worst shape (Q2) from " + rounded(before[f].shape) + " to " +
-                                                         rounded(shape) + at));
+    const std::string text = std::string("the ") + by + (shape < 0 ? " has turned a triangle" : " has lowered the worst shape (Q2) from " + rounded(before[f].shape) + " to " + rounded(shape));
+    monitor.message(Level::warning, Where{.face = mesh.faces[f].shown_ref()}.prefix() + text + " at " + format_point(mesh.vertices[vertex]));
   }
 }
 

@@ -47,14 +47,15 @@ class ShapeKeeper {
   bool knows_chords_ = false;
 };
 
-/// The worst shape of each face, -1 where a triangle is turned, and a corner of that triangle; 1 and -1 for faces without triangles.
+/// The worst shape (Q2) of a face, -1 if a triangle is turned, and a corner of that triangle; 1 and -1 without triangles.
 struct WorstShape {
   double shape = 1;
   std::int32_t vertex = -1;
 };
+/// By face of the mesh.
 std::vector<WorstShape> worst_shapes(const SurfaceMesh& mesh);
 
-/// Warns of each face whose worst shape has fallen much.
-void report_losses(const SurfaceMesh& mesh, std::span<const WorstShape> before, Monitor& monitor);
+/// Warns of each face whose worst shape has fallen much. `by`: a noun, the step that has changed the mesh.
+void report_losses(const SurfaceMesh& mesh, std::span<const WorstShape> before, const char* by, Monitor& monitor);
 
 }  // namespace carreau::refining

@@ -51,7 +51,7 @@ class Refiner {
       marks_->mark_all();
       refine(sizes, false);
     }
-    report_losses(mesh_, before, monitor_);
+    report_losses(mesh_, before, "refinement", monitor_);
     if (quadratic_) make_nodes();
     result_.curve_parameters = parameters_of_curves(model_, curves_);
     for (std::size_t c = 0; c < curves_.size(); ++c) result_.gaps[c] = {curves_[c].gap, curves_[c].gap_use};

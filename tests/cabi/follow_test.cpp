@@ -219,6 +219,21 @@ TEST(Carry, LargeChangesStayValidOrAreReported) {
   EXPECT_NE(c.error().find("turned"), std::string::npos) << c.error();
 }
 
+TEST(Carry, LowerShapesAreReported) {
+  for (const double height : {1.2, 8.0}) {
+    const ShapeRun a(cylinder(1), 0.2), b(cylinder(1, height), 0.2);
+    a.generate();
+    std::string text;
+    const auto log = [](std::int32_t level, const char* message, void* user) {
+      if (level == CARREAU_LEVEL_WARNING) *static_cast<std::string*>(user) += message;
+    };
+    ASSERT_EQ(carreau_set_message_callback(b.session, log, &text), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
+    EXPECT_EQ(text.find("face 1: the carrying has lowered the worst shape (Q2)") != std::string::npos, height > 2) << text;
+    EXPECT_EQ(b.quality().q2_min < 0.5 * a.quality().q2_min, height > 2);
+  }
+}
+
 TEST(Carry, PolesAndSeamsOfASphereFollow) {
   for (const char* element : {"p1", "p2", "q1.0"}) {
     const ShapeRun a(sphere(1, 1, 1), 0.3, element), b(sphere(2, 1.5, 1), 0.3, element);
