@@ -72,7 +72,7 @@ bool EdgeMarks::mark_long(std::span<const double> sizes) {
 void EdgeMarks::close() {
   std::vector<double> lengths(edges_.size());
   for (std::size_t e = 0; e < lengths.size(); ++e) lengths[e] = length(static_cast<std::int32_t>(e));
-  // By edge, the longest edges of its triangles that another edge of the triangle leads to.
+  // Each edge leads to the longest edges of its triangles.
   std::vector<Key> leads;
   for (const FaceMesh& face : mesh_.faces)
     for (std::size_t t = 2 * static_cast<std::size_t>(face.quads); t < face.triangles.size(); ++t) {

@@ -52,7 +52,7 @@ struct WorstShape {
   double shape = 1;
   std::int32_t vertex = -1;
 };
-/// By face of the mesh.
+/// Returns the worst shape of each face.
 std::vector<WorstShape> worst_shapes(const SurfaceMesh& mesh);
 
 /// Warns of each face whose worst shape has fallen much. `by`: a noun, the step that has changed the mesh.
