@@ -470,6 +470,7 @@ enum { CARREAU_MATCH_ANY = 0, CARREAU_MATCH_REFERENCE = 1, CARREAU_MATCH_NAME = 
  * triangles and elements of the old mesh, with the new references. Vertices of curves keep their share of the arc length. Vertices of faces keep
  * (u, v) if the domain stays within 1e-6 of its box, else they relax by mean-value weights while the boundary is fixed, which changes
  * smoothly with the geometry. Triangles that turn over in (u, v) are smoothed, and a face where one stays turned fails with that triangle as its reason.
+ * A warning names faces whose worst shape falls by half.
  * Elements of second order get new nodes. Faces of the new mesh are in the order of the new model. Both sessions evaluate their callbacks.
  *
  * Two meshes of geometries whose parameter differs by 2 d give the derivatives of vertices, (x(p + d) - x(p - d)) / (2 d).
@@ -482,8 +483,9 @@ enum { CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2 };
 
 /* Refine the mesh of a session on its surfaces, and replace it. New vertices halve edges: on curves by arc length, on faces on the way in
  * (u, v), as far from both ends in space, on elements of second order at their nodes. Old vertices keep their numbers and places, except
- * that repairs of elements of second order may move vertices inside faces. A triangle with marked edges loses its longest edge too, and edges
- * around new vertices are swapped where shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved.
+ * inside faces where elements of second order are repaired or shapes fall, mostly beside curves: swaps and moves restore these, and a warning
+ * names a face whose worst shape falls by half. A triangle with marked edges loses its longest edge too, and edges around new vertices are swapped where
+ * shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved.
  * Errors: ARGUMENT (no such edge or element, sizes not positive, a mesh that is periodic, across patches or of triangles), SEQUENCE
  * (no mesh yet), LIMIT, CALLBACK, CANCELLED, MEMORY. The mesh stays then. */
 

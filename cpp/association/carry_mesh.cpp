@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "association/harmonic_map.h"
+#include "association/keep_shapes.h"
 #include "association/mesh_curves.h"
 #include "association/thresholds.h"
 #include "cad/batches.h"
@@ -55,6 +56,10 @@ class Carrier {
       monitor_.progress(Phase::patches, to_.model.faces[match_.face[f]].ref, static_cast<double>(f + 1) / static_cast<double>(faces));
     }
     if (report_.failed > 0) drop_unused_vertices();
+    const std::vector<refining::WorstShape> worst = refining::worst_shapes(old);
+    std::vector<refining::WorstShape> before(faces);
+    for (std::size_t f = 0; f < faces; ++f) before[match_.face[f]] = worst[f];
+    refining::report_losses(mesh, before, "carrying", monitor_);
     if (!old.mid_vertices.empty() && !carry_nodes()) make_nodes();
     return report_;
   }

@@ -18,8 +18,15 @@ inline constexpr int middle_steps = 3;
 inline constexpr double off_middle = 0.01;
 /// Passes of swaps, the gain of quality (Q2) of a swap, and the cosine of the turn that it may make.
 inline constexpr int swap_passes = 4;
-/// Shape (Q2) of triangles beside curves that are swapped after a halving; regular ones keep the pattern.
-inline constexpr double poor_shape = 0.5;
 inline constexpr double min_swap_gain = 1e-3, swap_cosine = 0.8;
+/// Shape (Q2). Triangles are restored whose shape is lower than the parent's, or than a good one, by the loss.
+/// [Refine.HalvingKeepsShapesBesideCurves]
+inline constexpr double kept_shape = 0.8, shape_loss = 0.05;
+/// Shape (Q2). Edges of poorer triangles are swapped whatever their parents were.
+inline constexpr double poor_shape = 0.5;
+/// Swaps and moves make room for each other.
+inline constexpr int restoring_rounds = 4;
+/// Share of the worst shape of a face. A lower one is reported.
+inline constexpr double reported_loss = 0.5;
 
 }  // namespace carreau::thresholds::association

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "projection/thresholds.h"
+#include "support/infinity.h"
 #include "support/rounding_of.h"
 #include "support/work_bounds.h"
 
@@ -84,7 +85,9 @@ bool Descent::take(const SurfaceJet& jet) {
   move_ = norm(step_.x() * jet.su + step_.y() * jet.sv);
   const Vec3 second = (0.5 * step_.x() * step_.x()) * jet.suu + (step_.x() * step_.y()) * jet.suv + (0.5 * step_.y() * step_.y()) * jet.svv;
   const bool straight = norm(second) <= limit::bend_of_last_step * move_;  // the expansion holds over the step
-  const bool last = step.full && straight && move_ <= limit::last_step * size_;
+  // Newton's method converges quadratically: the next step would be so short.
+  const double next = steps_ > 1 ? move_ * (move_ / move_before) * (move_ / move_before) : infinity;
+  const bool last = step.full && straight && (move_ <= limit::last_step * size_ || next <= limit::next_step * diagonal_);
   const bool still = move_ <= rounding_of::digits * diagonal_ || (move_ <= 1e-10 * diagonal_ && move_ >= 0.5 * move_before) ||
                      (!step.full && step.gain <= 1e-17 * square_ && step.gain <= 1e-28 * diagonal_ * diagonal_);
   if (still && turn_at_pole(r)) return true;

@@ -224,6 +224,39 @@ std::vector<Cell> first_cells(const Vec2& low, const Vec2& high) {
 
 constexpr int deepest = 20;
 
+/// Both eigenvalues of the Hessian are positive, and not small.
+bool is_convex(const Symmetric2& h, const Symmetric2& form) {
+  const double det = h.xx * h.yy - h.xy * h.xy, sum = h.xx * form.yy + h.yy * form.xx;
+  return h.xx > 0 && form.xx * form.yy > 0 && det * form.xx * form.yy > limit::regular_hessian * sum * sum;
+}
+
+/// The minimum of a convex quadratic function over the unit square, from a place in it.
+RestrictedStep step_in_square(const Vec2& w, const Vec2& g, const Symmetric2& h) {
+  const double det = h.xx * h.yy - h.xy * h.xy;
+  const auto gain_of = [&](const Vec2& d) { return -dot(g, d) - 0.5 * (h.xx * d.x() * d.x() + 2 * h.xy * d.x() * d.y() + h.yy * d.y() * d.y()); };
+  RestrictedStep step;
+  step.d = {-(h.yy * g.x() - h.xy * g.y()) / det, -(h.xx * g.y() - h.xy * g.x()) / det};
+  step.to = w + step.d;
+  const Vec2 inside = step.to.cwiseMax(Vec2(0, 0)).cwiseMin(Vec2(1, 1));
+  if (inside == step.to) {
+    step.gain = -0.5 * dot(g, step.d);
+    return step;
+  }
+  // The minimum lies on a side beyond which the free minimum lies.
+  const Vec2 beyond = step.to;
+  step.gain = -infinity;
+  if (inside.x() != beyond.x()) {
+    const double dx = inside.x() - w.x(), y = std::clamp(w.y() - (g.y() + h.xy * dx) / h.yy, 0.0, 1.0);
+    step.to = {inside.x(), y}, step.d = step.to - w, step.gain = gain_of(step.d);
+  }
+  if (inside.y() != beyond.y()) {
+    const double dy = inside.y() - w.y(), x = std::clamp(w.x() - (g.x() + h.xy * dy) / h.xx, 0.0, 1.0);
+    const Vec2 to{x, inside.y()}, d = to - w;
+    if (const double gain = gain_of(d); gain > step.gain) step.to = to, step.d = d, step.gain = gain;
+  }
+  return step;
+}
+
 }  // namespace
 
 NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x) {
@@ -237,7 +270,7 @@ NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x) {
 }
 
 LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from) {
-  double least = from.square;
+  double least = from.square, slack = 0;
   const Region unit{{0, 0}, {1, 1}, leaf.region.triangle};
   Vec2 w{static_cast<double>(from.rank % 3) / 2, static_cast<double>(from.rank / 3) / 2};
   Vec2 best = w;
@@ -249,20 +282,26 @@ LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample
     least = d, best = w;
     const Symmetric2 form{dot(jet.su, jet.su), dot(jet.su, jet.sv), dot(jet.sv, jet.sv)};
     const Symmetric2 hessian{form.xx + dot(r, jet.suu), form.xy + dot(r, jet.suv), form.yy + dot(r, jet.svv)};
-    const RestrictedStep step = restricted_step(unit, w, {dot(r, jet.su), dot(r, jet.sv)}, hessian, form);
-    if (norm(step.d) < 1e-4) {  // the expansion holds over such a step, and the distance is a bound for others
-      best = step.to, least = std::max(0.0, least - 2 * step.gain);
+    const Vec2 gradient{dot(r, jet.su), dot(r, jet.sv)};
+    RestrictedStep step;
+    if (!leaf.region.triangle && is_convex(hessian, form))
+      step = step_in_square(w, gradient, hessian);
+    else
+      step = restricted_step(unit, w, gradient, hessian, form);
+    const double move = norm(step.d);
+    if (move < limit::last_step_in_leaf) {  // the expansion holds over such a step, but for the slack
+      best = step.to, least = std::max(0.0, least - 2 * step.gain), slack = move * std::sqrt(move) * leaf.size;
       break;
     }
     w = step.to;
   }
-  return {leaf.region.low + Vec2(best.cwiseProduct(leaf.region.size())), std::sqrt(least)};
+  return {leaf.region.low + Vec2(best.cwiseProduct(leaf.region.size())), std::sqrt(least), slack};
 }
 
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x) {
   const Vec3 d = leaf.to - leaf.from;
   const double square = dot(d, d), share = square > 0 ? std::clamp(dot(x - leaf.from, d) / square, 0.0, 1.0) : 0;
-  return {{leaf.t0 + share * (leaf.t1 - leaf.t0), 0}, norm(leaf.from + share * d - x)};
+  return {{leaf.t0 + share * (leaf.t1 - leaf.t0), 0}, norm(leaf.from + share * d - x), 0};
 }
 
 void Pieces::plant() {

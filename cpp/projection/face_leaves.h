@@ -68,6 +68,7 @@ NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x);
 struct LeafPlace {
   Vec2 parameters;  ///< (u, v), or t and 0
   double distance = 0;
+  double slack = 0;  ///< of the distance: the search ended so near
 };
 LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from);
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x);

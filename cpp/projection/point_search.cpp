@@ -14,17 +14,28 @@ namespace {
 
 namespace limit = thresholds::projection;
 
+// Inline, unlike the member of the box: a search calls it a hundred times.
+inline double squared_distance(const BoxTree::Box& box, const Vec3& x) {
+  double square = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double low = box.low[k] - x[k], high = x[k] - box.high[k], beyond = low > high ? low : high;
+    square += beyond > 0 ? beyond * beyond : 0;
+  }
+  return square;
+}
+
 }  // namespace
 
 PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal, const Vec3* hint)
     : entities_(&entities), x_(x), diagonal_(diagonal) {
-  best_.square = infinity;
+  best_.square = nearest_sample_ = infinity;
+  candidates_.reserve(8);
   double bound = infinity;  // some point is not farther
   if (hint != nullptr) bound = norm(x - *hint) * (1 + 1e-12);
   if (only >= 0)
     look_at(only, bound);
   else
-    entities.tree.nearest_first([&](std::int32_t n) { return std::sqrt(entities.tree.node(static_cast<std::size_t>(n)).box.squared_distance(x)); },
+    entities.tree.nearest_first([&](std::int32_t n) { return std::sqrt(squared_distance(entities.tree.node(static_cast<std::size_t>(n)).box, x)); },
                                 [&](double least) { return least <= (1 + 1e-12) * bound; },
                                 [&](const BoxTree::Node& leaf) {
                                   for (const std::int32_t e : entities.tree.things(leaf)) look_at(e, bound);
@@ -45,11 +56,11 @@ const Vec3* PointSearch::near_point() const {
 void PointSearch::look_at(std::int32_t entity, double& bound) {
   const Pieces& pieces = *entities_->pieces[static_cast<std::size_t>(entity)];
   pieces.tree.nearest_first(
-      [&](std::int32_t n) { return std::sqrt(pieces.tree.node(static_cast<std::size_t>(n)).box.squared_distance(x_)); },
-      [&](double least) { return least <= (1 + 1e-12) * bound; },
+      [&](std::int32_t n) { return squared_distance(pieces.tree.node(static_cast<std::size_t>(n)).box, x_); },
+      [&](double least) { return least <= (1 + 1e-12) * bound * bound; },
       [&](const BoxTree::Node& leaf) {
         for (const std::int32_t k : pieces.tree.things(leaf)) {
-          const double least = pieces.boxes[static_cast<std::size_t>(k)].squared_distance(x_);
+          const double least = squared_distance(pieces.boxes[static_cast<std::size_t>(k)], x_);
           if (least > (1 + 1e-12) * bound * bound) continue;
           double floor = least;
           if (static_cast<std::size_t>(k) < pieces.leaves.size()) floor = pieces.leaves[static_cast<std::size_t>(k)].box.squared_distance(x_);
@@ -65,13 +76,24 @@ void PointSearch::look_at(std::int32_t entity, double& bound) {
             candidate.sample = nearest_sample(of, x_);
             candidate.distance = std::sqrt(candidate.sample.square);
             candidate.error = of.cover;
-            if (!of.cut) bound = std::min(bound, candidate.distance);
+            if (of.cut) continue;
+            bound = std::min(bound, candidate.distance);
+            if (candidate.distance < nearest_sample_) nearest_sample_ = candidate.distance, solve(candidate, bound);  // a bound for the others
           }
         }
       });
 }
 
-// From the nearest samples to the nearest places of interpolations, in ascending order of the samples.
+// From the nearest sample to the nearest place of the interpolation.
+void PointSearch::solve(Candidate& candidate, double& bound) const {
+  const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
+  const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
+  candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error + place.slack, candidate.solved = true;
+  // The interpolation may leave the box of a leaf that is small and bent; a place of a cut leaf may lie outside of the domain.
+  if (!leaf.cut) bound = std::min(bound, std::max(place.distance + candidate.error, candidate.floor));
+}
+
+// Solves the candidates in ascending order.
 void PointSearch::refine(double& bound) {
   const auto ascending = [](const Candidate& a, const Candidate& b) {
     if (a.distance != b.distance) return a.distance < b.distance;
@@ -84,12 +106,7 @@ void PointSearch::refine(double& bound) {
   };
   drop();
   for (Candidate& candidate : candidates_) {
-    if (curve_of(candidate) != nullptr || candidate.least() > bound) continue;
-    const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
-    const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
-    candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error;
-    // The interpolation may leave the box of a leaf that is small and bent; a place of a cut leaf may lie outside of the domain.
-    if (!leaf.cut) bound = std::min(bound, std::max(place.distance + leaf.error, candidate.floor));
+    if (curve_of(candidate) == nullptr && !candidate.solved && candidate.least() <= bound) solve(candidate, bound);
   }
   drop();
 }

@@ -56,11 +56,13 @@ class PointSearch {
     double distance = 0, error = 0;
     double floor = 0;      // no place is nearer, by the box of the leaf
     NearestSample sample;  // of a leaf of a face
+    bool solved = false;   // `start` is the nearest place, not a sample
 
     /// A lower bound, with room for rounding: the candidate itself may have given the upper bound.
     [[nodiscard]] double least() const noexcept { return std::max(floor, (1 - 1e-12) * (distance - error)); }
   };
   void look_at(std::int32_t entity, double& bound);
+  void solve(Candidate& candidate, double& bound) const;
   void refine(double& bound);
   void begin();
   [[nodiscard]] bool leads_to_best(const Candidate& c) const;
@@ -75,6 +77,7 @@ class PointSearch {
   Vec3 x_;
   double diagonal_;
   std::vector<Candidate> candidates_;
+  double nearest_sample_;
   std::size_t next_ = 0;
   Descent descent_;
   bool in_leaf_ = false;  // the descent stays in the leaf of its start

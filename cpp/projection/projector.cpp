@@ -301,6 +301,7 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
     CurveJet curve;
   };
   std::vector<Asked> asked;
+  std::vector<std::pair<int, std::size_t>> order;  // by face
   std::vector<std::size_t> going(ranks.size());
   std::iota(going.begin(), going.end(), std::size_t{0});
   std::vector<Vec2> uv;
@@ -310,8 +311,10 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
     going.erase(std::remove_if(going.begin(), going.end(), [&](std::size_t i) { return !searches[i].goes_on(); }), going.end());
     if (going.empty()) break;
     asked.clear();
-    for (const std::size_t i : going) asked.push_back({searches[i].request(), i, {}});
-    std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) { return a.place.face < b.place.face; });
+    order.clear();
+    for (std::size_t k = 0; k < going.size(); ++k) order.emplace_back(searches[going[k]].request().face, k);
+    std::sort(order.begin(), order.end());
+    for (const auto& [face, k] : order) asked.push_back({searches[going[k]].request(), going[k], {}});
     for (std::size_t first = 0, end = 0; first < asked.size(); first = end) {
       const auto face = static_cast<std::size_t>(asked[first].place.face);
       uv.clear();

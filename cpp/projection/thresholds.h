@@ -20,10 +20,19 @@ inline constexpr double error_margin = 3;
 /// Number of cells of a face; more are not cut. A bound of memory.
 inline constexpr std::size_t max_cells = 40'000;
 
+/// Share of the parameters of a leaf. A shorter step ends the search on its interpolation: the surface itself differs by more.
+inline constexpr double last_step_in_leaf = 0.01;
+/// Share of the parameters of a leaf. A place on its border that is nearer to the best place leads to it: a leaf differs from its
+/// interpolation by less. [Projector.TeapotAgreesWithEachFaceAlone]
+inline constexpr double beside_best = 0.25;
+
 // Newton's method (descent, restricted_step)
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
 /// then of third order, below rounding. [Projector.Sphere]
 inline constexpr double last_step = 1e-7;
+/// Share of the diagonal. A step is the last one, too, if it and the step before lets expect a shorter one after it.
+/// [Projector.Sphere]
+inline constexpr double next_step = 1e-13;
 /// Share of that step: the term of second order is at most so large. [Projector.ConeAndItsApex]
 inline constexpr double bend_of_last_step = 1e-4;
 /// Ratio of the eigenvalues of the Hessian in the first fundamental form. Below it the Hessian counts as singular.

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "abi_fixture.h"
 #include "carreau_geometry.h"
@@ -218,6 +219,21 @@ TEST(Carry, LargeChangesStayValidOrAreReported) {
   EXPECT_NE(c.error().find("turned"), std::string::npos) << c.error();
 }
 
+TEST(Carry, LowerShapesAreReported) {
+  for (const double height : {1.2, 8.0}) {
+    const ShapeRun a(cylinder(1), 0.2), b(cylinder(1, height), 0.2);
+    a.generate();
+    std::string text;
+    const auto log = [](std::int32_t level, const char* message, void* user) {
+      if (level == CARREAU_LEVEL_WARNING) *static_cast<std::string*>(user) += message;
+    };
+    ASSERT_EQ(carreau_set_message_callback(b.session, log, &text), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
+    EXPECT_EQ(text.find("face 1: the carrying has lowered the worst shape (Q2)") != std::string::npos, height > 2) << text;
+    EXPECT_EQ(b.quality().q2_min < 0.5 * a.quality().q2_min, height > 2);
+  }
+}
+
 TEST(Carry, PolesAndSeamsOfASphereFollow) {
   for (const char* element : {"p1", "p2", "q1.0"}) {
     const ShapeRun a(sphere(1, 1, 1), 0.3, element), b(sphere(2, 1.5, 1), 0.3, element);
@@ -378,6 +394,22 @@ TEST(Refine, SizesAreReached) {
       if (data.xyz[3 * a] < 0.3 || data.xyz[3 * b] < 0.3) continue;
       EXPECT_LT(std::hypot(data.xyz[3 * a] - data.xyz[3 * b], data.xyz[3 * a + 1] - data.xyz[3 * b + 1]), 0.0708);
     }
+}
+
+// The true curve lies outside of the chords of a coarse mesh: triangles beside it lose height.
+TEST(Refine, HalvingKeepsShapesBesideCurves) {
+  for (const auto& [radius, size, element] : {std::tuple(0.1, 0.9, "p1"), std::tuple(0.3, 0.9, "p1"), std::tuple(0.6, 0.9, "p1"), std::tuple(0.93, 0.5, "p1"), std::tuple(0.3, 0.9, "p2")}) {
+    const ShapeRun run(plate(radius), size, element);
+    run.generate();
+    const double before = run.quality().q2_min;
+    const std::int64_t n = run.cells(CARREAU_CELL_TRIANGLE3) + run.cells(CARREAU_CELL_TRIANGLE6);
+    for (int level = 1, count = 4; level <= 4; ++level, count *= 4) {
+      ASSERT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_OK) << run.error();
+      expect_sound(run);
+      EXPECT_EQ(run.cells(CARREAU_CELL_TRIANGLE3) + run.cells(CARREAU_CELL_TRIANGLE6), count * n);
+      EXPECT_GE(run.quality().q2_min, std::min(before, 0.6) - 1e-9) << radius << " " << element << " level " << level;
+    }
+  }
 }
 
 TEST(Refine, NamesErrorsAndKeepsTheMesh) {

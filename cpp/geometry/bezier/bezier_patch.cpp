@@ -53,6 +53,29 @@ Vec3 sum(const BezierPatch& patch, const Basis& u, int du, const Basis& v, int d
   return {x, y, z};
 }
 
+/// All six sums in one pass over the control points, two at a time, each in the order of sum().
+void sum_all(const BezierPatch& patch, const Basis& u, const Basis& v, SurfaceJet& jet) {
+  using Pair [[gnu::vector_size(16)]] = double;
+  struct Three {
+    Pair p, q, r;
+  };
+  std::array<Three, largest_bezier_degree + 1> across;
+  for (int j = 0; j <= patch.n; ++j) across[j] = Three{Pair{v[0][j], v[0][j]}, Pair{v[1][j], v[0][j]}, Pair{v[1][j], v[2][j]}};
+  Three x{}, y{}, z{};
+  const auto add = [](Three& to, const Three& weight, double by) { to.p += weight.p * by, to.q += weight.q * by, to.r += weight.r * by; };
+  const Vec3* point = patch.control.data();
+  for (int i = 0; i <= patch.m; ++i) {
+    const Three along{{u[0][i], u[1][i]}, {u[0][i], u[2][i]}, {u[1][i], u[0][i]}};
+    for (int j = 0; j <= patch.n; ++j, ++point) {
+      const Three weight{along.p * across[j].p, along.q * across[j].q, along.r * across[j].r};
+      add(x, weight, point->x()), add(y, weight, point->y()), add(z, weight, point->z());
+    }
+  }
+  jet.s = {x.p[0], y.p[0], z.p[0]}, jet.su = {x.p[1], y.p[1], z.p[1]};
+  jet.sv = {x.q[0], y.q[0], z.q[0]}, jet.suu = {x.q[1], y.q[1], z.q[1]};
+  jet.suv = {x.r[0], y.r[0], z.r[0]}, jet.svv = {x.r[1], y.r[1], z.r[1]};
+}
+
 }  // namespace
 
 void evaluate(const BezierPatch& patch, unsigned want, const Vec2& uv, SurfaceJet& jet) {
@@ -60,6 +83,8 @@ void evaluate(const BezierPatch& patch, unsigned want, const Vec2& uv, SurfaceJe
   Basis u, v;
   bernstein(patch.m, uv.x(), order, u);
   bernstein(patch.n, uv.y(), order, v);
+  constexpr unsigned everything = want_position | want_first | want_second;
+  if ((want & everything) == everything) return sum_all(patch, u, v, jet);
   if ((want & want_position) != 0) jet.s = sum(patch, u, 0, v, 0);
   if ((want & want_first) != 0) jet.su = sum(patch, u, 1, v, 0), jet.sv = sum(patch, u, 0, v, 1);
   if ((want & want_second) != 0)

@@ -78,12 +78,18 @@ class Smoothing {
     for (const Place p : star(v)) worst = std::min(worst, quality_of(p.triangle));
     return worst;
   }
-  // The worst quality of the triangles of order_. The triangle that decided last comes first. Below `least` the exact
-  // value does not matter.
-  [[nodiscard]] double worst_in_order(double least) {
+  // The quality, negative for a triangle that is turned against `normal`.
+  [[nodiscard]] double signed_quality(std::int32_t t, const Vec3& normal) const {
+    const double quality = quality_of(t);
+    const auto& [a, b, c] = mesh_.plane.triangles[t];
+    return dot(cross(mesh_.xyz[b] - mesh_.xyz[a], mesh_.xyz[c] - mesh_.xyz[a]), normal) < 0 ? -quality : quality;
+  }
+  // The worst signed quality of the triangles of order_. The triangle that decided last comes first. Below `least` the
+  // exact value does not matter.
+  [[nodiscard]] double worst_in_order(double least, const Vec3& normal) {
     double worst = 1;
     for (Place& p : order_) {
-      worst = std::min(worst, quality_of(p.triangle));
+      worst = std::min(worst, signed_quality(p.triangle, normal));
       if (worst < least) {
         std::swap(p, order_.front());
         break;
@@ -136,15 +142,16 @@ class Smoothing {
   }
 
   // The way to the best place of the tangent plane, by a search along eight directions: the worst of some triangles
-  // has no derivative.
+  // has no derivative. Beyond an edge of the star shapes would be as good, but turned.
   [[nodiscard]] Vec2 best_way(std::int32_t v, const Vec3& e1, const Vec3& e2) {
     const Vec3 home = mesh_.xyz[v];
     const double length = mean_edge(v);
     order_ = star(v);
-    const Vec2 way = search_along_compass(worst_around(v), first_step * length, last_step * length,
+    const Vec3 normal = cross(e1, e2);
+    const Vec2 way = search_along_compass(worst_in_order(-1, normal), first_step * length, last_step * length,
                                           [&](const Vec2& there, double best) {
                                             mesh_.xyz[v] = home + there.x() * e1 + there.y() * e2;
-                                            return worst_in_order(best);
+                                            return worst_in_order(best, normal);
                                           });
     mesh_.xyz[v] = home;
     return way;
