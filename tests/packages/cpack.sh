@@ -27,11 +27,9 @@ if grep -q CPACK_PRE_BUILD_SCRIPTS "$build/CPackConfig.cmake"; then
   for file in "$root"/bin/* "$root"/lib/*.so*; do
     case $file in *libcarreau_mpi*) continue ;; esac # it uses the MPI of its machine
     case $file in */libcarreau*.so* | */bin/*) ;; *) grep -q "^$(basename "$file")  " "$licences/LIBRARIES.txt" ;; esac
-    ldd "$file" | while read -r name arrow path rest; do
+    ldd "$file" | sed -n 's/^[[:space:]]*\([^ ]*\) => \(.*\)/\1|\2/p' | while IFS='|' read -r name path; do
       case $name in libc.so.* | libm.so.* | libdl.so.* | librt.so.* | libpthread.so.*) continue ;; esac
-      if [ "$arrow" = "=>" ]; then
-        case $(readlink -f "$path") in "$inside"/*) ;; *) echo "$file finds $name outside: $path $rest"; exit 1 ;; esac
-      fi
+      case $(readlink -f "${path% (*}") in "$inside"/*) ;; *) echo "$file finds $name outside: $path"; exit 1 ;; esac
     done
   done
 fi
