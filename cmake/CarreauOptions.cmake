@@ -58,7 +58,9 @@ endif()
 if(CARREAU_MPI)
   find_package(MPI REQUIRED COMPONENTS C)
 endif()
-check_language(Fortran)
+if(NOT CMAKE_CROSSCOMPILING OR CMAKE_Fortran_COMPILER) # a compiler that CMake finds itself builds for this machine
+  check_language(Fortran)
+endif()
 carreau_option(CARREAU_FORTRAN "Fortran modules and examples" "${CMAKE_Fortran_COMPILER}"
   "Fortran modules and examples" "there is no Fortran compiler (gfortran)")
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cpack` in the build folder: one archive that can be unpacked anywhere, and one package for Debian, each with all built parts. The
-# packages of a distribution, library by library, are made from debian/.
+# `cpack` in the build folder: one archive that can be unpacked anywhere and holds all libraries but glibc, and one package for Debian, each
+# with all built parts. The packages of a distribution, library by library, are made from debian/.
 set(CPACK_GENERATOR TGZ)
 find_program(CARREAU_DPKG dpkg-deb)
 if(CARREAU_DPKG)
@@ -14,6 +14,15 @@ set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_CHECKSUM SHA256)
+set(CPACK_SYSTEM_NAME ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+find_program(CARREAU_PATCHELF patchelf)
+find_package(Python3 QUIET COMPONENTS Interpreter)
+if(BUILD_SHARED_LIBS AND CARREAU_PATCHELF AND CARREAU_DPKG AND Python3_Interpreter_FOUND)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/bundle.cmake.in ${PROJECT_BINARY_DIR}/bundle.cmake @ONLY)
+  set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_BINARY_DIR}/bundle.cmake)
+elseif(BUILD_SHARED_LIBS AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  carreau_left_out("libraries of others in cpack's archive" "patchelf, dpkg or Python 3 was not found (patchelf, python3)")
+endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

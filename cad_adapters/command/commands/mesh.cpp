@@ -304,11 +304,28 @@ void refuse_with_parts(const MeshOptions& options) {
       throw Failure("'" + path + "' is made of the whole mesh: --parts writes .meshb and .pvtu.");
 }
 
-/// The largest size that options allow; 0: any.
-double largest_size(carreau_session* session, const MeshOptions& options) {
-  double size = 0;
-  if (!options.maximum.empty()) require(session, carreau_get_real(session, "hgeomax", &size));
-  return std::max(size, 0.0);
+/// Bounds of the sizes inside solids. They grow from the surface as sizes on it do, up to the largest size there.
+InnerBounds inner_bounds(carreau_session* session, const MeshOptions& options, const SizeMap& map, Progress& progress) {
+  const auto real = [&](const char* name) {
+    double value = 0;
+    require(session, carreau_get_real(session, name, &value));
+    return value;
+  };
+  std::int32_t physical = 0, geometric = 0;
+  require(session, carreau_get_integer(session, "hphy_flag", &physical));
+  require(session, carreau_get_integer(session, "hgeo_flag", &geometric));
+  InnerBounds bounds;
+  const auto lower = [&](double size) { bounds.largest = bounds.largest > 0 && size > 0 ? std::min(bounds.largest, size) : std::max(bounds.largest, size); };
+  if (physical != 0) lower(real(map.is_empty() && options.adapt.mesh.empty() && (physical == 1 || !options.size.empty()) ? "hphydef" : "hphymax"));
+  if (geometric != 0) lower(real("hgeomax"));
+  constexpr double usual_growth = .3;  // of lengths by 1.3 from edge to edge
+  const double gradation = real("gradation");
+  bounds.growth = gradation > 1 ? gradation - 1 : usual_growth;
+  if (map.is_formula()) {
+    bounds.map = map.in_space();
+    if (!bounds.map) progress.line("sizes      the size map uses u or v: sizes inside grow from the surface");
+  }
+  return bounds;
 }
 
 /// The file of the surface that no engine could fill: "part.surface.msh" beside "part.inp".
@@ -391,7 +408,7 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   std::optional<VolumeMesh> volume;
   if (!engine.empty()) {
     if (!failed.empty()) throw Failure("No engine can fill the mesh: " + failed);
-    volume = fill_solids(run.mesh, options, engine, largest_size(run.session, options), kept_surface(options), progress);
+    volume = fill_solids(run.mesh, options, engine, inner_bounds(run.session, options, map, progress), kept_surface(options), progress);
     run.volume_text = [&](const std::string& suffix) { return volume_text(*volume, suffix); };
   }
   run.warnings = progress.warnings();

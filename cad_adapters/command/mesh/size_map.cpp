@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <mutex>
 
 #include "base/failure.h"
@@ -63,6 +64,16 @@ void SizeMap::give_to(carreau_session* session, const CadInput& input) {
   callbacks.surface_metric = surface_metric;  // curves and points get the sizes of the faces beside
   require(session, carreau_set_metric_callbacks(session, &callbacks));
   if (!mesh_.empty()) require(session, carreau_set_background_mesh(session, mesh_.c_str(), solution_.c_str()));
+}
+
+std::function<double(const Point&)> SizeMap::in_space() const {
+  std::shared_ptr<const Formula> formula;
+  try {
+    formula = std::make_shared<const Formula>(formula_->text(), "xyz");
+  } catch (const Failure&) {  // it is valid with u and v
+    return {};
+  }
+  return [formula](const Point& p) { return (*formula)({p[0], p[1], p[2], 0, 0}); };
 }
 
 std::int32_t SizeMap::surface_metric(std::int32_t face, double u, double v, std::int32_t* kind, double* value,

@@ -4,10 +4,12 @@
 
 #include <carreau.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "inputs/base/cad_input.h"
+#include "files/mesh_file.h"
 #include "inputs/built/formula.h"
 
 namespace command {
@@ -28,6 +30,9 @@ class SizeMap {
   /// Makes a session call this map, and the face sizes of `input`, for sizes. `input` and this map outlive the runs of
   /// the session. Throws Failure.
   void give_to(carreau_session* session, const CadInput& input);
+
+  /// The size by a formula in x, y and z at any place, for as long as this map lives; empty if it uses u or v.
+  [[nodiscard]] std::function<double(const Point&)> in_space() const;
 
   /// An invalid value of the formula, with its place; "": none.
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }

@@ -16,10 +16,13 @@ namespace {
 
 struct Engine {
   const char *name, *program, *install;
+  /// Factor of sizes for this engine. Engines take a size as an upper bound or a circumradius; with the factor, edges inside have it as their
+  /// mean length (tests/bench/inner_sizes.py).
+  double scale;
 };
-constexpr Engine engines[] = {{"gmsh", "gmsh", "gmsh"},
-                              {"tetgen", "tetgen", "tetgen"},
-                              {"netgen", "carreau_netgen", "Carreau with libnglib-dev (cad_adapters/netgen)"}};
+constexpr Engine engines[] = {{"gmsh", "gmsh", "gmsh", .77},
+                              {"tetgen", "tetgen", "tetgen", .83},
+                              {"netgen", "carreau_netgen", "Carreau with libnglib-dev (cad_adapters/netgen)", .85}};
 
 std::string exact(double x) {
   char text[40];
@@ -39,18 +42,51 @@ double run(const std::string& name, std::vector<std::string> words, const Tempor
   throw Failure(sentence);
 }
 
-void by_tetgen(carreau_mesh* input, const SolidSurface& surface, const TemporaryFolder& folder, const ProgramLimits& limits,
+void append(std::string& text, const Point& p, const char* separator) {
+  for (std::size_t k = 0; k < 3; ++k) text += (k > 0 ? separator : "") + exact(p[k]);
+}
+
+void by_tetgen(carreau_mesh* input, const InnerSizes& inner, const TemporaryFolder& folder, const ProgramLimits& limits,
                const std::function<void(double)>& each_second, VolumeMesh& volume) {
   const std::string path = folder.path() + "/part";
   require(input, carreau_mesh_write(input, (path + ".smesh").c_str()));
-  std::string sizes = std::to_string(surface.sizes.size()) + " 1\n";
-  for (const double size : surface.sizes) sizes += exact(size) + '\n';
-  write_engine_file(path + ".mtr", sizes);
-  volume.seconds = run("TetGen", {"tetgen", "-pYq1.4Aam", "part.smesh"}, folder, limits, each_second);
+  std::string nodes = std::to_string(inner.nodes.size()) + " 3 0 0\n", sizes = std::to_string(inner.nodes.size()) + " 1\n";
+  for (std::size_t n = 0; n < inner.nodes.size(); ++n) {
+    nodes += std::to_string(n + 1) + ' ';
+    append(nodes, inner.nodes[n], " ");
+    nodes += '\n';
+    sizes += exact(inner.sizes[n]) + '\n';
+  }
+  std::string elements = std::to_string(inner.tetrahedra.size()) + " 4 0\n";
+  for (std::size_t t = 0; t < inner.tetrahedra.size(); ++t) {
+    elements += std::to_string(t + 1);
+    for (const std::int32_t n : inner.tetrahedra[t]) elements += ' ' + std::to_string(n + 1);
+    elements += '\n';
+  }
+  write_engine_file(path + ".b.node", nodes);
+  write_engine_file(path + ".b.ele", elements);
+  write_engine_file(path + ".b.mtr", sizes);
+  volume.seconds = run("TetGen", {"tetgen", "-pYq1.4Am", "part.smesh"}, folder, limits, each_second);
   read_tetgen(path + ".1", volume);
 }
 
-void by_gmsh(const SolidSurface& surface, const TemporaryFolder& folder, const ProgramLimits& limits, double largest_size,
+/// A view of Gmsh: sizes on tetrahedra.
+void write_view(const std::string& path, const InnerSizes& inner) {
+  std::string view = "View \"sizes\" {\n";
+  for (const auto& t : inner.tetrahedra) {
+    view += "SS(";
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (k > 0) view += ',';
+      append(view, inner.nodes[static_cast<std::size_t>(t[k])], ",");
+    }
+    view += "){";
+    for (std::size_t k = 0; k < 4; ++k) view += (k > 0 ? "," : "") + exact(inner.sizes[static_cast<std::size_t>(t[k])]);
+    view += "};\n";
+  }
+  write_engine_file(path, view + "};\n");
+}
+
+void by_gmsh(const SolidSurface& surface, const InnerSizes& inner, const TemporaryFolder& folder, const ProgramLimits& limits,
              const std::function<void(double)>& each_second, VolumeMesh& volume) {
   std::string mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(surface.vertices.size()) + "\n";
   for (std::size_t v = 0; v < surface.vertices.size(); ++v)
@@ -73,8 +109,8 @@ void by_gmsh(const SolidSurface& surface, const TemporaryFolder& folder, const P
   }
   write_engine_file(folder.path() + "/surface.msh", mesh + "$EndElements\n");
   std::string script = "Merge \"surface.msh\";\nMesh.SaveAll = 1;\nMesh.Algorithm3D = 1;\nMesh.Optimize = 1;\n"
-                       "Mesh.CharacteristicLengthExtendFromBoundary = 1;\n";
-  if (largest_size > 0) script += "Mesh.CharacteristicLengthMax = " + exact(largest_size) + ";\n";
+                       "Mesh.CharacteristicLengthExtendFromBoundary = 0;\nMerge \"sizes.pos\";\nField[1] = PostView;\nBackground Field = 1;\n";
+  write_view(folder.path() + "/sizes.pos", inner);
   for (const auto& [solid, own] : bounds) {
     const std::string number = std::to_string(solid);
     script += "Surface Loop(" + number + ") = {";
@@ -86,10 +122,17 @@ void by_gmsh(const SolidSurface& surface, const TemporaryFolder& folder, const P
   read_gmsh(folder.path() + "/filled.msh", volume);
 }
 
-void by_netgen(carreau_mesh* input, const SolidSurface& surface, const TemporaryFolder& folder, const ProgramLimits& limits, double largest_size,
-               const std::function<void(double)>& each_second, VolumeMesh& volume) {
+void by_netgen(carreau_mesh* input, const SolidSurface& surface, const InnerSizes& inner, double growth, const TemporaryFolder& folder,
+               const ProgramLimits& limits, const std::function<void(double)>& each_second, VolumeMesh& volume) {
   require(input, carreau_mesh_write(input, (folder.path() + "/surface.vol").c_str()));
-  volume.seconds = run("Netgen", {"carreau_netgen", "surface.vol", "filled.vol", exact(largest_size > 0 ? largest_size : surface.diagonal)}, folder, limits, each_second);
+  std::string sizes;
+  for (std::size_t n = 0; n < inner.nodes.size(); ++n) {
+    append(sizes, inner.nodes[n], " ");
+    sizes += ' ' + exact(inner.sizes[n]) + '\n';
+  }
+  write_engine_file(folder.path() + "/sizes.txt", sizes);
+  const double largest = *std::max_element(inner.sizes.begin(), inner.sizes.end());
+  volume.seconds = run("Netgen", {"carreau_netgen", "surface.vol", "filled.vol", exact(largest), exact(growth), "sizes.txt"}, folder, limits, each_second);
   std::vector<std::int32_t> numbers;  // of the domains
   for (const auto& [solid, each] : surface.volumes) numbers.push_back(solid);
   read_netgen(folder.path() + "/filled.vol", numbers, volume);
@@ -112,15 +155,19 @@ std::string found_engine(const std::string& name) {
   throw Failure("No engine is on this machine: install gmsh or tetgen, for example by `apt install gmsh`.");
 }
 
-VolumeMesh fill(carreau_mesh* input, const SolidSurface& surface, const std::string& engine, const ProgramLimits& limits, double largest_size,
+VolumeMesh fill(carreau_mesh* input, const SolidSurface& surface, const std::string& engine, const InnerBounds& bounds, const ProgramLimits& limits,
                 const std::function<void(double)>& each_second) {
   VolumeMesh volume;
   volume.surface = surface;
   volume.engine = engine;
   const TemporaryFolder folder;
-  if (engine == "tetgen") by_tetgen(input, surface, folder, limits, each_second, volume);
-  if (engine == "gmsh") by_gmsh(surface, folder, limits, largest_size, each_second, volume);
-  if (engine == "netgen") by_netgen(input, surface, folder, limits, largest_size, each_second, volume);
+  InnerSizes inner = inner_sizes_of(surface, bounds);
+  const auto* const of = std::find_if(std::begin(engines), std::end(engines), [&](const Engine& each) { return engine == each.name; });
+  for (double& size : inner.sizes) size *= of->scale;
+  volume.has_coarse_sizes = inner.is_coarse;
+  if (engine == "tetgen") by_tetgen(input, inner, folder, limits, each_second, volume);
+  if (engine == "gmsh") by_gmsh(surface, inner, folder, limits, each_second, volume);
+  if (engine == "netgen") by_netgen(input, surface, inner, bounds.growth, folder, limits, each_second, volume);
   volume.corners = volume.vertices.size();
   return volume;
 }

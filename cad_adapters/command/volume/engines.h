@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "volume/child_program.h"
+#include "volume/inner_sizes.h"
 #include "volume/volume_mesh.h"
 
 namespace command {
@@ -17,8 +18,8 @@ std::vector<std::string> engine_names();
 /// Returns the engine of this name, or the first one on this machine if `name` is "". Throws Failure with the packages to install.
 std::string found_engine(const std::string& name);
 
-/// Fills the surface. `input` is its mesh. Throws Failure with the last lines of an engine that fails.
-VolumeMesh fill(carreau_mesh* input, const SolidSurface& surface, const std::string& engine, const ProgramLimits& limits, double largest_size,
+/// Fills the surface by tetrahedra of sizes within bounds. `input` is its mesh. Throws Failure with the last lines of an engine that fails.
+VolumeMesh fill(carreau_mesh* input, const SolidSurface& surface, const std::string& engine, const InnerBounds& bounds, const ProgramLimits& limits,
                 const std::function<void(double)>& each_second);
 
 }  // namespace command

@@ -20,7 +20,7 @@ std::map<std::int32_t, std::size_t> counts_of(const VolumeMesh& volume) {
 
 }  // namespace
 
-VolumeMesh fill_solids(carreau_mesh* mesh, const MeshOptions& options, const std::string& engine, double largest_size, const std::string& kept,
+VolumeMesh fill_solids(carreau_mesh* mesh, const MeshOptions& options, const std::string& engine, const InnerBounds& bounds, const std::string& kept,
                        Progress& progress) {
   const SolidSurface surface = solid_surface_of(mesh, options.threads);
   progress.line(engine + " fills " + std::to_string(surface.volumes.size()) + (surface.volumes.size() == 1 ? " solid" : " solids") + " inside " +
@@ -31,8 +31,9 @@ VolumeMesh fill_solids(carreau_mesh* mesh, const MeshOptions& options, const std
     if (seconds >= told + lines_every) progress.line(engine + " has run for " + std::to_string(static_cast<long>(told = seconds)) + " s");
   };
   try {
-    VolumeMesh volume = fill(mesh, surface, engine, {options.volume.seconds, options.volume.gigabytes}, largest_size, each_second);
+    VolumeMesh volume = fill(mesh, surface, engine, bounds, {options.volume.seconds, options.volume.gigabytes}, each_second);
     verify(volume);
+    if (volume.has_coarse_sizes) progress.warning("sizes vary more inside than the engine's size map resolves: tetrahedra may be too large or too small there");
     if (surface.is_quadratic()) make_quadratic(volume);
     if (volume.straightened > 0)
       progress.warning(std::to_string(volume.straightened) + " curved edges became straight, since elements of order 2 beside them would be turned over");

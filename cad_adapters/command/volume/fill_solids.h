@@ -8,13 +8,14 @@
 
 #include "mesh/mesh_options.h"
 #include "mesh/progress.h"
+#include "volume/inner_sizes.h"
 #include "volume/volume_mesh.h"
 
 namespace command {
 
 /// Checks the surface, runs the engine, verifies the result and adds nodes on edges. `kept`: a file that gets the surface when the engine
 /// fails. Throws Failure.
-VolumeMesh fill_solids(carreau_mesh* mesh, const MeshOptions& options, const std::string& engine, double largest_size, const std::string& kept,
+VolumeMesh fill_solids(carreau_mesh* mesh, const MeshOptions& options, const std::string& engine, const InnerBounds& bounds, const std::string& kept,
                        Progress& progress);
 
 /// "volume     tetgen, 3955 tetrahedra, 958 vertices, 0.2 s", and a line for each solid.

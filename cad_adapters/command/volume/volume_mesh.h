@@ -21,6 +21,7 @@ struct VolumeMesh {
   std::vector<std::array<std::int32_t, 3>> triangle_mids;
   std::size_t corners = 0;     ///< vertices without nodes on edges
   std::size_t straightened = 0;  ///< edges of the surface whose nodes moved to their middles
+  bool has_coarse_sizes = false;  ///< the sizes that the engine got vary less than the size map
   std::string engine;
   double seconds = 0;          ///< of the engine
   double smallest_shape = 0;   ///< least radius ratio: 3 inradius / circumradius, 1 for a regular tetrahedron
