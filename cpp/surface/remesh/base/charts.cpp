@@ -278,31 +278,47 @@ std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) con
   return {};
 }
 
+// Newton's method on first derivatives: where the surface bends within its distance from the target, each step leaves a
+// share of the way along the surface. Relaxation by Aitken removes that share, by the two last ways that were left.
 std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
                                             bool slides, double near) const {
   SurfacePlace at = from;
-  const double first = norm(target - from.xyz);
-  const auto is_near = [&] {
-    const Vec3 left = target - at.xyz, along = left - dot(left, at.normal) * at.normal;
-    return norm(along) <= near * first;
+  const double enough = near * norm(target - from.xyz);
+  const auto left_along = [&] {
+    const Vec3 left = target - at.xyz;
+    return Vec3(left - dot(left, at.normal) * at.normal);
   };
   if (const auto foot = flat_foot(from.foot.triangle, target)) {
     at = evaluate(cad, *foot);
-    if (at.regular && is_near()) return at;
+    if (at.regular && norm(left_along()) <= enough) return at;
     if (!at.regular) at = from;
   }
+  Vec3 before = Vec3::Zero();
+  double relaxation = 1;
+  bool relaxes = false;
   for (int step = 0; step < max_newton_steps; ++step) {
     if (!at.regular) return {};
-    const Vec3 d = target - at.xyz;
+    const Vec3 d = target - at.xyz, left = left_along();
+    if (relaxes) {
+      const Vec3 gone = before - left;
+      const double next = relaxation * dot(before, gone) / dot(gone, gone);
+      relaxation = next > 1 ? std::min(next, max_relaxation) : 1;
+    }
     const double e = dot(at.su, at.su), f = dot(at.su, at.sv), g = dot(at.sv, at.sv), det = e * g - f * f;
     const double p = dot(at.su, d), q = dot(at.sv, d);
-    const Vec2 way{(g * p - f * q) / det, (e * q - f * p) / det};
+    const Vec2 way{relaxation * (g * p - f * q) / det, relaxation * (e * q - f * p) / det};
     if (!is_finite(way)) return {};
     const Walk walked = walk(at.foot, at.foot.uv + way, slides);
     if (walked.end == Walk::End::blocked) return {};
+    const Vec3 old = at.xyz;
     at = evaluate(cad, walked.foot);
-    if (walked.end == Walk::End::border) continue;
-    if (is_near()) break;
+    if (walked.end == Walk::End::border) {
+      relaxes = false, relaxation = 1;
+      continue;
+    }
+    // A place that slides along a barrier stops beside the target.
+    if (norm(left_along()) <= enough || norm(at.xyz - old) <= enough) break;
+    before = left, relaxes = true;
   }
   return at.regular ? std::optional(at) : std::nullopt;
 }

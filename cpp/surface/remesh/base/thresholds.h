@@ -12,6 +12,8 @@ namespace carreau::thresholds::remesh {
 inline constexpr int max_steps = 200;
 /// Gauss-Newton steps, including steps that end on a border. [8: meshes across patches of bottle.brep and frame.step change]
 inline constexpr int max_newton_steps = 6;
+/// Factor. Longer steps towards a place would leave the range of its derivatives.
+inline constexpr double max_relaxation = 4;
 /// Share of the way. The remainder along the surface: the result need not be the closest point of the target, since the
 /// place itself is judged.
 inline constexpr double near_enough = 0.3;

@@ -246,7 +246,7 @@ class Certifier::Work {
     for (int i = 0; i < 3; ++i) quads[i] = mesh_.mesh().quad_between({0, corners[i]}, corners[(i + 1) % 3]);
     std::array<double, 3> swapped{infinity, infinity, infinity};
     for (int i = 0; i < 3; ++i)
-      if (quads[i]) swapped[i] = when_swapped(*quads[i]);
+      if (quads[i]) swapped[i] = when_swapped(*quads[i], std::max(1.0, before(*quads[i])));
     const auto best = std::ranges::min_element(swapped) - swapped.begin();
     if (swapped[best] <= 1 && swap(*quads[best])) return;
     for (const std::int32_t v : corners)
@@ -257,14 +257,15 @@ class Certifier::Work {
 
   double before(const Quad& q) { return std::max(share_of(q.t), share_of(q.u)); }
 
-  /// The share after a swap; infinity: the swap is not fair.
-  double when_swapped(const Quad& q) {
+  /// The share after a swap, or a part of it above `most`; infinity: the swap is not fair.
+  double when_swapped(const Quad& q, double most) {
     if (is_guarded({q.a, q.b, q.c, q.d}) || is_too_long(q)) return infinity;
     Change change;
     judge_swap(mesh_, q, &CrossPatchMesh::judge, change);
     if (!is_fair(change, min_shape) || !mesh_.mesh().can_swap(q)) return infinity;
     const auto [first, second] = EditableMesh::swapped(q);
-    return std::max(bounds_.share_roughly(first), bounds_.share_roughly(second));
+    const double share = bounds_.share_roughly(first, most);
+    return share > most ? share : std::max(share, bounds_.share_roughly(second, most));
   }
   [[nodiscard]] bool is_too_long(const Quad& q) const {
     const double length = mesh_.length(q.c, q.d);
@@ -308,7 +309,7 @@ class Certifier::Work {
     std::vector<double> shares;
     for (const Place p : fan) {
       if (!good) break;
-      shares.push_back(bounds_.share_roughly(mesh_.mesh().at(p)));
+      shares.push_back(bounds_.share_roughly(mesh_.mesh().at(p), most));
       good = shares.back() <= most;
     }
     if (!good) return false;
@@ -318,14 +319,15 @@ class Certifier::Work {
     return true;
   }
 
-  /// The share after a split; infinity: the split is not fair.
-  double when_split(const Quad& q, const SurfacePlace& at) {
+  /// The share after a split, or a part of it above `most`; infinity: the split is not fair.
+  double when_split(const Quad& q, const SurfacePlace& at, double most) {
     const std::int32_t m = mesh_.try_vertex(at);
     double share = infinity;
     if (is_fair(judge_split(mesh_, q, m), min_shape)) {
       share = 1;
       if (!boldly_)
-        for (const Corners& t : split_parts(q, m)) share = std::max(share, bounds_.share_roughly(t));
+        for (const Corners& t : split_parts(q, m))
+          if (share <= most) share = std::max(share, bounds_.share_roughly(t, most));
     }
     mesh_.forget_vertex();
     return share;
@@ -344,7 +346,7 @@ class Certifier::Work {
       if (length < shortest_split || is_guarded({q.a, q.b, q.c, q.d})) continue;
       at[i] = middle_of(mesh_, q);
       if (!at[i]) continue;
-      const double share = when_split(q, *at[i]);
+      const double share = when_split(q, *at[i], before(q));
       if (share > before(q) && !boldly_) continue;
       if (share < infinity && std::pair(boldly_ ? 1.0 : std::max(share, 1.0), -length) < least)
         least = {boldly_ ? 1.0 : std::max(share, 1.0), -length}, best = i;
@@ -389,7 +391,8 @@ class Certifier::Work {
     Change change;
     judge_swap(mesh_, *q, &CrossPatchMesh::judge_shape, change);
     if (change.before.worst >= good_ || change.after.worst < change.before.worst + min_shape_gain) return;
-    if (when_swapped(*q) <= std::max(1.0, before(*q))) swap(*q);
+    const double most = std::max(1.0, before(*q));
+    if (when_swapped(*q, most) <= most) swap(*q);
   }
 
   void tidy_vertex(std::int32_t v) {

@@ -120,7 +120,6 @@ TriangleBound EditBounds::bound_in_chart(const Corners& corners, std::int32_t fa
   const auto see = [&](std::span<const PlaceInTriangle> places) {
     uv.clear();
     for (const PlaceInTriangle& p : places) uv.push_back(map.at(p));
-    evaluations_ += static_cast<std::int64_t>(uv.size());
     jets.resize(uv.size());
     cad_.surface(mesh_.charts().reference(face), want_position | want_first, uv, jets);
     seen.clear();
@@ -146,19 +145,17 @@ TriangleBound EditBounds::bound_over_several(const Corners& corners, const Bound
       triangle.set_pole({ends.begin(), ends.end()});
     }
   const SpreadPlaces places(triangle, flat);
-  evaluations_ += TriangleBound::lattice_size;
   TriangleBound bound(flat, places.lattice());
   std::vector<BoundPlace> seen;
   while (!bound.wanted().empty()) {
     seen.clear();
     for (const PlaceInTriangle& p : bound.wanted()) seen.push_back(places.at(p));
-    evaluations_ += static_cast<std::int64_t>(seen.size());
     bound.take(seen);
   }
   return bound;
 }
 
-double EditBounds::share(const EditableMesh::Triangle& t, bool roughly) {
+double EditBounds::share(const EditableMesh::Triangle& t, bool roughly, double most) {
   const PlacedCell cell = placer_({t[0], t[1], t[2], -1});
   Corners corners;
   for (int i = 0; i < 3; ++i) {
@@ -175,6 +172,10 @@ double EditBounds::share(const EditableMesh::Triangle& t, bool roughly) {
   flat.roughly = roughly;
   const double turned = 180 / mesh_.tolerances().angle_deg;
   if (flat.is_flat()) return turned;
+  double least = 1;
+  for (const SurfacePlace& p : corners.place)
+    if (p.regular) least = std::min(least, std::abs(dot(p.normal, flat.normal)));
+  if (const double shown = std::acos(least) / flat.angle_tolerance; shown > most) return shown;
   const TriangleBound bound = cell.spread ? bound_over_several(corners, flat) : bound_in_chart(corners, cell.face, flat);
   return std::max(bound.deviation() / flat.deviation_tolerance, bound.angle() / flat.angle_tolerance);
 }
