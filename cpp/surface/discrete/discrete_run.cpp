@@ -57,7 +57,7 @@ struct Start {
 
 /// Finds pairs, and gives both sides the smaller sizes: their lines need as many vertices. Returns whether they have.
 bool begin_periodic(const Model& model, const discrete::DiscreteCad& surface, Start& start, double& longest_of_lines) {
-  start.periodic = find_periodic_triangles(model, surface.discrete().mesh().diagonal(), start.result.mesh);
+  start.periodic = find_periodic_triangles(model, surface.discrete().mesh().diagonal(), surface.discrete().mesh().vertices.size(), start.result.mesh);
   const double least = share_sizes(start.periodic, start.result.mesh, start.wanted.h);
   start.result.vertex_size = start.wanted.h;
   const bool enough = least >= longest_of_lines * (1 - same_size);
