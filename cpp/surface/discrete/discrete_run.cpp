@@ -141,7 +141,7 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   bool made = false;
   const bool periodic = !model.periodicities.empty();
   if (periodic && (options.element != Element::p1 || known.by_direction()))
-    throw InvalidArgument("faces given by triangles are periodic: their mesh needs the element p1 and sizes without direction");
+    throw InvalidArgument("faces given by triangles are periodic: the mesh needs the element p1 and sizes without direction");
   if (periodic || may_be_made_in_planes(options, known)) {
     begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
     made = make_in_planes(surface, options, cad, monitor, start);

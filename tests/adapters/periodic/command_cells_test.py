@@ -207,7 +207,7 @@ class Cells(unittest.TestCase):
         self.assertIn("do not match", done.stderr)
         self.assertIn("apart at (", done.stderr)
         cube = self.mesh(os.path.join(CELLS, "cube.step"), name="cube.stl", size="0.3")
-        for options, words in ((("--element", "p2"), "need the element p1"), (("--anisotropic", "--angle", "10"), "need the element p1"),
+        for options, words in ((("--element", "p2"), "needs the element p1"), (("--anisotropic", "--angle", "10"), "needs the element p1"),
                                (("--periodic", "7=1"), "no such face with triangles")):
             done = run("mesh", cube, "-o", self.path("none.msh"), "--periodic", "x", *options)
             self.assertEqual(done.returncode, 2)
