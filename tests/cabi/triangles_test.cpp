@@ -3,9 +3,12 @@
 #include <carreau_geometry.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "abi_fixture.h"
 
@@ -66,6 +69,53 @@ TEST_F(Triangles, AnglesDefineLines) {
     EXPECT_GT(d, 0.2);
     EXPECT_LE(d, report().deviation);
   }
+}
+
+// A cube, opposite sides with different diagonals: three pairs of faces, twelve edges in three classes, eight corners in one.
+TEST_F(Triangles, OppositeSidesMayBePeriodic) {
+  const std::vector<double> vertices{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
+  const std::vector<std::int32_t> triangles{0, 2, 1, 0, 3, 2, 4, 5, 7, 5, 6, 7, 0, 1, 5, 0, 5, 4, 3, 7, 2, 7, 6, 2, 0, 4, 3, 4, 7, 3, 1, 2, 6, 1, 6, 5};
+  auto given = sized<carreau_triangles>();
+  given.vertex_count = 8, given.triangle_count = 12;
+  given.vertices = vertices.data(), given.triangles = triangles.data();
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &given), CARREAU_OK) << carreau_last_error(session);
+  for (const std::array<double, 3>& along : {std::array<double, 3>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+    ASSERT_EQ(carreau_model_add_period(session, along.data()), CARREAU_OK);
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.15), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << carreau_last_error(session);
+  carreau_mesh* mesh = nullptr;
+  ASSERT_EQ(carreau_session_mesh(session, &mesh), CARREAU_OK);
+  EXPECT_EQ(defects_of(mesh), "");
+  std::int64_t pairs = 0, nodes = 0;
+  ASSERT_EQ(carreau_mesh_periodic_count(mesh, &pairs, &nodes), CARREAU_OK);
+  std::vector<std::int32_t> dimension(pairs), refs(2 * pairs), node(2 * nodes);
+  std::vector<double> map(12 * pairs);
+  std::vector<std::int64_t> count(pairs);
+  ASSERT_EQ(carreau_mesh_periodic(mesh, pairs, nodes, dimension.data(), refs.data(), map.data(), count.data(), node.data()), CARREAU_OK);
+  EXPECT_EQ(std::count(dimension.begin(), dimension.end(), 2), 3);
+  EXPECT_EQ(std::count(dimension.begin(), dimension.end(), 1), 9);
+  EXPECT_EQ(std::count(dimension.begin(), dimension.end(), 0), 7);
+  const MeshData data = data_of(mesh);
+  const std::int32_t* next = node.data();
+  for (std::int64_t i = 0; i < pairs; ++i)
+    for (std::int64_t k = 0; k < count[i]; ++k, next += 2)
+      for (std::size_t r = 0; r < 3; ++r)
+        EXPECT_NEAR(data.xyz[3 * std::size_t(next[0]) + r], data.xyz[3 * std::size_t(next[1]) + r] + map[std::size_t(12 * i) + 4 * r + 3], 1e-15);
+}
+
+// Without a partner: the distance, and the place.
+TEST_F(Triangles, SidesThatDoNotMatchAreReported) {
+  const std::vector<double> vertices{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::vector<std::int32_t> triangles{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  auto given = sized<carreau_triangles>();
+  given.vertex_count = 4, given.triangle_count = 4;
+  given.vertices = vertices.data(), given.triangles = triangles.data();
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &given), CARREAU_OK) << carreau_last_error(session);
+  const double along[3] = {1, 0, 0};
+  ASSERT_EQ(carreau_model_add_period(session, along), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_MODEL);
+  EXPECT_NE(std::string(carreau_last_error(session)).find("do not match: their boundaries are"), std::string::npos) << carreau_last_error(session);
+  EXPECT_NE(std::string(carreau_last_error(session)).find("apart at ("), std::string::npos);
 }
 
 TEST_F(Triangles, RefinementGivesLinesAndTriangles) {

@@ -57,7 +57,7 @@ struct Start {
 
 /// Finds pairs, and gives both sides the smaller sizes: their lines need as many vertices. Returns whether they have.
 bool begin_periodic(const Model& model, const discrete::DiscreteCad& surface, Start& start, double& longest_of_lines) {
-  start.periodic = find_periodic_triangles(model, surface.discrete().mesh().diagonal(), start.result.mesh);
+  start.periodic = find_periodic_triangles(model, surface.discrete().mesh().diagonal(), surface.discrete().mesh().vertices.size(), start.result.mesh);
   const double least = share_sizes(start.periodic, start.result.mesh, start.wanted.h);
   start.result.vertex_size = start.wanted.h;
   const bool enough = least >= longest_of_lines * (1 - same_size);
@@ -141,7 +141,7 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   bool made = false;
   const bool periodic = !model.periodicities.empty();
   if (periodic && (options.element != Element::p1 || known.by_direction()))
-    throw InvalidArgument("faces given by triangles are periodic: their mesh needs the element p1 and sizes without direction");
+    throw InvalidArgument("faces given by triangles are periodic: the mesh needs the element p1 and sizes without direction");
   if (periodic || may_be_made_in_planes(options, known)) {
     begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
     made = make_in_planes(surface, options, cad, monitor, start);

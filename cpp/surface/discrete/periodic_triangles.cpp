@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -33,14 +34,26 @@ struct Miss {
   Vec3 where{0, 0, 0};
 };
 
+// Share of the size. Smooth curves and patches of both sides may differ by it, since their tangents depend on the triangles beside.
+constexpr double max_miss = 0.1;
+
+// Share of the shortest edge of a line that images may miss by.
+constexpr double max_share_of_edge = 0.2;
+
 // Fractions of a line where its direction is compared.
 constexpr double quarter = 0.25;
 
 class Finder {
  public:
-  Finder(const Model& model, double diag, SurfaceMesh& mesh) : model_(model), mesh_(mesh), lines_of_(mesh.faces.size()), boxes_(mesh.faces.size()) {
+  Finder(const Model& model, double diag, std::size_t given, SurfaceMesh& mesh)
+      : model_(model), given_(static_cast<std::int32_t>(given)), mesh_(mesh), lines_of_(mesh.faces.size()), boxes_(mesh.faces.size()) {
     result_.gap = max_gap * diag;
-    for (const Periodicity& given : model.periodicities) add_map(given);
+    for (std::size_t c = 0; c < mesh.curves.size(); ++c) {  // vertices of a line stay distinct
+      const std::vector<Vec3> trace = trace_of(static_cast<int>(c));
+      for (std::size_t k = 1; k < trace.size(); ++k) result_.gap = std::min(result_.gap, max_share_of_edge * norm(trace[k] - trace[k - 1]));
+    }
+    result_.gap = std::max(result_.gap, rounding_of_places * max_gap * diag);
+    for (const Periodicity& each : model.periodicities) add_map(each);
     cut_at_images();
     for (std::size_t c = 0; c < mesh.curves.size(); ++c)
       for (const CurveMeshUse& use : mesh.curves[c].uses) lines_of_[use.face].insert(static_cast<int>(c));
@@ -57,9 +70,15 @@ class Finder {
 
  private:
   [[nodiscard]] int ref(int face) const { return mesh_.faces[face].ref; }
+  // Vertices between the given ones lie on smooth curves, which depend on the triangles of one side.
+  [[nodiscard]] std::vector<std::int32_t> given_of(const CurveMesh& curve) const {
+    std::vector<std::int32_t> chain;
+    std::ranges::copy_if(curve.vertices, std::back_inserter(chain), [this](std::int32_t v) { return v < given_; });
+    return chain;
+  }
   [[nodiscard]] std::vector<Vec3> trace_of(int line) const {
     std::vector<Vec3> trace;
-    for (const std::int32_t v : mesh_.curves[line].vertices) trace.push_back(mesh_.vertices[v]);
+    for (const std::int32_t v : given_of(mesh_.curves[line])) trace.push_back(mesh_.vertices[v]);
     return trace;
   }
   [[nodiscard]] bool is_closed(int line) const { return mesh_.curves[line].vertices.front() == mesh_.curves[line].vertices.back(); }
@@ -116,24 +135,51 @@ class Finder {
     maps_.push_back(map), maps_.push_back(map.inverse());
   }
 
-  // Angles of lines decide on corners, and rounding on angles: images of corners are corners.
+  // Angles of lines decide on corners, and rounding on angles: images of corners are corners. So are ends of the part of a line that a map
+  // carries onto lines: borders of a sheet may pass from one side of a cell to the next without a corner.
   void cut_at_images() {
+    std::vector<std::int32_t> on_lines;
+    std::vector<std::array<std::int32_t, 3>> points, segments;
+    for (const CurveMesh& curve : mesh_.curves) {
+      const std::vector<std::int32_t> chain = given_of(curve);
+      for (std::size_t k = 0; k < chain.size(); ++k) {
+        on_lines.push_back(chain[k]);
+        points.push_back({chain[k], chain[k], chain[k]});
+        if (k > 0) segments.push_back({chain[k - 1], chain[k], chain[k]});
+      }
+    }
+    if (maps_.empty() || points.empty()) return;
+    const TriangleSearch vertices(mesh_.vertices, points), lines(mesh_.vertices, segments);
     std::vector<std::int32_t> corners;
-    std::set<std::int32_t> on_lines;
-    for (const CurveMesh& curve : mesh_.curves)
-      for (const std::int32_t v : curve.vertices)
-        if (on_lines.insert(v).second && mesh_.vertex_ref[v] != 0) corners.push_back(v);
+    for (const std::int32_t v : ends_of_parts(lines)) make_corner(v, corners);
+    for (const std::int32_t v : on_lines)
+      if (mesh_.vertex_ref[v] != 0) corners.push_back(v);
     for (std::size_t i = 0; i < corners.size(); ++i)
       for (const Isometry& map : maps_) {
-        const Vec3 image = map(mesh_.vertices[corners[i]]);
-        const auto apart = [&](std::int32_t v) { return norm(mesh_.vertices[v] - image); };
-        const auto nearest = std::ranges::min_element(on_lines, {}, apart);
-        if (apart(*nearest) > result_.gap || mesh_.vertex_ref[*nearest] != 0) continue;
-        cut_line_at(*nearest);
-        mesh_.vertex_ref[*nearest] = *std::ranges::max_element(mesh_.vertex_ref) + 1;
-        corners.push_back(*nearest), result_.corners.push_back(*nearest);
+        const NearestOnMesh nearest = vertices.nearest(map(mesh_.vertices[corners[i]]));
+        if (nearest.distance <= result_.gap) make_corner(points[nearest.triangle][0], corners);
       }
     std::ranges::sort(result_.corners);
+  }
+
+  [[nodiscard]] std::vector<std::int32_t> ends_of_parts(const TriangleSearch& lines) const {
+    std::vector<std::int32_t> ends;
+    for (const Isometry& map : maps_)
+      for (const CurveMesh& curve : mesh_.curves) {
+        const std::vector<std::int32_t> chain = given_of(curve);
+        std::vector<char> is_carried;
+        for (const std::int32_t v : chain) is_carried.push_back(lines.nearest(map(mesh_.vertices[v])).distance <= result_.gap ? 1 : 0);
+        for (std::size_t k = 1; k < is_carried.size(); ++k)
+          if (is_carried[k] != is_carried[k - 1]) ends.push_back(chain[is_carried[k] != 0 ? k : k - 1]);
+      }
+    return ends;
+  }
+
+  void make_corner(std::int32_t v, std::vector<std::int32_t>& corners) {
+    if (mesh_.vertex_ref[v] != 0) return;
+    cut_line_at(v);
+    mesh_.vertex_ref[v] = *std::ranges::max_element(mesh_.vertex_ref) + 1;
+    corners.push_back(v), result_.corners.push_back(v);
   }
 
   void cut_line_at(std::int32_t v) {
@@ -162,7 +208,8 @@ class Finder {
     for (int m = 0; m < std::ssize(mesh_.faces); ++m)
       for (int s = 0; s < std::ssize(mesh_.faces); ++s)
         if (s != m && box_distance(m, s, map) <= result_.gap && add_face(m, s, map)) ++found;
-    for (int c = 0; c < std::ssize(mesh_.curves) && found == 0; ++c)
+    const bool borders = found == 0;
+    for (int c = 0; c < std::ssize(mesh_.curves) && borders; ++c)
       if (mesh_.curves[c].uses.size() == 1) found += add_border(c, map) ? 1 : 0;
     if (found == 0) throw InvalidModel("the map of a periodicity carries no face and no border of the triangles onto another one; " + nearest_miss(map));
   }
@@ -307,6 +354,7 @@ class Finder {
   }
 
   const Model& model_;
+  const std::int32_t given_;  // vertices of the triangles that are given come first
   SurfaceMesh& mesh_;
   std::vector<std::set<int>> lines_of_;  // by face
   std::vector<BoxTree::Box> boxes_;      // by face
@@ -342,6 +390,7 @@ class Maker {
 
   void run() {
     for (const TrianglePair& pair : periodic_.lines) link_line(pair);
+    place_images();
     for (const TrianglePair& pair : periodic_.faces) {
       monitor_.checkpoint();
       replace_face(pair);
@@ -353,20 +402,37 @@ class Maker {
  private:
   void link_line(const TrianglePair& pair) {
     const std::vector<std::int32_t>&from = mesh_.curves[pair.master].vertices, &to = mesh_.curves[pair.slave].vertices;
+    double worst = 0;  // in sizes
     const bool same = from.size() == to.size();
-    for (std::size_t k = 0; same && k < from.size(); ++k) join(pair.map, from[k], to[k]);
-    if (!same || worst_ > periodic_.gap)
+    for (std::size_t k = 0; same && k < from.size(); ++k) {
+      image_[{from[k], to[k]}] = pair.map;
+      worst = std::max(worst, norm(pair.map(mesh_.vertices[from[k]]) - mesh_.vertices[to[k]]) / result_.vertex_size[to[k]]);
+    }
+    if (!same || worst > max_miss)
       throw InvalidModel("lines of the triangles that are periodic could not be divided alike, near " + format_point(mesh_.vertices[to.front()]) + ": " +
-                         std::to_string(from.size() - 1) + " and " + std::to_string(to.size() - 1) + " edges");
+                         std::to_string(from.size() - 1) + " and " + std::to_string(to.size() - 1) + " edges, " + format_number(worst) + " sizes apart");
   }
 
   // Smooth curves of triangles depend on the triangles of one side: the image is as good a place.
-  void join(const Isometry& map, std::int32_t from, std::int32_t to) {
-    image_[{from, to}] = map;
-    const Vec3 target = map(mesh_.vertices[from]);
-    if (const double apart = norm(target - mesh_.vertices[to]); apart <= periodic_.gap && placed_.insert(to).second && placed_.insert(from).second)
-      mesh_.vertices[to] = target;
-    worst_ = std::max(worst_, norm(map(mesh_.vertices[from]) - mesh_.vertices[to]));
+  void place_images() {
+    std::map<std::int32_t, std::vector<std::pair<std::int32_t, Isometry>>> steps;
+    for (const auto& [vertices, map] : image_) {
+      steps[vertices.first].push_back({vertices.second, map});
+      steps[vertices.second].push_back({vertices.first, map.inverse()});
+    }
+    std::set<std::int32_t> placed;
+    for (const auto& [root, first] : steps) {
+      if (!placed.insert(root).second) continue;
+      std::vector<std::int32_t> reached{root};
+      for (std::size_t i = 0; i < reached.size(); ++i)
+        for (const auto& [to, map] : steps.at(reached[i])) {
+          if (!placed.insert(to).second) continue;
+          mesh_.vertices[to] = map(mesh_.vertices[reached[i]]);
+          reached.push_back(to);
+        }
+    }
+    for (const auto& [vertices, map] : image_)
+      worst_ = std::max(worst_, norm(map(mesh_.vertices[vertices.first]) - mesh_.vertices[vertices.second]));
   }
 
   FaceSearch& search_of(int face) {
@@ -421,7 +487,7 @@ class Maker {
         made.vertex.push_back(again->second);
       } else {
         const double apart = norm(place.xyz - target);
-        if (apart > periodic_.gap)
+        if (apart > std::max(periodic_.gap, max_miss * result_.vertex_size[x]))
           throw InvalidModel(Where{.face = to.ref}, "the image of the mesh of face " + std::to_string(from.ref) + " is " + format_number(apart) +
                                                         " away from the triangles at " + format_point(target));
         number[x] = static_cast<std::int32_t>(mesh_.vertices.size());
@@ -538,7 +604,6 @@ class Maker {
   SurfaceMesh& mesh_;
   Monitor& monitor_;
   std::map<std::pair<std::int32_t, std::int32_t>, Isometry> image_;  // {master, slave} vertices of lines
-  std::set<std::int32_t> placed_;                                     // vertices that move no more
   std::map<int, FaceSearch> searches_;                                // by face
   double worst_ = 0;
 };
@@ -551,9 +616,9 @@ std::vector<std::int32_t> PeriodicTriangles::twins(std::size_t n) const {
   return twin;
 }
 
-PeriodicTriangles find_periodic_triangles(const Model& model, double diag, SurfaceMesh& mesh) {
+PeriodicTriangles find_periodic_triangles(const Model& model, double diag, std::size_t given, SurfaceMesh& mesh) {
   if (model.periodicities.empty()) return {};
-  return Finder(model, diag, mesh).run();
+  return Finder(model, diag, given, mesh).run();
 }
 
 double share_sizes(const PeriodicTriangles& periodic, const SurfaceMesh& mesh, std::span<double> size) {

@@ -30,9 +30,9 @@ struct PeriodicTriangles {
   [[nodiscard]] std::vector<std::int32_t> twins(std::size_t n) const;
 };
 
-/// Finds the pairs of the model's periodicities. `mesh`: of start_mesh(); images of corners cut its lines, and lines that are slaves are
+/// Finds the pairs of the model's periodicities. `mesh`: of start_mesh(), its first `given` vertices are the surface's; images of corners cut its lines, and lines that are slaves are
 /// turned to run like the images of their masters. Throws InvalidModel: nothing matches, with the distance and the place.
-PeriodicTriangles find_periodic_triangles(const Model& model, double diag, SurfaceMesh& mesh);
+PeriodicTriangles find_periodic_triangles(const Model& model, double diag, std::size_t given, SurfaceMesh& mesh);
 
 /// Gives lines and masters the least size of both sides. `size`: by vertex of `mesh`. Returns the least factor of a size on a line.
 double share_sizes(const PeriodicTriangles& periodic, const SurfaceMesh& mesh, std::span<double> size);

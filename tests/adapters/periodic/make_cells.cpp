@@ -64,14 +64,14 @@ gp_Dir seam_of(const Centre& c, double radius) {
 }
 
 // Spheres with their periodic images as far as these meet the unit cube.
-TopoDS_Shape without_spheres(const std::vector<Centre>& centres, double radius) {
+TopoDS_Shape without_spheres(const std::vector<Centre>& centres, double radius, bool seams_inwards = false) {
   TopTools_ListOfShape spheres;
   for (const Centre& c : centres)
     for (int image = 0; image < 27; ++image) {
       const Centre p{c[0] + image % 3 - 1, c[1] + image / 3 % 3 - 1, c[2] + image / 9 - 1};
       double distance = 0;
       for (const double x : p) distance += std::pow(std::max({-x, x - 1, 0.}), 2);
-      if (std::sqrt(distance) < radius) spheres.Append(BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(p[0], p[1], p[2]), gp_Dir(0, 0, 1), seam_of(c, radius)), radius).Shape());
+      if (std::sqrt(distance) < radius) spheres.Append(BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(p[0], p[1], p[2]), gp_Dir(0, 0, 1), seams_inwards ? seam_of(c, radius) : gp_Dir(1, 0, 0)), radius).Shape());
     }
   return cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), spheres);
 }
@@ -167,7 +167,7 @@ void make(const std::string& folder) {
   hole.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0.75 * std::cos(0.13), 0.75 * std::sin(0.13), 0.5), 0.06).Shape());
   write(cut(pipe_sector(15), hole), folder + "/sector24.step");
   write(without_spheres({{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.3), folder + "/fcc.step");
-  write(without_spheres(forty(0.12), 0.12), folder + "/inclusions.step");
+  write(without_spheres(forty(0.12), 0.12, true), folder + "/inclusions.step");
   TopTools_ListOfShape one;
   one.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0, 0.5, 0.5), 0.2).Shape());
   write(cut(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), one), folder + "/mismatch.step");
