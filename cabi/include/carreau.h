@@ -970,8 +970,9 @@ CARREAU_API carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t ca
 /* The quality of the elements. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides
  * that meet (HDR sec. 1.1.1). scaled_jacobian is the least sine of an element's angles over the sine of the regular
  * polygon's angle. Both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein
- * coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element. Of elements of order 3 and 4 (carreau_mesh_order)
- * it, the number of invalid elements and the area are their own, other figures those of their elements of order 2. */
+ * coefficient of the Jacobian over its mean: 1 for triangles of p1, positive for a valid element. If elements have order 3 or 4
+ * (carreau_mesh_order), this figure, the number of invalid elements and the area are measured on them, and other figures on their elements of
+ * order 2. */
 typedef struct carreau_cell_quality {
   size_t struct_size;
   int64_t triangles3, triangles6, quads4, quads8; /* elements by kind */

@@ -5,9 +5,9 @@
 #include <set>
 #include <span>
 
+#include "io/curved_rows.h"
 #include "io/element_lists.h"
 #include "io/gmsh/msh_numbers.h"
-#include "io/high_order/curved_reader.h"
 #include "io/mesh_files.h"
 #include "io/solid_skin.h"
 #include "io/text.h"

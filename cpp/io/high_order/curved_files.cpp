@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "io/curved_rows.h"
 #include "io/files.h"
 #include "io/gmsh/msh_mesh.h"
 #include "io/vtk/vtu_places.h"
@@ -52,29 +53,6 @@ HighOrderMesh at_places(const HighOrderMesh& mesh, NodePlaces places, bool assoc
 }
 
 }  // namespace
-
-std::vector<std::size_t> vtk_ranks_of_quad(int order) {
-  const std::vector<std::array<int, 2>> gmsh = node_indices(true, order);
-  std::vector<std::array<int, 2>> vtk(gmsh.begin(), gmsh.begin() + 4);
-  for (int i = 1; i < order; ++i) vtk.push_back({i, 0});
-  for (int i = 1; i < order; ++i) vtk.push_back({order, i});
-  for (int i = 1; i < order; ++i) vtk.push_back({i, order});
-  for (int i = 1; i < order; ++i) vtk.push_back({0, i});
-  for (int k = 1; k < order; ++k)
-    for (int i = 1; i < order; ++i) vtk.push_back({i, k});
-  std::vector<std::size_t> rank;
-  for (const auto& index : vtk) rank.push_back(static_cast<std::size_t>(std::find(gmsh.begin(), gmsh.end(), index) - gmsh.begin()));
-  return rank;
-}
-
-std::vector<std::size_t> mfem_ranks(bool quad, int order) {
-  const std::vector<std::array<int, 2>> gmsh = node_indices(quad, order);
-  std::vector<std::size_t> rank;
-  for (int k = 0; k <= order; ++k)
-    for (int i = 0; i <= (quad ? order : order - k); ++i)
-      rank.push_back(static_cast<std::size_t>(std::find(gmsh.begin(), gmsh.end(), std::array<int, 2>{i, k}) - gmsh.begin()));
-  return rank;
-}
 
 std::string curved_msh(const HighOrderMesh& given, bool association, bool version_2) {
   const HighOrderMesh mesh = at_places(given, NodePlaces::equidistant, association);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "high_order/high_order_mesh.h"
 
@@ -18,10 +17,5 @@ void write_curved(const HighOrderMesh& mesh, const std::string& path, bool assoc
 std::string curved_msh(const HighOrderMesh& mesh, bool association = false, bool version_2 = false);
 std::string curved_vtu(const HighOrderMesh& mesh, bool association = false);
 std::string curved_mfem(const HighOrderMesh& mesh);
-
-/// For each node in another order its rank in Gmsh's. VTK orders nodes of quadrilaterals along s and t: the third and fourth edge run backwards,
-/// and inner nodes are rows. MFEM orders nodes of discontinuous elements by rows of t.
-std::vector<std::size_t> vtk_ranks_of_quad(int order);
-std::vector<std::size_t> mfem_ranks(bool quad, int order);
 
 }  // namespace carreau

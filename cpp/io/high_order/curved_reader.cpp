@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "io/curved_rows.h"
 #include "io/files.h"
-#include "io/high_order/curved_files.h"
 #include "io/mesh_files.h"
 #include "io/text.h"
 #include "io/words.h"
@@ -242,16 +242,6 @@ class MfemReader {
 };
 
 }  // namespace
-
-bool add_curved(HighOrderMesh& mesh, int order, int corners, std::span<const std::int32_t> nodes, std::int32_t ref) {
-  const bool first = mesh.triangle_refs.empty() && mesh.quad_refs.empty() && mesh.edge_refs.empty();
-  if (!first && order != mesh.order) return false;
-  mesh.order = order;
-  std::vector<std::int32_t>& rows = corners == 2 ? mesh.edges : corners == 3 ? mesh.triangles : mesh.quads;
-  rows.insert(rows.end(), nodes.begin(), nodes.end());
-  (corners == 2 ? mesh.edge_refs : corners == 3 ? mesh.triangle_refs : mesh.quad_refs).push_back(ref);
-  return true;
-}
 
 HighOrderMesh read_curved_mfem(std::string_view content, const std::string& name) { return MfemReader(content, name).read(); }
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/high_order/curved_files.h"
-#include "io/high_order/curved_reader.h"
+#include "io/curved_rows.h"
 #include "io/polygons/polygon_cutter.h"
 
 namespace carreau {

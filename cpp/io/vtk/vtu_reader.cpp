@@ -10,7 +10,7 @@
 #include "io/mesh_files.h"
 #include "io/text.h"
 #include "io/vtk/vtk_cells.h"
-#include "io/high_order/curved_reader.h"
+#include "io/curved_rows.h"
 #include "io/vtk/vtu_arrays.h"
 #include "support/format.h"
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "high_order/curved_quality.h"
+#include "io/curved_rows.h"
 #include "io/files.h"
 #include "io/high_order/curved_files.h"
 #include "io/high_order/curved_reader.h"
