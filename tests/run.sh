@@ -6,7 +6,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 . "$root/tests/setup.sh"
 # clang and libclang-rt-dev: fuzzing. openexr, python3-vtk9, python3-gmsh, python3-meshio: they read our files.
 # chromium, chromium-driver, python3-selenium: a browser that shows reports. calculix-ccx: a solver that reads our .inp.
-# tetgen, gmsh: they fill our surfaces. patchelf: wheels that hold all libraries.
+# tetgen, gmsh: they fill our surfaces. patchelf: wheels and archives that hold all libraries.
 # libcgal-dev: its predicates find the same triangles that cross. python3-sphinx and what follows: the pages.
 # libopenmpi-dev, openmpi-bin: many processes. dpkg-dev, file: cpack asks them what a package depends on.
 need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils locales \

@@ -14,6 +14,32 @@ import pytest
 from test_wheel import BUILD, TORUS, bare
 
 
+def test_libraries_of_another_machine_are_found_by_its_compiler(source, tmp_path):
+    compiler = shutil.which("aarch64-linux-gnu-g++")
+    for program in ("patchelf", "readelf", "dpkg-query"):
+        if shutil.which(program) is None:
+            pytest.skip(f"{program} is not there")
+    if compiler is None:
+        pytest.skip("no compiler of another machine (Debian package g++-aarch64-linux-gnu) is there")
+    (tmp_path / "CMakeCache.txt").write_text(f"CMAKE_CXX_COMPILER:FILEPATH={compiler}\nCMAKE_STRIP:FILEPATH={shutil.which('aarch64-linux-gnu-strip')}\n")
+    libraries, programs = tmp_path / "tree/lib", tmp_path / "tree/bin"
+    libraries.mkdir(parents=True)
+    programs.mkdir()
+    (tmp_path / "text.cpp").write_text("#include <string>\nstd::string text(int n) { return std::to_string(n); }\nint main() { return int(text(7).size()) - 1; }\n")
+    flags = [compiler, str(tmp_path / "text.cpp"), "-fPIC", "-o"]
+    subprocess.run([*flags, str(libraries / "libcarreau.so.0"), "-shared"], check=True)
+    subprocess.run([*flags, str(programs / "carreau")], check=True)
+    done = subprocess.run([sys.executable, os.path.join(source, "packaging/bundle.py"), str(tmp_path), str(tmp_path / "tree")], check=True, capture_output=True, text=True)
+    assert done.stdout.rstrip().endswith("aarch64")
+    assert {"libstdc++.so.6", "libgcc_s.so.1"} <= set(os.listdir(libraries))
+    dynamic = subprocess.run(["readelf", "-hd", str(libraries / "libstdc++.so.6"), str(programs / "carreau")], check=True, capture_output=True, text=True).stdout
+    assert dynamic.count("AArch64") == 2 and "[$ORIGIN]" in dynamic and "[$ORIGIN/../lib]" in dynamic
+    assert "libstdc++.so.6  libstdc++6-arm64-cross " in (tmp_path / "tree/share/doc/carreau/licenses/LIBRARIES.txt").read_text()
+    emulator = shutil.which("qemu-aarch64-static")
+    if emulator is not None:
+        subprocess.run([emulator, "-L", "/usr/aarch64-linux-gnu", str(programs / "carreau")], check=True)
+
+
 def test_a_wheel_holds_all_libraries(source, tmp_path):
     for module in ("pip", "setuptools", "wheel", "venv"):
         if importlib.util.find_spec(module) is None:

@@ -119,6 +119,8 @@ def test_pyvista_gets_elements_and_fields(monkeypatch):
     made = plain.to_pyvista()
     assert made.arrays[1].tolist() == [3, 0, 1, 2, 3, 1, 3, 2] and made.cell_data["flux"].tolist() == [5, 6]
     assert made.field_data["face_names"] == ["", ""]
+    assert made.cell_data["group"].tolist() == [1, 2]
+    assert made.field_data["group_names"] == ["face_1", "face_2"] and made.field_data["group_numbers"] == [1, 2]
     dome = lambda u, v: (u, v, u * u + v * v)  # noqa: E731
     curved = carreau.mesh(dome, domain=(0, 0, 1, 1), size=0.5, element="p2").to_pyvista()
     assert set(curved.arrays[1]) == {22} and len(curved.arrays[0]) == 7 * curved.n_cells

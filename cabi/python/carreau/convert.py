@@ -76,5 +76,9 @@ def to_pyvista(mesh: MeshContent) -> Any:
             made.point_data[name] = values
         elif len(values) == made.n_cells:
             made.cell_data[name] = values
+    groups, of_faces, _ = _groups(mesh)
+    made.cell_data["group"] = np.array([of_faces[int(ref)] for ref in made.cell_data["face"]], dtype=np.int32)
+    made.field_data["group_names"] = [name for name, (_, dimension) in groups.items() if dimension == 2]
+    made.field_data["group_numbers"] = [int(number) for number, dimension in groups.values() if dimension == 2]
     made.field_data["face_names"] = [mesh.entity_name(2, ref) for ref in range(1, int(max(mesh.face_ids, default=0)) + 1)]
     return made
