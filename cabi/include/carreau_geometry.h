@@ -440,9 +440,9 @@ CARREAU_API carreau_status carreau_model_embed_wires(carreau_session* session, i
 
 /* Embeds the ridges of the session's structured grids as carreau_model_embed_polyline() does: lines where the principal curvature of larger
  * absolute value is maximal along its direction and its radius is below `radius` (model length), sharp convex and concave lines alike.
- * Curvatures are those of the cubic spline through the nodes, so that noise has to be smoothed first. Lines that are shorter than `radius`
- * and surfaces of constant curvature, such as circular fillets, have no ridges. *out_count, which may be NULL, receives the number of lines;
- * files with groups call them "ridge 1", "ridge 2"... A warning names each line that cannot be embedded.
+ * Curvatures are curvatures of the cubic spline through the nodes, so that noise has to be smoothed first. Lines that are shorter than
+ * `radius` and borders of grids are none, and surfaces of constant curvature such as circular fillets have none. *out_count, which may be
+ * NULL, receives the number of lines; files with groups call them "ridge 1", "ridge 2"... A warning names each line that cannot be embedded.
  * Errors: SEQUENCE (no grid), ARGUMENT (radius), MODEL, CANCELLED, MEMORY; BUSY inside a callback. */
 CARREAU_API carreau_status carreau_model_embed_ridges(carreau_session* session, double radius, int64_t* out_count);
 

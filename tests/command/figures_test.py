@@ -133,6 +133,17 @@ class Figures(unittest.TestCase):
             self.assertEqual(figures["open_edges"], 0)
             self.assertGreater(figures["q2_mean"], quality)
 
+    def test_a_fragment_of_dna_as_figure_4_30(self):
+        """637 atoms have 154 220 vertices and 309 004 triangles, 485 an atom; here 120 atoms of 1BNA."""
+        with open(os.path.join(DATA, "..", "molecule", "1bna.xyzr")) as file:
+            atoms = file.readlines()[:120]
+        with open(self.path("fragment.xyzr"), "w") as file:
+            file.writelines(atoms)
+        mesh, figures = self.mesh("mesh", self.path("fragment.xyzr"), "--surface", "vws", "--size", "0.29")
+        self.assertEqual(figures["open_edges"], 0)
+        self.assertAlmostEqual(len(mesh.triangles) / len(atoms) / (309004 / 637), 1, delta=0.1)
+        self.assertEqual(2 * len(mesh.vertices) - len(mesh.triangles), 0)  # one handle
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

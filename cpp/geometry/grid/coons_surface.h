@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface that is bicubic on each cell of a grid and C1 between cells (HDR sec. 4.7.2).
+// A surface that is bicubic on each cell of a grid and at least C1 between cells (HDR sec. 4.7.2).
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct CoonsSurface {
 
   [[nodiscard]] const Node& node(std::size_t i, std::size_t j) const { return nodes[i + u.size() * j]; }
   Node& node(std::size_t i, std::size_t j) { return nodes[i + u.size() * j]; }
-  /// All derivatives to order two. Derivatives of second order jump between cells; on a line between cells they belong
+  /// All derivatives to order two. Derivatives of second order may jump between cells; on a line between cells they belong
   /// to the cell above and to the right. Outside of the cells that are there the nearest one goes on (HDR eq. 4.90,
   /// 4.91); NaN without a neighbouring cell.
   [[nodiscard]] SurfaceJet at(const Vec2& uv) const;

@@ -23,6 +23,8 @@ inline constexpr double same_direction = 0.7;
 inline constexpr double ridge_falls = 0.1;
 /// Share of a cell between places of a ridge. Shorter chords would turn by the rounding of their ends. [Ridges.*]
 inline constexpr double ridge_step = 0.6;
+/// Share of a cell between the border of a grid and a ridge that is the border. [Ridges.OnTheBorderAreTheBorder]
+inline constexpr double ridge_of_border = 0.2;
 /// Evaluations for a place of a ridge on an edge. [Ridges.OfARingAreClosedLinesWithoutZigzag]
 inline constexpr int ridge_steps = 12;
 

@@ -240,7 +240,9 @@ class Finder {
     for (const bool closed : {false, true})
       for (const auto& [edge, crossing] : crossings_) {
         if (used_.count(edge) != 0 || (!closed && crossing.next.size() != 1)) continue;
-        std::vector<Vec3> line = thinned(line_from(edge), closed);
+        const std::vector<Vec2> places = line_from(edge);
+        if (is_border(places)) continue;
+        std::vector<Vec3> line = thinned(places, closed);
         double length = 0;
         for (std::size_t k = 1; k < line.size(); ++k) length += norm(line[k] - line[k - 1]);
         if (line.size() > 1 && length > radius_) all.push_back(std::move(line));
@@ -259,6 +261,17 @@ class Finder {
         if (used_.count(next) == 0) at = next;
     }
     return line;
+  }
+
+  /// Returns whether most places are as near to the border of the grid as if they were on it: it is a curve already.
+  [[nodiscard]] bool is_border(const std::vector<Vec2>& line) const {
+    const auto near = [](const std::vector<double>& knots, double x) {
+      const std::size_t n = knots.size();
+      const double first = (x - knots[0]) / (knots[1] - knots[0]), last = (knots[n - 1] - x) / (knots[n - 1] - knots[n - 2]);
+      return std::min(first, last) < thresholds::ridge_of_border;
+    };
+    const auto count = std::count_if(line.begin(), line.end(), [&](const Vec2& p) { return near(surface_.u, p.x()) || near(surface_.v, p.y()); });
+    return 2 * static_cast<std::size_t>(count) > line.size();
   }
 
   /// Places on the surface; a place nearer to the previous one than a share of the cells is left out. Both ends of open lines stay.

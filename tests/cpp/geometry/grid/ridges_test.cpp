@@ -105,6 +105,16 @@ TEST(Ridges, CirclesHaveNone) {
   EXPECT_TRUE(ridges_of(flat, 100).empty());
 }
 
+TEST(Ridges, OnTheBorderAreTheBorder) {
+  for (const double start : {0.0, 1e-6, -1e-6, -1e-3}) {
+    const Block block = block_of(20, 12, [start](int i, int j) -> Vec3 {
+      const double t = start + 1.3 * i / 19;
+      return {2 * std::cos(t), j / 6.0, std::sin(t)};
+    });
+    EXPECT_TRUE(ridges_of(block, 0.6).empty()) << start;
+  }
+}
+
 TEST(Ridges, EndAtMissingNodes) {
   Block block = elliptic_cylinder(24);
   for (int j = 10; j < 14; ++j)
