@@ -61,9 +61,7 @@ Topology with_places(Topology topology, const std::vector<std::pair<int, Vec3>>&
 
 LayerCurves layer_curves(const Model& model, const Topology& topology, const std::vector<CurveLayers>& given,
                          const CompositeOptions& options) {
-  if (!given.empty() && options.element != Element::p1 && options.element != Element::q1_0)
-    throw InvalidArgument("layers along curves need the element p1 or q1.0");
-  return {model, topology, given};
+  return {model, topology, given, has_quads_only(options.element)};
 }
 
 bool any_prescribed(const CompositeRun& run) {

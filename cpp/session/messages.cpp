@@ -137,6 +137,16 @@ void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor) {
   }
 }
 
+void describe_bare_edges(std::span<const BareEdges> layers, Monitor& monitor) {
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const BareEdges& edges = layers[i];
+    if (edges.bare == 0 || edges.bare == edges.sides) continue;  // describe_layers() reports that no row has room
+    monitor.message(Level::warning, "layers" + (layers.size() > 1 ? " " + std::to_string(i + 1) : std::string()) + ": " +
+                                        std::to_string(edges.bare) + " of " + std::to_string(edges.sides) +
+                                        " edges have no row, the first on face " + std::to_string(edges.face));
+  }
+}
+
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor) {
   describe(part.faces, {part.vertices, part.triangles, part.curve_edges, part.loose_edges}, report, part.quality, monitor);
 }

@@ -9,6 +9,7 @@
 #include "model/model.h"
 #include "pipeline/parts/part_mesh.h"
 #include "support/monitor.h"
+#include "surface/layers/bare_edges.h"
 #include "surface/layers/layer_figures.h"
 #include "surface/result.h"
 #include "surface/supports.h"
@@ -27,6 +28,8 @@ void describe_result(const CompositeResult& result, const QualitySummary& shapes
 
 /// A line for each set of layers along curves: heights of the first row, growth, rows.
 void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor);
+/// A warning for each set of layers with edges that have no row.
+void describe_bare_edges(std::span<const BareEdges> layers, Monitor& monitor);
 
 void describe_part(const PartMesh& part, const CompositeReport& report, Monitor& monitor);
 

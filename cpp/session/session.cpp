@@ -286,6 +286,9 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
   MeshLayers layers{s.layers};
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches, &layers);
   std::vector<LayerFigures> figures = measure_layers(result.mesh, layers.cells, layers.given.size());
+  const std::vector<BareEdges> edges = find_bare_edges(result.mesh, layers.cells, layers.given);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (edges[i].bare > 0) figures[i].fewest_rows = 0;
   std::shared_ptr<const PartResults> parts;
   if (has_discrete(known)) {
     CompositeOptions options_here = options;
@@ -308,6 +311,7 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
                 std::move(parts), background, measuring);
     s.layer_figures = std::move(figures);
     describe_layers(s.layer_figures, s.monitor);
+    describe_bare_edges(edges, s.monitor);
     if (part != nullptr) *part = part_of_mesh();
   }
   run.progress(Phase::idle, 0, 1);

@@ -438,8 +438,9 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   } else if (options.json) {
     print_json(run);
   }
-  if (failed.empty() && lost.empty()) return all_faces;
-  for (const std::string& sentence : {lost, failed})
+  const std::string bare = part == nullptr ? missing_rows(run.session, options) : "";
+  if (failed.empty() && lost.empty() && bare.empty()) return all_faces;
+  for (const std::string& sentence : {lost, bare, failed})
     if (!sentence.empty()) progress.error(sentence);
   return some_faces;
 }

@@ -230,6 +230,13 @@ void add_layers(carreau_session* session, const MeshOptions& options, const CadI
   }
 }
 
+std::string missing_rows(carreau_session* session, const MeshOptions& options) {
+  std::string rules;
+  for (std::size_t i = 0; i < options.layers.size(); ++i)
+    if (report_on(session, i).fewest_rows == 0) rules += (rules.empty() ? "'" : ", '") + options.layers[i] + "'";
+  return rules.empty() ? "" : std::string(layers_option) + " " + rules + ": some edges have no row.";
+}
+
 nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < options.layers.size(); ++i) {

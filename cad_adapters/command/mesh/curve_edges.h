@@ -26,6 +26,9 @@ void check_layers(const MeshOptions& options);
 /// Hands the layers to a session that has the model. Throws Failure: no such edge, numbers that the library rejects.
 void add_layers(carreau_session* session, const MeshOptions& options, const CadInput& input);
 
+/// A sentence on the layers of the last mesh that lack rows on some edges; empty: all edges have rows.
+std::string missing_rows(carreau_session* session, const MeshOptions& options);
+
 /// The figures of each set of layers of the last mesh.
 nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options);
 

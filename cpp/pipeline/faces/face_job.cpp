@@ -118,7 +118,7 @@ void FaceJob::set_rows_apart() {
   if (rows_known_) return;
   rows_known_ = true;
   if (layers_.empty()) return;
-  rows_ = make_layer_rows(input_, layers_, *cad_);
+  rows_ = make_layer_rows(input_, layers_, *cad_, has_quads_only(options_.element));
   if (!rows_) return;
   input_.domain = &rows_->rest;
   input_.curve_xyz = rows_->rest_xyz;

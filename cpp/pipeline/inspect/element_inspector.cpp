@@ -32,9 +32,10 @@ bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
 
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor,
-                         run.periodic.empty() ? nullptr : &run.periodic};
+                         run.periodic.empty() ? nullptr : &run.periodic,
+                         run.layer_cells.empty() ? nullptr : &run.layer_cells, &run.layers};
   QuadraticReport report;
-  if (has_quads(run.options.element)) report = make_quadrilaterals(work, run.layer_cells.empty() ? nullptr : &run.layer_cells);
+  if (has_quads(run.options.element)) report = make_quadrilaterals(work);
   if (!is_quadratic(run.options.element)) return report;
   report = make_quadratic(work);
   const std::vector<CuspEnd> cusps = report.cusps;

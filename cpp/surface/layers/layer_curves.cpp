@@ -13,9 +13,13 @@ namespace carreau {
 
 using namespace thresholds::layers;
 
-LayerCurves::LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers)
+LayerCurves::LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers, bool halved)
     : layers_(layers.begin(), layers.end()) {
   if (layers_.empty()) return;
+  for (CurveLayers& each : layers_) {
+    if (!halved) break;
+    each.first *= 1 + each.ratio, each.ratio *= each.ratio, each.count = (each.count + 1) / 2;
+  }
   of_curve_.assign(topology.curves.size(), -1);
   for (std::size_t i = 0; i < layers_.size(); ++i)
     for (const int ref : layers_[i].curves) {

@@ -2,6 +2,7 @@
 // The curves along which cells lie in rows, and the heights of the rows.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,8 @@ class LayerCurves {
  public:
   LayerCurves() = default;
   /// Throws InvalidArgument if a reference names no curve on a face, or if layers name one curve twice.
-  LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers);
+  /// `halved`: cells will be cut in two each way, so rows are two rows high, and there are half as many (rounded up).
+  LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers, bool halved = false);
 
   [[nodiscard]] bool empty() const noexcept { return layers_.empty(); }
   /// Index of the layers of a curve (index in Topology::curves), or -1.
@@ -40,6 +42,10 @@ class LayerCurves {
   }
   /// Heights of the rows, lowest first, as long as they are at most `longest`. There is one row at least.
   [[nodiscard]] std::vector<double> heights(int layers, double longest) const;
+  /// Share of the height of a row that its lower half has, when it is cut.
+  [[nodiscard]] double lower_half(int layers) const noexcept {
+    return 1 / (1 + std::sqrt(layers_[static_cast<std::size_t>(layers)].ratio));
+  }
 
  private:
   std::vector<CurveLayers> layers_;

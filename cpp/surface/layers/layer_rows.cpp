@@ -21,7 +21,7 @@ using namespace thresholds::layers;
 
 class RowMaker {
  public:
-  RowMaker(const PatchInput& input, const LayerCurves& layers, Cad& cad) : face_(input, layers, cad) {}
+  RowMaker(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved) : face_(input, layers, cad, halved) {}
 
   std::optional<LayerRows> run() {
     chains_ = find_chains(face_);
@@ -238,8 +238,8 @@ class RowMaker {
 
 }  // namespace
 
-std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad) {
-  return RowMaker(input, layers, cad).run();
+std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved) {
+  return RowMaker(input, layers, cad, halved).run();
 }
 
 PatchMesh with_rows(const LayerRows& rows, const FaceDomain& domain, const std::vector<Vec3>& curve_xyz, PatchMesh rest) {

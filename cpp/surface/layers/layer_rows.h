@@ -23,8 +23,9 @@ struct LayerRows {
 };
 
 /// Makes the rows of a face. Rows end early where they would meet a boundary, other rows, or a fold. Nothing if no curve
-/// of the face has layers. Throws the host's exceptions.
-std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad);
+/// of the face has layers. `halved`: edges of curves will be cut in two, so their chords turn half as much. Throws the host's
+/// exceptions.
+std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved = false);
 
 /// Adds the rows to the mesh of the rest. `domain`: of the whole face, with `curve_xyz`.
 PatchMesh with_rows(const LayerRows& rows, const FaceDomain& domain, const std::vector<Vec3>& curve_xyz, PatchMesh rest);

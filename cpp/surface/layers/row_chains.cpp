@@ -106,20 +106,43 @@ class ChainFinder {
     return column;
   }
 
+  // From one half edge to the next one. Around the free end of an inner curve, the angle is 360 degrees.
+  [[nodiscard]] double turn_of(int before, int after, const Vec3& normal) const {
+    if (at(before).edge == at(after).edge) return -std::numbers::pi;
+    const Vec3 in = direction(before), out = direction(after);
+    return std::atan2(dot(cross(in, out), normal), dot(in, out));
+  }
+
+  // The part of a turn that the chords of smooth curves have: all of it inside a curve. Between two curves each has half of the
+  // turn at its next vertex.
+  [[nodiscard]] double smooth_part(int before, int after, double turn, const Vec3& normal) const {
+    const auto same = [&](int h, int g) { return h >= 0 && g >= 0 && at(h).edge->curve == at(g).edge->curve && at(h).edge != at(g).edge; };
+    if (same(before, after) && at(before).previous >= 0 && at(after).next >= 0) {
+      // Chords of half the length turn by (t - d / 16) / 2, where d is the second difference of turns: the curvature of three
+      // turns by a parabola.
+      const double d = turn_of(at(before).previous, before, normal) - 2 * turn + turn_of(after, at(after).next, normal);
+      return turn + std::clamp(d / 16, -0.25 * std::abs(turn), 0.25 * std::abs(turn));
+    }
+    double sum = 0;
+    if (same(at(before).previous, before)) sum += 0.5 * turn_of(at(before).previous, before, normal);
+    if (same(after, at(after).next)) sum += 0.5 * turn_of(after, at(after).next, normal);
+    return turn > 0 ? std::clamp(sum, 0.0, turn) : std::clamp(sum, turn, 0.0);
+  }
+
   // Between two edges with layers.
   void add_corner(Chain& chain, int before, int after) {
     Column column = column_at(at(after).a, after, 0.5 * (length(before) + length(after)));
     const Vec3 in = direction(before), out = direction(after);
     const Vec3 up_in = RowFace::unit(cross(column.normal, in)), up_out = RowFace::unit(cross(column.normal, out));
-    // Around the free end of an inner curve, the angle is 360 degrees.
-    const double turn = at(before).edge == at(after).edge ? -std::numbers::pi
-                                                          : std::atan2(dot(cross(in, out), column.normal), dot(in, out));
+    const double whole = turn_of(before, after, column.normal);
+    double turn = whole;
+    if (face_.halved) turn -= 0.5 * smooth_part(before, after, whole, column.normal);
     const double inside = 180 - turn / degree;
     column.along = RowFace::unit(in + out);
     if (inside > min_fan_angle) {
       const int steps = static_cast<int>(std::ceil(std::abs(turn) / (fan_step * degree)));
       for (int k = 0; k <= steps; ++k) {
-        const double angle = turn * k / steps;
+        const double angle = 0.5 * (whole - turn) + turn * k / steps;
         Column ray = column;
         ray.is_turned = true;
         ray.up = RowFace::unit(std::cos(angle) * up_in + std::sin(angle) * cross(column.normal, up_in));

@@ -10,8 +10,14 @@ namespace carreau {
 
 /// A face during the making of its rows. Vertices count as in LayerRows.
 struct RowFace {
-  RowFace(const PatchInput& patch, const LayerCurves& curves, Cad& host)
-      : input(patch), layers(curves), domain(*patch.domain), plane(domain.plane), cad(host), on_curves(patch.curve_xyz.size()) {}
+  RowFace(const PatchInput& patch, const LayerCurves& curves, Cad& host, bool is_halved)
+      : input(patch),
+        layers(curves),
+        domain(*patch.domain),
+        plane(domain.plane),
+        cad(host),
+        on_curves(patch.curve_xyz.size()),
+        halved(is_halved) {}
 
   const PatchInput& input;
   const LayerCurves& layers;
@@ -19,6 +25,7 @@ struct RowFace {
   const PlaneDomain& plane;
   Cad& cad;
   std::size_t on_curves;  ///< vertices of the domain that lie on curves
+  bool halved;            ///< of make_layer_rows()
   LayerRows rows;
 
   [[nodiscard]] bool is_on_curve(int v) const { return static_cast<std::size_t>(v) < on_curves; }

@@ -37,5 +37,7 @@ inline constexpr double min_narrowing = 0.2;
 /// its height. Two steps suffice on smooth surfaces.
 inline constexpr int max_newton_steps = 20;
 inline constexpr double max_height_error = 1e-3, max_side_error = 1e-2;
+/// Trials for a place that divides a step of a column. Parameters of even speed need one.
+inline constexpr int max_divisions_of_step = 8;
 
 }  // namespace carreau::thresholds::layers

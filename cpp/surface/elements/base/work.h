@@ -10,6 +10,7 @@
 #include "periodic/periodic_model.h"
 #include "size/size_rules.h"
 #include "support/monitor.h"
+#include "surface/layers/layer_curves.h"
 #include "surface/options.h"
 #include "surface/result.h"
 
@@ -28,7 +29,13 @@ struct ElementWork {
   CompositeResult& result;
   Monitor& monitor;
   const PeriodicModel* periodic = nullptr;  ///< null: no face is periodic
+  /// Cells of layers by face, and the layers; null: none. Passes keep the cells, cut them, and number them anew.
+  std::vector<std::vector<LayerCell>>* layers = nullptr;
+  const LayerCurves* layer_curves = nullptr;
 
+  [[nodiscard]] bool has_layers(std::size_t face) const noexcept {
+    return layers != nullptr && face < layers->size() && !(*layers)[face].empty();
+  }
   [[nodiscard]] bool isotropic() const noexcept { return !rules.uses_metrics(); }
   /// The evaluator; FaceMesh::ref names its faces.
   [[nodiscard]] Cad& cad() const noexcept { return model.cad; }

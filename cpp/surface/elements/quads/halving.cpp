@@ -2,13 +2,18 @@
 #include "surface/elements/quads/halving.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "curve/discrete_curve.h"
 #include "periodic/shared_curves.h"
+#include "support/infinity.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/quads/passes.h"
+#include "surface/layers/middle_columns.h"
 
 namespace carreau {
 
@@ -16,14 +21,38 @@ namespace {
 
 using Middles = std::vector<std::vector<std::int32_t>>;
 
+/// By edge of a curve that rows end at: the share of its length below the vertex in it.
+using RowShares = std::map<std::array<std::int32_t, 2>, double>;
+
+RowShares row_shares(const ElementWork& work, const std::vector<FaceQuads>& faces) {
+  RowShares shares;
+  for (const FaceQuads& quads : faces) {
+    if (!work.has_layers(quads.face)) continue;
+    const std::span<const LayerCell> cells((*work.layers)[quads.face]);
+    for (const auto& [first, end] : piles_of(cells)) {
+      const PileSides sides(cells.subspan(first, end - first));
+      const double lower = work.layer_curves->lower_half(cells[first].layers);
+      for (const std::vector<std::int32_t>& column : {sides.left, sides.right})
+        for (std::size_t k = 0; k + 1 < column.size(); ++k)
+          if (const CurveSide* side = quads.side_between(column[k], column[k + 1]); side != nullptr) {
+            const bool up = work.result.mesh.curves[side->curve].vertices[side->segment] == quads.vertex[column[k]];
+            shares[{side->curve, side->segment}] = up ? lower : 1 - lower;
+          }
+    }
+  }
+  return shares;
+}
+
 /// Doubles the number of edges of a curve; returns false, with an unchanged curve, if an edge cannot be cut.
-bool halve(const ElementWork& work, std::size_t c) {
+bool halve(const ElementWork& work, std::size_t c, const RowShares& shares) {
   if (c >= work.curves.size()) return false;
   DiscreteCurve curve = work.curves[c];
   if (curve.indivisible || work.result.mesh.curves[c].vertices.size() != curve.xyz.size()) return false;
   for (int k = curve.segments() - 1; k >= 0; --k) {
     work.monitor.checkpoint();
-    if (!split_segment(curve, k, work.model, middle_share(work.curves[c], static_cast<std::size_t>(k)))) return false;
+    const auto row = shares.find({static_cast<std::int32_t>(c), k});
+    const double share = row != shares.end() ? row->second : middle_share(work.curves[c], static_cast<std::size_t>(k));
+    if (!split_segment(curve, k, work.model, share)) return false;
   }
   work.curves[c] = std::move(curve);
   return true;
@@ -74,6 +103,7 @@ class Halving {
   void run() {
     quads_.middles.assign(quads_.sides.size(), -1);
     join_flattened();
+    halve_rows();
     number_edges();
     quads_.patch.cells = halved_cells(
         quads_.patch.cells, [&](std::int32_t a, std::int32_t b) { return middle_of(a, b); },
@@ -126,6 +156,68 @@ class Halving {
     }
   }
 
+  // The middle of an edge, once; on curves their own.
+  std::int32_t shared_middle(std::int32_t a, std::int32_t b, const Vec2& inside) {
+    const auto [joined, is_new] = joined_.try_emplace(key(a, b), -1);
+    if (!is_new) return joined->second;
+    const CurveSide* side = quads_.side_between(a, b);
+    return joined->second = side != nullptr ? add_on_curve(*side) : add(inside, -1, 1);
+  }
+
+  [[nodiscard]] ColumnPlace place(std::int32_t v) const {
+    const Vec2& uv = quads_.patch.uv[v];
+    return {uv, surface_at(work_.cad(), work_.result.mesh.faces[quads_.face].ref, want_position, uv).s};
+  }
+
+  // Cells of layers are cut so that rows grow evenly. A column rises from the middle of the curve's edge.
+  void halve_rows() {
+    if (!work_.has_layers(quads_.face)) return;
+    std::vector<LayerCell>& cells = (*work_.layers)[quads_.face];
+    std::vector<LayerCell> halves;
+    quads_.rows.clear();
+    for (const auto& [first, end] : piles_of(cells)) halve_pile(std::span(cells).subspan(first, end - first), halves);
+    cells = std::move(halves);
+    for (const LayerCell& cell : cells) quads_.rows.push_back(cell.corners);
+    quads_.rows.insert(quads_.rows.end(), tips_.begin(), tips_.end());
+  }
+
+  void halve_pile(std::span<const LayerCell> pile, std::vector<LayerCell>& halves) {
+    const int ref = work_.result.mesh.faces[quads_.face].ref;
+    const double lower = work_.layer_curves->lower_half(pile.front().layers);
+    const PileSides sides(pile);
+    std::vector<ColumnPlace> left, right;
+    for (const std::int32_t v : sides.left) left.push_back(place(v));
+    for (const std::int32_t v : sides.right) right.push_back(place(v));
+    const auto with_halves = [&](const std::vector<std::int32_t>& side, const std::vector<ColumnPlace>& places) {
+      std::vector<std::int32_t> column{side[0]};
+      for (std::size_t k = 1; k < side.size(); ++k) {
+        const Vec2 inside = dividing_place(work_.cad(), ref, places[k - 1], places[k], lower).uv;
+        column.push_back(shared_middle(side[k - 1], side[k], inside)), column.push_back(side[k]);
+      }
+      return column;
+    };
+    const std::int32_t low = sides.left[0] == sides.right[0]
+                                 ? sides.left[0]
+                                 : shared_middle(sides.left[0], sides.right[0], 0.5 * (left[0].uv + right[0].uv));
+    const std::vector<ColumnPlace> above = middle_column(work_.cad(), ref, place(low), left, right, work_.layer_curves->heights(pile.front().layers, infinity));
+    std::vector<std::int32_t> middle{low};
+    for (std::size_t k = 1; k < above.size(); ++k) {
+      middle.push_back(add(dividing_place(work_.cad(), ref, above[k - 1], above[k], lower).uv, -1, 1));
+      middle.push_back(shared_middle(sides.left[k], sides.right[k], above[k].uv));
+    }
+    const std::array<std::vector<std::int32_t>, 3> columns{with_halves(sides.left, left), middle, with_halves(sides.right, right)};
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t k = 0; k + 1 < middle.size(); ++k) {
+        const std::vector<std::int32_t>&a = columns[side], &b = columns[side + 1];
+        if (a[k] == b[k]) continue;
+        halves.push_back({.corners = {a[k], b[k], b[k + 1], a[k + 1]},
+                          .layers = pile.front().layers,
+                          .row = 2 * pile.front().row + static_cast<std::int32_t>(k)});
+      }
+    // One quadrilateral takes both lowest triangles of a fan.
+    if (sides.left[0] == sides.right[0]) tips_.push_back({low, columns[2][1], middle[1], columns[0][1]});
+  }
+
   // Makes rows of edges by their lower ends; each row has each of its edges once.
   void number_edges() {
     first_.assign(quads_.patch.uv.size() + 1, 0);
@@ -165,6 +257,7 @@ class Halving {
   std::vector<std::int32_t> first_;           // by vertex: of its row
   std::vector<std::int32_t> other_, middle_;  // by edge: its upper end, and the vertex in its middle
   std::map<Key, std::int32_t> joined_;
+  std::vector<MixedCell> tips_;  // of fans
 };
 
 }  // namespace
@@ -173,8 +266,9 @@ Middles halve_curves(const ElementWork& work, const std::vector<FaceQuads>& face
   SurfaceMesh& mesh = work.result.mesh;
   Middles middles(mesh.curves.size());
   std::vector<char> halved(mesh.curves.size(), 0);
+  const RowShares shares = row_shares(work, faces);
   for (std::size_t c = 0; c < mesh.curves.size(); ++c)
-    if (mesh.curves[c].vertices.size() >= 2) halved[c] = halve(work, c) ? 1 : 0;
+    if (mesh.curves[c].vertices.size() >= 2) halved[c] = halve(work, c, shares) ? 1 : 0;
   if (work.periodic != nullptr) carry_vertices(*work.periodic, work.model, work.curves);
   for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
     if (mesh.curves[c].vertices.size() < 2) continue;

@@ -26,14 +26,14 @@ void halve(std::vector<double>& sizes) {
 
 class Quadrilaterals {
  public:
-  Quadrilaterals(const ElementWork& work, std::vector<std::vector<LayerCell>>* layers) : work_(work), layers_(layers) {}
+  explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
 
   QuadraticReport run() {
     for (std::size_t f = 0; f < work_.result.mesh.faces.size(); ++f)
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       quads = face_quads(work_, quads.face);
-      if (has_layers(quads)) set_rows_apart(quads, (*layers_)[quads.face]);
+      if (work_.has_layers(quads.face)) set_rows_apart(quads, (*work_.layers)[quads.face]);
       if (is_slave(quads)) return;
       pair(quads, monitor);
     });
@@ -61,17 +61,14 @@ class Quadrilaterals {
     report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
     put_back(faces_, work_.result);
     for (const FaceQuads& quads : faces_)
-      if (has_layers(quads))
-        for (LayerCell& cell : (*layers_)[quads.face])
+      if (work_.has_layers(quads.face))
+        for (LayerCell& cell : (*work_.layers)[quads.face])
           for (std::int32_t& v : cell.corners) v = v < 0 ? v : quads.now[static_cast<std::size_t>(v)];
     for (const SlaveQuads& quads : slaves_) carry_back(quads, work_.result.mesh);
     return report;
   }
 
  private:
-  [[nodiscard]] bool has_layers(const FaceQuads& quads) const {
-    return layers_ != nullptr && quads.face < layers_->size() && !(*layers_)[quads.face].empty();
-  }
   [[nodiscard]] bool is_slave(const FaceQuads& quads) const {
     return work_.periodic != nullptr && work_.periodic->pair_of_slave[quads.face] >= 0;
   }
@@ -150,7 +147,9 @@ class Quadrilaterals {
   // Requests the present lengths, which are half of the lengths before the cut.
   static void report_turned(const FaceQuads& quads, QuadraticReport& report) {
     InvalidElements invalid{quads.face, 0, {}};
-    for (const MixedCell& c : quads.patch.cells) {
+    std::vector<MixedCell> all = quads.patch.cells;
+    all.insert(all.end(), quads.rows.begin(), quads.rows.end());
+    for (const MixedCell& c : all) {
       if (!is_turned(quads, c)) continue;
       if (++invalid.count == 1)
         invalid.uv = 0.25 * (quads.patch.uv[c[0]] + quads.patch.uv[c[1]] + quads.patch.uv[c[2]] + quads.patch.uv[c[3]]);
@@ -165,7 +164,6 @@ class Quadrilaterals {
   }
 
   const ElementWork& work_;
-  std::vector<std::vector<LayerCell>>* layers_;
   std::vector<FaceQuads> faces_;
   std::vector<SlaveQuads> slaves_;
 };
@@ -179,8 +177,8 @@ void halve_sizes(CompositeResult& result, std::vector<DiscreteCurve>& curves) {
     if (space) space->scale_lengths(2);
 }
 
-QuadraticReport make_quadrilaterals(const ElementWork& work, std::vector<std::vector<LayerCell>>* layers) {
-  return Quadrilaterals(work, layers).run();
+QuadraticReport make_quadrilaterals(const ElementWork& work) {
+  return Quadrilaterals(work).run();
 }
 
 }  // namespace carreau

@@ -2,7 +2,6 @@
 // Quadrilaterals made of the triangles of a whole mesh (RT-0232 sec. 7, HDR sec. 3.3.4).
 #pragma once
 
-#include "mesh/layer_cell.h"
 #include "surface/elements/second_order/quadratic.h"
 #include "surface/elements/base/work.h"
 
@@ -15,8 +14,7 @@ namespace carreau {
 /// surface. Keeps vertex_size and curve_size up to date. The same for any number of threads. Throws the exceptions of
 /// the host, and Cancelled. Returns the elements that are still turned over, in (u, v) or in space. Adds the edges of
 /// curves in the result and the lengths there that are too coarse. Without has_quads_only() the report is empty.
-/// `layers`, by face: cells that stay, and get their new numbers; null: none.
-QuadraticReport make_quadrilaterals(const ElementWork& work, std::vector<std::vector<LayerCell>>* layers = nullptr);
+QuadraticReport make_quadrilaterals(const ElementWork& work);
 
 /// Halves the sizes of faces, of their insides and of curves, for a mesh that was made with twice the prescribed sizes. Sizes of vertices
 /// and curve_size stay.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "surface/carry/carry_faces.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/thresholds.h"
+#include "surface/layers/middle_columns.h"
 
 namespace carreau {
 
@@ -122,6 +124,7 @@ class FaceNodes {
     number_sides();
     place_in_plane();
     place_on_curves();
+    place_in_rows();
     join_at_poles();
     place_inside();
   }
@@ -135,6 +138,10 @@ class FaceNodes {
       for (const std::int32_t v : t) fixed[v] = 1;
     for (std::size_t v = 0; v < fixed.size(); ++v)
       if (work_.result.mesh.vertex_ref[face_.vertex[v]] != 0 || uses[face_.vertex[v]] > 1) fixed[v] = 1;
+    if (work_.has_layers(f_))
+      for (const LayerCell& cell : (*work_.layers)[f_])
+        for (const std::int32_t v : cell.corners)
+          if (v >= 0) fixed[v] = 1;
     return fixed;
   }
 
@@ -213,6 +220,57 @@ class FaceNodes {
       fixed_[e] = 1;
       face_.mid_vertex[e] = of_curves_.node_of(in_space(e));
       if (const std::optional<Vec2> uv = of_curves_.uv(side)) face_.mid_uv[e] = *uv;
+    }
+  }
+
+  [[nodiscard]] std::optional<std::size_t> edge_between(std::int32_t a, std::int32_t b) const {
+    const Key key = ordered(a, b);
+    const auto found = std::lower_bound(edges_.begin(), edges_.end(), key);
+    if (found == edges_.end() || *found != key) return {};
+    return static_cast<std::size_t>(found - edges_.begin());
+  }
+
+  // Nodes of rows lie above the node of the curve, and nodes of diagonals halfway between two of them.
+  void place_in_rows() {
+    if (!work_.has_layers(f_)) return;
+    const std::span<const LayerCell> cells((*work_.layers)[f_]);
+    std::vector<Key> above;  // a vertex, and the vertex above it
+    for (const LayerCell& cell : cells) {
+      above.push_back({cell.corners[0], cell.corners[cell.is_triangle() ? 2 : 3]});
+      above.push_back({cell.corners[cell.is_triangle() ? 0 : 1], cell.corners[cell.is_triangle() ? 1 : 2]});
+    }
+    std::sort(above.begin(), above.end());
+    above.erase(std::unique(above.begin(), above.end()), above.end());
+    // Where the next column is higher, an edge rises over a bent edge by one row. It bends like the edge.
+    const auto bend_step = [&](std::int32_t a, std::int32_t b, const Vec2& middle) {
+      for (const auto& [low, high] : {Key{a, b}, Key{b, a}})
+        for (auto up = std::lower_bound(above.begin(), above.end(), Key{high, 0}); up != above.end() && (*up)[0] == high; ++up)
+          if (const auto edge = edge_between(low, (*up)[1]); edge && fixed_[*edge] == 0)
+            face_.mid_uv[*edge] = middle + 0.5 * (face_.uv[(*up)[1]] - face_.uv[high]);
+    };
+    for (const CurveSide& side : sides_)
+      if (const auto edge = edge_between(side.a, side.b)) bend_step(side.a, side.b, face_.mid_uv[*edge]);
+    const auto place = [&](std::int32_t v) { return ColumnPlace{face_.uv[v], work_.result.mesh.vertices[face_.vertex[v]]}; };
+    for (const auto& [first, end] : piles_of(cells)) {
+      const PileSides sides(cells.subspan(first, end - first));
+      ColumnPlace base = place(sides.left.front());
+      if (sides.left.front() != sides.right.front()) {
+        const std::optional<std::size_t> edge = edge_between(sides.left.front(), sides.right.front());
+        if (!edge || face_.mid_vertex[*edge] < 0) continue;
+        base = {face_.mid_uv[*edge], work_.result.mesh.mid_vertices[face_.mid_vertex[*edge]]};
+      }
+      std::vector<ColumnPlace> left, right;
+      for (const std::int32_t v : sides.left) left.push_back(place(v));
+      for (const std::int32_t v : sides.right) right.push_back(place(v));
+      const std::vector<ColumnPlace> column = middle_column(work_.cad(), face_.ref, base, left, right);
+      for (std::size_t k = 1; k < column.size(); ++k) {
+        if (const auto edge = edge_between(sides.left[k], sides.right[k])) face_.mid_uv[*edge] = column[k].uv;
+        const Vec2 centre = 0.5 * (column[k - 1].uv + column[k].uv);
+        if (sides.left[k - 1] == sides.right[k - 1]) continue;
+        for (const auto& [a, b] : {std::pair{sides.left[k - 1], sides.right[k]}, std::pair{sides.right[k - 1], sides.left[k]}})
+          if (const auto edge = edge_between(a, b)) face_.mid_uv[*edge] = centre;
+      }
+      bend_step(sides.left.back(), sides.right.back(), column.back().uv);
     }
   }
 

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
 
+#include "mesh/elements/jacobian.h"
 #include "session_of_size.h"
 #include "support/error.h"
 
@@ -262,6 +264,73 @@ TEST(LayerRows, QuadrilateralsComeInRows) {
   EXPECT_GE(rows, 8 * 20);
 }
 
+/// The smallest Jacobian of an element over its mean; straight elements have 1, or less with four corners.
+double least_jacobian(const SurfaceMesh& mesh) {
+  double least = 1;
+  for (const FaceMesh& face : mesh.faces)
+    for (const Cell& cell : cells_of(mesh, face)) {
+      std::vector<Vec3> nodes;
+      for (int k = 0; k < node_count(cell.kind); ++k) {
+        const auto v = static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(k)]);
+        nodes.push_back(v < mesh.vertices.size() ? mesh.vertices[v] : mesh.mid_vertices[v - mesh.vertices.size()]);
+      }
+      least = std::min(least, jacobian(cell.kind, nodes).least());
+    }
+  return least;
+}
+
+class EachElement : public ::testing::TestWithParam<const char*> {};
+
+/// Sixteen edges on the circle lie up to 0.0096 from it: their middles would lie behind five rows.
+TEST_P(EachElement, HasItsRowsAtTheHeights) {
+  std::vector<AnalyticCurve> curves = rectangle({-2, -2}, {2, 2});
+  curves.push_back(arc({0, 0}, 0.5, 0, pi));
+  curves.push_back(arc({0, 0}, 0.5, pi, 2 * pi));
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.001, .ratio = 1.2, .count = 10};
+  const Layered run(plane_of(curves), 0.2, {layers}, GetParam());
+  const SurfaceMesh& mesh = run.session->mesh();
+  EXPECT_EQ(run.figures[0].rows, 10);
+  EXPECT_EQ(run.figures[0].fewest_rows, 10);
+  expect_as_given(run.figures[0], layers);
+  EXPECT_GT(least_jacobian(mesh), 0);
+  // Nodes near the circle lie on rows or halfway between two.
+  const double second = 0.001 + 0.0012;
+  for (const std::vector<Vec3>& nodes : {mesh.vertices, mesh.mid_vertices})
+    for (const Vec3& p : nodes) {
+      const double d = norm(p) - 0.5;
+      if (!(d < 1.02 * second)) continue;
+      double nearest = 1;
+      for (const double at : {0., 0.0005, 0.001, 0.0016, second}) nearest = std::min(nearest, std::abs(d - at));
+      EXPECT_LT(nearest, 0.05 * 0.001) << d;
+    }
+}
+
+TEST_P(EachElement, FillsCornersAndSides) {
+  const AnalyticCad ell = plane_of(polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}));
+  const CurveLayers layers{.curves = {1, 3, 4, 6}, .first = 0.005, .ratio = 1.2, .count = 12};
+  const Layered run(ell, 0.1, {layers}, GetParam());
+  EXPECT_EQ(run.figures[0].rows, 12);
+  EXPECT_GE(run.figures[0].fewest_rows, 11);
+  expect_as_given(run.figures[0], layers);
+  EXPECT_GT(least_jacobian(run.session->mesh()), 0);
+}
+
+/// Columns of elements that are cut stand by chords of twice the length, which differ at the leading edge.
+TEST_P(EachElement, GrowsOnAWingRoot) {
+  const bool cut = std::string(GetParam()).ends_with(".1");
+  const CurveLayers layers{.curves = {5, 6}, .first = 0.001, .ratio = 1.25, .count = 12};
+  const Layered run(wing(cylinder, {-0.8, -1}, {0.8, 2}, {0, 0}, {0.2, 1}), 0.03, {layers}, GetParam());
+  EXPECT_EQ(run.figures[0].fewest_rows, 12);
+  expect_as_given(run.figures[0], layers, cut ? 0.06 : 0.05);
+  EXPECT_GT(least_jacobian(run.session->mesh()), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(LayerRows, EachElement, ::testing::Values("p2", "q1.0", "q1.1", "q2.0", "q2.1"), [](const auto& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+});
+
 TEST(LayerRows, TheMeshDoesNotDependOnThreads) {
   const CurveLayers layers{.curves = {5, 6}, .first = 0.002, .ratio = 1.2, .count = 10};
   const AnalyticCad cad = wing(flat, {-1.5, -1.5}, {2.5, 1.5}, {0, 0}, {1, 1});
@@ -278,9 +347,6 @@ TEST(LayerRows, UnusableLayersAreRejected) {
   EXPECT_THROW(session->add_layers({.curves = {1}, .first = 0.1, .ratio = 0.5}), InvalidArgument);
   EXPECT_THROW(session->add_layers({.curves = {1}, .first = 0.1, .ratio = 1.2, .count = 0}), InvalidArgument);
   session->add_layers({.curves = {1}, .first = 0.01});
-  session->parameters().set("element", "q1.1");
-  EXPECT_THROW(session->make_mesh(), InvalidArgument);
-  session->parameters().set("element", "p1");
   session->add_layers({.curves = {1}, .first = 0.02});
   EXPECT_THROW(session->make_mesh(), InvalidArgument);
   session->clear_layers();
