@@ -67,33 +67,20 @@ isotrope
 A 6 G 6 B 2 F 2 D 1 S 1
 ;
 """
-# A run of BL2D-V2 that is public (github.com/sashi1994/BL2D_Isotropic, piece.0.0.data, .0.0.h and .0.1.mc): a beam, the sizes at the
-# vertices of the boundary of mesh 0, and the abscissae of the vertices of mesh 1 on some of its sides.
+# A beam; its next sizes grow along side 1, and fall along side 3, as exponentials.
 BEAM = """9 -- points
 9 -- segments
 1 -- subdomains
-A -90 -15  B 90 -15  C 90 15  D -90 15  E -60 -15  F 60 -15  G 30 15  H -30 15
+A 0 0  B 120 0  C 120 20  D 0 20
 ;
 ;
-AE NULL A E NULL ; EF NULL E F NULL ; FB NULL F B NULL ; BC NULL B C NULL ;
-CG NULL C G NULL ; GH NULL G H NULL ; HD NULL H D NULL ; DA NULL D A NULL ;
+AB NULL A B NULL ; BC NULL B C NULL ; CD NULL C D NULL ; DA NULL D A NULL ;
 ;
-E 20  F 30  G 40  H 50 ;
-AE 1  EF 2  FB 3  BC 4  CG 5  GH 6  HD 7  DA 8 ;
-AE +1 200 ;
-isotrope A 15 B 15 C 15 D 15 E 15 F 15 G 15 H 15 ;
+A 20 ;
+AB 1  BC 2  CD 3  DA 4 ;
+AB +1 200 ;
+isotrope A 15 B 10 C 15 D 10 ;
 """
-BEAM_SIZES = {
-    -15: {-90: 235.2011, -75: 17.5899, -60: 4.6414, -45: 3.4918, -30: 2.854, -15: 2.854, 0: 2.9886, 15: 2.8657, 30: 2.8657, 45: 3.4722,
-          60: 4.6288, 75: 17.3849, 90: 260.3875},
-    15: {-90: 236.4899, -75: 20.1225, -60: 7.68, -45: 3.3206, -30: 3.1791, -15: 3.0905, 0: 3.0376, 15: 3.0376, 30: 3.1598, 45: 3.3417,
-         60: 7.7498, 75: 19.8531, 90: 262.4493},
-    0: {-90: 105.248, 90: 115.0043}}
-BEAM_SIDES = {1: [21.937510915678288], 3: [8.0677200301571865],
-              5: [22.801621824193809, 32.424763873806391, 38.634073421092467, 43.233311078140936, 46.765309580465278, 50.135705687998723,
-                  53.464613369291413, 56.752543332716144],
-              7: [3.2683203658483944, 6.5683371530940304, 9.9003577560607674, 13.264692550206281, 16.784039650259182, 21.358261766421442,
-                  27.516434811794426, 37.063560319809660]}
 
 ENV = "base piece\ngeom 0\nadapt {}\nelement p1\nfile_h {}\n"
 
@@ -350,26 +337,25 @@ class Plane(unittest.TestCase):
         area = sum(mesh.areas().values())
         self.assertAlmostEqual(len(mesh.triangles) / (area * 4 / math.sqrt(3) * math.sqrt(0.04)), 1, delta=0.15)
 
-    def test_bl2d_cuts_the_boundary_of_a_run_of_bl2d(self):
+    def test_bl2d_cuts_the_boundary_by_the_sizes_of_the_mesh_before(self):
         self.write("piece.0.0.data", BEAM)
         self.write("bl2d.env", ENV.format(0, 0))
         self.bl2d()
         before = Mesh(self.path("piece.0.0.bl2d"))
-        self.assertEqual(len(before.edges), 28)
-        sizes = "".join(f"{BEAM_SIZES.get(round(y), {}).get(round(x), 5)}\n" for x, y, _ in before.vertices)
+        below, above = math.log(1.25) / 15, math.log(1.15) / 30
+        sizes = "".join(f"{2 * math.exp(below * x) if y < 1 else 3 * math.exp(above * (120 - x))!r}\n" for x, y, _ in before.vertices)
         self.write("piece.0.0.h", f"{len(before.vertices)} 1\n{sizes}")
         self.write("bl2d.env", ENV.format(1, 0))
         self.bl2d()
         after = Mesh(self.path("piece.0.1.bl2d"))
-        self.assertEqual(len(after.edges), 81)
-        counts = {side: sum(ref == side for _, _, ref in after.edges) for side in range(1, 9)}
-        self.assertEqual(counts, {1: 2, 2: 38, 3: 2, 4: 1, 5: 9, 6: 19, 7: 9, 8: 1})
-        starts = {1: (-90, -15), 3: (60, -15), 5: (90, 15), 7: (-30, 15)}
-        for side, expected in BEAM_SIDES.items():
+        for side, corner, first, growth in ((1, (0, 0), 2, below), (3, (120, 20), 3, above)):
+            length = (1 - math.exp(-growth * 120)) / (first * growth)  # of the side, in sizes
+            n = round(length)
             ends = {v for a, b, ref in after.edges if ref == side for v in (a, b)}
-            found = sorted(math.dist(after.vertices[v][:2], starts[side]) for v in ends)[1:-1]
-            for s, t in zip(found, expected, strict=True):
-                self.assertAlmostEqual(s, t, delta=1e-9 * 180)
+            found = sorted(math.dist(after.vertices[v][:2], corner) for v in ends)
+            self.assertEqual(len(found), n + 1)
+            for k, s in enumerate(found[1:-1], 1):
+                self.assertAlmostEqual(s, -math.log(1 - k * length / n * growth * first) / growth, delta=5e-4 * 120)
 
     def test_bl2d_reports_mistakes(self):
         self.write("bl2d.env", ENV.format(0, 0))
