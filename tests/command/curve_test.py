@@ -21,7 +21,7 @@ def inverse_mean(law, h, k):
 
 
 def fortran(x):
-    """As BL2D writes numbers on the system of its public runs: 1.5e+001."""
+    """A number with three digits in its exponent: 1.5e+001."""
     mantissa, exponent = f"{x:.17e}".split("e")
     return f"{mantissa}e{exponent[0]}{int(exponent[1:]):03d}"
 
@@ -134,7 +134,7 @@ class Curve(unittest.TestCase):
         self.assertEqual(self.run_curve(points, "--through", "straight").stderr, "")
 
     def test_files_of_bl2d(self):
-        # The beam of a public run: SMOOTH of eight straight curves with a middle each, in the layout of its files.
+        # A beam: SMOOTH of eight straight curves with a middle each, in the layout of its files.
         corners = [(-90, -15), (-60, -15), (60, -15), (90, -15), (90, 15), (30, 15), (-30, 15), (-90, 15)]
         pairs = list(zip(corners, corners[1:] + corners[:1]))
         middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in pairs]
@@ -145,7 +145,7 @@ class Curve(unittest.TestCase):
             text += f"3\n{i + 1} {fortran(0)}\n{i + 9} {fortran(length / 2)}\n{(i + 1) % 8 + 1} {fortran(length)}\n"
         self.write("piece.0.0.smo", text + "\n8 tgvectors\n" + "1.0e+000 0.0e+000 1.0e+000 0.0e+000\n" * 8)
         rows = self.curves("piece.0.0.smo", "--size", "15", "-o", "piece.0.0.mc", "-o", "edges.mesh")
-        self.assertEqual([row["edges"] for row in rows], [2, 8, 2, 2, 4, 4, 4, 2])  # as piece.0.0.mc of that run: 28
+        self.assertEqual([row["edges"] for row in rows], [2, 8, 2, 2, 4, 4, 4, 2])  # lengths over 15: 28
         again = self.curves("piece.0.0.mc", "--sizes", self.write("piece.0.0.hc", "28 1\n" + "15\n" * 28))
         self.assertEqual([(row["reference"], row["edges"]) for row in again], [(i + 1, row["edges"]) for i, row in enumerate(rows)])
         # MS: two subdomains in a frame whose corners come last.
