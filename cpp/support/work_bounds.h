@@ -5,7 +5,7 @@
 namespace carreau::work_bounds {
 
 /// Rounds over a mesh or a face, each of which changes what the round before has left. [MeshPlane, FreeElementsAtCurves.AreValidWhereEdgesTurn,
-/// Staggering.StripsAreOfIsoscelesTriangles, SampledNormals; worst of algebraic sizes .81 with 6 and 12 rounds at bad triangles, .68 with 3]
+/// Staggering.StripsAreOfIsoscelesTriangles, SampledNormals]
 inline constexpr int rounds = 8;
 /// Passes over the places of a mesh that are still wrong: most end after a few. [UnevenParameters.NeighboursAndImposed,
 /// SelfOverlap.ElementsThatHaveMetGo, ProjectedMeshes, CarriedMesh.RenumberedFacesAreFound]

@@ -6,7 +6,6 @@
 #include "mesh/shape_levels.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/mending.h"
-#include "support/work_bounds.h"
 #include "support/work_sizes.h"
 
 namespace carreau::plane {
@@ -49,7 +48,7 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled)
   std::int64_t checked = 0;
   Mending mending{work};
   if (!open.empty()) mending.failed_moves.clear(), mending.failed_points.clear();
-  for (int pass = 0; pass < work_bounds::rounds && !open.empty() && mending.shapes_asked <= budget; ++pass) {
+  for (int pass = 0; pass < mending_passes && !open.empty() && mending.shapes_asked <= budget; ++pass) {
     looked_at.insert(looked_at.end(), open.begin(), open.end());
     mending.changed.clear(), mending.nudged.clear();
     for (const std::int32_t t : open) {

@@ -9,7 +9,6 @@
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/inner_edges.h"
 #include "support/rounding_of.h"
-#include "support/work_bounds.h"
 #include "support/work_sizes.h"
 
 namespace carreau::plane {
@@ -125,7 +124,7 @@ Settled swap_to_delaunay(PlaneWork& work) {
   // A bounded number of passes: in a metric that varies swaps can run in circles. Then both triangles of each
   // swap come back, and the list doubles with each pass.
   const std::size_t most = 2 * mesh.triangles.size();
-  for (int pass = 0; pass < work_bounds::passes && !changed.empty() && changed.size() <= most; ++pass) {
+  for (int pass = 0; pass < delaunay_passes && !changed.empty() && changed.size() <= most; ++pass) {
     work.monitor.checkpoint();
     next.clear();
     for (const std::int32_t t : changed)
