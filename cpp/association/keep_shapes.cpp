@@ -148,7 +148,7 @@ void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
   const FaceMesh& face = mesh_.faces[f];
   const double poor = isotropic_ ? poor_shape : 0;
   repair(f, triangles_below(face, [&](std::size_t) { return poor; }), false);
-  if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::min<double>(before[t], kept_shape) - shape_loss; }), true);
+  if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], kept_shape) - shape_loss, 0.0); }), true);
 }
 
 void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, bool moves) {

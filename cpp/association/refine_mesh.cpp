@@ -51,8 +51,8 @@ class Refiner {
       marks_->mark_all();
       refine(sizes, false);
     }
-    report_losses(mesh_, before, "refinement", monitor_);
     if (quadratic_) make_nodes();
+    report_losses(mesh_, before, "refinement", monitor_);
     result_.curve_parameters = parameters_of_curves(model_, curves_);
     for (std::size_t c = 0; c < curves_.size(); ++c) result_.gaps[c] = {curves_[c].gap, curves_[c].gap_use};
   }
