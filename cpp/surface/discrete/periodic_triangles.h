@@ -26,7 +26,7 @@ struct PeriodicTriangles {
   double gap = 0;                   ///< model length: images may miss by it
 
   [[nodiscard]] bool empty() const noexcept { return lines.empty(); }
-  /// By line: the line that is divided for it, or -1.
+  /// Returns, by line, the line that is divided for it, or -1.
   [[nodiscard]] std::vector<std::int32_t> twins(std::size_t n) const;
 };
 

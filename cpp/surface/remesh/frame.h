@@ -46,7 +46,7 @@ struct RemeshingFrame {
   /// Makes the whole mesh, for remesh_from_planes(); returns nothing if it cannot.
   std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   std::vector<char> kept = {};  ///< by triangle of the atlas: `made` takes it as it is; empty: none
-  /// By line, or empty: the line, not behind it, that is divided for it; -1: none. Such lines keep their first division in planes.
+  /// Index: line. The line, not behind it, that is divided for it; -1: none. May be empty. Such lines keep their first division in planes.
   std::vector<std::int32_t> twin = {};
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
   RemeshingWorkers workers = {};

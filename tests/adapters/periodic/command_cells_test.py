@@ -135,6 +135,29 @@ class Cells(unittest.TestCase):
         glued = made.classes()
         self.assertEqual(2 * len(set(glued.values())), sum(len(cells) for cells in made.cells.values()))
 
+    def test_a_sixth_of_a_torus(self):
+        """Glued, its two closed borders make a torus: V - F / 2 = 0, V - E + F = 0."""
+        torus = "x = (2 + .7*cos(v))*cos(u); y = (2 + .7*cos(v))*sin(u); z = .7*sin(v)"
+        made = Mesh(self.mesh(torus, "--domain", f"box:0,0,{math.pi / 3!r},{2 * math.pi!r}", "--periodic", "rotate:0,0,0:0,0,1:60", size="0.15"))
+        self.assertLess(made.mismatch(), 2e-12)
+        self.assertEqual(self.euler_of(made), 0)
+        self.assertEqual(2 * len({made.classes()[n] for cells in made.cells.values() for cell in cells for n in cell}),
+                         sum(len(cells) for cells in made.cells.values()))
+
+    def test_other_elements_stay_in_patches(self):
+        """Only p1 crosses borders beside periodic faces: a warning reports it, and all pairs hold."""
+        for element in ("p2", "q1.0", "q1.1", "q2.0"):
+            with self.subTest(element):
+                path = self.path("cell.msh2")
+                done = run("mesh", os.path.join(CELLS, "annulus.step"), "-o", path, "--size", "0.2", "--cross-patch", "--element", element,
+                           "--periodic", "rotate:0,0,0:0,0,1:60")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("no cross-patch remeshing: faces are periodic", done.stderr)
+                made = Mesh(path)
+                self.assertEqual(len(made.faces()), 1)
+                self.assertLess(made.mismatch(), 2e-12)
+                self.assertEqual(run("check", path).returncode, 0)
+
     def test_an_edge_that_a_half_turn_reverses(self):
         """The half turn about the diagonal of a cube's side carries the edge on z onto itself, reversed, and x = 0 onto y = 0."""
         for options in ((), ("--face-size", "1=.07"), ("--size-map", ".05 + .2*z")):
@@ -207,8 +230,7 @@ class Cells(unittest.TestCase):
         self.assertIn("do not match", done.stderr)
         self.assertIn("apart at (", done.stderr)
         cube = self.mesh(os.path.join(CELLS, "cube.step"), name="cube.stl", size="0.3")
-        for options, words in ((("--element", "p2"), "needs the element p1"), (("--anisotropic", "--angle", "10"), "needs the element p1"),
-                               (("--periodic", "7=1"), "no such face with triangles")):
+        for options, words in ((("--element", "p2"), "needs the element p1"), (("--element", "q1.0"), "needs the element p1"), (("--periodic", "7=1"), "no face of reference 7")):
             done = run("mesh", cube, "-o", self.path("none.msh"), "--periodic", "x", *options)
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr)

@@ -120,7 +120,7 @@ class Mirror(unittest.TestCase):
 
     def test_other_geometries_must_give_halves(self):
         path = os.path.join(self.folder, "none.msh")
-        for formula, domain, words in (("z = x*x + y", "box:-1,-1,1,1", "lies across the plane, from -1 to 1"), ("z = x*x", "box:.5,-1,1,1", "lies on one side")):
+        for formula, domain, words in (("z = x*x + y", "box:-1,-1,1,1", "face 1 lies across the plane, from -1 to 1"), ("z = x*x", "box:.5,-1,1,1", "lies on one side")):
             done = run("mesh", formula, "--domain", domain, "-o", path, "--mirror", "x")
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
