@@ -484,13 +484,31 @@ class Sizes(Folder):
         self.assertAlmostEqual(c["quality"]["area"] / a["quality"]["area"], 2.25, places=9)
         self.refused(self.write("two.bpt", TWO_SQUARES), "-o", "d.vtu", "--carry-from", first, sentence="topologies differ")
         self.refused(first, "-o", "d.vtu", "--match", "name", sentence="--carry-from")
-        for element, kinds in (("p3", " 21 "), ("p4", " 23 "), ("q3", " 36 "), ("q4", " 37 ")):
-            self.run_mesh(first, "--size", "0.4", "--element", element, "--nodes", "gauss-lobatto", "-o", "x.msh", "-o", "x.mesh", "-q")
+        for element, kinds in (("p3", " 21 "), ("p4", " 23 "), ("q3", " 36 "), ("q4", " 37 "), ("q3.1", " 36 "), ("q4.1", " 37 ")):
+            self.run_mesh(first, "--size", "0.4", "--element", element, "--nodes", "gauss-lobatto", "-o", "x.msh", "-o", "x.msh2", "-o", "x.vtu",
+                          "-o", "x.mesh", "-q")
+            arc = [((1 - t) ** 3 + 3 * t * (1 - t) ** 2 + 3 * k * t * t * (1 - t), t ** 3 + 3 * t * t * (1 - t) + 3 * k * t * (1 - t) ** 2)
+                   for t in (i / 2000 for i in range(2001))]
+            area = 2 * sum(math.dist(p, q) for p, q in zip(arc, arc[1:]))
+            found = [figures(name)["elements"] for name in ("x.msh", "x.msh2", "x.vtu", "x.mesh")]
+            for each in found:
+                self.assertEqual((each["order"], each["invalid"]), (int(element[1]), 0))
+                self.assertAlmostEqual(each["area"], area, delta=2e-4)
+                self.assertAlmostEqual(each["area"], found[0]["area"], places=12)
+                self.assertAlmostEqual(each["least_jacobian_min"], found[0]["least_jacobian_min"], places=9)
+                self.assertGreater(each["least_jacobian_min"], 0)
+                if element.endswith(".1"):
+                    self.assertEqual(each["triangles6"], 0)
+            subprocess.run([PROGRAM, "picture", self.path("x.mesh"), "-o", self.path("x.png")], check=True, capture_output=True)
             with open(self.path("x.msh")) as file:
                 self.assertRegex(file.read(), rf"\n2 1{kinds}\d+\n")
             with open(self.path("x.mesh")) as file:
                 self.assertIn(f"L2_T1_2D_P{element[1]}", file.read())
-        self.refused(first, "-o", "x.stl", "--element", "p3", sentence=".msh, .vtu and .mesh (of MFEM) can")
+        self.run_mesh(first, "--size", "0.4", "--element", "q2.1", "--centre-nodes", "-o", "x.msh", "-q")
+        with open(self.path("x.msh")) as file:
+            self.assertRegex(file.read(), r"\n2 1 10 \d+\n")
+        self.refused(first, "-o", "x.msh", "--centre-nodes", sentence="--centre-nodes requires --element p2, q2.0 or q2.1")
+        self.refused(first, "-o", "x.stl", "--element", "p3", sentence=".msh, .msh2, .vtu and .mesh (of MFEM) can")
 
     def test_a_gradation_lets_sizes_grow_gently(self):
         sharp = self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02")
