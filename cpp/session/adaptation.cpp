@@ -99,7 +99,7 @@ class Loop {
                                          format_number(options_.estimator.tolerance));
   }
 
-  /// Of the session's mesh, whose values are values_.
+  /// Estimates the error on the session's mesh, whose values are values_.
   [[nodiscard]] double estimate_of(const FlatMesh& mesh, const InterpolationError& error, const FieldFunction& field, const Crew& crew) {
     const EstimatorOptions options = with_bounds(session_, options_.estimator);
     if (options.source == ErrorSource::hessian) return options.relative ? error.largest_share : error.largest;

@@ -18,6 +18,8 @@ module solver_m
     real(dp) :: yield = 150, hardening = 100
     real(dp) :: strain_to_failure = 1       !< plastic strain at which damage is 1 in pure shear
     real(dp) :: least_weight = 0.3_dp       !< of plastic strain under high pressure
+    real(dp) :: critical = 1                !< damage from which voids grow together
+    real(dp) :: coalescence = 1             !< factor on the growth of damage from there
     integer :: spread = 1                   !< rounds that spread the growth of damage over neighbours
     real(dp) :: friction = 0.2_dp
   end type material
@@ -238,6 +240,7 @@ contains
       if (mean > 0) weight = 1 + 3*(1 - 2*of%poisson)/(2*(1 + of%poisson)/3)*min(mean/max(q, 1._dp), 2._dp)**2
       if (mean < 0) weight = max(of%least_weight, 1 + mean/max(limit, 1._dp))
       growth = weight*more/of%strain_to_failure
+      if (damage > of%critical) growth = of%coalescence*growth
     end if
     if (mean > 0) mean = min(mean, 3*limit)
     s = dev

@@ -48,8 +48,8 @@ class Adaptation {
   carreau_status run(carreau_session* session, double diagonal);
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
 
-  /// The tolerance and the estimated error, as a line of the summary and as JSON. By a formula they are about the session's mesh, by
-  /// files about the last mesh. "" and null: there was no estimate.
+  /// The tolerance and the estimated error, as a line of the summary and as JSON: of the session's mesh for a formula, of the last mesh
+  /// for files. "" and null: there was no estimate.
   [[nodiscard]] std::string line(carreau_session* session) const;
   [[nodiscard]] nlohmann::ordered_json json(carreau_session* session) const;
 

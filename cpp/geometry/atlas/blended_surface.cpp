@@ -38,6 +38,7 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
     folds_.mended_charts = static_cast<std::size_t>(std::count(is_moved_.begin(), is_moved_.end(), true));
     fold = find_fold(*this);
     if (fold.empty()) return;
+    if (report.folded_after > 0) break;  // a finer grid sees more folds, not fewer
   }
   throw DomainError(fold);
 }
