@@ -686,8 +686,8 @@ CARREAU_API carreau_status carreau_clear_attractors(carreau_session* session);
 /* Lets rows of cells grow from curves into their faces in the next meshes: the first row is `first` high (model length),
  * each other row `ratio` (1 to 10) times as high as the row below. There are `count` rows, fewer where they would be
  * higher than the edges of the curve are long, or would meet other rows or boundaries. Corners beyond 240 degrees get a
- * fan of cells, corners below 60 degrees none. Halves of the cells are triangles of a mesh of p1, cells of a mesh of q1.0;
- * other elements are rejected. curves: curve_count references; the call copies them.
+ * fan of cells, corners below 60 degrees none. Curves inside a face have rows on both sides. Halves of the cells are triangles of
+ * p1 and p2; q1.1 and q2.1 make an even number of rows. curves: curve_count references; the call copies them.
  * Errors: ARGUMENT (no curve, numbers out of range), SEQUENCE. carreau_mesh_generate returns ARGUMENT for a reference that
  * no face has, and for a curve with two sets of layers. */
 CARREAU_API carreau_status carreau_add_layers(carreau_session* session, int64_t curve_count, const int32_t curves[],
@@ -701,7 +701,7 @@ CARREAU_API carreau_status carreau_clear_layers(carreau_session* session);
 typedef struct carreau_layers_report {
   size_t struct_size;
   int64_t cells;                              /* in all faces */
-  int32_t rows, fewest_rows;                  /* rows above an edge of a curve: largest and smallest number */
+  int32_t rows, fewest_rows;                  /* above an edge of a curve: largest and smallest number; 0: an edge has none */
   double first_min, first_mean, first_max;    /* heights of cells in the first row, model length */
   double growth_min, growth_mean, growth_max; /* 0 if there is one row */
 } carreau_layers_report;

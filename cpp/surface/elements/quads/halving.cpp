@@ -21,7 +21,7 @@ namespace {
 
 using Middles = std::vector<std::vector<std::int32_t>>;
 
-/// By edge of a curve that rows end at: the share of its length below the vertex in it.
+/// The share of length below the new vertex, for edges of curves that rows end at.
 using RowShares = std::map<std::array<std::int32_t, 2>, double>;
 
 RowShares row_shares(const ElementWork& work, const std::vector<FaceQuads>& faces) {

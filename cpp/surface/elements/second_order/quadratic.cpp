@@ -241,7 +241,7 @@ class FaceNodes {
     }
     std::sort(above.begin(), above.end());
     above.erase(std::unique(above.begin(), above.end()), above.end());
-    // Where the next column is higher, an edge rises over a bent edge by one row. It bends like the edge.
+    // If the next column is higher, an edge rises over a bent edge by one row. It bends like the edge.
     const auto bend_step = [&](std::int32_t a, std::int32_t b, const Vec2& middle) {
       for (const auto& [low, high] : {Key{a, b}, Key{b, a}})
         for (auto up = std::lower_bound(above.begin(), above.end(), Key{high, 0}); up != above.end() && (*up)[0] == high; ++up)
