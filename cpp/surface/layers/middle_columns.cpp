@@ -40,7 +40,20 @@ std::vector<ColumnPlace> middle_column(Cad& cad, int face, const ColumnPlace& ba
   const auto way = [](std::span<const ColumnPlace> side, std::size_t k) -> Vec3 { return side[k + 1].xyz - side[k].xyz; };
   const SurfaceJet foot = surface_at(cad, face, want_position | want_first, base.uv);
   const Vec3 normal = RowFace::unit(cross(foot.su, foot.sv));
-  const Vec3 up = RowFace::unit(RowFace::unit(way(left, 0)) + RowFace::unit(way(right, 0)));
+  // The base divides the edge, and its offset from the chord shrinks like the square of the edges' lengths.
+  const Vec3 whole = right[0].xyz - left[0].xyz;
+  const double length2 = dot(whole, whole), share = length2 > 0 ? std::clamp(dot(base.xyz - left[0].xyz, whole) / length2, 0.0, 1.0) : 0.5;
+  const Vec2 offset = base.uv - left[0].uv - share * (right[0].uv - left[0].uv);
+  if (heights.empty()) {
+    for (std::size_t k = 1; k < left.size(); ++k) {
+      const Vec3 edge = right[k].xyz - left[k].xyz;
+      const double shrunk = length2 > 0 ? std::min(dot(edge, edge) / length2, 1.0) : 0;
+      const Vec2 uv = left[k].uv + share * (right[k].uv - left[k].uv) + shrunk * offset;
+      column.push_back({uv, surface_at(cad, face, want_position, uv).s});
+    }
+    return column;
+  }
+  const Vec3 up = RowFace::unit((1 - share) * RowFace::unit(way(left, 0)) + share * RowFace::unit(way(right, 0)));
   const ColumnPlane plane{base.xyz, RowFace::unit(cross(normal, up))};
   // The step for a height of 1: chords turn at the base, and the column may lean.
   const Vec3 in = RowFace::unit(base.xyz - left[0].xyz), out = RowFace::unit(right[0].xyz - base.xyz), chord = in + out;
@@ -48,8 +61,8 @@ std::vector<ColumnPlace> middle_column(Cad& cad, int face, const ColumnPlace& ba
   const double stretch = 1 / std::clamp(cosine, 0.5, 1.0);
   const auto anywhere = [](const Vec2&) { return true; };
   for (std::size_t k = 0; k + 1 < left.size(); ++k) {
-    const double step = heights.empty() ? 0.5 * (norm(way(left, k)) + norm(way(right, k))) : stretch * heights[k];
-    const Vec2 mean = 0.5 * (left[k + 1].uv - left[k].uv + right[k + 1].uv - right[k].uv);
+    const double step = stretch * heights[k];
+    const Vec2 mean = (1 - share) * (left[k + 1].uv - left[k].uv) + share * (right[k + 1].uv - right[k].uv);
     Vec2 next = column.back().uv + mean;
     SurfaceJet jet;
     if (!find_step(cad, face, plane, column.back().xyz, step, anywhere, next, jet)) {

@@ -28,8 +28,8 @@ struct ColumnPlace {
 };
 
 /// The column that rises from `base` between two columns. The base comes first. Chords of a curve lie farther from the curve
-/// than rows are high, so middles of chords are no such column. Its steps are the means of theirs. If `heights` are given, the
-/// rows have these heights over the chords from the base to both columns instead.
+/// than rows are high, so middles of chords are no such column. Its vertices divide the edges as the base divides the lowest one.
+/// If `heights` are given, the rows have these heights over the chords from the base to both columns.
 std::vector<ColumnPlace> middle_column(Cad& cad, int face, const ColumnPlace& base, std::span<const ColumnPlace> left,
                                         std::span<const ColumnPlace> right, std::span<const double> heights = {});
 
