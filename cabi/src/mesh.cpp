@@ -201,6 +201,8 @@ carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* suffix, carre
       if (const std::int32_t returned = sink(std::int64_t(position), std::int64_t(bytes.size()), bytes.data(), user); returned != 0)
         throw carreau::CallbackError("the sink of the bytes of a file has returned " + std::to_string(returned));
     };
+    if (mesh->curved)
+      throw InvalidArgument("elements of order " + std::to_string(mesh->curved->order) + " are written by carreau_mesh_write alone");
     if (mesh->part) return carreau::write_part(*mesh->part, mesh->flat, format, give);
     const std::string bytes =
         mesh->session != nullptr ? mesh->session->session.encoded(format) : carreau::mesh_bytes(mesh->flat, format);
