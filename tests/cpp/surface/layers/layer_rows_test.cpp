@@ -325,6 +325,17 @@ TEST_P(EachElement, GrowsOnAWingRoot) {
   EXPECT_GT(least_jacobian(run.session->mesh()), 0);
 }
 
+/// Columns of both corners lean over wide arcs, whose edges have other lengths in the rows above. Elements that are cut begin
+/// with three chords on the arc, which leave room for two rows.
+TEST_P(EachElement, FillsTheCornersOfAHalfDisc) {
+  const bool cut = std::string(GetParam()).ends_with(".1");
+  const AnalyticCad half = plane_of({segment({-1, 0}, {1, 0}), arc({0, 0}, 1, 0, pi)});
+  const CurveLayers layers{.curves = {1, 2}, .first = 0.01, .ratio = 1.2, .count = 10};
+  const Layered run(half, 0.5, {layers}, GetParam());
+  EXPECT_GE(run.figures[0].rows, cut ? 2 : 8);
+  EXPECT_GT(least_jacobian(run.session->mesh()), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(LayerRows, EachElement, ::testing::Values("p2", "q1.0", "q1.1", "q2.0", "q2.1"), [](const auto& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '.', '_');
