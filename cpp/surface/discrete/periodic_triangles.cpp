@@ -22,6 +22,7 @@
 #include "support/error.h"
 #include "support/format.h"
 #include "support/infinity.h"
+#include "support/shares.h"
 
 namespace carreau {
 
@@ -52,7 +53,7 @@ class Finder {
       const std::vector<Vec3> trace = trace_of(static_cast<int>(c));
       for (std::size_t k = 1; k < trace.size(); ++k) result_.gap = std::min(result_.gap, max_share_of_edge * norm(trace[k] - trace[k - 1]));
     }
-    result_.gap = std::max(result_.gap, rounding_of_places * max_gap * diag);
+    result_.gap = std::max(result_.gap, shares::negligible * max_gap * diag);
     for (const Periodicity& each : model.periodicities) add_map(each);
     cut_at_images();
     for (std::size_t c = 0; c < mesh.curves.size(); ++c)
