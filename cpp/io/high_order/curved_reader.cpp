@@ -13,6 +13,7 @@
 #include "io/text.h"
 #include "io/words.h"
 #include "support/error.h"
+#include "support/format.h"
 
 namespace carreau {
 
