@@ -75,7 +75,7 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                 "Stretch triangles along flat directions; --anisotropic=RATIO, 1000 by default")
       ->check(CLI::Range(1.0, 1e9));
   app->add_option("--element", options.element,
-                  "p1 (default), p2 to p4 (curved), q1.0, q1.1 (quads; .1: no triangle), q2.0, q2.1, q3, q3.1, q4, q4.1")
+                  "p1 (default), p2 to p4 (curved), q1.0, q1.1 (quads; .1: no triangle) to q4, q4.1")
       ->check(CLI::IsMember({"p1", "p2", "p3", "p4", "q1.0", "q1.1", "q2.0", "q2.1", "q3", "q3.1", "q4", "q4.1"}))
       ->type_name("ELEMENT");
   CLI::Option* independent = app->add_flag("--cross-patch,--independent", options.independent,

@@ -7,7 +7,6 @@
 #include "geometry/atlas/fold_places.h"
 #include "geometry/atlas/mend_step.h"
 #include "geometry/atlas/thresholds.h"
-#include "support/rounding_of.h"
 #include "support/work_bounds.h"
 
 namespace carreau::atlas {
@@ -55,7 +54,7 @@ class FoldMender {
     Folds folds = look(all);
     report.folded_before = report.folded_after = folds.triples.size();
     std::vector<Primitive> best = primitives_;
-    for (int round = 0; round < work_bounds::passes && !folds.charts.empty(); ++round) {
+    for (int round = 0; round < work_bounds::rounds && !folds.charts.empty(); ++round) {
       activate(folds.charts);
       descend();
       folds = look(triples_of_active());
@@ -186,7 +185,7 @@ class FoldMender {
   /// Steps of Levenberg and Marquardt, until they gain little.
   void descend() {
     double damping = 1, now = energy();
-    for (int step = 0; step < rounding_of::max_steps; ++step) {
+    for (int step = 0; step < thresholds::mend_steps; ++step) {
       const std::vector<MendRow> pulling = rows();
       if (pulling.empty()) return;
       const double then = step_down(pulling, damping, now);

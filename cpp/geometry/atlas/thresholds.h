@@ -35,6 +35,8 @@ inline constexpr double loosening = 0.3, min_anchor = 1e-4;
 inline constexpr double giving_way = 0.1;
 /// Mean square of values per coefficient that the vertices of a chart do not determine.
 inline constexpr double undetermined = 1e-3;
+/// Steps of a round. Joint.off and spot need one round, the bunny three; the weight of distances is least after eight.
+inline constexpr int mend_steps = 30;
 /// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
 inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plane/kernel/boundary.h"
+#include "plane/kernel/thresholds.h"
 #include "plane/optimise/delaunay_swaps.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
@@ -42,11 +43,20 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation,
 
 namespace {
 
+// In the frame a long strip is fans of hundreds of triangles.
+bool has_fans(const Triangulation& mesh) {
+  std::vector<int> around(mesh.vertices.size(), 0);
+  for (const Triangle& T : mesh.triangles)
+    for (const std::int32_t v : T.v)
+      if (v >= 0 && ++around[v] > largest_fan) return true;
+  return false;
+}
+
 void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame, const PlaneMesherOptions& options) {
   Placement placement(work, options.max_triangles);
   placement.resting = options.resting;
-  // In the frame a long strip is fans of hundreds of triangles, and no later pass swaps edges of squares.
-  if (options.squares) swap_to_delaunay(work);
+  // No later pass swaps edges of squares.
+  if (options.squares && has_fans(work.mesh)) swap_to_delaunay(work);
   surround_degenerate_sides(placement, domain);
   work.fixed = static_cast<int>(work.mesh.vertices.size());
   if (options.squares) place_squares(placement);
