@@ -26,10 +26,10 @@ class RowMaker {
   std::optional<LayerRows> run() {
     chains_ = find_chains(face_);
     if (chains_.empty()) return {};
-    for (Chain& chain : chains_)
+    for (RowChain& chain : chains_)
       for (Column& column : chain.columns) raise(column);
     const RowObstacles obstacles(face_);
-    for (Chain& chain : chains_)
+    for (RowChain& chain : chains_)
       for (Column& column : chain.columns) obstacles.end(column);
     int highest = 0;
     for (;;) {
@@ -40,7 +40,7 @@ class RowMaker {
       if (!find_a_crossing(face_.rows.rest.plane)) break;
       highest = highest_level() * 3 / 4;
       if (highest == 0) return {};
-      for (Chain& chain : chains_)
+      for (RowChain& chain : chains_)
         for (Column& column : chain.columns) column.levels = std::min(column.levels, highest);
     }
     drop_unused_vertices();
@@ -82,14 +82,14 @@ class RowMaker {
 
   [[nodiscard]] int highest_level() const {
     int highest = 0;
-    for (const Chain& chain : chains_)
+    for (const RowChain& chain : chains_)
       for (const Column& column : chain.columns) highest = std::max(highest, column.levels);
     return highest;
   }
 
   // Neighbours differ by one row at most, and no cell is turned over.
   void settle_levels() {
-    for (Chain& chain : chains_) {
+    for (RowChain& chain : chains_) {
       std::vector<Column>& all = chain.columns;
       for (bool changed = true; changed;) {
         changed = false;
@@ -136,7 +136,7 @@ class RowMaker {
 
   void make_cells() {
     face_.rows.cells.clear();
-    for (const Chain& chain : chains_)
+    for (const RowChain& chain : chains_)
       for (std::size_t c = 0; c < chain.gaps(); ++c) {
         const Column &left = chain.columns[c], &right = chain.columns[chain.after(c)];
         for (int k = 0; k < std::min(left.levels, right.levels); ++k) face_.rows.cells.push_back(cell_of(left, right, k));
@@ -232,7 +232,7 @@ class RowMaker {
   }
 
   RowFace face_;
-  std::vector<Chain> chains_;
+  std::vector<RowChain> chains_;
   std::optional<PolygonLocator> inside_;
 };
 

@@ -26,7 +26,7 @@ class ChainFinder {
  public:
   explicit ChainFinder(const RowFace& face) : face_(face) {}
 
-  std::vector<Chain> run() {
+  std::vector<RowChain> run() {
     if (!find_half_edges()) return {};
     link();
     std::vector<char> seen(half_.size(), 0);
@@ -84,7 +84,7 @@ class ChainFinder {
   }
 
   void make_chain(const std::vector<int>& run, bool closed) {
-    Chain chain;
+    RowChain chain;
     chain.closed = closed && at(run.back()).next == run.front();
     const std::size_t n = run.size();
     if (!chain.closed) add_end(chain, run.front(), true);
@@ -130,7 +130,7 @@ class ChainFinder {
   }
 
   // Between two edges with layers.
-  void add_corner(Chain& chain, int before, int after) {
+  void add_corner(RowChain& chain, int before, int after) {
     Column column = column_at(at(after).a, after, 0.5 * (length(before) + length(after)));
     const Vec3 in = direction(before), out = direction(after);
     const Vec3 up_in = RowFace::unit(cross(column.normal, in)), up_out = RowFace::unit(cross(column.normal, out));
@@ -163,7 +163,7 @@ class ChainFinder {
   }
 
   // The first or last vertex, beside an edge without layers.
-  void add_end(Chain& chain, int h, bool first) const {
+  void add_end(RowChain& chain, int h, bool first) const {
     const int v = first ? at(h).a : at(h).b;
     Column column = column_at(v, h, length(h));
     column.along = direction(h);
@@ -202,7 +202,7 @@ class ChainFinder {
   }
 
   // Columns beside a corner lean as its column does, less and less.
-  void lean_at_corners(Chain& chain) const {
+  void lean_at_corners(RowChain& chain) const {
     std::vector<Column>& all = chain.columns;
     std::vector<double> lean(all.size(), 0);
     const auto spread = [&](std::size_t from, bool forward, double tangent) {
@@ -235,11 +235,11 @@ class ChainFinder {
 
   const RowFace& face_;
   std::vector<HalfEdge> half_;
-  std::vector<Chain> chains_;
+  std::vector<RowChain> chains_;
 };
 
 }  // namespace
 
-std::vector<Chain> find_chains(const RowFace& face) { return ChainFinder(face).run(); }
+std::vector<RowChain> find_chains(const RowFace& face) { return ChainFinder(face).run(); }
 
 }  // namespace carreau

@@ -73,7 +73,7 @@ struct Column {
 };
 
 /// Columns along a run of edges of curves with layers, in the direction of the boundary.
-struct Chain {
+struct RowChain {
   std::vector<Column> columns;
   bool closed = false;
   [[nodiscard]] std::size_t gaps() const { return closed ? columns.size() : columns.size() - 1; }
@@ -81,6 +81,6 @@ struct Chain {
 };
 
 /// Finds the chains of a face, without vertices over their bases. Columns at corners turn, lean or do not stand.
-std::vector<Chain> find_chains(const RowFace& face);
+std::vector<RowChain> find_chains(const RowFace& face);
 
 }  // namespace carreau
