@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The layers of cpp/ and of the command: no include runs upwards, and no folders include each other. CONTRIBUTING.md lists the rooms, each of which may use the rooms before it."""
+"""The layers of cpp/ and of the command: no include runs upwards, no folders include each other, and each type has a name of its own. CONTRIBUTING.md lists the rooms, each of which may use the rooms before it."""
 
 import pathlib
 import re
@@ -53,8 +53,28 @@ def folder_circles(tree):
             yield [f"{folder}/{part}" for part in group]
 
 
+def types_by_name(tree):
+    """Files that define each type of a namespace that has a name: two of one name are one type for the linker."""
+    found = {}
+    for file in sorted(tree.rglob("*")):
+        if file.suffix not in {".h", ".cpp"}:
+            continue
+        inside = []
+        for line in file.read_text().splitlines():
+            if opened := re.match(r"namespace\s*([\w:]*)\s*\{", line):
+                inside.append(opened.group(1))
+            elif inside and re.match(r"\}\s*// namespace", line):
+                inside.pop()
+            elif inside and "" not in inside and (defined := re.match(r"(?:struct|class|enum class)\s+(\w+)(?: final)?(?: :[^:].*)?\s*\{", line)):
+                found.setdefault("::".join([*inside, defined.group(1)]), set()).add(str(file.relative_to(tree)))
+    return found
+
+
 def complaints(root, name, rooms):
     tree = root / name
+    for defined, files in types_by_name(tree).items():
+        if len(files) > 1:
+            yield f"{name} defines {defined} more than once: " + ", ".join(sorted(files))
     for group in folder_circles(tree):
         yield f"folders of {name} include each other: " + ", ".join(group)
     for file in sorted(tree.rglob("*")):

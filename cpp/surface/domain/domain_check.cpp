@@ -54,7 +54,7 @@ std::vector<int> edges_to_split_for_balance(const PlaneDomain& domain, const Con
     size.push_back(length(metric.at(lerp(a, b, 0.5)), b - a));
   }
   std::vector<char> split(domain.edges.size(), 0);
-  const Incidence incidence(domain, Incidence::Which::all);
+  const DomainIncidence incidence(domain, DomainIncidence::Which::all);
   for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v) {
     const auto around = incidence.at(v);
     const auto kind_count = [&](const PlaneEdge& e) {

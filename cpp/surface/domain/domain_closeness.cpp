@@ -53,7 +53,7 @@ class Sides {
 
   const PlaneDomain& domain_;
   const ControlSpace& metric_;
-  Incidence incidence_;
+  DomainIncidence incidence_;
   std::vector<double> length_;
   std::vector<int> point_;  // representative of the vertices that are one point in space
   std::vector<Side> sides_;
@@ -65,7 +65,7 @@ class Sides {
 Sides::Sides(const PlaneDomain& domain, const ControlSpace& metric)
     : domain_(domain),
       metric_(metric),
-      incidence_(domain, Incidence::Which::all),
+      incidence_(domain, DomainIncidence::Which::all),
       point_(domain.vertices.size()),
       side_of_(domain.edges.size()),
       start_(domain.edges.size()),

@@ -93,7 +93,7 @@ class Sweep {
  public:
   explicit Sweep(const PlaneDomain& domain)
       : domain_(domain),
-        incidence_(domain, Incidence::Which::all),
+        incidence_(domain, DomainIncidence::Which::all),
         order_(Below{this}, &nodes_),
         place_(domain.edges.size()) {
     ends_.reserve(domain.edges.size());
@@ -174,7 +174,7 @@ class Sweep {
   }
 
   const PlaneDomain& domain_;
-  Incidence incidence_;
+  DomainIncidence incidence_;
   std::vector<std::pair<int, int>> ends_;  // of each edge, in the order of the sweep
   std::pmr::monotonic_buffer_resource nodes_;  // each edge comes once
   std::pmr::set<int, Below> order_;  // of the edges that meet the line, upwards

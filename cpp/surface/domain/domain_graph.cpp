@@ -34,7 +34,7 @@ std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain) {
   return edges;
 }
 
-Incidence::Incidence(const PlaneDomain& domain, Which which) {
+DomainIncidence::DomainIncidence(const PlaneDomain& domain, Which which) {
   const auto counts = [&](const PlaneEdge& e) { return which == Which::all || bounds(e); };
   first_.assign(domain.vertices.size() + 1, 0);
   for (const PlaneEdge& e : domain.edges)
@@ -52,7 +52,7 @@ namespace {
 
 class ChainFinder {
  public:
-  ChainFinder(const PlaneDomain& domain, const Incidence& incidence, const std::vector<char>& passes)
+  ChainFinder(const PlaneDomain& domain, const DomainIncidence& incidence, const std::vector<char>& passes)
       : domain_(domain), incidence_(incidence), passes_(passes), used_(domain.edges.size(), 0) {}
 
   std::vector<Chain> run() {
@@ -90,14 +90,14 @@ class ChainFinder {
   }
 
   const PlaneDomain& domain_;
-  const Incidence& incidence_;
+  const DomainIncidence& incidence_;
   const std::vector<char>& passes_;
   std::vector<char> used_;
 };
 
 }  // namespace
 
-std::vector<Chain> chains_of(const PlaneDomain& domain, const Incidence& incidence, const std::vector<char>& passes) {
+std::vector<Chain> chains_of(const PlaneDomain& domain, const DomainIncidence& incidence, const std::vector<char>& passes) {
   return ChainFinder(domain, incidence, passes).run();
 }
 

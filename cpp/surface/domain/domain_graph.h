@@ -23,10 +23,10 @@ inline bool bounds(const PlaneEdge& edge) noexcept { return edge.kind != PlaneEd
 std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain);
 
 /// The edges at each vertex, in increasing order.
-class Incidence {
+class DomainIncidence {
  public:
   enum class Which { all, bounding };
-  Incidence(const PlaneDomain& domain, Which which);
+  DomainIncidence(const PlaneDomain& domain, Which which);
   [[nodiscard]] std::span<const int> at(int vertex) const noexcept {
     return {edge_.data() + first_[vertex], edge_.data() + first_[vertex + 1]};
   }
@@ -44,6 +44,6 @@ struct Chain {
 
 /// Decomposes the edges of `incidence` into maximal paths through vertices at which exactly two edges meet and
 /// `passes(vertex)` holds. Deterministic: chains start at their lowest edge when closed, else at an end.
-std::vector<Chain> chains_of(const PlaneDomain& domain, const Incidence& incidence, const std::vector<char>& passes);
+std::vector<Chain> chains_of(const PlaneDomain& domain, const DomainIncidence& incidence, const std::vector<char>& passes);
 
 }  // namespace carreau

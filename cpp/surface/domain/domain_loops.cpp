@@ -52,11 +52,11 @@ class Boundary {
   std::vector<int> rank_;  // of each edge of the domain among the bounding ones
 };
 
-std::vector<Chain> boundary_chains(const PlaneDomain& domain, const Incidence& incidence) {
+std::vector<Chain> boundary_chains(const PlaneDomain& domain, const DomainIncidence& incidence) {
   return chains_of(domain, incidence, std::vector<char>(domain.vertices.size(), 1));
 }
 
-bool has_odd_vertex(const PlaneDomain& domain, const Incidence& boundary) {
+bool has_odd_vertex(const PlaneDomain& domain, const DomainIncidence& boundary) {
   for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v)
     if (boundary.at(v).size() % 2 != 0) return true;
   return false;
@@ -99,7 +99,7 @@ void report_edges_without_length(Report& report) {
   }
 }
 
-void report_odd_vertices(const Incidence& boundary, Report& report) {
+void report_odd_vertices(const DomainIncidence& boundary, Report& report) {
   for (int v = 0; v < static_cast<int>(report.domain.vertices.size()); ++v) {
     const auto around = boundary.at(v);
     if (around.size() % 2 == 0) continue;
@@ -152,7 +152,7 @@ void report_internal_edges(const Boundary& boundary, Report& report) {
 
 void report_points(const Boundary& boundary, Report& report) {
   const PlaneDomain& domain = report.domain;
-  const Incidence incidence(domain, Incidence::Which::all);
+  const DomainIncidence incidence(domain, DomainIncidence::Which::all);
   std::vector<int> alone;
   for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v)
     if (incidence.at(v).empty()) alone.push_back(v);
@@ -181,7 +181,7 @@ Sentences find_open_loops(const PlaneDomain& domain, const EdgeNamer& name) {
   if (!report.sentences.empty()) return report.sentences;
   report_edges_without_length(report);
   if (std::none_of(domain.edges.begin(), domain.edges.end(), bounds)) report.add("the domain has no boundary");
-  report_odd_vertices(Incidence(domain, Incidence::Which::bounding), report);
+  report_odd_vertices(DomainIncidence(domain, DomainIncidence::Which::bounding), report);
   return report.sentences;
 }
 
@@ -189,7 +189,7 @@ Sentences find_loop_defects(const PlaneDomain& domain, const EdgeNamer& name) {
   Report report{domain, name, find_open_loops(domain, name)};
   if (!report.sentences.empty()) return report.sentences;
   const Boundary boundary(domain);
-  const Incidence incidence(domain, Incidence::Which::bounding);
+  const DomainIncidence incidence(domain, DomainIncidence::Which::bounding);
   for (const Chain& chain : boundary_chains(domain, incidence)) report_chain(boundary, chain, report);
   report_internal_edges(boundary, report);
   report_points(boundary, report);
@@ -200,7 +200,7 @@ bool orient_loops(PlaneDomain& domain, int seed, bool left) {
   require_sound(domain);
   if (seed < 0 || seed >= static_cast<int>(domain.edges.size()) || !bounds(domain.edges[seed]))
     throw DomainError("the orientation is given by an edge that is not on the boundary");
-  const Incidence incidence(domain, Incidence::Which::bounding);
+  const DomainIncidence incidence(domain, DomainIncidence::Which::bounding);
   if (has_odd_vertex(domain, incidence)) return false;
   const Boundary boundary(domain);
   const double extent = extent_of(domain);
