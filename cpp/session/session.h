@@ -231,7 +231,7 @@ class Session {
   /// The refined mesh of the same model.
   void keep_refined(CompositeResult result, Monitor& measuring);
   FlatMesh exported_as(MeshFormat format);
-  /// `association` keeps what the options refer to.
+  /// `association` keeps the data that the options refer to.
   [[nodiscard]] MeshFileOptions file_options(MeshFormat format, MeshAssociation& association) const;
   [[nodiscard]] MeshAssociation associate_nodes() const;
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);

@@ -112,7 +112,8 @@ class Cells(unittest.TestCase):
 
     def mesh(self, source, *options, size="0.1", name="cell.msh2", command="mesh"):
         path = self.path(name)
-        done = run(command, source, "-o", path, "--size", size, *options)
+        sizes = ("--size", size) if size else ()
+        done = run(command, source, "-o", path, *sizes, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         return path
 
@@ -205,9 +206,9 @@ class Cells(unittest.TestCase):
     def test_spheres_of_triangles_in_the_corners_and_faces_of_a_cube(self):
         """Glued, the surface in the cell is four whole spheres; sizes are uniform or follow curvature."""
         stl = self.mesh(os.path.join(CELLS, "fcc.step"), *AXES, name="fcc.stl", size="0.04")
-        for options in ((), ("--angle", "12")):
+        for size, options in (("0.08", ()), (None, ("--max", ".15", "--angle", "12"))):
             with self.subTest(options):
-                made = self.check_triangles(self.mesh(stl, *AXES, *options, size="0.08"), 3)
+                made = self.check_triangles(self.mesh(stl, *AXES, *options, size=size), 3)
                 self.assertEqual(made.euler_of_skin(), 8)
 
     def test_a_sector_of_triangles(self):

@@ -90,7 +90,7 @@ TEST(Remesh, FacesLaidBareStayImposedFromIncrementToIncrement) {
     input.piece = result.piece, input.damage = result.damage, input.vertex_kinds = result.vertex_kinds;
   }
   input.vertex_kinds.clear();
-  EXPECT_EQ(remesh(input, monitor).summary.imposed_vertices, 0);  // the piece alone does not tell how it came to be
+  EXPECT_EQ(remesh(input, monitor).summary.imposed_vertices, 0);  // the piece alone does not show how it came to be
   input.vertex_kinds.assign(3, 0);
   EXPECT_THROW(remesh(input, monitor), InvalidArgument);
   input.vertex_kinds.assign(input.piece.vertices.size(), -1);
