@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 #include <span>
-#include <thread>
 
 #include "arguments.h"
 #include "carreau.h"
@@ -11,10 +10,6 @@
 #include "io/high_order/curved_files.h"
 #include "io/high_order/curved_reader.h"
 #include "io/mesh_files.h"
-#include "mesh/crossings/intersections.h"
-#include "mesh/defects/flat_defects.h"
-#include "mesh/quality.h"
-#include "mesh/regions/regions.h"
 #include "mesh_content.h"
 #include "session/file_adaptation.h"
 #include "session/options.h"
@@ -57,21 +52,6 @@ void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_
   for (std::size_t i = 0; i < n; ++i) out[i] = i < refs.size() ? refs[i] : 0;
 }
 
-int processors() { return std::max(1, int(std::thread::hardware_concurrency())); }
-
-void copy_pairs(std::span<const carreau::TriangleIntersection> pairs, std::size_t most, std::int32_t* out_triangles,
-                double* out_xyz) {
-  for (const carreau::TriangleIntersection& pair : pairs.first(std::min(most, pairs.size()))) {
-    if (out_triangles != nullptr) out_triangles = std::copy(pair.triangles.begin(), pair.triangles.end(), out_triangles);
-    if (out_xyz != nullptr) *out_xyz++ = pair.place.x(), *out_xyz++ = pair.place.y(), *out_xyz++ = pair.place.z();
-  }
-}
-
-const carreau::EntityNames& names_of(const carreau_mesh& mesh) {
-  require_content(mesh);
-  return mesh.session != nullptr ? mesh.session->session.names() : mesh.flat.names;
-}
-
 std::string name_of_face(const carreau_mesh& mesh, std::int32_t ref) {
   if (mesh.session != nullptr) {
     for (const carreau::WholeFace& whole : mesh.session->session.whole_faces())
@@ -84,6 +64,11 @@ std::string name_of_face(const carreau_mesh& mesh, std::int32_t ref) {
 }
 
 }  // namespace
+
+const carreau::EntityNames& carreau::abi::entity_names_of(const carreau_mesh& mesh) {
+  require_content(mesh);
+  return mesh.session != nullptr ? mesh.session->session.names() : mesh.flat.names;
+}
 
 void carreau::abi::require_content(const carreau_mesh& mesh) {
   const bool filled = mesh.session != nullptr ? mesh.session->session.has_mesh() : mesh.filled;
@@ -120,23 +105,6 @@ std::vector<carreau_mesh::FaceOfFile> carreau::abi::faces_of(const FlatMesh& fla
   std::vector<carreau_mesh::FaceOfFile> faces;
   for (auto& [ref, face] : by_ref) faces.push_back(std::move(face));
   return faces;
-}
-
-carreau_quality carreau::abi::quality_of(const QualitySummary& summary) {
-  carreau_quality result{};
-  result.vertices = std::int64_t(summary.vertices);
-  result.triangles = std::int64_t(summary.triangles);
-  result.edges = std::int64_t(summary.edges);
-  result.open_edges = std::int64_t(summary.open_edges);
-  result.q1_mean = summary.q1.mean, result.q1_min = summary.q1.min;
-  result.q1_p1 = summary.q1.p1, result.q1_max = summary.q1.max;
-  result.q2_mean = summary.q2.mean, result.q2_min = summary.q2.min;
-  result.q2_p1 = summary.q2.p1, result.q2_max = summary.q2.max;
-  result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
-  result.area = summary.area;
-  result.edge_min = summary.edge_min, result.edge_mean = summary.edge_mean, result.edge_max = summary.edge_max;
-  result.degree6 = summary.degree6;
-  return result;
 }
 
 carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out_mesh) {
@@ -401,7 +369,7 @@ carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face
 
 carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t face_ref, int32_t out_solids[2]) {
   return guarded(mesh, [&] {
-    const carreau::EntityNames& names = names_of(*mesh);
+    const carreau::EntityNames& names = entity_names_of(*mesh);
     const auto found = names.face_solids.find(face_ref);
     for (const std::size_t side : {0U, 1U})
       required(out_solids, "out_solids")[side] = found != names.face_solids.end() ? found->second[side] : 0;
@@ -411,7 +379,7 @@ carreau_status carreau_mesh_face_sides(carreau_mesh* mesh, int32_t face_ref, int
 const char* carreau_mesh_entity_name(carreau_mesh* mesh, int32_t dimension, int32_t ref) {
   if (mesh == nullptr) return nullptr;
   const carreau_status status = guarded(mesh, [&] {
-    const carreau::EntityNames& names = names_of(*mesh);
+    const carreau::EntityNames& names = entity_names_of(*mesh);
     mesh->text.clear();
     if (dimension == 2) {
       mesh->text = name_of_face(*mesh, ref);
@@ -421,101 +389,4 @@ const char* carreau_mesh_entity_name(carreau_mesh* mesh, int32_t dimension, int3
     if (const auto found = of_dimension.find(ref); found != of_dimension.end()) mesh->text = found->second;
   });
   return status == CARREAU_OK ? mesh->text.c_str() : "";
-}
-
-carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality) {
-  return guarded(mesh, [&] {
-    require_content(*mesh);
-    const carreau::QualitySummary summary =
-        mesh->session != nullptr
-            ? mesh->session->session.quality()
-            : carreau::summarise_quality(mesh->flat, processors());
-    write_struct(quality_of(summary), out_quality, "out_quality");
-  });
-}
-
-carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
-                                    const char** out_text) {
-  return guarded(mesh, [&] {
-    required(out_count, "out_count");
-    required(out_text, "out_text");
-    if (limit <= 0) throw InvalidArgument("limit is " + std::to_string(limit) + ", not greater than 0");
-    require_content(*mesh);
-    carreau::DefectOptions options;
-    options.closed = closed != 0;
-    options.limit = std::size_t(limit);
-    const std::vector<std::string> defects = mesh->session != nullptr
-                                                 ? carreau::find_defects(surface_of(*mesh), options)
-                                                 : carreau::find_defects(mesh->flat, options);
-    std::string text;
-    for (const std::string& defect : defects) text += (text.empty() ? "" : "\n") + defect;
-    mesh->text = std::move(text);
-    *out_count = std::int64_t(defects.size());
-    *out_text = mesh->text.c_str();
-  });
-}
-
-namespace {
-
-carreau::MeshRegions regions_of(const carreau_mesh& mesh) {
-  require_content(mesh);
-  if (mesh.session == nullptr) return carreau::find_regions(mesh.flat);
-  FlatMesh flat = flat_of(mesh);
-  flat.names = names_of(mesh);
-  return carreau::find_regions(flat);
-}
-
-}  // namespace
-
-carreau_status carreau_mesh_regions(carreau_mesh* mesh, int64_t capacity, int64_t* out_count, int32_t* out_solids, double* out_xyz) {
-  return guarded(mesh, [&] {
-    required(out_count, "out_count");
-    if (capacity < 0) throw InvalidArgument("capacity is " + std::to_string(capacity) + ", below 0");
-    *out_count = 0;
-    carreau::MeshRegions found = regions_of(*mesh);
-    std::vector<carreau::MeshRegion>& all = found.solids;
-    all.insert(all.end(), found.holes.begin(), found.holes.end());
-    *out_count = static_cast<std::int64_t>(all.size());
-    for (std::size_t i = 0; i < all.size() && i < static_cast<std::size_t>(capacity); ++i) {
-      if (out_solids != nullptr) out_solids[i] = all[i].solid;
-      for (int k = 0; k < 3 && out_xyz != nullptr; ++k) out_xyz[3 * i + static_cast<std::size_t>(k)] = all[i].inside[k];
-    }
-  });
-}
-
-carreau_status carreau_mesh_triangle_sides(carreau_mesh* mesh, int64_t capacity, int32_t* out_solids) {
-  return guarded(mesh, [&] {
-    const carreau::MeshRegions found = regions_of(*mesh);
-    if (capacity < static_cast<std::int64_t>(found.sides.size()))
-      throw InvalidArgument("capacity is " + std::to_string(capacity) + ", and there are " + std::to_string(found.sides.size()) + " triangles");
-    required(out_solids, "out_solids");
-    for (std::size_t t = 0; t < found.sides.size(); ++t) std::copy_n(found.sides[t].begin(), 2, out_solids + 2 * t);
-  });
-}
-
-carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity, int64_t* out_count,
-                                          int32_t* out_triangles, double* out_xyz) {
-  return guarded(mesh, [&] {
-    required(out_count, "out_count");
-    if (threads < 0) throw InvalidArgument("threads is " + std::to_string(threads) + ", below 0");
-    if (capacity < 0) throw InvalidArgument("capacity is " + std::to_string(capacity) + ", below 0");
-    require_content(*mesh);
-    *out_count = 0;
-    const carreau::Session* const session = mesh->session != nullptr ? &mesh->session->session : nullptr;
-    if (session != nullptr && session->knows_crossings(std::size_t(capacity))) {
-      *out_count = session->report().crossings;
-      copy_pairs(session->crossings(), std::size_t(capacity), out_triangles, out_xyz);
-      return;
-    }
-    carreau::Monitor silent;
-    carreau::IntersectionOptions options;
-    options.limit = std::size_t(capacity);
-    options.threads = threads > 0 ? threads : processors();
-    FlatMesh copy;
-    if (mesh->session != nullptr) copy = flat_of(*mesh);
-    const FlatMesh& flat = mesh->session != nullptr ? copy : mesh->flat;
-    const carreau::Intersections found = carreau::find_intersections(flat.vertices, flat.triangles, options, silent);
-    *out_count = found.count;
-    copy_pairs(found.pairs, found.pairs.size(), out_triangles, out_xyz);
-  });
 }

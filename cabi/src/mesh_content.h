@@ -13,6 +13,8 @@ namespace carreau::abi {
 
 /// Throws when the mesh has no content.
 void require_content(const carreau_mesh& mesh);
+/// The names of faces, curves, points and solids.
+const carreau::EntityNames& entity_names_of(const carreau_mesh& mesh);
 
 /// The surface mesh of a session's mesh.
 inline const SurfaceMesh& surface_of(const carreau_mesh& mesh) { return mesh.session->session.mesh(); }
