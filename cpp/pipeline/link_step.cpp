@@ -28,15 +28,17 @@ void sort_uniquely(Nodes& nodes) {
 
 class Linker {
  public:
-  explicit Linker(CompositeRun& run) : run_(run), mesh_(run.result.mesh), first_mid_(static_cast<std::int32_t>(mesh_.vertices.size())) {}
+  explicit Linker(CompositeRun& run) : run_(run), mesh_(run.result.mesh), first_mid_(static_cast<std::int32_t>(mesh_.vertices.size())) {
+    if (mesh_.independent) list_curves();
+  }
 
-  void run() {
+  void run(bool reports) {
     mesh_.periodic.clear();
     add_corners();
     for (const CurveClass& all : run_.periodic.curves)
       for (const CurveMember& member : all.members) add_curve(all, member);
     for (std::size_t i = 0; i < run_.periodic.pairs.size(); ++i) add_face(i);
-    report();
+    if (reports) report();
   }
 
  private:
@@ -79,19 +81,26 @@ class Linker {
       }
   }
 
-  // The vertices of a curve in its direction: cross-patch remeshing may turn them round.
-  [[nodiscard]] std::vector<std::int32_t> chain_of(int curve) const {
-    std::vector<std::int32_t> chain = mesh_.curves[curve].vertices;
-    const std::vector<Vec3>& known = run_.curves[curve].xyz;
-    const auto runs_like = [&](auto first) {
-      return std::equal(known.begin(), known.end(), first, [this](const Vec3& p, std::int32_t v) { return mesh_.vertices[v] == p; });
-    };
-    if (mesh_.independent && chain.size() == known.size() && !runs_like(chain.begin()) && runs_like(chain.rbegin())) std::reverse(chain.begin(), chain.end());
-    return chain;
+  // Cross-patch remeshing may divide curves where the faces beside change, and turn them round.
+  void list_curves() {
+    on_curve_.resize(run_.topology.curves.size());
+    std::map<int, std::size_t> by_ref;
+    for (std::size_t c = 0; c < on_curve_.size(); ++c) by_ref.emplace(mesh_.curves[c].ref, c);
+    for (std::size_t k = 0; k < mesh_.curves.size(); ++k) {
+      std::vector<std::int32_t>& all = on_curve_[k < on_curve_.size() ? k : by_ref.at(mesh_.curves[k].ref)];
+      all.insert(all.end(), mesh_.curves[k].vertices.begin(), mesh_.curves[k].vertices.end());
+      for (const std::int32_t m : mesh_.curves[k].mid) all.push_back(first_mid_ + m);
+    }
   }
 
   [[nodiscard]] std::int32_t vertex_of(int curve, int point) const {
-    const std::vector<std::int32_t> chain = chain_of(curve);
+    if (mesh_.independent) {
+      const Vec3& place = run_.topology.points[point].position;
+      for (const std::int32_t v : on_curve_[curve])
+        if (norm(position(v) - place) <= run_.periodic.gap) return v;
+      return -1;
+    }
+    const std::vector<std::int32_t>& chain = mesh_.curves[curve].vertices;
     if (chain.empty()) return -1;
     return run_.topology.curves[curve].end1 == point ? chain.front() : chain.back();
   }
@@ -100,9 +109,15 @@ class Linker {
     const int root = all.members.front().image.curve, c = member.image.curve;
     const Curve& shape = run_.topology.curves[root];
     const CurveMesh &from = mesh_.curves[root], &to = mesh_.curves[c];
-    if (c == root || shape.degenerate || from.vertices.size() != to.vertices.size() || from.vertices.empty()) return;
+    if (c == root || shape.degenerate) return;
+    if (mesh_.independent) {
+      PeriodicLink linked = link(1, from.shown_ref(), to.shown_ref(), member.map);
+      link_by_places(on_curve_[root], on_curve_[c], linked);
+      return;
+    }
+    if (from.vertices.size() != to.vertices.size() || from.vertices.empty()) return;
     if (from.vertices.size() != run_.curves[root].xyz.size()) return;
-    const std::vector<std::int32_t> vertices = chain_of(root), images = chain_of(c);
+    const std::vector<std::int32_t>&vertices = from.vertices, &images = to.vertices;
     const bool closed = shape.end1 == shape.end2;
     PeriodicLink linked = link(1, from.shown_ref(), to.shown_ref(), member.map);
     const auto n = static_cast<int>(from.vertices.size()) - 1;
@@ -126,7 +141,7 @@ class Linker {
     PeriodicLink linked = link(2, from.shown_ref(), to.shown_ref(), pair.map);
     const bool flipped = pair.flipped;
     if (mesh_.independent) {
-      link_by_places(from, to, linked);
+      link_by_places(nodes_of(from), nodes_of(to), linked);
       return;
     }
     if (from.triangles.size() != to.triangles.size()) return;
@@ -141,24 +156,30 @@ class Linker {
     keep(std::move(linked));
   }
 
-  // Cross-patch remeshing keeps periodic triangles, in another order.
-  void link_by_places(const FaceMesh& from, const FaceMesh& to, PeriodicLink& linked) {
+  [[nodiscard]] std::vector<std::int32_t> nodes_of(const FaceMesh& face) const {
+    std::vector<std::int32_t> nodes = face.vertex;
+    for (const std::int32_t m : face.mid_vertex) nodes.push_back(first_mid_ + m);
+    return nodes;
+  }
+
+  // Cross-patch meshes have their elements in another order. Vertices are images of vertices, nodes on edges of nodes.
+  void link_by_places(const std::vector<std::int32_t>& from, const std::vector<std::int32_t>& to, PeriodicLink& linked) {
     const double gap = run_.periodic.gap, width = 4 * gap;
     using Cell = std::array<std::int64_t, 3>;
     const auto cell_of = [width](const Vec3& p) -> Cell {
       return {std::llround(p.x() / width), std::llround(p.y() / width), std::llround(p.z() / width)};
     };
     std::map<Cell, std::vector<std::int32_t>> slaves;
-    for (const std::int32_t v : to.vertex) slaves[cell_of(mesh_.vertices[v])].push_back(v);
-    for (const std::int32_t v : from.vertex) {
-      const Vec3 image = linked.map(mesh_.vertices[v]);
+    for (const std::int32_t v : to) slaves[cell_of(position(v))].push_back(v);
+    for (const std::int32_t v : from) {
+      const Vec3 image = linked.map(position(v));
       std::set<Cell> cells;
       for (int corner = 0; corner < 8; ++corner)
         cells.insert(cell_of(image + gap * Vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1)));
       for (const Cell& cell : cells)
         if (const auto found = slaves.find(cell); found != slaves.end())
           for (const std::int32_t w : found->second)
-            if (norm(mesh_.vertices[w] - image) <= gap) linked.nodes.push_back({w, v});
+            if (norm(position(w) - image) <= gap && (w < first_mid_) == (v < first_mid_)) linked.nodes.push_back({w, v});
     }
     keep(std::move(linked));
   }
@@ -175,14 +196,15 @@ class Linker {
   CompositeRun& run_;
   SurfaceMesh& mesh_;
   std::int32_t first_mid_;
+  std::vector<std::vector<std::int32_t>> on_curve_;  // of a cross-patch mesh: vertices and nodes, by curve of the topology
   double worst_ = 0;
   std::size_t faces_ = 0, pairs_ = 0, curve_pairs_ = 0, curves_ = 0;
 };
 
 }  // namespace
 
-void link_periodic(CompositeRun& run) {
-  if (!run.periodic.empty()) Linker(run).run();
+void link_periodic(CompositeRun& run, bool reports) {
+  if (!run.periodic.empty()) Linker(run).run(reports);
 }
 
 }  // namespace carreau

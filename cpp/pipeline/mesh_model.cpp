@@ -78,8 +78,6 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
   else if (run.options.independent && !run.layers.empty())
     run.report(Level::warning, "no cross-patch remeshing: layers grow from curves");
-  else if (run.options.independent && !run.periodic.empty() && run.options.element != Element::p1)
-    run.report(Level::warning, "no cross-patch remeshing: faces are periodic, and elements other than p1 cross no periodic border");
   else if (run.options.independent)
     inspectors.push_back(make_cross_patch_inspector());
   if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());

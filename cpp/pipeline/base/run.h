@@ -117,7 +117,7 @@ void carry_patches(CompositeRun& run);
 /// Divides chords that faces share; pairs stay images of each other.
 void separate_shared_chords(CompositeRun& run);
 /// Lists the pairs of vertices of the mesh, and reports how far they are apart.
-void link_periodic(CompositeRun& run);
+void link_periodic(CompositeRun& run, bool reports = true);
 /// Makes one mesh of all patches, with statuses and sentences of its faces.
 void assemble_patches(CompositeRun& run);
 /// Lets all narrow faces vanish. False, and nothing done, if one cannot.

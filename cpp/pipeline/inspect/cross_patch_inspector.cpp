@@ -17,6 +17,7 @@
 #include "pipeline/base/run.h"
 #include "surface/elements/base/thresholds.h"
 #include "surface/elements/second_order/wires.h"
+#include "surface/elements/cross_patch/carried_cells.h"
 #include "surface/elements/cross_patch/cross_patch_elements.h"
 #include "surface/elements/cross_patch/invalid_elements.h"
 #include "surface/elements/cross_patch/thresholds.h"
@@ -48,6 +49,24 @@ class HeldMonitor final : public Monitor {
 enum class From {
   remeshing,  ///< isotropic triangles, whatever the patches
   patches     ///< placed for quadrilaterals by patches: regular ones, whose lengths know the borders
+};
+
+/// The parts of a result that cross-patch remeshing replaces.
+class PatchesOfBefore {
+ public:
+  explicit PatchesOfBefore(const CompositeResult& result)
+      : mesh_(result), atlas_(result.atlas), crossings_(result.report.crossings), pairs_(result.crossings) {}
+  void give_back(CompositeResult& result) {
+    static_cast<SizedMesh&>(result) = std::move(mesh_);
+    result.atlas = std::move(atlas_);
+    result.report.crossings = crossings_, result.crossings = std::move(pairs_);
+  }
+
+ private:
+  SizedMesh mesh_;
+  std::shared_ptr<const Charts> atlas_;
+  std::int64_t crossings_;
+  std::vector<TriangleIntersection> pairs_;
 };
 
 /// Figures by which a mesh is chosen.
@@ -113,17 +132,30 @@ class CrossPatchInspector final : public Inspector {
     HeldMonitor monitor(run.monitor);
     now_ = {};
     ElementMaker elements;
-    if (options.element != Element::p1)
+    std::string no_images;
+    std::optional<PatchesOfBefore> before_elements;
+    if (options.element != Element::p1) {
+      if (!run.periodic.empty()) share_vertex_sizes(run), before_elements.emplace(run.result);
       elements = [&](const SurfaceMesh& before, const RemeshingFrame& frame, CrossPatchResult& made) {
         now_.crossings = make_cross_patch_elements(before, frame, options, run.cad, made, monitor);
+        if (!run.periodic.empty()) no_images = carry_cells(run.curve_model, run.periodic, before, *frame.charts, made);
       };
+    }
     const bool by_direction = !run.isotropic();
     bool is_free = true;
     if (from_ == From::remeshing && options.element == Element::p1) raise_sizes(run);
+    // Slaves get the elements of their masters; triangles of periodic faces stay.
+    FixedParts fixed{.curves = run.periodic.has_class};
+    if (options.element == Element::p1) fixed.faces = run.periodic.is_periodic;
     if (from_ == From::remeshing)
-      is_free = remesh_across_patches(run.curve_model, run.curves, options, by_direction, run.periodic.is_periodic, elements, run.result, monitor);
+      is_free = remesh_across_patches(run.curve_model, run.curves, options, by_direction, fixed, elements, run.result, monitor);
     else
-      make_elements_across_patches(run.curve_model, run.curves, options, by_direction, elements, run.result, monitor);
+      make_elements_across_patches(run.curve_model, run.curves, options, by_direction, fixed, elements, run.result, monitor);
+    if (!no_images.empty()) {
+      monitor.message(Level::warning, "no cross-patch remeshing: " + no_images);
+      before_elements->give_back(run.result);
+      is_free = false;
+    }
     messages_ = monitor.held();
     if (!is_free) return false;
     const ElementWork work{run.curve_model, run.curves, run.rules, options, run.result, run.monitor};
@@ -209,6 +241,20 @@ class CrossPatchInspector final : public Inspector {
     if (!size || run.graded.field || std::ranges::any_of(run.curves, &DiscreteCurve::prescribed)) return;
     for (double& h : run.result.vertex_size) h = std::max(h, *size);
     lower_sizes(run);
+  }
+
+  // Middles of edges depend on sizes: images have equal ones.
+  static void share_vertex_sizes(CompositeRun& run) {
+    link_periodic(run, false);
+    std::vector<double>& size = run.result.vertex_size;
+    for (const bool back : {false, true})
+      for (const PeriodicLink& link : run.result.mesh.periodic)
+        for (const auto& [slave, master] : link.nodes)
+          if (back)
+            size[slave] = size[master];
+          else
+            size[master] = std::min(size[master], size[slave]);
+    run.result.mesh.periodic.clear();
   }
 
   // Requests lower the sizes of faces alone; the vertices of curves follow here.

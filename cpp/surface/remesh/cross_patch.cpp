@@ -33,10 +33,10 @@ PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
   return most > min_anisotropy ? metrics : PlaneMetrics{};
 }
 
-/// Triangles that stay: nothing is swapped over their edges, and no vertex of them moves. All ascending.
+/// Edges and vertices of fixed parts, ascending.
 struct FixedTriangles {
-  std::vector<MeshEdge> border, inner;  ///< on curves, and others
-  std::vector<std::int32_t> vertices;
+  std::vector<MeshEdge> border, inner;       ///< on curves, and others
+  std::vector<std::int32_t> vertices, ends;  ///< all, and the ends of curves
 };
 
 template <typename T>
@@ -47,23 +47,26 @@ std::vector<T> joined(std::vector<T> list, const std::vector<T>& more) {
   return list;
 }
 
-FixedTriangles fixed_triangles(const SurfaceMesh& mesh, std::span<const char> fixed) {
+FixedTriangles fixed_triangles(const SurfaceMesh& mesh, const FixedParts& fixed) {
   FixedTriangles found;
-  std::vector<MeshEdge> on_curves;
-  for (const CurveMesh& curve : mesh.curves)
-    for (std::size_t k = 1; k < curve.vertices.size(); ++k) on_curves.push_back(mesh_edge(curve.vertices[k - 1], curve.vertices[k]));
-  std::ranges::sort(on_curves);
-  for (std::size_t f = 0; f < fixed.size(); ++f) {
-    if (fixed[f] == 0) continue;
+  for (std::size_t c = 0; c < fixed.curves.size(); ++c) {
+    const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
+    if (fixed.curves[c] == 0 || chain.size() < 2) continue;
+    for (std::size_t k = 1; k < chain.size(); ++k) found.border.push_back(mesh_edge(chain[k - 1], chain[k]));
+    found.vertices.insert(found.vertices.end(), chain.begin(), chain.end());
+    found.ends.insert(found.ends.end(), {chain.front(), chain.back()});
+  }
+  found.border = joined(std::move(found.border), {});
+  for (std::size_t f = 0; f < fixed.faces.size(); ++f) {
+    if (fixed.faces[f] == 0) continue;
     const FaceMesh& face = mesh.faces[f];
     for (const auto& t : face.triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const MeshEdge edge = mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]);
-        (std::ranges::binary_search(on_curves, edge) ? found.border : found.inner).push_back(edge);
+        if (!std::ranges::binary_search(found.border, edge)) found.inner.push_back(edge);
         found.vertices.push_back(face.vertex[t[i]]);
       }
   }
-  found.border = joined(std::move(found.border), {});
   found.inner = joined(std::move(found.inner), {});
   found.vertices = joined(std::move(found.vertices), {});
   return found;
@@ -71,7 +74,7 @@ FixedTriangles fixed_triangles(const SurfaceMesh& mesh, std::span<const char> fi
 
 // Keeps references to all arguments.
 std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<const DiscreteCurve> curves,
-                                         const CompositeOptions& options, bool by_direction, std::span<const char> fixed,
+                                         const CompositeOptions& options, bool by_direction, const FixedParts& fixed,
                                          const ElementMaker& elements, const CompositeResult& result, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
   auto made = std::make_unique<RemeshingFrame>();
@@ -93,6 +96,7 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
   }
   const Topology* known = mesh.curves.size() == model.topology.curves.size() ? &model.topology : nullptr;
   frame.corners = find_corners(mesh, frame.jets, *frame.charts, frame.sharp, known, model.supports, angle);
+  frame.corners = joined(std::move(frame.corners), stays.ends);
   frame.lines = find_lines(mesh, frame.sharp, frame.corners);
   frame.corners = joined(std::move(frame.corners), stays.vertices);
   frame.sharp = joined(std::move(frame.sharp), stays.inner);
@@ -106,7 +110,7 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
 }  // namespace
 
 bool remesh_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                           bool by_direction, std::span<const char> fixed, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
+                           bool by_direction, const FixedParts& fixed, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
   const auto frame = frame_of(model, curves, options, by_direction, fixed, elements, result, monitor);
   const std::string why = remesh_by_strategies(*frame, model.cad, options, result, monitor);
   if (!why.empty()) monitor.message(Level::warning, "no cross-patch remeshing: " + why);
@@ -114,8 +118,9 @@ bool remesh_across_patches(const CurveModel& model, std::span<const DiscreteCurv
 }
 
 void make_elements_across_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                                  bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
-  const auto frame = frame_of(model, curves, options, by_direction, {}, elements, result, monitor);
+                                  bool by_direction, const FixedParts& fixed, const ElementMaker& elements, CompositeResult& result,
+                                  Monitor& monitor) {
+  const auto frame = frame_of(model, curves, options, by_direction, fixed, elements, result, monitor);
   make_elements_of_frame(*frame, model.cad, options, result, monitor);
 }
 

@@ -89,16 +89,18 @@ class Finder {
 
 InvalidInSpace find_invalid(const SizedMesh& made, Element element) { return Finder(made, element).run(); }
 
-void tell_invalid(SurfaceMesh& mesh) {
-  for (FaceMesh& face : mesh.faces) {
-    std::size_t count = 0;
-    Vec2 uv{0, 0};
-    for (const Cell& cell : local_cells(face)) {
-      if (is_valid(mesh, face, cell)) continue;
-      if (++count == 1) uv = face.uv[cell.nodes[0]];
-    }
-    if (count > 0) mark_invalid(face, uv, count);
+void tell_invalid(const SurfaceMesh& mesh, FaceMesh& face) {
+  std::size_t count = 0;
+  Vec2 uv{0, 0};
+  for (const Cell& cell : local_cells(face)) {
+    if (is_valid(mesh, face, cell)) continue;
+    if (++count == 1) uv = face.uv[cell.nodes[0]];
   }
+  if (count > 0) mark_invalid(face, uv, count);
+}
+
+void tell_invalid(SurfaceMesh& mesh) {
+  for (FaceMesh& face : mesh.faces) tell_invalid(mesh, face);
 }
 
 void fail_wrong_joints(SizedMesh& made) {

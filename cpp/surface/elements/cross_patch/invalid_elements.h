@@ -32,6 +32,8 @@ struct InvalidInSpace {
 
 /// Reports invalid elements in their faces, which become `mended`.
 void tell_invalid(SurfaceMesh& mesh);
+/// Reports the invalid elements of one face of the mesh.
+void tell_invalid(const SurfaceMesh& mesh, FaceMesh& face);
 
 /// Faces with an edge between wrong joints (find_wrong_joints) become `failed`, with a place of such a joint, and lose their elements.
 void fail_wrong_joints(SizedMesh& made);
