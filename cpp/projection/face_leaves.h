@@ -36,7 +36,7 @@ struct TurnedBox {
   }
 };
 
-/// A piece of a face, as the biquadratic interpolation of nine places.
+/// A piece of a face, as a bicubic interpolation; a triangle, as a quadratic one.
 struct SurfaceLeaf {
   Region region;           ///< of (u, v)
   std::array<Vec3, 9> at;  ///< at low, the middle and high of u (first) and v
@@ -45,7 +45,7 @@ struct SurfaceLeaf {
   double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
   bool cut = false;        ///< the boundary of the domain crosses it
   TurnedBox box = {};
-  std::array<Vec3, 9> terms = {};  ///< of the interpolation: of u^i v^j, from 0 to 1, at 3 j + i
+  std::array<Vec3, 16> terms = {};  ///< of the interpolation: of u^i v^j, from 0 to 1, at 4 j + i
 };
 
 /// The piece of a curve over an edge of its support.
@@ -70,22 +70,43 @@ struct LeafPlace {
   double distance = 0;
   double slack = 0;  ///< of the distance: the search ended so near
 };
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from);
+/// Begins at the sample, or at `from`, in shares of the region, if it is nearer; may be null. Ends early if the distance is certainly larger
+/// than `bound`.
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& sample, const Vec2* from, double bound);
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x);
 
-/// The pieces of a face with its boundary, or of a curve: the things of `tree` are the leaves, then the curves.
+/// The pieces of a face with its boundary, or of a curve. The rank of a piece counts the leaves, then the curves.
 struct Pieces {
   std::vector<SurfaceLeaf> leaves;
   std::vector<CurveLeaf> curves;
   std::vector<BoxTree::Box> boxes;  // of the leaves, then of the curves
-  BoxTree tree;
   BoxTree::Box box;
   Region region;                        ///< of a face; of triangles each leaf has its own
   std::optional<TrimmedDomain> domain;  ///< of a face whose domain is not a box
   bool triangles = false;
+};
 
-  /// Makes the tree of the boxes.
-  void plant();
+/// A tree of the pieces of some entities.
+class PieceTree {
+ public:
+  struct Piece {
+    BoxTree::Box box;
+    std::int32_t entity = 0, rank = 0;  ///< index among the entities, and of the piece in its entity
+  };
+  PieceTree() = default;
+  /// The pieces of all entities, or of entity `only` if it is not negative.
+  PieceTree(std::span<const Pieces> entities, std::int32_t only);
+
+  [[nodiscard]] const Pieces& of(std::int32_t entity) const noexcept { return entities_[static_cast<std::size_t>(entity)]; }
+  [[nodiscard]] const BoxTree& boxes() const noexcept { return tree_; }
+  [[nodiscard]] std::span<const Piece> pieces(const BoxTree::Node& leaf) const noexcept {
+    return std::span(pieces_).subspan(static_cast<std::size_t>(leaf.first), static_cast<std::size_t>(leaf.count));
+  }
+
+ private:
+  std::span<const Pieces> entities_;
+  BoxTree tree_;
+  std::vector<Piece> pieces_;  // in the order of the tree
 };
 
 /// Evaluates places of a face. Places outside of the domain where the host fails are NaN.
