@@ -25,8 +25,9 @@ std::array<Vec3, 4> cubic_of(const Vec3& p, const Vec3& q, const Vec3& r, const 
 }
 
 /// Of 16 of the samples: the lines of the middle are left for the measure of the error.
-std::array<Vec3, 16> terms_of(const Samples& samples) {
-  std::array<Vec3, 16> rows, terms;
+BicubicTerms terms_of(const Samples& samples) {
+  std::array<Vec3, 16> rows;
+  BicubicTerms terms;
   constexpr std::array<int, 4> lines{0, 1, 3, 4};
   for (std::size_t j = 0; j < 4; ++j) {
     const auto at = [&](int i) -> const Vec3& { return sample(samples, i, lines[j]); };
@@ -35,35 +36,71 @@ std::array<Vec3, 16> terms_of(const Samples& samples) {
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const std::array<Vec3, 4> column = cubic_of(rows[i], rows[4 + i], rows[8 + i], rows[12 + i]);
-    for (std::size_t j = 0; j < 4; ++j) terms[4 * j + i] = column[j];
+    for (std::size_t j = 0; j < 4; ++j) terms.set(static_cast<int>(i), static_cast<int>(j), column[j]);
   }
   return terms;
 }
 
-SurfaceJet cubic_at(const std::array<Vec3, 16>& c, const Vec2& w) {
-  const double u = w.x(), v = w.y();
-  std::array<Vec3, 4> p, pu, puu;  // rows and their derivatives
-  for (std::size_t j = 0; j < 4; ++j) {
-    const Vec3 &c1 = c[4 * j + 1], &c2 = c[4 * j + 2];
-    const Vec3 t = u * c[4 * j + 3], q = c2 + t;
-    p[j] = c[4 * j] + u * (c1 + u * q), pu[j] = c1 + u * (2 * q + t), puu[j] = q + 2 * t;
-  }
-  SurfaceJet jet;
-  const Vec3 t = v * p[3], q = p[2] + t;
-  jet.s = p[0] + v * (p[1] + v * q), jet.sv = p[1] + v * (2 * q + t), jet.svv = 2 * (q + 2 * t);
-  const Vec3 tu = v * pu[3], qu = pu[2] + tu;
-  jet.su = pu[0] + v * (pu[1] + v * qu), jet.suv = pu[1] + v * (2 * qu + tu);
-  jet.suu = 2 * (puu[0] + v * (puu[1] + v * (puu[2] + v * puu[3])));
-  return jet;
+/// The derivative of order (a, b).
+Vec3 derivative_at(const BicubicTerms& terms, int a, int b, const Vec2& w) {
+  const auto powers = [](int order, double t) {
+    std::array<double, 4> power{};
+    double rising = 1;
+    for (int i = order; i < 4; ++i, rising *= t) {
+      power[static_cast<std::size_t>(i)] = rising;
+      for (int k = 0; k < order; ++k) power[static_cast<std::size_t>(i)] *= i - k;
+    }
+    return power;
+  };
+  const std::array<double, 4> u = powers(a, w.x()), v = powers(b, w.y());
+  Vec3 sum;
+  for (int j = b; j < 4; ++j)
+    for (int i = a; i < 4; ++i) sum += u[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)] * terms.at(i, j);
+  return sum;
 }
 
-SurfaceJet quadratic_at(const std::array<Vec3, 16>& c, const Vec2& w) {
+/// The squared distance of the interpolation from x, halved, with its derivatives; `form` is the first fundamental form.
+struct Expansion {
+  double square = 0;  // not halved
+  Vec2 gradient;
+  Symmetric2 hessian, form;
+};
+
+Expansion expansion_at(const BicubicTerms& terms, const Vec3& x, const Vec2& w) {
+  using Pair = BicubicTerms::Pair;
   const double u = w.x(), v = w.y();
-  SurfaceJet jet;
-  jet.s = c[0] + u * (c[1] + u * c[2]) + v * (c[4] + u * c[5] + v * c[8]);
-  jet.su = c[1] + 2 * u * c[2] + v * c[5], jet.sv = c[4] + u * c[5] + 2 * v * c[8];
-  jet.suu = 2 * c[2], jet.suv = c[5], jet.svv = 2 * c[8];
-  return jet;
+  Pair of_r{}, of_v{}, of_u{}, bends{};  // sums over the coordinates of r (r, Su), r (Sv, Suv), Su (Su, Sv), r (Suu, Svv)
+  double vv = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Pair* c = &terms.pairs[8 * k];
+    std::array<Pair, 2> p, pu, puu;  // rows and their derivatives along u, the second one halved
+    for (std::size_t h = 0; h < 2; ++h) {
+      const Pair t = u * c[6 + h], q = c[4 + h] + t;
+      p[h] = c[h] + u * (c[2 + h] + u * q), pu[h] = c[2 + h] + u * (q + q + t), puu[h] = q + t + t;
+    }
+    const Pair first{p[0][0], pu[0][0]}, second{p[0][1], pu[0][1]}, third{p[1][0], pu[1][0]}, last{p[1][1], pu[1][1]};
+    const Pair t = v * last, q = third + t;
+    const Pair r = first + v * (second + v * q) - Pair{x[static_cast<Eigen::Index>(k)], 0}, across = second + v * (q + q + t);
+    const Pair uu = puu[0] + (v * v) * puu[1];
+    of_r += r[0] * r, of_v += r[0] * across, of_u += r[1] * Pair{r[1], across[0]};
+    bends += r[0] * Pair{uu[0] + v * uu[1], q[0] + t[0] + t[0]};
+    vv += across[0] * across[0];
+  }
+  const Symmetric2 form{of_u[0], of_u[1], vv};
+  return {of_r[0], {of_r[1], of_v[0]}, {form.xx + 2 * bends[0], form.xy + of_v[1], form.yy + 2 * bends[1]}, form};
+}
+
+/// Bounds of the terms of third order; the places between the samples get a margin.
+void bound_third_order(SurfaceLeaf& leaf) {
+  double first = 0, second = 0, third = 0;
+  for (const double u : {0.0, 0.5, 1.0})
+    for (const double v : {0.0, 0.5, 1.0}) {
+      const auto size = [&](int a, int b) { return norm(derivative_at(leaf.terms, a, b, {u, v})); };
+      first = std::max(first, std::hypot(size(1, 0), size(0, 1)));
+      second = std::max(second, size(2, 0) + size(1, 1) + size(0, 2));
+      third = std::max(third, size(3, 0) + 3 * size(2, 1) + 3 * size(1, 2) + size(0, 3));
+    }
+  leaf.bend = limit::error_margin / 2 * first * second / 2, leaf.third = limit::error_margin / 2 * third / 6;
 }
 
 /// Around points, `margin` farther, along the lines of the middle of a leaf.
@@ -102,7 +139,7 @@ struct Judgement {
   double size = 0, error = 0, bulge = 0;
   bool in_u = false, in_v = false;  // to be halved
   bool known = true;                // all samples are finite
-  std::array<Vec3, 16> terms;
+  BicubicTerms terms;
 };
 
 double angle_between(const Vec3& p, const Vec3& q) { return std::atan2(norm(cross(p, q)), dot(p, q)); }
@@ -142,7 +179,7 @@ Judgement judge(const Samples& samples, double smallest) {
   judgement.terms = terms_of(samples);
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i)
-      if (i == 2 || j == 2) judgement.error = std::max(judgement.error, norm(cubic_at(judgement.terms, {i / 4.0, j / 4.0}).s - sample(samples, i, j)));
+      if (i == 2 || j == 2) judgement.error = std::max(judgement.error, norm(derivative_at(judgement.terms, 0, 0, {i / 4.0, j / 4.0}) - sample(samples, i, j)));
   if (!(judgement.size > smallest)) return judgement;
   Line u, v;
   const auto widen = [](Line& all, const Line& one) {
@@ -285,9 +322,8 @@ Landing descend(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, double
   Landing landing{w, infinity, leaf.size};  // the bound of a descent that does not converge
   double move = 0;
   for (int k = 0; k < limit::steps_in_leaf; ++k) {
-    const SurfaceJet jet = triangle ? quadratic_at(leaf.terms, w) : cubic_at(leaf.terms, w);
-    const Vec3 r = jet.s - x;
-    const double d = dot(r, r);
+    const Expansion f = expansion_at(leaf.terms, x, w);
+    const double d = f.square;
     if (k == 0 && known < d) {
       w = otherwise;
       continue;
@@ -297,16 +333,15 @@ Landing descend(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, double
       break;
     }
     landing.square = d, landing.w = w;
-    const Symmetric2 form{dot(jet.su, jet.su), dot(jet.su, jet.sv), dot(jet.sv, jet.sv)};
-    const Symmetric2 hessian{form.xx + dot(r, jet.suu), form.xy + dot(r, jet.suv), form.yy + dot(r, jet.svv)};
-    const Vec2 gradient{dot(r, jet.su), dot(r, jet.sv)};
-    const bool convex = is_convex(hessian, form);
+    const bool convex = is_convex(f.hessian, f.form);
     landing.convex = landing.convex && convex;
-    const RestrictedStep step = convex && !triangle ? step_in_square(w, gradient, hessian) : restricted_step(unit, w, gradient, hessian, form);
-    move = norm(step.d);
-    if (move < limit::last_step_in_leaf) {  // the expansion holds over such a step, but for the slack
-      const double square = std::max(0.0, d - 2 * step.gain), slack = move * std::sqrt(move) * leaf.size;
-      if (slack <= leaf.error || move < limit::last_step_in_exact_leaf || std::sqrt(square) - slack - leaf.error > bound) {
+    const RestrictedStep step = convex && !triangle ? step_in_square(w, f.gradient, f.hessian) : restricted_step(unit, w, f.gradient, f.hessian, f.form);
+    const double squared_move = dot(step.d, step.d);
+    move = std::sqrt(squared_move);
+    if (move < limit::expanded_step) {
+      const double square = std::max(0.0, d - 2 * step.gain), off = 2 * (leaf.bend + leaf.third * std::sqrt(d)) * squared_move * move;
+      const double distance = std::sqrt(square), slack = distance - std::sqrt(std::max(0.0, square - off));
+      if ((move < limit::last_step_in_leaf && slack <= leaf.error) || move < limit::last_step_in_exact_leaf || distance - slack - leaf.error > bound) {
         landing.w = step.to, landing.square = square, landing.slack = slack;
         break;
       }
@@ -403,6 +438,7 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
           SurfaceLeaf& leaf = pieces.leaves.back();
           const double margin = error + limit::error_margin * judgement.bulge;
           leaf.cover = cover_of(leaf, judgement.bulge), leaf.terms = judgement.terms, leaf.box = turned_box(leaf.at, samples, margin);
+          bound_third_order(leaf);
           pieces.boxes.push_back(box_of(samples, margin));
         }
       });
@@ -455,8 +491,9 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
       leaf.size = norm(box.high - box.low);
       const double bulge = (norm(a - 2 * ab + b) + norm(a - 2 * ac + c) + norm(b - 2 * bc + c)) / 16;
       leaf.cover = cover_of(leaf, bulge);
-      leaf.terms[0] = a, leaf.terms[1] = -3 * a + 4 * ab - b, leaf.terms[2] = 2 * (a - 2 * ab + b), leaf.terms[4] = -3 * a + 4 * ac - c;
-      leaf.terms[5] = 4 * (a - ab - ac + bc), leaf.terms[8] = 2 * (a - 2 * ac + c);
+      leaf.terms.set(0, 0, a), leaf.terms.set(1, 0, -3 * a + 4 * ab - b), leaf.terms.set(2, 0, 2 * (a - 2 * ab + b));
+      leaf.terms.set(0, 1, -3 * a + 4 * ac - c), leaf.terms.set(1, 1, 4 * (a - ab - ac + bc)), leaf.terms.set(0, 2, 2 * (a - 2 * ac + c));
+      bound_third_order(leaf);
       leaf.box = turned_box(leaf.at, std::span<const Vec3>(places.data() + t * each, each), leaf.error + bulge);
       const Vec3 by = (leaf.error + bulge) * Vec3(1, 1, 1);
       box.low -= by, box.high += by;

@@ -36,6 +36,20 @@ struct TurnedBox {
   }
 };
 
+/// Coefficients of u^i v^j in a bicubic polynomial, two neighbours in j together: coordinate k has them from 8 k + 2 i on.
+struct BicubicTerms {
+  using Pair [[gnu::vector_size(16)]] = double;
+  std::array<Pair, 24> pairs{};
+
+  void set(int i, int j, const Vec3& to) noexcept {
+    for (int k = 0; k < 3; ++k) pairs[static_cast<std::size_t>(8 * k + 2 * i + j / 2)][j % 2] = to[k];
+  }
+  [[nodiscard]] Vec3 at(int i, int j) const noexcept {
+    const auto n = static_cast<std::size_t>(2 * i + j / 2);
+    return {pairs[n][j % 2], pairs[8 + n][j % 2], pairs[16 + n][j % 2]};
+  }
+};
+
 /// A piece of a face, as a bicubic interpolation; a triangle, as a quadratic one.
 struct SurfaceLeaf {
   Region region;           ///< of (u, v)
@@ -45,7 +59,9 @@ struct SurfaceLeaf {
   double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
   bool cut = false;        ///< the boundary of the domain crosses it
   TurnedBox box = {};
-  std::array<Vec3, 16> terms = {};  ///< of the interpolation: of u^i v^j, from 0 to 1, at 4 j + i
+  BicubicTerms terms = {};  ///< of the interpolation, from 0 to 1
+  /// Half of the squared distance differs from its expansion of second order after a way w by at most (bend + third * distance) |w|^3.
+  double bend = 0, third = 0;
 };
 
 /// The piece of a curve over an edge of its support.

@@ -26,23 +26,55 @@ inline double squared_distance(const BoxTree::Box& box, const Vec3& x) {
 
 }  // namespace
 
-PointSearch::PointSearch(const PieceTree& tree, const Vec3& x, double diagonal, SearchGroup& group)
-    : tree_(&tree), group_(&group), x_(x), diagonal_(diagonal) {
+PointSearch::PointSearch(const PieceTree& tree, std::span<const Vec3> points, double diagonal, SearchGroup& group)
+    : tree_(&tree), group_(&group), x_(points.front()), diagonal_(diagonal) {
   best_.square = nearest_sample_ = infinity;
   double bound = infinity;  // some point is not farther
   group.trial.clear();
   begin_at_predecessor(bound);
   const auto matters = [&](double least) { return least <= (1 + 1e-12) * bound * bound; };
-  tree.boxes().nearest_first([&](std::int32_t n) { return squared_distance(tree.boxes().node(static_cast<std::size_t>(n)).box, x_); }, matters,
-                             [&](const BoxTree::Node& leaf) {
-                               for (const PieceTree::Piece& piece : tree.pieces(leaf))
-                                 if (matters(squared_distance(piece.box, x_))) look_at(piece, bound);
-                             });
+  const bool is_near = norm(x_ - group.centre) <= group.reach;
+  if (is_near) {
+    for (const PieceTree::Piece& piece : group.near)
+      if (matters(squared_distance(piece.box, x_))) look_at(piece, bound);
+  } else {
+    tree.boxes().nearest_first([&](std::int32_t n) { return squared_distance(tree.boxes().node(static_cast<std::size_t>(n)).box, x_); }, matters,
+                               [&](const BoxTree::Node& leaf) {
+                                 for (const PieceTree::Piece& piece : tree.pieces(leaf))
+                                   if (matters(squared_distance(piece.box, x_))) look_at(piece, bound);
+                               });
+  }
   refine(bound);
+  if (!is_near) collect(points, bound);
   next_ = group.kept.size();
   group.kept.insert(group.kept.end(), group.trial.begin(), group.trial.end());
   end_ = group.kept.size();
   begin();
+}
+
+// A neighbour in the ball has its closest point within bound + reach, which lies within bound + 2 reach of this point.
+void PointSearch::collect(std::span<const Vec3> points, double bound) {
+  group_->reach = -1;
+  if (group_->entity < 0) return;
+  const Pieces& pieces = tree_->of(group_->entity);
+  const auto k = static_cast<std::size_t>(group_->piece);
+  const double size = k < pieces.leaves.size() ? pieces.leaves[k].size : 0, most = limit::near_points * bound + limit::near_points_in_leaf * size;
+  double reach = 0;
+  std::size_t n = 1;
+  for (; n < std::min(points.size(), limit::points_that_share); ++n) {
+    const double way = norm(points[n] - x_);
+    if (way > most) break;
+    reach = std::max(reach, way);
+  }
+  if (n < 3) return;
+  group_->centre = x_, group_->reach = reach;
+  group_->near.clear();
+  const double radius = (1 + 1e-12) * (bound + 2 * reach), square = radius * radius;
+  tree_->boxes().all_that_meet([&](const BoxTree::Box& box) { return squared_distance(box, x_) <= square; },
+                               [&](const BoxTree::Node& leaf) {
+                                 for (const PieceTree::Piece& piece : tree_->pieces(leaf))
+                                   if (squared_distance(piece.box, x_) <= square) group_->near.push_back(piece);
+                               });
 }
 
 // The place of the predecessor is near, and gives the bound that excludes most pieces.

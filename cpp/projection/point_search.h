@@ -38,12 +38,17 @@ struct SearchGroup {
   std::vector<Candidate> trial;  // of the search that is made
   std::int32_t entity = -1, piece = 0;  // of the predecessor; -1: none is known
   Vec2 place;
+
+  // These pieces hold the closest points of all points in a ball.
+  Vec3 centre;
+  double reach = -1;
+  std::vector<PieceTree::Piece> near;
 };
 
 class PointSearch {
  public:
-  /// The group must outlive the search.
-  PointSearch(const PieceTree& tree, const Vec3& x, double diagonal, SearchGroup& group);
+  /// Seeks for the first of the points; others follow. The group must outlive the search.
+  PointSearch(const PieceTree& tree, std::span<const Vec3> points, double diagonal, SearchGroup& group);
 
   /// False when the search has ended.
   [[nodiscard]] bool goes_on() const noexcept { return next_ < end_; }
@@ -62,6 +67,7 @@ class PointSearch {
 
  private:
   void begin_at_predecessor(double& bound);
+  void collect(std::span<const Vec3> points, double bound);
   void look_at(const PieceTree::Piece& piece, double& bound);
   void look_at(Candidate& candidate, double& bound);
   void solve(Candidate& candidate, const Vec2* from, double& bound) const;

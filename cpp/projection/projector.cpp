@@ -282,7 +282,10 @@ void Projector::State::search(const PieceTree& tree, std::span<const Vec3> x, st
   std::vector<PointSearch> searches;
   searches.reserve(ranks.size());
   SearchGroup group;
-  for (const std::int64_t rank : ranks) searches.emplace_back(tree, x[static_cast<std::size_t>(rank)], diagonal, group);
+  std::vector<Vec3> places;
+  places.reserve(ranks.size());
+  for (const std::int64_t rank : ranks) places.push_back(x[static_cast<std::size_t>(rank)]);
+  for (std::size_t i = 0; i < places.size(); ++i) searches.emplace_back(tree, std::span<const Vec3>(places).subspan(i), diagonal, group);
   struct Asked {
     PlaceRequest place;
     std::size_t search = 0;
