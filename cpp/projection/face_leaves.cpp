@@ -144,7 +144,7 @@ struct Judgement {
 
 double angle_between(const Vec3& p, const Vec3& q) { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
-/// How much a line of samples turns, and how far its middle leaves a cubic polynomial.
+/// How much a line of samples turns, and how far it leaves its middle parabola.
 struct Line {
   double turn = 0, off = 0, bulge = 0;
 };
@@ -159,7 +159,8 @@ Line line_of(const std::array<Vec3, side>& p, double size) {
     if (norm(before) > 1e-9 * size) line.turn += angle_between(before, leg);
     before = leg;
   }
-  line.off = norm(4 * (p[1] + p[3]) - (p[0] + p[4]) - 6 * p[2]) / 6;  // from the cubic polynomial of the others
+  for (const auto& [near, far, between] : {std::array{p[0], p[4], p[1]}, std::array{p[4], p[0], p[3]}})
+    line.off = std::max(line.off, norm((3 * near - far + 6 * p[2]) / 8 - between));
   for (std::size_t i = 1; i + 1 < side; ++i) line.bulge = std::max(line.bulge, norm(p[i - 1] - 2 * p[i] + p[i + 1]) / 8);
   return line;
 }
@@ -305,8 +306,6 @@ NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x) {
 
 namespace {
 
-Vec2 place_of(const NearestSample& sample) { return {static_cast<double>(sample.rank % 3) / 2, static_cast<double>(sample.rank / 3) / 2}; }
-
 /// The end of a descent on an interpolation.
 struct Landing {
   Vec2 w;
@@ -353,9 +352,8 @@ Landing descend(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, double
 
 }  // namespace
 
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& sample, const Vec2* from, double bound) {
-  const Vec2 at_sample = place_of(sample);
-  Landing best = descend(leaf, x, from != nullptr ? *from : at_sample, from != nullptr ? sample.square : infinity, at_sample, bound);
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, const NearestSample* sample, double bound) {
+  Landing best = descend(leaf, x, from, sample != nullptr ? sample->square : infinity, sample != nullptr ? place_of(*sample) : from, bound);
   if (!best.convex && !leaf.region.triangle) {  // there may be a minimum at each corner
     for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
       const Landing other = descend(leaf, x, corner, infinity, corner, bound);

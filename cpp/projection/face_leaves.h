@@ -2,6 +2,7 @@
 // Pieces of faces and of curves that are nearly quadratic, in trees of boxes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -29,10 +30,17 @@ struct TurnedBox {
     const Vec3 r = x - origin;
     double square = 0;
     for (int k = 0; k < 3; ++k) {
-      const double at = dot(r, axes[static_cast<std::size_t>(k)]), beyond = at < low[k] ? low[k] - at : at > high[k] ? at - high[k] : 0;
-      square += beyond * beyond;
+      const double at = dot(r, axes[static_cast<std::size_t>(k)]), before = low[k] - at, after = at - high[k], beyond = before > after ? before : after;
+      square += beyond > 0 ? beyond * beyond : 0;
     }
     return square;
+  }
+  /// The place of the nearest point along the first two axes, from 0 to 1.
+  [[nodiscard]] Vec2 share_at(const Vec3& x) const noexcept {
+    const Vec3 r = x - origin;
+    Vec2 share;
+    for (int k = 0; k < 2; ++k) share[k] = high[k] > low[k] ? std::clamp((dot(r, axes[static_cast<std::size_t>(k)]) - low[k]) / (high[k] - low[k]), 0.0, 1.0) : 0.5;
+    return share;
   }
 };
 
@@ -79,6 +87,7 @@ struct NearestSample {
   double square = 0;
 };
 NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x);
+inline Vec2 place_of(const NearestSample& sample) { return {static_cast<double>(sample.rank % 3) / 2, static_cast<double>(sample.rank / 3) / 2}; }
 
 /// A place of a leaf that is nearest to a point, on the interpolation.
 struct LeafPlace {
@@ -86,9 +95,9 @@ struct LeafPlace {
   double distance = 0;
   double slack = 0;  ///< of the distance: the search ended so near
 };
-/// Begins at the sample, or at `from`, in shares of the region, if it is nearer; may be null. Ends early if the distance is certainly larger
+/// Begins at `from`, in shares of the region, or at the sample if it is nearer; may be null. Ends early if the distance is certainly larger
 /// than `bound`.
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& sample, const Vec2* from, double bound);
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, const NearestSample* sample, double bound);
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x);
 
 /// The pieces of a face with its boundary, or of a curve. The rank of a piece counts the leaves, then the curves.

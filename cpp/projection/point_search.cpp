@@ -34,16 +34,15 @@ PointSearch::PointSearch(const PieceTree& tree, std::span<const Vec3> points, do
   begin_at_predecessor(bound);
   const auto matters = [&](double least) { return least <= (1 + 1e-12) * bound * bound; };
   const bool is_near = norm(x_ - group.centre) <= group.reach;
-  if (is_near) {
-    for (const PieceTree::Piece& piece : group.near)
-      if (matters(squared_distance(piece.box, x_))) look_at(piece, bound);
-  } else {
+  const auto look = [&](std::span<const PieceTree::Piece> pieces) {
+    for (const PieceTree::Piece& piece : pieces)
+      if (const double square = squared_distance(piece.box, x_); matters(square)) look_at(piece, square, !is_near, bound);
+  };
+  if (is_near)
+    look(group.near);
+  else
     tree.boxes().nearest_first([&](std::int32_t n) { return squared_distance(tree.boxes().node(static_cast<std::size_t>(n)).box, x_); }, matters,
-                               [&](const BoxTree::Node& leaf) {
-                                 for (const PieceTree::Piece& piece : tree.pieces(leaf))
-                                   if (matters(squared_distance(piece.box, x_))) look_at(piece, bound);
-                               });
-  }
+                               [&](const BoxTree::Node& leaf) { look(tree.pieces(leaf)); });
   refine(bound);
   if (!is_near) collect(points, bound);
   next_ = group.kept.size();
@@ -82,50 +81,52 @@ void PointSearch::begin_at_predecessor(double& bound) {
   if (group_->entity < 0) return;
   Candidate& candidate = group_->trial.emplace_back();
   candidate.entity = group_->entity, candidate.piece = group_->piece;
-  if (curve_of(candidate) != nullptr) {
-    look_at(candidate, bound);
+  if (const CurveLeaf* curve = curve_of(candidate)) {
+    look_at(*curve, candidate, bound);
   } else {
     const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
     candidate.floor = (1 - 1e-12) * std::sqrt(leaf.box.squared_distance(x_));
-    candidate.sample = nearest_sample(leaf, x_);
-    const Vec2 from = (group_->place - leaf.region.low).cwiseQuotient(leaf.region.size());
-    solve(candidate, &from, bound);
+    const NearestSample sample = nearest_sample(leaf, x_);
+    candidate.start = (group_->place - leaf.region.low).cwiseQuotient(leaf.region.size());
+    solve(candidate, &sample, bound);
     nearest_sample_ = candidate.distance;
   }
 }
 
-void PointSearch::look_at(const PieceTree::Piece& piece, double& bound) {
+// `square`: of the distance of its box. `sampled`: there may be no good bound yet, and samples give one.
+void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool sampled, double& bound) {
   if (piece.entity == group_->entity && piece.rank == group_->piece) return;  // known
   const Pieces& pieces = tree_->of(piece.entity);
   const auto k = static_cast<std::size_t>(piece.rank);
-  double floor = squared_distance(piece.box, x_);
-  if (k < pieces.leaves.size()) floor = std::max(floor, pieces.leaves[k].box.squared_distance(x_));
-  if (floor > (1 + 1e-12) * bound * bound) return;
+  const SurfaceLeaf* leaf = k < pieces.leaves.size() ? &pieces.leaves[k] : nullptr;
+  if (leaf != nullptr) square = std::max(square, leaf->box.squared_distance(x_));
+  if (square > (1 + 1e-12) * bound * bound) return;
   Candidate& candidate = group_->trial.emplace_back();
-  candidate.entity = piece.entity, candidate.piece = piece.rank, candidate.floor = (1 - 1e-12) * std::sqrt(floor);  // a sample may be a corner of a flat box
-  look_at(candidate, bound);
-}
-
-void PointSearch::look_at(Candidate& candidate, double& bound) {
-  if (const CurveLeaf* curve = curve_of(candidate)) {
-    const LeafPlace place = nearest_on(*curve, x_);
-    candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve->error;
-    bound = std::min(bound, place.distance + curve->error);
+  candidate.entity = piece.entity, candidate.piece = piece.rank, candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
+  if (leaf == nullptr) return look_at(pieces.curves[k - pieces.leaves.size()], candidate, bound);
+  if (!sampled) {
+    candidate.start = leaf->box.share_at(x_), candidate.distance = candidate.floor;
     return;
   }
-  const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
-  candidate.sample = nearest_sample(leaf, x_);
-  candidate.distance = std::sqrt(candidate.sample.square);
-  candidate.error = leaf.cover;
-  if (leaf.cut) return;
+  const NearestSample sample = nearest_sample(*leaf, x_);
+  candidate.start = place_of(sample);
+  candidate.distance = std::sqrt(sample.square);
+  candidate.error = leaf->cover;
+  if (leaf->cut) return;
   bound = std::min(bound, candidate.distance);
   if (candidate.distance < nearest_sample_) nearest_sample_ = candidate.distance, solve(candidate, nullptr, bound);  // a bound for the others
 }
 
-// From a place or the nearest sample to the nearest place of the interpolation.
-void PointSearch::solve(Candidate& candidate, const Vec2* from, double& bound) const {
+void PointSearch::look_at(const CurveLeaf& curve, Candidate& candidate, double& bound) {
+  const LeafPlace place = nearest_on(curve, x_);
+  candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve.error;
+  bound = std::min(bound, place.distance + curve.error);
+}
+
+// From `start`, a share of the leaf, to the nearest place of the interpolation.
+void PointSearch::solve(Candidate& candidate, const NearestSample* sample, double& bound) const {
   const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
-  const LeafPlace place = nearest_on(leaf, x_, candidate.sample, from, bound);
+  const LeafPlace place = nearest_on(leaf, x_, candidate.start, sample, bound);
   candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error + place.slack, candidate.solved = true;
   // The interpolation may leave the box of a leaf that is small and bent; a place of a cut leaf may lie outside of the domain.
   if (!leaf.cut) bound = std::min(bound, std::max(place.distance + candidate.error, candidate.floor));

@@ -22,11 +22,10 @@ struct PlaceRequest {
 /// A piece that may hold the closest point.
 struct Candidate {
   std::int32_t entity = 0, piece = 0;  // index, and rank in it
-  Vec2 start;
+  Vec2 start;  // of a leaf of a face, its share, until it is solved
   double distance = 0, error = 0;
-  double floor = 0;      // no place is nearer, by the box of the leaf
-  NearestSample sample;  // of a leaf of a face
-  bool solved = false;   // `start` is the nearest place, not a sample
+  double floor = 0;     // no place is nearer, by the box of the leaf
+  bool solved = false;  // `start` is the nearest place
 
   /// A lower bound, with room for rounding: the candidate itself may have given the upper bound.
   [[nodiscard]] double least() const noexcept { return std::max(floor, (1 - 1e-12) * (distance - error)); }
@@ -68,9 +67,9 @@ class PointSearch {
  private:
   void begin_at_predecessor(double& bound);
   void collect(std::span<const Vec3> points, double bound);
-  void look_at(const PieceTree::Piece& piece, double& bound);
-  void look_at(Candidate& candidate, double& bound);
-  void solve(Candidate& candidate, const Vec2* from, double& bound) const;
+  void look_at(const PieceTree::Piece& piece, double square, bool sampled, double& bound);
+  void look_at(const CurveLeaf& curve, Candidate& candidate, double& bound);
+  void solve(Candidate& candidate, const NearestSample* sample, double& bound) const;
   void refine(double& bound);
   void begin();
   [[nodiscard]] bool leads_to_best(const Candidate& c) const;
