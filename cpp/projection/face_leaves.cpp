@@ -19,57 +19,88 @@ constexpr int side = 5;  // samples of a side of a cell
 using Samples = std::array<Vec3, side * side>;
 const Vec3& sample(const Samples& samples, int i, int j) { return samples[static_cast<std::size_t>(side * j + i)]; }
 
-struct Shape {
-  std::array<double, 3> value, slope, bend;
-};
-
-/// Quadratic Lagrange polynomials of the places 0, 1/2, 1.
-Shape shape_at(double w) {
-  return {{(2 * w - 1) * (w - 1), 4 * w * (1 - w), w * (2 * w - 1)}, {4 * w - 3, 4 - 8 * w, 4 * w - 1}, {4, -8, 4}};
+/// Coefficients of the cubic polynomial through values at 0, 1/4, 3/4, 1.
+std::array<Vec3, 4> cubic_of(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  return {p, Vec3((-19 * p + 24 * q - 8 * r + 3 * s) / 3), Vec3((32 * p - 56 * q + 40 * r - 16 * s) / 3), Vec3((-16 * p + 32 * q - 32 * r + 16 * s) / 3)};
 }
 
-SurfaceJet interpolated(const std::array<Vec3, 9>& at, const Vec2& w) {
-  const Shape u = shape_at(w.x()), v = shape_at(w.y());
-  SurfaceJet jet;
-  for (std::size_t j = 0; j < 3; ++j) {
-    Vec3 s, su, suu;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& p = at[3 * j + i];
-      s += u.value[i] * p, su += u.slope[i] * p, suu += u.bend[i] * p;
-    }
-    jet.s += v.value[j] * s, jet.su += v.value[j] * su, jet.suu += v.value[j] * suu;
-    jet.sv += v.slope[j] * s, jet.suv += v.slope[j] * su, jet.svv += v.bend[j] * s;
+/// Of 16 of the samples: the lines of the middle are left for the measure of the error.
+BicubicTerms terms_of(const Samples& samples) {
+  std::array<Vec3, 16> rows;
+  BicubicTerms terms;
+  constexpr std::array<int, 4> lines{0, 1, 3, 4};
+  for (std::size_t j = 0; j < 4; ++j) {
+    const auto at = [&](int i) -> const Vec3& { return sample(samples, i, lines[j]); };
+    const std::array<Vec3, 4> row = cubic_of(at(0), at(1), at(3), at(4));
+    for (std::size_t i = 0; i < 4; ++i) rows[4 * j + i] = row[i];
   }
-  return jet;
-}
-
-/// Coefficients of the polynomial through values at 0, 1/2, 1.
-std::array<Vec3, 3> polynomial_of(const Vec3& p, const Vec3& q, const Vec3& r) {
-  return {p, Vec3(-3 * p + 4 * q - r), Vec3(2 * p - 4 * q + 2 * r)};
-}
-
-std::array<Vec3, 9> terms_of(const std::array<Vec3, 9>& at) {
-  std::array<Vec3, 9> rows, terms;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const std::array<Vec3, 3> row = polynomial_of(at[3 * j], at[3 * j + 1], at[3 * j + 2]);
-    for (std::size_t i = 0; i < 3; ++i) rows[3 * j + i] = row[i];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::array<Vec3, 3> column = polynomial_of(rows[i], rows[3 + i], rows[6 + i]);
-    for (std::size_t j = 0; j < 3; ++j) terms[3 * j + i] = column[j];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::array<Vec3, 4> column = cubic_of(rows[i], rows[4 + i], rows[8 + i], rows[12 + i]);
+    for (std::size_t j = 0; j < 4; ++j) terms.set(static_cast<int>(i), static_cast<int>(j), column[j]);
   }
   return terms;
 }
 
-SurfaceJet at_terms(const std::array<Vec3, 9>& c, const Vec2& w) {
+/// The derivative of order (a, b).
+Vec3 derivative_at(const BicubicTerms& terms, int a, int b, const Vec2& w) {
+  const auto powers = [](int order, double t) {
+    std::array<double, 4> power{};
+    double rising = 1;
+    for (int i = order; i < 4; ++i, rising *= t) {
+      power[static_cast<std::size_t>(i)] = rising;
+      for (int k = 0; k < order; ++k) power[static_cast<std::size_t>(i)] *= i - k;
+    }
+    return power;
+  };
+  const std::array<double, 4> u = powers(a, w.x()), v = powers(b, w.y());
+  Vec3 sum;
+  for (int j = b; j < 4; ++j)
+    for (int i = a; i < 4; ++i) sum += u[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)] * terms.at(i, j);
+  return sum;
+}
+
+/// The squared distance of the interpolation from x, halved, with its derivatives; `form` is the first fundamental form.
+struct Expansion {
+  double square = 0;  // not halved
+  Vec2 gradient;
+  Symmetric2 hessian, form;
+};
+
+Expansion expansion_at(const BicubicTerms& terms, const Vec3& x, const Vec2& w) {
+  using Pair = BicubicTerms::Pair;
   const double u = w.x(), v = w.y();
-  const Vec3 p = c[0] + u * (c[1] + u * c[2]), q = c[3] + u * (c[4] + u * c[5]), r = c[6] + u * (c[7] + u * c[8]);
-  const Vec3 pu = c[1] + 2 * u * c[2], qu = c[4] + 2 * u * c[5], ru = c[7] + 2 * u * c[8];
-  SurfaceJet jet;
-  jet.s = p + v * (q + v * r), jet.sv = q + 2 * v * r, jet.svv = 2 * r;
-  jet.su = pu + v * (qu + v * ru), jet.suv = qu + 2 * v * ru;
-  jet.suu = 2 * (c[2] + v * (c[5] + v * c[8]));
-  return jet;
+  Pair of_r{}, of_v{}, of_u{}, bends{};  // sums over the coordinates of r (r, Su), r (Sv, Suv), Su (Su, Sv), r (Suu, Svv)
+  double vv = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Pair* c = &terms.pairs[8 * k];
+    std::array<Pair, 2> p, pu, puu;  // rows and their derivatives along u, the second one halved
+    for (std::size_t h = 0; h < 2; ++h) {
+      const Pair t = u * c[6 + h], q = c[4 + h] + t;
+      p[h] = c[h] + u * (c[2 + h] + u * q), pu[h] = c[2 + h] + u * (q + q + t), puu[h] = q + t + t;
+    }
+    const Pair first{p[0][0], pu[0][0]}, second{p[0][1], pu[0][1]}, third{p[1][0], pu[1][0]}, last{p[1][1], pu[1][1]};
+    const Pair t = v * last, q = third + t;
+    const Pair r = first + v * (second + v * q) - Pair{x[static_cast<Eigen::Index>(k)], 0}, across = second + v * (q + q + t);
+    const Pair uu = puu[0] + (v * v) * puu[1];
+    of_r += r[0] * r, of_v += r[0] * across, of_u += r[1] * Pair{r[1], across[0]};
+    bends += r[0] * Pair{uu[0] + v * uu[1], q[0] + t[0] + t[0]};
+    vv += across[0] * across[0];
+  }
+  const Symmetric2 form{of_u[0], of_u[1], vv};
+  return {of_r[0], {of_r[1], of_v[0]}, {form.xx + 2 * bends[0], form.xy + of_v[1], form.yy + 2 * bends[1]}, form};
+}
+
+/// Bounds of the terms of third order; the places between the samples get a margin.
+void bound_third_order(SurfaceLeaf& leaf) {
+  double first = 0, second = 0, third = 0;
+  for (const double u : {0.0, 0.5, 1.0})
+    for (const double v : {0.0, 0.5, 1.0}) {
+      const auto size = [&](int a, int b) { return norm(derivative_at(leaf.terms, a, b, {u, v})); };
+      first = std::max(first, std::hypot(size(1, 0), size(0, 1)));
+      second = std::max(second, size(2, 0) + size(1, 1) + size(0, 2));
+      third = std::max(third, size(3, 0) + 3 * size(2, 1) + 3 * size(1, 2) + size(0, 3));
+    }
+  leaf.bend = limit::error_margin / 2 * first * second / 2, leaf.third = limit::error_margin / 2 * third / 6;
 }
 
 /// Around points, `margin` farther, along the lines of the middle of a leaf.
@@ -108,6 +139,7 @@ struct Judgement {
   double size = 0, error = 0, bulge = 0;
   bool in_u = false, in_v = false;  // to be halved
   bool known = true;                // all samples are finite
+  BicubicTerms terms;
 };
 
 double angle_between(const Vec3& p, const Vec3& q) { return std::atan2(norm(cross(p, q)), dot(p, q)); }
@@ -119,13 +151,16 @@ struct Line {
 
 Line line_of(const std::array<Vec3, side>& p, double size) {
   Line line;
-  const Vec3 first = p[1] - p[0], last = p[4] - p[3];
-  if (norm(first) > 1e-9 * size && norm(last) > 1e-9 * size) line.turn = angle_between(first, last);
-  for (const double w : {0.25, 0.75}) {
-    const Shape shape = shape_at(w);
-    const Vec3 q = shape.value[0] * p[0] + shape.value[1] * p[2] + shape.value[2] * p[4];
-    line.off = std::max(line.off, norm(q - p[w < 0.5 ? 1 : 3]));
+  const std::array<Vec3, 4> c = cubic_of(p[0], p[1], p[3], p[4]);
+  const Vec3 middle = c[1] + c[2];
+  Vec3 before = c[1];
+  for (const Vec3& leg : {middle, Vec3(middle + c[2] + 3 * c[3])}) {  // of Bezier's polygon: its turn bounds the turn of the curve
+    if (!(norm(leg) > 1e-9 * size)) continue;
+    if (norm(before) > 1e-9 * size) line.turn += angle_between(before, leg);
+    before = leg;
   }
+  for (const auto& [near, far, between] : {std::array{p[0], p[4], p[1]}, std::array{p[4], p[0], p[3]}})
+    line.off = std::max(line.off, norm((3 * near - far + 6 * p[2]) / 8 - between));
   for (std::size_t i = 1; i + 1 < side; ++i) line.bulge = std::max(line.bulge, norm(p[i - 1] - 2 * p[i] + p[i + 1]) / 8);
   return line;
 }
@@ -142,10 +177,10 @@ Judgement judge(const Samples& samples, double smallest) {
     return judgement;
   }
   judgement.size = norm(box.high - box.low);
-  const std::array<Vec3, 9> nine = nine_of(samples);
+  judgement.terms = terms_of(samples);
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i)
-      judgement.error = std::max(judgement.error, norm(interpolated(nine, {i / 4.0, j / 4.0}).s - sample(samples, i, j)));
+      if (i == 2 || j == 2) judgement.error = std::max(judgement.error, norm(derivative_at(judgement.terms, 0, 0, {i / 4.0, j / 4.0}) - sample(samples, i, j)));
   if (!(judgement.size > smallest)) return judgement;
   Line u, v;
   const auto widen = [](Line& all, const Line& one) {
@@ -269,33 +304,63 @@ NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x) {
   return nearest;
 }
 
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from) {
-  double least = from.square, slack = 0;
-  const Region unit{{0, 0}, {1, 1}, leaf.region.triangle};
-  Vec2 w{static_cast<double>(from.rank % 3) / 2, static_cast<double>(from.rank / 3) / 2};
-  Vec2 best = w;
-  for (int k = 0; k < 6; ++k) {
-    const SurfaceJet jet = at_terms(leaf.terms, w);
-    const Vec3 r = jet.s - x;
-    const double d = dot(r, r);
-    if (k > 0 && !(d < least)) break;
-    least = d, best = w;
-    const Symmetric2 form{dot(jet.su, jet.su), dot(jet.su, jet.sv), dot(jet.sv, jet.sv)};
-    const Symmetric2 hessian{form.xx + dot(r, jet.suu), form.xy + dot(r, jet.suv), form.yy + dot(r, jet.svv)};
-    const Vec2 gradient{dot(r, jet.su), dot(r, jet.sv)};
-    RestrictedStep step;
-    if (!leaf.region.triangle && is_convex(hessian, form))
-      step = step_in_square(w, gradient, hessian);
-    else
-      step = restricted_step(unit, w, gradient, hessian, form);
-    const double move = norm(step.d);
-    if (move < limit::last_step_in_leaf) {  // the expansion holds over such a step, but for the slack
-      best = step.to, least = std::max(0.0, least - 2 * step.gain), slack = move * std::sqrt(move) * leaf.size;
+namespace {
+
+/// The end of a descent on an interpolation.
+struct Landing {
+  Vec2 w;
+  double square = infinity, slack = 0;
+  bool convex = true;  // the squared distance, at all places of the way
+};
+
+/// If `known` is less than the square at `from`, the descent begins at `otherwise`.
+Landing descend(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, double known, const Vec2& otherwise, double bound) {
+  const bool triangle = leaf.region.triangle;
+  const Region unit{{0, 0}, {1, 1}, triangle};
+  Vec2 w = from;
+  Landing landing{w, infinity, leaf.size};  // the bound of a descent that does not converge
+  double move = 0;
+  for (int k = 0; k < limit::steps_in_leaf; ++k) {
+    const Expansion f = expansion_at(leaf.terms, x, w);
+    const double d = f.square;
+    if (k == 0 && known < d) {
+      w = otherwise;
+      continue;
+    }
+    if (!(d < landing.square)) {
+      if (move <= limit::last_step_in_exact_leaf) landing.slack = 0;
       break;
+    }
+    landing.square = d, landing.w = w;
+    const bool convex = is_convex(f.hessian, f.form);
+    landing.convex = landing.convex && convex;
+    const RestrictedStep step = convex && !triangle ? step_in_square(w, f.gradient, f.hessian) : restricted_step(unit, w, f.gradient, f.hessian, f.form);
+    const double squared_move = dot(step.d, step.d);
+    move = std::sqrt(squared_move);
+    if (move < limit::expanded_step) {
+      const double square = std::max(0.0, d - 2 * step.gain), off = 2 * (leaf.bend + leaf.third * std::sqrt(d)) * squared_move * move;
+      const double distance = std::sqrt(square), slack = distance - std::sqrt(std::max(0.0, square - off));
+      if ((move < limit::last_step_in_leaf && slack <= leaf.error) || move < limit::last_step_in_exact_leaf || distance - slack - leaf.error > bound) {
+        landing.w = step.to, landing.square = square, landing.slack = slack;
+        break;
+      }
     }
     w = step.to;
   }
-  return {leaf.region.low + Vec2(best.cwiseProduct(leaf.region.size())), std::sqrt(least), slack};
+  return landing;
+}
+
+}  // namespace
+
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, const NearestSample* sample, double bound) {
+  Landing best = descend(leaf, x, from, sample != nullptr ? sample->square : infinity, sample != nullptr ? place_of(*sample) : from, bound);
+  if (!best.convex && !leaf.region.triangle) {  // there may be a minimum at each corner
+    for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
+      const Landing other = descend(leaf, x, corner, infinity, corner, bound);
+      if (std::sqrt(other.square) - other.slack < std::sqrt(best.square) - best.slack) best = other;
+    }
+  }
+  return {leaf.region.low + Vec2(best.w.cwiseProduct(leaf.region.size())), std::sqrt(best.square), best.slack};
 }
 
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x) {
@@ -304,11 +369,19 @@ LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x) {
   return {{leaf.t0 + share * (leaf.t1 - leaf.t0), 0}, norm(leaf.from + share * d - x), 0};
 }
 
-void Pieces::plant() {
+PieceTree::PieceTree(std::span<const Pieces> entities, std::int32_t only) : entities_(entities) {
+  std::vector<Piece> pieces;
+  for (std::size_t e = 0; e < entities.size(); ++e) {
+    if (only >= 0 && e != static_cast<std::size_t>(only)) continue;
+    for (const BoxTree::Box& box : entities[e].boxes) pieces.push_back({box, static_cast<std::int32_t>(e), static_cast<std::int32_t>(&box - entities[e].boxes.data())});
+  }
+  std::vector<BoxTree::Box> boxes;
   std::vector<Vec3> centres;
-  centres.reserve(boxes.size());
-  for (const BoxTree::Box& each : boxes) centres.push_back((each.low + each.high) / 2), box.add(each);
-  tree = BoxTree(boxes, centres);
+  boxes.reserve(pieces.size()), centres.reserve(pieces.size());
+  for (const Piece& piece : pieces) boxes.push_back(piece.box), centres.push_back((piece.box.low + piece.box.high) / 2);
+  tree_ = BoxTree(boxes, centres);
+  pieces_.reserve(pieces.size());
+  for (const std::int32_t k : tree_.order()) pieces_.push_back(pieces[static_cast<std::size_t>(k)]);
 }
 
 Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<CurveSupport>& supports, const EvaluateFace& evaluate, Monitor& monitor) {
@@ -362,7 +435,8 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
           pieces.leaves.push_back({{cell.low, cell.high}, nine_of(samples), error, judgement.size, 0, cell.cut});
           SurfaceLeaf& leaf = pieces.leaves.back();
           const double margin = error + limit::error_margin * judgement.bulge;
-          leaf.cover = cover_of(leaf, judgement.bulge), leaf.terms = terms_of(leaf.at), leaf.box = turned_box(leaf.at, samples, margin);
+          leaf.cover = cover_of(leaf, judgement.bulge), leaf.terms = judgement.terms, leaf.box = turned_box(leaf.at, samples, margin);
+          bound_third_order(leaf);
           pieces.boxes.push_back(box_of(samples, margin));
         }
       });
@@ -372,7 +446,7 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
     for (std::size_t c = 0; c < supports.size(); ++c)
       if (of.curves[c].type == CurveType::boundary) add_curve(static_cast<int>(face), static_cast<int>(c), supports[c], pieces.curves);
   for (const CurveLeaf& leaf : pieces.curves) pieces.boxes.push_back(box_of(leaf));
-  pieces.plant();
+  for (const BoxTree::Box& each : pieces.boxes) pieces.box.add(each);
   return pieces;
 }
 
@@ -414,14 +488,17 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
         }
       leaf.size = norm(box.high - box.low);
       const double bulge = (norm(a - 2 * ab + b) + norm(a - 2 * ac + c) + norm(b - 2 * bc + c)) / 16;
-      leaf.cover = cover_of(leaf, bulge), leaf.terms = terms_of(leaf.at);
+      leaf.cover = cover_of(leaf, bulge);
+      leaf.terms.set(0, 0, a), leaf.terms.set(1, 0, -3 * a + 4 * ab - b), leaf.terms.set(2, 0, 2 * (a - 2 * ab + b));
+      leaf.terms.set(0, 1, -3 * a + 4 * ac - c), leaf.terms.set(1, 1, 4 * (a - ab - ac + bc)), leaf.terms.set(0, 2, 2 * (a - 2 * ac + c));
+      bound_third_order(leaf);
       leaf.box = turned_box(leaf.at, std::span<const Vec3>(places.data() + t * each, each), leaf.error + bulge);
       const Vec3 by = (leaf.error + bulge) * Vec3(1, 1, 1);
       box.low -= by, box.high += by;
       pieces.leaves.push_back(leaf), pieces.boxes.push_back(box);
     }
   });
-  pieces.plant();
+  for (const BoxTree::Box& each : pieces.boxes) pieces.box.add(each);
   return pieces;
 }
 
@@ -429,7 +506,7 @@ Pieces pieces_of_curve(int face, int curve, const CurveSupport& support) {
   Pieces pieces;
   add_curve(face, curve, support, pieces.curves);
   for (const CurveLeaf& leaf : pieces.curves) pieces.boxes.push_back(box_of(leaf));
-  pieces.plant();
+  for (const BoxTree::Box& each : pieces.boxes) pieces.box.add(each);
   return pieces;
 }
 

@@ -2,6 +2,7 @@
 // Pieces of faces and of curves that are nearly quadratic, in trees of boxes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -29,14 +30,35 @@ struct TurnedBox {
     const Vec3 r = x - origin;
     double square = 0;
     for (int k = 0; k < 3; ++k) {
-      const double at = dot(r, axes[static_cast<std::size_t>(k)]), beyond = at < low[k] ? low[k] - at : at > high[k] ? at - high[k] : 0;
-      square += beyond * beyond;
+      const double at = dot(r, axes[static_cast<std::size_t>(k)]), before = low[k] - at, after = at - high[k], beyond = before > after ? before : after;
+      square += beyond > 0 ? beyond * beyond : 0;
     }
     return square;
   }
+  /// The place of the nearest point along the first two axes, from 0 to 1.
+  [[nodiscard]] Vec2 share_at(const Vec3& x) const noexcept {
+    const Vec3 r = x - origin;
+    Vec2 share;
+    for (int k = 0; k < 2; ++k) share[k] = high[k] > low[k] ? std::clamp((dot(r, axes[static_cast<std::size_t>(k)]) - low[k]) / (high[k] - low[k]), 0.0, 1.0) : 0.5;
+    return share;
+  }
 };
 
-/// A piece of a face, as the biquadratic interpolation of nine places.
+/// Coefficients of u^i v^j in a bicubic polynomial, two neighbours in j together: coordinate k has them from 8 k + 2 i on.
+struct BicubicTerms {
+  using Pair [[gnu::vector_size(16)]] = double;
+  std::array<Pair, 24> pairs{};
+
+  void set(int i, int j, const Vec3& to) noexcept {
+    for (int k = 0; k < 3; ++k) pairs[static_cast<std::size_t>(8 * k + 2 * i + j / 2)][j % 2] = to[k];
+  }
+  [[nodiscard]] Vec3 at(int i, int j) const noexcept {
+    const auto n = static_cast<std::size_t>(2 * i + j / 2);
+    return {pairs[n][j % 2], pairs[8 + n][j % 2], pairs[16 + n][j % 2]};
+  }
+};
+
+/// A piece of a face, as a bicubic interpolation; a triangle, as a quadratic one.
 struct SurfaceLeaf {
   Region region;           ///< of (u, v)
   std::array<Vec3, 9> at;  ///< at low, the middle and high of u (first) and v
@@ -45,7 +67,9 @@ struct SurfaceLeaf {
   double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
   bool cut = false;        ///< the boundary of the domain crosses it
   TurnedBox box = {};
-  std::array<Vec3, 9> terms = {};  ///< of the interpolation: of u^i v^j, from 0 to 1, at 3 j + i
+  BicubicTerms terms = {};  ///< of the interpolation, from 0 to 1
+  /// Half of the squared distance differs from its expansion of second order after a way w by at most (bend + third * distance) |w|^3.
+  double bend = 0, third = 0;
 };
 
 /// The piece of a curve over an edge of its support.
@@ -63,6 +87,7 @@ struct NearestSample {
   double square = 0;
 };
 NearestSample nearest_sample(const SurfaceLeaf& leaf, const Vec3& x);
+inline Vec2 place_of(const NearestSample& sample) { return {static_cast<double>(sample.rank % 3) / 2, static_cast<double>(sample.rank / 3) / 2}; }
 
 /// A place of a leaf that is nearest to a point, on the interpolation.
 struct LeafPlace {
@@ -70,22 +95,43 @@ struct LeafPlace {
   double distance = 0;
   double slack = 0;  ///< of the distance: the search ended so near
 };
-LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const NearestSample& from);
+/// Begins at `from`, in shares of the region, or at the sample if it is nearer; may be null. Ends early if the distance is certainly larger
+/// than `bound`.
+LeafPlace nearest_on(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, const NearestSample* sample, double bound);
 LeafPlace nearest_on(const CurveLeaf& leaf, const Vec3& x);
 
-/// The pieces of a face with its boundary, or of a curve: the things of `tree` are the leaves, then the curves.
+/// The pieces of a face with its boundary, or of a curve. The rank of a piece counts the leaves, then the curves.
 struct Pieces {
   std::vector<SurfaceLeaf> leaves;
   std::vector<CurveLeaf> curves;
   std::vector<BoxTree::Box> boxes;  // of the leaves, then of the curves
-  BoxTree tree;
   BoxTree::Box box;
   Region region;                        ///< of a face; of triangles each leaf has its own
   std::optional<TrimmedDomain> domain;  ///< of a face whose domain is not a box
   bool triangles = false;
+};
 
-  /// Makes the tree of the boxes.
-  void plant();
+/// A tree of the pieces of some entities.
+class PieceTree {
+ public:
+  struct Piece {
+    BoxTree::Box box;
+    std::int32_t entity = 0, rank = 0;  ///< index among the entities, and of the piece in its entity
+  };
+  PieceTree() = default;
+  /// The pieces of all entities, or of entity `only` if it is not negative.
+  PieceTree(std::span<const Pieces> entities, std::int32_t only);
+
+  [[nodiscard]] const Pieces& of(std::int32_t entity) const noexcept { return entities_[static_cast<std::size_t>(entity)]; }
+  [[nodiscard]] const BoxTree& boxes() const noexcept { return tree_; }
+  [[nodiscard]] std::span<const Piece> pieces(const BoxTree::Node& leaf) const noexcept {
+    return std::span(pieces_).subspan(static_cast<std::size_t>(leaf.first), static_cast<std::size_t>(leaf.count));
+  }
+
+ private:
+  std::span<const Pieces> entities_;
+  BoxTree tree_;
+  std::vector<Piece> pieces_;  // in the order of the tree
 };
 
 /// Evaluates places of a face. Places outside of the domain where the host fails are NaN.

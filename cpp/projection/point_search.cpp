@@ -26,68 +26,107 @@ inline double squared_distance(const BoxTree::Box& box, const Vec3& x) {
 
 }  // namespace
 
-PointSearch::PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal, const Vec3* hint)
-    : entities_(&entities), x_(x), diagonal_(diagonal) {
+PointSearch::PointSearch(const PieceTree& tree, std::span<const Vec3> points, double diagonal, SearchGroup& group)
+    : tree_(&tree), group_(&group), x_(points.front()), diagonal_(diagonal) {
   best_.square = nearest_sample_ = infinity;
-  candidates_.reserve(8);
   double bound = infinity;  // some point is not farther
-  if (hint != nullptr) bound = norm(x - *hint) * (1 + 1e-12);
-  if (only >= 0)
-    look_at(only, bound);
+  group.trial.clear();
+  begin_at_predecessor(bound);
+  const auto matters = [&](double least) { return least <= (1 + 1e-12) * bound * bound; };
+  const bool is_near = norm(x_ - group.centre) <= group.reach;
+  const auto look = [&](std::span<const PieceTree::Piece> pieces) {
+    for (const PieceTree::Piece& piece : pieces)
+      if (const double square = squared_distance(piece.box, x_); matters(square)) look_at(piece, square, !is_near, bound);
+  };
+  if (is_near)
+    look(group.near);
   else
-    entities.tree.nearest_first([&](std::int32_t n) { return std::sqrt(squared_distance(entities.tree.node(static_cast<std::size_t>(n)).box, x)); },
-                                [&](double least) { return least <= (1 + 1e-12) * bound; },
-                                [&](const BoxTree::Node& leaf) {
-                                  for (const std::int32_t e : entities.tree.things(leaf)) look_at(e, bound);
-                                });
+    tree.boxes().nearest_first([&](std::int32_t n) { return squared_distance(tree.boxes().node(static_cast<std::size_t>(n)).box, x_); }, matters,
+                               [&](const BoxTree::Node& leaf) { look(tree.pieces(leaf)); });
   refine(bound);
+  if (!is_near) collect(points, bound);
+  next_ = group.kept.size();
+  group.kept.insert(group.kept.end(), group.trial.begin(), group.trial.end());
+  end_ = group.kept.size();
   begin();
 }
 
-const Vec3* PointSearch::near_point() const {
-  for (const Candidate& candidate : candidates_) {
-    if (const CurveLeaf* curve = curve_of(candidate)) return &curve->from;
-    const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
-    if (!leaf.cut) return &leaf.at[candidate.sample.rank];
+// A neighbour in the ball has its closest point within bound + reach, which lies within bound + 2 reach of this point.
+void PointSearch::collect(std::span<const Vec3> points, double bound) {
+  group_->reach = -1;
+  if (group_->entity < 0) return;
+  const Pieces& pieces = tree_->of(group_->entity);
+  const auto k = static_cast<std::size_t>(group_->piece);
+  const double size = k < pieces.leaves.size() ? pieces.leaves[k].size : 0, most = limit::near_points * bound + limit::near_points_in_leaf * size;
+  double reach = 0;
+  std::size_t n = 1;
+  for (; n < std::min(points.size(), limit::points_that_share); ++n) {
+    const double way = norm(points[n] - x_);
+    if (way > most) break;
+    reach = std::max(reach, way);
   }
-  return nullptr;
+  if (n < 3) return;
+  group_->centre = x_, group_->reach = reach;
+  group_->near.clear();
+  const double radius = (1 + 1e-12) * (bound + 2 * reach), square = radius * radius;
+  tree_->boxes().all_that_meet([&](const BoxTree::Box& box) { return squared_distance(box, x_) <= square; },
+                               [&](const BoxTree::Node& leaf) {
+                                 for (const PieceTree::Piece& piece : tree_->pieces(leaf))
+                                   if (squared_distance(piece.box, x_) <= square) group_->near.push_back(piece);
+                               });
 }
 
-void PointSearch::look_at(std::int32_t entity, double& bound) {
-  const Pieces& pieces = *entities_->pieces[static_cast<std::size_t>(entity)];
-  pieces.tree.nearest_first(
-      [&](std::int32_t n) { return squared_distance(pieces.tree.node(static_cast<std::size_t>(n)).box, x_); },
-      [&](double least) { return least <= (1 + 1e-12) * bound * bound; },
-      [&](const BoxTree::Node& leaf) {
-        for (const std::int32_t k : pieces.tree.things(leaf)) {
-          const double least = squared_distance(pieces.boxes[static_cast<std::size_t>(k)], x_);
-          if (least > (1 + 1e-12) * bound * bound) continue;
-          double floor = least;
-          if (static_cast<std::size_t>(k) < pieces.leaves.size()) floor = pieces.leaves[static_cast<std::size_t>(k)].box.squared_distance(x_);
-          if (floor > (1 + 1e-12) * bound * bound) continue;
-          Candidate& candidate = candidates_.emplace_back();
-          candidate.entity = entity, candidate.piece = k, candidate.floor = (1 - 1e-12) * std::sqrt(std::max(floor, least));  // a sample may be a corner of a flat box
-          if (const CurveLeaf* curve = curve_of(candidate)) {
-            const LeafPlace place = nearest_on(*curve, x_);
-            candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve->error;
-            bound = std::min(bound, place.distance + curve->error);
-          } else {
-            const SurfaceLeaf& of = pieces.leaves[static_cast<std::size_t>(k)];
-            candidate.sample = nearest_sample(of, x_);
-            candidate.distance = std::sqrt(candidate.sample.square);
-            candidate.error = of.cover;
-            if (of.cut) continue;
-            bound = std::min(bound, candidate.distance);
-            if (candidate.distance < nearest_sample_) nearest_sample_ = candidate.distance, solve(candidate, bound);  // a bound for the others
-          }
-        }
-      });
+// The place of the predecessor is near, and gives the bound that excludes most pieces.
+void PointSearch::begin_at_predecessor(double& bound) {
+  if (group_->entity < 0) return;
+  Candidate& candidate = group_->trial.emplace_back();
+  candidate.entity = group_->entity, candidate.piece = group_->piece;
+  if (const CurveLeaf* curve = curve_of(candidate)) {
+    look_at(*curve, candidate, bound);
+  } else {
+    const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
+    candidate.floor = (1 - 1e-12) * std::sqrt(leaf.box.squared_distance(x_));
+    const NearestSample sample = nearest_sample(leaf, x_);
+    candidate.start = (group_->place - leaf.region.low).cwiseQuotient(leaf.region.size());
+    solve(candidate, &sample, bound);
+    nearest_sample_ = candidate.distance;
+  }
 }
 
-// From the nearest sample to the nearest place of the interpolation.
-void PointSearch::solve(Candidate& candidate, double& bound) const {
+// `square`: of the distance of its box. `sampled`: there may be no good bound yet, and samples give one.
+void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool sampled, double& bound) {
+  if (piece.entity == group_->entity && piece.rank == group_->piece) return;  // known
+  const Pieces& pieces = tree_->of(piece.entity);
+  const auto k = static_cast<std::size_t>(piece.rank);
+  const SurfaceLeaf* leaf = k < pieces.leaves.size() ? &pieces.leaves[k] : nullptr;
+  if (leaf != nullptr) square = std::max(square, leaf->box.squared_distance(x_));
+  if (square > (1 + 1e-12) * bound * bound) return;
+  Candidate& candidate = group_->trial.emplace_back();
+  candidate.entity = piece.entity, candidate.piece = piece.rank, candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
+  if (leaf == nullptr) return look_at(pieces.curves[k - pieces.leaves.size()], candidate, bound);
+  if (!sampled) {
+    candidate.start = leaf->box.share_at(x_), candidate.distance = candidate.floor;
+    return;
+  }
+  const NearestSample sample = nearest_sample(*leaf, x_);
+  candidate.start = place_of(sample);
+  candidate.distance = std::sqrt(sample.square);
+  candidate.error = leaf->cover;
+  if (leaf->cut) return;
+  bound = std::min(bound, candidate.distance);
+  if (candidate.distance < nearest_sample_) nearest_sample_ = candidate.distance, solve(candidate, nullptr, bound);  // a bound for the others
+}
+
+void PointSearch::look_at(const CurveLeaf& curve, Candidate& candidate, double& bound) {
+  const LeafPlace place = nearest_on(curve, x_);
+  candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = curve.error;
+  bound = std::min(bound, place.distance + curve.error);
+}
+
+// From `start`, a share of the leaf, to the nearest place of the interpolation.
+void PointSearch::solve(Candidate& candidate, const NearestSample* sample, double& bound) const {
   const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
-  const LeafPlace place = nearest_on(leaf, x_, candidate.sample);
+  const LeafPlace place = nearest_on(leaf, x_, candidate.start, sample, bound);
   candidate.start = place.parameters, candidate.distance = place.distance, candidate.error = leaf.error + place.slack, candidate.solved = true;
   // The interpolation may leave the box of a leaf that is small and bent; a place of a cut leaf may lie outside of the domain.
   if (!leaf.cut) bound = std::min(bound, std::max(place.distance + candidate.error, candidate.floor));
@@ -95,20 +134,26 @@ void PointSearch::solve(Candidate& candidate, double& bound) const {
 
 // Solves the candidates in ascending order.
 void PointSearch::refine(double& bound) {
+  std::vector<Candidate>& candidates = group_->trial;
   const auto ascending = [](const Candidate& a, const Candidate& b) {
     if (a.distance != b.distance) return a.distance < b.distance;
     return a.entity != b.entity ? a.entity < b.entity : a.piece < b.piece;
   };
   const auto drop = [&] {
-    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.least() > bound; }),
-                      candidates_.end());
-    std::sort(candidates_.begin(), candidates_.end(), ascending);
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.least() > bound; }), candidates.end());
+    if (candidates.size() > 1) std::sort(candidates.begin(), candidates.end(), ascending);
   };
   drop();
-  for (Candidate& candidate : candidates_) {
-    if (curve_of(candidate) == nullptr && !candidate.solved && candidate.least() <= bound) solve(candidate, bound);
-  }
+  for (Candidate& candidate : candidates)
+    if (curve_of(candidate) == nullptr && !candidate.solved && candidate.least() <= bound) solve(candidate, nullptr, bound);
   drop();
+  group_->entity = -1;
+  for (const Candidate& candidate : candidates) {
+    const bool is_curve = curve_of(candidate) != nullptr;
+    if (!is_curve && pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)].cut) continue;
+    group_->entity = candidate.entity, group_->piece = candidate.piece, group_->place = candidate.start;
+    break;
+  }
 }
 
 // The nearest place of a leaf on its border to another leaf is no minimum: from there the descent enters the leaf of the best place.
@@ -127,8 +172,8 @@ bool PointSearch::leads_to_best(const Candidate& c) const {
 
 // Begins the descent of the next candidate that may be better than the best place.
 void PointSearch::begin() {
-  for (; next_ < candidates_.size(); ++next_) {
-    const Candidate& candidate = candidates_[next_];
+  for (; next_ < end_; ++next_) {
+    const Candidate& candidate = this->candidate();
     in_leaf_ = false;
     if (best_.entity >= 0 && (candidate.least() >= std::sqrt(best_.square) * (1 - 1e-15) || leads_to_best(candidate))) continue;
     const Pieces& pieces = pieces_of(candidate);
@@ -143,14 +188,14 @@ void PointSearch::begin() {
 }
 
 PlaceRequest PointSearch::request() const {
-  const Candidate& candidate = candidates_[next_];
+  const Candidate& candidate = this->candidate();
   if (const CurveLeaf* curve = curve_of(candidate)) return {curve->face, curve->curve, {descent_.place().x(), 0}};
   return {candidate.entity, -1, descent_.place()};
 }
 
 void PointSearch::take(const SurfaceJet& jet, Cad& cad) {
   if (descent_.take(jet)) return;
-  const Candidate& candidate = candidates_[next_];
+  const Candidate& candidate = this->candidate();
   if (descent_.found()) {
     const Vec3 r = descent_.xyz() - x_;
     const double square = dot(r, r);

@@ -12,12 +12,6 @@
 
 namespace carreau::projection {
 
-/// Entities among which the closest point is sought, with a tree of their boxes.
-struct Entities {
-  std::vector<const Pieces*> pieces;
-  BoxTree tree;
-};
-
 /// A place to be evaluated: of a face, or of a curve in it.
 struct PlaceRequest {
   int face = 0;    ///< index in the model
@@ -25,17 +19,38 @@ struct PlaceRequest {
   Vec2 parameters;
 };
 
+/// A piece that may hold the closest point.
+struct Candidate {
+  std::int32_t entity = 0, piece = 0;  // index, and rank in it
+  Vec2 start;  // of a leaf of a face, its share, until it is solved
+  double distance = 0, error = 0;
+  double floor = 0;     // no place is nearer, by the box of the leaf
+  bool solved = false;  // `start` is the nearest place
+
+  /// A lower bound, with room for rounding: the candidate itself may have given the upper bound.
+  [[nodiscard]] double least() const noexcept { return std::max(floor, (1 - 1e-12) * (distance - error)); }
+};
+
+/// Searches of neighbouring points: they share memory, and each begins in the piece that its predecessor ended in.
+struct SearchGroup {
+  std::vector<Candidate> kept;   // of all searches
+  std::vector<Candidate> trial;  // of the search that is made
+  std::int32_t entity = -1, piece = 0;  // of the predecessor; -1: none is known
+  Vec2 place;
+
+  // These pieces hold the closest points of all points in a ball.
+  Vec3 centre;
+  double reach = -1;
+  std::vector<PieceTree::Piece> near;
+};
+
 class PointSearch {
  public:
-  /// Seeks in all entities, or in one of them if `only` is not negative. `hint`: a point of these entities, not far from the closest point; null:
-  /// none is known.
-  PointSearch(const Entities& entities, std::int32_t only, const Vec3& x, double diagonal, const Vec3* hint = nullptr);
-
-  /// A point of the entities near the closest point, as a hint for the next search; null: none is known.
-  [[nodiscard]] const Vec3* near_point() const;
+  /// Seeks for the first of the points; others follow. The group must outlive the search.
+  PointSearch(const PieceTree& tree, std::span<const Vec3> points, double diagonal, SearchGroup& group);
 
   /// False when the search has ended.
-  [[nodiscard]] bool goes_on() const noexcept { return next_ < candidates_.size(); }
+  [[nodiscard]] bool goes_on() const noexcept { return next_ < end_; }
   [[nodiscard]] PlaceRequest request() const;
   /// Takes the values at the request; of a curve, the position along it and its derivatives, as if v had no influence. `cad`: for the domains
   /// of faces.
@@ -50,35 +65,29 @@ class PointSearch {
   [[nodiscard]] const Found& best() const noexcept { return best_; }
 
  private:
-  struct Candidate {
-    std::int32_t entity = 0, piece = 0;  // piece: rank among leaves, then curves
-    Vec2 start;
-    double distance = 0, error = 0;
-    double floor = 0;      // no place is nearer, by the box of the leaf
-    NearestSample sample;  // of a leaf of a face
-    bool solved = false;   // `start` is the nearest place, not a sample
-
-    /// A lower bound, with room for rounding: the candidate itself may have given the upper bound.
-    [[nodiscard]] double least() const noexcept { return std::max(floor, (1 - 1e-12) * (distance - error)); }
-  };
-  void look_at(std::int32_t entity, double& bound);
-  void solve(Candidate& candidate, double& bound) const;
+  void begin_at_predecessor(double& bound);
+  void collect(std::span<const Vec3> points, double bound);
+  void look_at(const PieceTree::Piece& piece, double square, bool sampled, double& bound);
+  void look_at(const CurveLeaf& curve, Candidate& candidate, double& bound);
+  void solve(Candidate& candidate, const NearestSample* sample, double& bound) const;
   void refine(double& bound);
   void begin();
   [[nodiscard]] bool leads_to_best(const Candidate& c) const;
-  [[nodiscard]] const Pieces& pieces_of(const Candidate& c) const { return *entities_->pieces[static_cast<std::size_t>(c.entity)]; }
+  [[nodiscard]] const Pieces& pieces_of(const Candidate& c) const { return tree_->of(c.entity); }
   [[nodiscard]] const CurveLeaf* curve_of(const Candidate& c) const {
     const Pieces& pieces = pieces_of(c);
     const auto k = static_cast<std::size_t>(c.piece);
     return k < pieces.leaves.size() ? nullptr : &pieces.curves[k - pieces.leaves.size()];
   }
 
-  const Entities* entities_;
+  [[nodiscard]] const Candidate& candidate() const { return group_->kept[next_]; }
+
+  const PieceTree* tree_;
+  SearchGroup* group_;
   Vec3 x_;
   double diagonal_;
-  std::vector<Candidate> candidates_;
   double nearest_sample_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0, end_ = 0;  // candidates of the group
   Descent descent_;
   bool in_leaf_ = false;  // the descent stays in the leaf of its start
   Found best_;

@@ -2,6 +2,7 @@
 #include "projection/projector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -18,7 +19,6 @@
 #include "support/infinity.h"
 #include "support/pieces.h"
 #include "support/stepped_tasks.h"
-#include "support/work_sizes.h"
 #include "surface/supports.h"
 
 namespace carreau {
@@ -55,21 +55,27 @@ std::vector<std::int64_t> along_curve(std::span<const Vec3> x) {
   BoxTree::Box box;
   for (const Vec3& p : x) box.add(p);
   constexpr std::uint64_t cells = 1U << 10U;
-  std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
+  std::vector<std::uint32_t> keys;
   keys.reserve(x.size());
   for (const Vec3& p : x) {
-    std::uint64_t key = 0;
+    std::uint32_t key = 0;
     for (int k = 0; k < 3; ++k) {
       const double side = box.high[k] - box.low[k], share = side > 0 ? (p[k] - box.low[k]) / side : 0;
       const auto cell = std::min(static_cast<std::uint64_t>(share * cells), cells - 1);
-      for (unsigned bit = 0; bit < 10; ++bit) key |= ((cell >> bit) & 1U) << (3 * bit + static_cast<unsigned>(k));
+      for (unsigned bit = 0; bit < 10; ++bit) key |= static_cast<std::uint32_t>((cell >> bit) & 1U) << (3 * bit + static_cast<unsigned>(k));
     }
-    keys.emplace_back(key, static_cast<std::int64_t>(keys.size()));
+    keys.push_back(key);
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::int64_t> ranks;
-  ranks.reserve(keys.size());
-  for (const auto& [key, rank] : keys) ranks.push_back(rank);
+  std::vector<std::int64_t> ranks(x.size()), other(x.size());
+  std::iota(ranks.begin(), ranks.end(), std::int64_t{0});
+  for (const unsigned shift : {0U, 10U, 20U}) {  // by ten bits at a time
+    std::array<std::size_t, 1025> first{};
+    const auto digit = [&](std::int64_t rank) { return (keys[static_cast<std::size_t>(rank)] >> shift) & 1023U; };
+    for (const std::int64_t rank : ranks) ++first[digit(rank) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const std::int64_t rank : ranks) other[first[digit(rank)]++] = rank;
+    ranks.swap(other);
+  }
   return ranks;
 }
 
@@ -135,7 +141,7 @@ struct Projector::State {
 
   void prepare(int threads, Monitor& monitor);
   void collect_points();
-  void search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<const std::int64_t> ranks, std::span<ProjectedPoint> out, bool of_curves, std::map<int, std::string>& failed, Monitor& monitor);
+  void search(const PieceTree& tree, std::span<const Vec3> x, std::span<const std::int64_t> ranks, std::span<ProjectedPoint> out, bool of_curves, std::map<int, std::string>& failed, Monitor& monitor);
   void nearest_points(std::optional<int> ref, std::span<const Vec3> x, std::span<ProjectedPoint> out) const;
 
   std::shared_ptr<Cad> host;
@@ -154,28 +160,14 @@ struct Projector::State {
   std::vector<Pieces> of_faces;                 // by index
   std::vector<Pieces> of_curves;                // by rank in curve_refs
   std::vector<int> curve_refs;                  // ascending
-  Entities all_faces, all_curves;               // pieces by index in model.faces, and by rank
+  /// Trees by dimension and entity (its index or rank; -1: all), made when they are first needed.
+  const PieceTree& tree_of(int dimension, std::int32_t only) {
+    return trees.try_emplace({dimension, only}, dimension == 2 ? of_faces : of_curves, only).first->second;
+  }
+  std::map<std::pair<int, std::int32_t>, PieceTree> trees;
   std::vector<std::pair<int, Vec3>> points;     // ascending references
   BoxTree point_tree;
 };
-
-namespace {
-
-Entities entities_of(const std::vector<Pieces>& pieces) {
-  Entities entities;
-  std::vector<BoxTree::Box> boxes;
-  std::vector<Vec3> centres;
-  const BoxTree::Box far{{1e300, 1e300, 1e300}, {1e300, 1e300, 1e300}};  // an entity without pieces
-  for (const Pieces& each : pieces) {
-    entities.pieces.push_back(&each);
-    boxes.push_back(each.tree.empty() ? far : each.box);
-    centres.push_back((boxes.back().low + boxes.back().high) / 2);
-  }
-  entities.tree = BoxTree(boxes, centres);
-  return entities;
-}
-
-}  // namespace
 
 void Projector::State::prepare(int threads, Monitor& monitor) {
   if (prepared) return;
@@ -234,9 +226,8 @@ void Projector::State::prepare(int threads, Monitor& monitor) {
   BoxTree::Box box;
   for (const auto* list : {&of_faces, &of_curves})
     for (const Pieces& each : *list)
-      if (!each.tree.empty()) box.add(each.box);
+      if (!each.boxes.empty()) box.add(each.box);
   diagonal = box.low.x() <= box.high.x() ? norm(box.high - box.low) : 0;
-  all_faces = entities_of(of_faces), all_curves = entities_of(of_curves);
   prepared = true;
 }
 
@@ -286,22 +277,22 @@ void Projector::State::nearest_points(std::optional<int> ref, std::span<const Ve
 }
 
 // All searches go on together: their places go to the host face by face. `ranks`: of the points in x and out; neighbours follow each other.
-void Projector::State::search(const Entities& entities, std::int32_t only, std::span<const Vec3> x, std::span<const std::int64_t> ranks, std::span<ProjectedPoint> out, bool of_curve,
+void Projector::State::search(const PieceTree& tree, std::span<const Vec3> x, std::span<const std::int64_t> ranks, std::span<ProjectedPoint> out, bool of_curve,
                               std::map<int, std::string>& failed, Monitor& monitor) {
   std::vector<PointSearch> searches;
   searches.reserve(ranks.size());
-  const Vec3* hint = nullptr;
-  for (const std::int64_t rank : ranks) {
-    searches.emplace_back(entities, only, x[static_cast<std::size_t>(rank)], diagonal, hint);
-    if (const Vec3* near = searches.back().near_point()) hint = near;
-  }
+  SearchGroup group;
+  std::vector<Vec3> places;
+  places.reserve(ranks.size());
+  for (const std::int64_t rank : ranks) places.push_back(x[static_cast<std::size_t>(rank)]);
+  for (std::size_t i = 0; i < places.size(); ++i) searches.emplace_back(tree, std::span<const Vec3>(places).subspan(i), diagonal, group);
   struct Asked {
     PlaceRequest place;
     std::size_t search = 0;
     CurveJet curve;
   };
   std::vector<Asked> asked;
-  std::vector<std::pair<int, std::size_t>> order;  // by face
+  std::vector<std::uint64_t> order;  // by face and search
   std::vector<std::size_t> going(ranks.size());
   std::iota(going.begin(), going.end(), std::size_t{0});
   std::vector<Vec2> uv;
@@ -312,9 +303,12 @@ void Projector::State::search(const Entities& entities, std::int32_t only, std::
     if (going.empty()) break;
     asked.clear();
     order.clear();
-    for (std::size_t k = 0; k < going.size(); ++k) order.emplace_back(searches[going[k]].request().face, k);
+    for (std::size_t k = 0; k < going.size(); ++k) order.push_back(static_cast<std::uint64_t>(searches[going[k]].request().face) << 32U | k);
     std::sort(order.begin(), order.end());
-    for (const auto& [face, k] : order) asked.push_back({searches[going[k]].request(), going[k], {}});
+    for (const std::uint64_t each : order) {
+      const std::size_t search = going[each & 0xffffffffU];
+      asked.push_back({searches[search].request(), search, {}});
+    }
     for (std::size_t first = 0, end = 0; first < asked.size(); first = end) {
       const auto face = static_cast<std::size_t>(asked[first].place.face);
       uv.clear();
@@ -407,13 +401,13 @@ std::map<int, std::string> Projector::project(int dimension, int ref, std::span<
   if (const auto found = s.failed_at_first.find(ref); dimension == 2 && found != s.failed_at_first.end()) throw CallbackError(found->second);
   if (dimension == 1 && ref != 0)
     only = static_cast<std::int32_t>(std::lower_bound(s.curve_refs.begin(), s.curve_refs.end(), ref) - s.curve_refs.begin());
-  const Entities& entities = dimension == 2 ? s.all_faces : s.all_curves;
-  constexpr std::size_t each = work_sizes::searches;
+  const PieceTree& tree = s.tree_of(dimension, only);
+  constexpr std::size_t each = thresholds::projection::searches_together;
   const std::vector<std::int64_t> order = along_curve(x);
   run_each((x.size() + each - 1) / each, s.bound(), threads,
            [&](std::size_t k, Monitor& here) {
              const std::size_t first = k * each, n = std::min(each, x.size() - first);
-             s.search(entities, only, x, std::span(order).subspan(first, n), out, dimension == 1, failed, here);
+             s.search(tree, x, std::span(order).subspan(first, n), out, dimension == 1, failed, here);
            },
            monitor);
   return failed;
