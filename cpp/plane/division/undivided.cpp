@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plane/kernel/boundary.h"
+#include "plane/kernel/shapes.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/delaunay_swaps.h"
 #include "plane/optimise/local_search.h"
@@ -43,12 +44,17 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation,
 
 namespace {
 
-// In the frame a long strip is fans of hundreds of triangles.
+// In the frame a strip is a few fans. Their triangles are longer than edges may be, and lower than a vertex has room.
 bool has_fans(const Triangulation& mesh) {
-  std::vector<int> around(mesh.vertices.size(), 0);
-  for (const Triangle& T : mesh.triangles)
+  std::vector<int> slivers(mesh.vertices.size(), 0);
+  for (const Triangle& T : mesh.triangles) {
+    if (T.v[0] < 0) continue;
+    const Lengths sides{mesh.squared_length(T.v[1], T.v[2]), mesh.squared_length(T.v[2], T.v[0]), mesh.squared_length(T.v[0], T.v[1])};
+    const double longest2 = std::max({sides.a, sides.b, sides.c});
+    if (!(longest2 > long_edge2) || sides.area2() > 4 * sliver_height2 * longest2) continue;
     for (const std::int32_t v : T.v)
-      if (v >= 0 && ++around[v] > largest_fan) return true;
+      if (++slivers[v] > most_slivers) return true;
+  }
   return false;
 }
 

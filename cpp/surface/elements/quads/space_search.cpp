@@ -40,11 +40,9 @@ class LiftedQuads {
   [[nodiscard]] Frame about(std::int32_t v) const noexcept { return charts_.about(quads_.patch.uv[v]); }
   static Vec2 way(const Frame& frame, const Vec2& y) noexcept { return frame.offset(y); }
 
-  /// The shape in space, and below 0 for cells that are turned over in (u, v).
+  /// The shape in space, at least -1, and below -1 for cells that are turned over in (u, v): no cell turns over for shapes in space.
   [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept {
-    const double in_space = shape(cell);
-    if (is_convex(quads_.patch, cell)) return in_space;
-    return std::min(in_space, carreau::untangling_quality(quads_.patch, frame, cell));
+    return is_convex(quads_.patch, cell) ? shape(cell) : carreau::untangling_quality(quads_.patch, frame, cell) - 1;
   }
 
   [[nodiscard]] Place place(std::size_t v) const { return {quads_.patch.uv[v], quads_.xyz[v]}; }

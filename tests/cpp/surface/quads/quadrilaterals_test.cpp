@@ -141,24 +141,30 @@ TEST(Quadrilaterals, LieOnCurvedSurfaces) {
 }
 
 // Right angles must not be bought by long rectangles beside them: where angles alone decide, .004 to .17.
-/// A helical ribbon of nine turns, radius 3: 170 long, 1.2 wide. One row of squares fits.
-TEST(Quadrilaterals, ALongRibbonHasNoLongOnes) {
-  const auto ribbon = [](Vec2 p) {
+/// The longest edge of a helical ribbon of radius 3, meshed by quadrilaterals of size .7.
+double longest_on_ribbon(double turns, double width, const char* element) {
+  const auto ribbon = [width](Vec2 p) {
     const double c = std::cos(p.x()), s = std::sin(p.x());
     SurfaceJet jet;
-    jet.s = {3 * c, 3 * s, 0.16 * p.x() + 1.2 * p.y()}, jet.su = {-3 * s, 3 * c, 0.16}, jet.sv = {0, 0, 1.2};
+    jet.s = {3 * c, 3 * s, 0.16 * p.x() + width * p.y()}, jet.su = {-3 * s, 3 * c, 0.16}, jet.sv = {0, 0, width};
     jet.suu = {-3 * c, -3 * s, 0};
     return jet;
   };
   AnalyticCad cad;
-  cad.faces[1] = {ribbon, testing::rectangle({0, 0}, {18 * std::numbers::pi, 1})};
-  const SurfaceMesh mesh = mesh_of(cad, 0.7, "q1.0");
+  cad.faces[1] = {ribbon, testing::rectangle({0, 0}, {2 * turns * std::numbers::pi, 1})};
+  const SurfaceMesh mesh = mesh_of(cad, 0.7, element);
+  EXPECT_EQ(euler(mesh), 1);
   double longest = 0;
   for (const Cell& cell : cells_of(mesh, mesh.faces[0]))
     for (int k = 0, n = corner_count(cell.kind); k < n; ++k)
       longest = std::max(longest, norm(mesh.vertices[cell.nodes[(k + 1) % n]] - mesh.vertices[cell.nodes[k]]));
-  EXPECT_LT(longest, 2 * 0.7);
-  EXPECT_EQ(euler(mesh), 1);
+  return longest;
+}
+
+TEST(Quadrilaterals, ARibbonHasNoLongOnes) {
+  EXPECT_LT(longest_on_ribbon(9, 1.2, "q1.0"), 2 * 0.7);  // 170 long: one row of squares fits
+  for (const char* element : {"q1.0", "q1.1"})
+    for (const double turns : {0.5, 1., 9.}) EXPECT_LT(longest_on_ribbon(turns, 0.05, element), 2 * 0.7) << element << ", " << turns << " turns";
 }
 
 TEST(Quadrilaterals, TheTeapotHasNoLongOnes) {
