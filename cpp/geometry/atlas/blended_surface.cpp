@@ -44,9 +44,9 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
 }
 
 template <typename Number>
-std::array<Number, 3> BlendedSurface::onto(const std::vector<std::int32_t>& charts, std::size_t own, const std::array<Number, 3>& x) const {
+std::array<Number, 3> BlendedSurface::onto(const std::vector<std::int32_t>& vertices, const std::array<Number, 3>& x) const {
   // The heights do not move points of the surface. The first step leaves a share of the distance, and the second a share of that.
-  return heights_.onto(charts, own, heights_.onto(charts, own, x));
+  return heights_.onto(vertices, heights_.onto(vertices, x));
 }
 
 template <typename Number>
@@ -67,15 +67,14 @@ std::array<Number, 3> BlendedSurface::blended(std::size_t triple, const Pair<Num
     const std::array<Number, 3> p = c == corner ? own : placed(triple, place, c);
     for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weight * p[i];
   }
-  const auto first = static_cast<std::size_t>(covering_.triples()[triple].chart[0]);
-  return onto(heights_.near_triple(triple), first, sum);
+  return onto(heights_.near_triple(triple), sum);
 }
 
 template <typename Number>
 std::array<Number, 3> BlendedSurface::blended(std::size_t chart, const Pair<Number>& place) const {
   const std::array<Number, 3> own = primitives_[chart].at(place);
   const auto on = covering_.on_t(chart, place);
-  if (!on) return onto(heights_.near_chart(chart), chart, own);
+  if (!on) return onto(heights_.near_chart(chart), own);
   return blended(static_cast<std::size_t>(on->corner.triple), on->place, on->corner.corner, own);
 }
 

@@ -45,9 +45,9 @@ class BlendedSurface {
                                               const std::array<Number, 3>& own) const;
   template <typename Number>
   [[nodiscard]] std::array<Number, 3> placed(std::size_t triple, const Pair<Number>& place, int corner) const;
-  /// x on the heights of the charts around.
+  /// x on the heights about the vertices around.
   template <typename Number>
-  [[nodiscard]] std::array<Number, 3> onto(const std::vector<std::int32_t>& charts, std::size_t own, const std::array<Number, 3>& x) const;
+  [[nodiscard]] std::array<Number, 3> onto(const std::vector<std::int32_t>& vertices, const std::array<Number, 3>& x) const;
 
   Covering covering_;
   HeightBlend heights_;

@@ -88,10 +88,10 @@ class FoldMender {
     folds.triples = sorted(std::move(folds.triples)), folds.charts = sorted(std::move(folds.charts));
     return folds;
   }
-  bool note(FoldPlace place, const std::vector<std::int32_t>& charts, Folds& folds) {
+  bool note(FoldPlace place, const std::vector<std::int32_t>& vertices, Folds& folds) {
     if (place.jacobian(primitives_) > thresholds::watched_jacobian) return false;
     // The heights move a place along their own direction, which differs from the mean of the planes' normals on coarse surfaces.
-    place.normal = norm(place.normal) * heights_.direction(charts, place.share[0].chart, place.point(primitives_));
+    place.normal = norm(place.normal) * heights_.direction(vertices, place.point(primitives_));
     const double jacobian = place.jacobian(primitives_);
     watched_.push_back(place);
     if (jacobian > thresholds::least_jacobian) return false;

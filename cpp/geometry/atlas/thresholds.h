@@ -5,16 +5,17 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Weight of such a vertex against a vertex of the region.
-inline constexpr double weight_beyond = 0.1;
 /// Degree of heights, and points that each of their coefficients needs.
 inline constexpr int max_degree = 6;
 inline constexpr double points_per_term = 1.7;
 
-/// Radius of the bump of a vertex over its longest edge: at 1, bumps cover all triangles.
+/// Rings of neighbours for the heights about a vertex, and the cosine of the steepest normal among them.
+inline constexpr int rings = 3;
+inline constexpr double min_cosine = 0.25;
+/// Radius of the ellipsoid of a vertex over its longest edge: at 1, ellipsoids cover all triangles.
 inline constexpr double bump_radius = 1.5;
-/// Charts from the chart of a place to the farthest chart whose bumps may reach it.
-inline constexpr int charts_away = 2;
+/// Rings around the vertices of a region whose ellipsoids may reach a place of it.
+inline constexpr int rings_away = 2;
 
 /// Parts of the grid on each T: some 1500 places that charts share. Folds are narrow: of the T of joint.off with folds
 /// on this grid, a grid of 24 parts misses two thirds, 48 parts three eighths.
