@@ -105,7 +105,8 @@ void assemble_patches(CompositeRun& run) {
   run.show_progress(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
   separate_shared_chords(run);
   reject_degenerate(run);
-  assemble(run.model, run.topology, run.domains, run.curves, faces_with_patches(run), run.patches, run.result);
+  run.known.keep_flattened(
+      assemble(run.model, run.topology, run.domains, run.curves, faces_with_patches(run), run.patches, run.result));
   if (run.options.parts) run.result.shares = share_out(run);
   keep_prescriptions(run);
   report_narrow(run);

@@ -57,6 +57,7 @@ void even_out_sampled(CompositeRun& run) {
 // Periodic faces and faces with layers stay as they are: faces without control space do.
 void even_out(CompositeRun& run) {
   if (run.slope() == 0) return;
+  run.known.complete(run.result);
   std::vector<std::optional<ControlSpace>> kept(run.model.faces.size());
   const auto exchange = [&] {
     for (std::size_t f = 0; f < kept.size(); ++f)
@@ -131,6 +132,7 @@ bool MeshRounds::mesh_again(const RefinementRequests& requests) {
 
 // The mesh of the run is the best so far, or a discarded one.
 void MeshRounds::put_aside() {
+  run_.known.complete(run_.result);
   CompositeResult before = std::exchange(run_.result, {});
   run_.result.graded = before.graded, run_.result.report = before.report;
   if (best_) {

@@ -3,18 +3,22 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gradation/edge_sizes.h"
 #include "pipeline/base/face_outcome.h"
 #include "pipeline/base/thresholds.h"
 #include "surface/patch.h"
+#include "surface/result.h"
 
 namespace carreau {
 
-/// Patches by face. The control spaces stay in the result of the round.
+/// Patches by face. The control spaces stay in the result of the round, and so do the patches until another round follows: most
+/// runs have one round, and copies of all patches would be a third of their memory.
 class KnownPatches {
  public:
   /// Begins a round; without it nothing is kept.
@@ -22,12 +26,17 @@ class KnownPatches {
   /// Keeps the last input of the face, and its outcome. `grow_from`: the sources of input.limits.edges.
   void keep(std::size_t face, const PatchInput& input, std::vector<EdgeSizes::Source> grow_from);
   void keep(std::size_t face, const FaceOutcome& outcome);
+  /// Takes the list of assemble(): numbers of flattened triangles by face.
+  void keep_flattened(std::vector<std::vector<std::int32_t>> numbers) { flattened_ = std::move(numbers); }
+  /// Copies the kept patches from the assembled mesh of the round, before it changes or goes. Forgets patches that changed between keep()
+  /// and the assembly: they have more vertices.
+  void complete(const CompositeResult& result);
   /// The control spaces of the round before this one, by face. They may go after that round's patches were found.
   void rely_on(const std::vector<std::optional<ControlSpace>>* spaces) noexcept { spaces_ = spaces; }
   /// A copy of the outcome of the round before, if the face had the same input then.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
-  void clear() { known_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::max_known; }
+  void clear() { known_.clear(), flattened_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::max_known; }
   /// Ends the keeping: later rounds mesh with other options.
   void end() { clear(), over_ = true; }
 
@@ -37,10 +46,13 @@ class KnownPatches {
     std::vector<Vec3> curve_xyz;
     std::vector<EdgeSizes::Source> grow_from;
     std::optional<PatchMesh> mesh;  // empty: the face failed
+    bool complete = false;          // else `mesh` has positions and sizes of the domain's vertices alone
+    std::size_t vertices = 0, triangles = 0;  // of the whole patch
     std::string remark;
     std::vector<LayerCell> layers;
   };
   std::vector<std::optional<Known>> known_;
+  std::vector<std::vector<std::int32_t>> flattened_;
   const std::vector<std::optional<ControlSpace>>* spaces_ = nullptr;
   std::size_t room_ = thresholds::crossings::max_known;  // triangles that may still be kept
   bool over_ = false;

@@ -161,6 +161,7 @@ Crossings::Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
     found = std::move(parts.found);
   }
   first_.push_back(0);
+  triangles_.reserve(mesh().triangle_count());
   for (const FaceMesh& face : mesh().faces) {
     for (const auto& [a, b, c] : face.triangles) triangles_.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
     first_.push_back(static_cast<std::int32_t>(triangles_.size()));

@@ -2,6 +2,8 @@
 #include "surface/assembly/assembly.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace carreau {
 
@@ -21,7 +23,8 @@ class Assembler {
         mesh_(result.mesh),
         sizes_(result.vertex_size) {}
 
-  void run(std::vector<std::optional<PatchMesh>>& patches) {
+  std::vector<std::vector<std::int32_t>> run(std::vector<std::optional<PatchMesh>>& patches) {
+    flattened_.resize(patches.size());
     corner_vertex_.assign(topology_.points.size(), unknown);
     add_curves();
     reserve(patches);
@@ -29,6 +32,7 @@ class Assembler {
       add_face(f, patches[f]);
       patches[f].reset();
     }
+    return std::move(flattened_);
   }
 
  private:
@@ -105,18 +109,38 @@ class Assembler {
     face.status = FaceStatus::meshed;  // refined curves are normal work
     if (!patch) return;
     const FaceDomain& domain = *domains_.domain[f];
+    add_vertices(f, domain, *patch, face.vertex);
     face.uv = std::move(patch->plane.vertices);
-    face.vertex.reserve(face.uv.size());
-    for (std::size_t v = 0; v < face.uv.size(); ++v)
-      face.vertex.push_back(v < domain.origin.size() ? imposed_vertex(f, domain, *patch, v)
-                                                     : add_vertex(patch->xyz[v], 0, patch->size[v]));
     face.triangles = std::move(patch->plane.triangles);
-    std::erase_if(face.triangles, [&](const std::array<std::int32_t, 3>& t) {
+    leave_out_flat(face, flattened_[f]);
+  }
+
+  // Vertices inside the face have consecutive numbers.
+  void add_vertices(std::size_t f, const FaceDomain& domain, const PatchMesh& patch, std::vector<std::int32_t>& vertex) {
+    const std::size_t given = domain.origin.size();
+    vertex.resize(patch.xyz.size());
+    for (std::size_t v = 0; v < given; ++v) vertex[v] = imposed_vertex(f, domain, patch, v);
+    std::iota(vertex.begin() + static_cast<std::ptrdiff_t>(given), vertex.end(), static_cast<std::int32_t>(mesh_.vertices.size()));
+    const auto inside = static_cast<std::ptrdiff_t>(given);
+    mesh_.vertices.insert(mesh_.vertices.end(), patch.xyz.begin() + inside, patch.xyz.end());
+    sizes_.insert(sizes_.end(), patch.size.begin() + inside, patch.size.end());
+    mesh_.vertex_ref.resize(mesh_.vertices.size(), 0);
+  }
+
+  static void leave_out_flat(FaceMesh& face, std::vector<std::int32_t>& numbers) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+      const std::array<std::int32_t, 3> t = face.triangles[k];
       const std::int32_t a = face.vertex[t[0]], b = face.vertex[t[1]], c = face.vertex[t[2]];
-      const bool flat = a == b || b == c || c == a;
-      if (flat) face.flattened.push_back(t);
-      return flat;
-    });
+      if (a == b || b == c || c == a) {
+        face.flattened.push_back(t);
+        numbers.push_back(static_cast<std::int32_t>(k));
+      } else {
+        if (kept != k) face.triangles[kept] = t;
+        ++kept;
+      }
+    }
+    face.triangles.resize(kept);
   }
 
   const Model& model_;
@@ -127,14 +151,15 @@ class Assembler {
   SurfaceMesh& mesh_;
   std::vector<double>& sizes_;
   std::vector<std::int32_t> corner_vertex_;
+  std::vector<std::vector<std::int32_t>> flattened_;  // by face: numbers in the patch
 };
 
 }  // namespace
 
-void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
-              const std::vector<DiscreteCurve>& curves, const std::vector<char>& has_patch,
-              std::vector<std::optional<PatchMesh>>& patches, CompositeResult& result) {
-  Assembler(model, topology, domains, curves, has_patch, result).run(patches);
+std::vector<std::vector<std::int32_t>> assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
+                                                const std::vector<DiscreteCurve>& curves, const std::vector<char>& has_patch,
+                                                std::vector<std::optional<PatchMesh>>& patches, CompositeResult& result) {
+  return Assembler(model, topology, domains, curves, has_patch, result).run(patches);
 }
 
 }  // namespace carreau

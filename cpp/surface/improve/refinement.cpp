@@ -93,7 +93,7 @@ class Refinement {
     // Beside coarse edges that bend by more than a right angle divisions of shapely triangles end in slivers.
     known_ = with_normals_ && (kept_.any() || rules_.uses_curvature() || !input_.one_size);
     std::vector<Vec3> around;
-    if (!known_) {
+    if (!known_ && !input_.is_plane) {
       around.resize(mesh_.xyz.size());
       for (const Triangle& t : triangles) {
         const Vec3 n = normal_of(t);
@@ -116,6 +116,7 @@ class Refinement {
 
   [[nodiscard]] bool is_doubtful(const Triangle& t, const std::vector<Vec3>& normal) const {
     const Vec3 n = normal_of(t);
+    if (!known_ && input_.is_plane) return n.z() < 0;  // the sums at its corners are positive
     if (!known_) {
       // It is on the side of the minority at two corners or more.
       const auto against = [&](std::int32_t v) { return dot(n, normal[v]) < 0; };

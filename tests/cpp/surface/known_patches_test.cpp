@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace carreau {
@@ -36,18 +37,41 @@ struct Asked {
 FaceOutcome outcome_of(std::size_t triangles) {
   FaceOutcome outcome;
   outcome.patch.emplace();
-  outcome.patch->plane.triangles.assign(triangles, {0, 1, 2});
+  outcome.patch->plane.vertices = {{0, 0}, {1, 0}, {0, 1}, {.25, .25}};
+  outcome.patch->xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.25, .25, 1}};
+  outcome.patch->size = {0.5, 0.4, 0.3, 0.2};
+  outcome.patch->plane.triangles.assign(triangles, {0, 1, 3});
   outcome.remark = "made in another way";
   return outcome;
 }
 
 const std::vector<std::optional<ControlSpace>> spaces{ControlSpace::constant({4, 0, 4}), ControlSpace::constant({4, 0, 4})};
 
+/// The assembled mesh of face 0. Vertices of space have other numbers than in the patch. The triangles that `flattened` numbers are apart.
+CompositeResult assembled(const PatchMesh& patch, const std::vector<std::int32_t>& flattened = {}) {
+  CompositeResult result;
+  result.mesh.faces.resize(2);
+  FaceMesh& face = result.mesh.faces[0];
+  face.uv = patch.plane.vertices;
+  const auto n = static_cast<std::int32_t>(face.uv.size());
+  result.mesh.vertices.resize(face.uv.size()), result.vertex_size.resize(face.uv.size());
+  for (std::int32_t v = 0; v < n; ++v) {
+    face.vertex.push_back(n - 1 - v);
+    result.mesh.vertices[n - 1 - v] = patch.xyz[v], result.vertex_size[n - 1 - v] = patch.size[v];
+  }
+  for (std::size_t t = 0; t < patch.plane.triangles.size(); ++t) {
+    const bool flat = std::find(flattened.begin(), flattened.end(), static_cast<std::int32_t>(t)) != flattened.end();
+    (flat ? face.flattened : face.triangles).push_back(patch.plane.triangles[t]);
+  }
+  return result;
+}
+
 KnownPatches knowing(const Asked& asked, const FaceOutcome& outcome) {
   KnownPatches known;
   known.begin(2);
   known.keep(0, asked.input, asked.grow_from);
   known.keep(0, outcome);
+  known.complete(assembled(*outcome.patch));
   known.rely_on(&spaces);
   known.begin(2);  // the next round
   return known;
@@ -85,6 +109,40 @@ TEST(KnownPatches, AreNotUsedForOtherRequests) {
   }
 }
 
+TEST(KnownPatches, AreThePatchesBeforeTheAssembly) {
+  const Asked asked;
+  FaceOutcome outcome = outcome_of(0);
+  outcome.patch->plane.triangles = {{0, 1, 3}, {1, 0, 2}, {1, 2, 3}, {2, 0, 3}, {2, 1, 0}};
+  KnownPatches known;
+  known.begin(2);
+  known.keep(0, asked.input, asked.grow_from);
+  known.keep(0, outcome);
+  known.rely_on(&spaces);
+  EXPECT_FALSE(known.find(0, asked.input, asked.grow_from));  // not assembled
+  known.keep_flattened({{1, 4}, {}});
+  known.complete(assembled(*outcome.patch, {1, 4}));
+  const auto same = known.find(0, asked.input, asked.grow_from);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->patch->plane.vertices, outcome.patch->plane.vertices);
+  EXPECT_EQ(same->patch->plane.triangles, outcome.patch->plane.triangles);
+  EXPECT_EQ(same->patch->xyz, outcome.patch->xyz);
+  EXPECT_EQ(same->patch->size, outcome.patch->size);
+}
+
+TEST(KnownPatches, ForgetPatchesThatTheAssemblyChanged) {
+  const Asked asked;
+  const FaceOutcome outcome = outcome_of(1);
+  KnownPatches known;
+  known.begin(2);
+  known.keep(0, asked.input, asked.grow_from);
+  known.keep(0, outcome);
+  known.rely_on(&spaces);
+  PatchMesh more = *outcome.patch;
+  more.plane.vertices.push_back({.5, 0}), more.xyz.push_back({.5, 0, 0}), more.size.push_back(.5);
+  known.complete(assembled(more));
+  EXPECT_FALSE(known.find(0, asked.input, asked.grow_from));
+}
+
 TEST(KnownPatches, LargeModelsAreNotKept) {
   const Asked asked;
   EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::max_known)).find(0, asked.input, asked.grow_from));
@@ -93,9 +151,11 @@ TEST(KnownPatches, LargeModelsAreNotKept) {
   KnownPatches known = knowing(asked, outcome_of(thresholds::crossings::max_known));
   known.keep(0, asked.input, asked.grow_from);
   known.keep(0, outcome_of(thresholds::crossings::max_known));
+  known.complete(assembled(*outcome_of(thresholds::crossings::max_known).patch));
   EXPECT_TRUE(known.find(0, asked.input, asked.grow_from));
   known.keep(1, asked.input, asked.grow_from);
   known.keep(1, outcome_of(1));
+  known.complete(assembled(*outcome_of(1).patch));
   EXPECT_FALSE(known.find(1, asked.input, asked.grow_from));
   known.end();
   known.begin(2);
