@@ -22,8 +22,8 @@
 #include "document.h"
 #include "entity_check.h"
 #include "iges_entities.h"
-#include "text_of_file.h"
 #include "quick_healing.h"
+#include "text_of_file.h"
 #include "translator.h"
 #include "changes/units.h"
 
