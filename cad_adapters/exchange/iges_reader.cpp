@@ -22,6 +22,7 @@
 #include "document.h"
 #include "entity_check.h"
 #include "iges_entities.h"
+#include "quick_healing.h"
 #include "text_of_file.h"
 #include "translator.h"
 #include "changes/units.h"
@@ -176,6 +177,7 @@ void carreau_translate_iges(const std::string& path, const Message_ProgressRange
   if (const Handle(IGESData_IGESModel) model = reader.IGESModel(); !model.IsNull()) mend_resolution(*model);
   const IgesEntities kinds;
   const EntityCheck check(reader.WS(), kinds);
+  const QuickHealing quick;
   Document document;
   const bool translated = translate(reader, progress, document);
   file.losses = check.losses();

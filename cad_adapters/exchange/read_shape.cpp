@@ -20,9 +20,7 @@
 #include <sstream>
 
 #include "faults.h"
-#include "changes/imprint.h"
-#include "changes/mirror.h"
-#include "changes/small_features.h"
+#include "changes/shape_changes.h"
 #include "natural_bounds.h"
 #include "shape_file.h"
 #include "translator.h"
@@ -260,7 +258,8 @@ std::vector<SmallFeature> remove_features(ShapeFile& file, double size, const Re
   ShapeFile changed = file;
   std::vector<SmallFeature> features;
   try {
-    guarded([&] { features = remove_small_features(changed, size, indicator->Start()); });
+    const ShapeChanges& changes = shape_changes();
+    guarded([&] { features = changes.remove_small_features(changed, size, indicator->Start()); });
     if (!indicator->stopped()) file = std::move(changed);
   } catch (const Standard_Failure& failure) {
     file.losses.push_back(std::string("no small feature is removed: OpenCASCADE: ") + failure.GetMessageString());
@@ -273,7 +272,8 @@ void imprint_parts(ShapeFile& file, double tolerance, const ReadingProgress& pro
   const Silence silence;
   const Handle(Indicator) indicator = new Indicator(progress);
   try {
-    guarded([&] { imprint(file, tolerance, indicator->Start()); });
+    const ShapeChanges& changes = shape_changes();
+    guarded([&] { changes.imprint(file, tolerance, indicator->Start()); });
   } catch (const Standard_Failure& failure) {
     file.losses.push_back(std::string("the parts are not imprinted: OpenCASCADE: ") + failure.GetMessageString());
   }
@@ -284,7 +284,8 @@ void mirror_shape(ShapeFile& file, const MirrorPlane& plane) {
   const Silence silence;
   ShapeFile changed = file;
   try {
-    guarded([&] { mirror(changed, plane); });
+    const ShapeChanges& changes = shape_changes();
+    guarded([&] { changes.mirror(changed, plane); });
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("the body cannot be cut by the mirror plane or completed at it: OpenCASCADE: ") + failure.GetMessageString());
   }

@@ -22,6 +22,7 @@
 #include "entity_check.h"
 #include "known_curves.h"
 #include "plain_step.h"
+#include "quick_healing.h"
 #include "step_entities.h"
 #include "step_parts.h"
 #include "translator.h"
@@ -265,6 +266,7 @@ void carreau_translate_step(const std::string& path, const Message_ProgressRange
   const StepEntities kinds;
   const EntityCheck check(reader.WS(), kinds);
   const KnownCurves known;
+  const QuickHealing quick;
   Document document;
   StepReader translation(document);
   const bool translated = translation.translate(reader, progress);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""cad_library_test.py CARREAU SONAME STEP IGES TEAPOT.bpt PART.brep SHAPES: libcarreau_cad is loaded for CAD files, and for nothing else;
-likewise its libraries that read STEP and IGES files. SHAPES holds files of both."""
+"""cad_library_test.py CARREAU SONAME STEP IGES CHANGES TEAPOT.bpt PART.brep SHAPES: libcarreau_cad is loaded for CAD files, and for nothing else;
+likewise its libraries that read STEP and IGES files or change shapes. SHAPES holds files of both."""
 import os
 import shutil
 import subprocess
@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM, LIBRARY, STEP, IGES, TEAPOT, PART, SHAPES = sys.argv[1:8]
+PROGRAM, LIBRARY, STEP, IGES, CHANGES, TEAPOT, PART, SHAPES = sys.argv[1:9]
 
 
 class CadLibrary(unittest.TestCase):
@@ -60,6 +60,16 @@ class CadLibrary(unittest.TestCase):
                 run = self.run_broken("info", part)
                 self.assertEqual(run.returncode, 0, run.stderr)
             os.remove(os.path.join(self.folder, library))
+
+    def test_changes_are_loaded_for_requests_alone(self):
+        self.break_library(CHANGES)
+        made = os.path.join(self.folder, "part.mesh")
+        run = self.run_broken("mesh", PART, "--size", "20%", "-o", made)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for request in (("--imprint",), ("--min-feature", "1e-3")):
+            run = self.run_broken("mesh", PART, "--size", "20%", "-o", made, *request)
+            self.assertEqual(run.returncode, 2, run.stdout + run.stderr)
+            self.assertIn(f"Imprints, mirrors and small features need {CHANGES}, which cannot be loaded: ", run.stderr)
 
     def test_nothing_brings_a_viewer(self):
         """OpenCASCADE's own documents do, and a window system with it."""

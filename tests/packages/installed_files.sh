@@ -25,7 +25,7 @@ fi
 cad_header=
 if [ "$cad" = 1 ]; then
   cad_header="include/carreau_cad.h include/carreau_cad.hpp "
-  need lib/libcarreau_cad.so lib/libcarreau_cad_step-*.so lib/libcarreau_cad_iges-*.so lib/pkgconfig/carreau-cad.pc lib/cmake/carreau/carreau-cad-targets.cmake
+  need lib/libcarreau_cad.so lib/libcarreau_cad_step-*.so lib/libcarreau_cad_iges-*.so lib/libcarreau_cad_changes-*.so lib/pkgconfig/carreau-cad.pc lib/cmake/carreau/carreau-cad-targets.cmake
   if [ "$fortran" = 1 ]; then
     need share/carreau/fortran/carreau_cad.f90 lib/libcarreau_cad_fortran.a lib/fortran/modules/carreau/*/carreau_cad.mod \
       lib/pkgconfig/carreau-cad-fortran.pc

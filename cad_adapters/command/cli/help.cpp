@@ -72,7 +72,8 @@ constexpr std::size_t short_enough = 18;  // options that the short help prints 
 constexpr std::size_t name_width = 32;
 
 bool has_name(const CLI::Option& option, const char* name) {
-  return option.check_lname(std::string(name).substr(2));
+  const std::vector<std::string>& names = option.get_lnames();
+  return std::any_of(names.begin(), names.end(), [&](const std::string& each) { return each == name + 2; });
 }
 
 const GroupOf* group_of(const CLI::Option& option) {
