@@ -377,9 +377,9 @@ CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session,
 /* Makes faces periodic: the mesh of slave_faces[i] is the image of the mesh of master_faces[i] (references, from 1) under the map x -> R x + d.
  * Curves and corners follow from the faces; faces, curves and corners may be of several pairs. `transform` holds R | d row by row (3 x 4), a
  * translation, rotation, reflection or product of them; NULL or all 0: found for each pair from its corners. With n = 0 all pairs are found that
- * the map has. Images lie on the slave's own surface, within 1e-4 of the
- * model's diagonal. carreau_mesh_generate checks the pairs. Errors: ARGUMENT (n < 0, no such face, a face twice in a pair, lengths that the map
- * changes, neither faces nor map); of carreau_mesh_generate: MODEL (faces that do not match: how far, where; chains that contradict each other;
+ * the map has. If the map carries a face or a closed curve onto itself, or a face is its own master, its curves are periodic alone. Images lie
+ * on the slave's own surface, within 1e-4 of the model's diagonal. carreau_mesh_generate checks the pairs. Errors: ARGUMENT (n < 0, no such
+ * face, a face that is its own master without a map, lengths that the map changes, neither faces nor map); of carreau_mesh_generate: MODEL (faces that do not match: how far, where; chains that contradict each other;
  * prescribed edges that differ). */
 CARREAU_API carreau_status carreau_model_add_periodicity(carreau_session* session, const int32_t slave_faces[],
                                                          const int32_t master_faces[], int64_t n, const double transform[]);
@@ -1020,7 +1020,8 @@ CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, 
 CARREAU_API carreau_status carreau_mesh_periodic_count(carreau_mesh* mesh, int64_t* out_pairs, int64_t* out_nodes);
 /* Gets the pairs: corners first, then curves, then faces. Each pair has its dimension (0, 1, 2), its references {slave, master}, the map of the
  * master onto the slave (3 x 4, row by row) and the number of its pairs of nodes. The nodes {slave, master} (indices from 0) of all pairs
- * follow each other, ascending in each pair, with nodes of second order. Arrays may be NULL and have room for the counts above. Errors: ARGUMENT
+ * follow each other, ascending in each pair, with nodes of second order. A closed curve that is carried onto itself is a pair with itself, with
+ * the images of its first arc. Arrays may be NULL and have room for the counts above. Errors: ARGUMENT
  * (room too small). */
 CARREAU_API carreau_status carreau_mesh_periodic(carreau_mesh* mesh, int64_t capacity, int64_t node_capacity, int32_t out_dimensions[],
                                                  int32_t out_refs[], double out_transforms[], int64_t out_counts[], int32_t out_nodes[]);

@@ -485,8 +485,8 @@ enum { CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2 };
  * (u, v), as far from both ends in space, on elements of second order at their nodes. Old vertices keep their numbers and places, except
  * inside faces where elements of second order are repaired or shapes fall, mostly beside curves: swaps and moves restore these, and a warning
  * names a face whose worst shape falls by half. A triangle with marked edges loses its longest edge too, and edges around new vertices are swapped where
- * shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved.
- * Errors: ARGUMENT (no such edge or element, sizes not positive, a mesh that is periodic, across patches or of triangles), SEQUENCE
+ * shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved. Periodic faces are divided alike.
+ * Errors: ARGUMENT (no such edge or element, sizes not positive, a mesh across patches or of triangles), SEQUENCE
  * (no mesh yet), LIMIT, CALLBACK, CANCELLED, MEMORY. The mesh stays then. */
 
 /* Halves all edges, `times` times: each element becomes four. */

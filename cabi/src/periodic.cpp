@@ -54,8 +54,8 @@ carreau_status carreau_model_add_periodicity(carreau_session* session, const int
     carreau::Periodicity given;
     for (int64_t i = 0; i < n; ++i) {
       require_face(session->model(), slave_faces[i]), require_face(session->model(), master_faces[i]);
-      if (slave_faces[i] == master_faces[i])
-        throw InvalidArgument(carreau::Where{.face = slave_faces[i]}, "the face is periodic with itself: divide it into a master and a slave");
+      if (slave_faces[i] == master_faces[i] && transform == nullptr)
+        throw InvalidArgument(carreau::Where{.face = slave_faces[i]}, "the face is periodic with itself: its map must be given");
       given.slaves.push_back(slave_faces[i]), given.masters.push_back(master_faces[i]);
     }
     if (transform != nullptr) given.map = isometry_of(transform);

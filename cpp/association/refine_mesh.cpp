@@ -12,10 +12,13 @@
 #include "association/edge_marks.h"
 #include "association/keep_shapes.h"
 #include "association/mesh_curves.h"
+#include "association/periodic_refinement.h"
 #include "association/thresholds.h"
 #include "cad/batches.h"
 #include "mesh/editable_mesh.h"
+#include "periodic/shared_curves.h"
 #include "support/error.h"
+#include "surface/carry/periodic_links.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/invalid_report.h"
 #include "surface/elements/second_order/quadratic.h"
@@ -31,7 +34,9 @@ class Refiner {
  public:
   Refiner(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, Monitor& monitor, CompositeResult& result)
       : model_(model), rules_(rules), options_(options), monitor_(monitor), result_(result), mesh_(result.mesh),
-        curves_(curves_of_mesh(model, result.mesh, result.curve_parameters)), quadratic_(!result.mesh.mid_vertices.empty()) {}
+        curves_(curves_of_mesh(model, result.mesh, result.curve_parameters)), quadratic_(!result.mesh.mid_vertices.empty()) {
+    if (!mesh_.periodic.empty()) periodic_.emplace(model, result.report.diag, mesh_);
+  }
 
   void run(const RefineRequest& request) {
     const std::vector<WorstShape> before = worst_shapes(mesh_);
@@ -52,6 +57,7 @@ class Refiner {
       refine(sizes, false);
     }
     if (quadratic_) make_nodes();
+    if (periodic_) link_nodes(periodic_->model(), model_.topology, curves_, mesh_);
     report_losses(mesh_, before, "refinement", monitor_);
     result_.curve_parameters = parameters_of_curves(model_, curves_);
     for (std::size_t c = 0; c < curves_.size(); ++c) result_.gaps[c] = {curves_[c].gap, curves_[c].gap_use};
@@ -61,8 +67,11 @@ class Refiner {
   void refine(std::vector<double>& sizes, bool improves) {
     monitor_.checkpoint();
     if (improves) marks_->close();
+    while (periodic_ && improves && periodic_->spread(curves_, *marks_)) marks_->close();
     check_limit();
     const auto first_new = static_cast<std::int32_t>(mesh_.vertices.size());
+    if (periodic_) periodic_->begin();
+    added_.assign(mesh_.faces.size(), {});
     std::vector<std::vector<CurveSide>> sides(mesh_.faces.size());
     {
       const ElementWork work{model_, curves_, rules_, options_, result_, monitor_};
@@ -82,7 +91,8 @@ class Refiner {
     if (improves) swap_edges(first_new);
     ShapeKeeper keeper(mesh_, model_.cad, !rules_.uses_metrics(), monitor_);
     for (std::size_t f = 0; f < shapes.size(); ++f)
-      if (!shapes[f].empty()) keeper.restore(f, shapes[f]);
+      if (!shapes[f].empty() && !(periodic_ && periodic_->is_slave(f))) keeper.restore(f, shapes[f]);
+    if (periodic_) periodic_->finish(added_);
   }
 
   void check_limit() const {
@@ -92,37 +102,50 @@ class Refiner {
     if (options_.max_triangles > 0 && after > options_.max_triangles) refuse_triangles({}, static_cast<double>(after), options_.max_triangles);
   }
 
+  /// The vertices of a divided curve: for each inside, 1 if it is new; and the places before.
+  struct Divided {
+    std::vector<char> is_new;
+    std::vector<Vec3> old;
+  };
+
   // New vertices of curves, in their order. Old vertices stay.
   void divide_curves() {
+    std::vector<Divided> divided(curves_.size());
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      if (!curves_[c].indivisible && mesh_.curves[c].vertices.size() > 1) divided[c] = divide_curve(c);
+    if (periodic_) carry_vertices(periodic_->model(), model_, curves_);
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       const std::vector<std::int32_t>& chain = mesh_.curves[c].vertices;
       DiscreteCurve& d = curves_[c];
-      if (d.indivisible || chain.size() < 2) continue;
-      const auto owner = static_cast<std::size_t>(d.owner);
-      const CurveUse& use = model_.curve(d.curve).uses[owner];
-      std::vector<double> r, t;
-      std::vector<char> is_new;
-      for (std::size_t k = 1; k < chain.size(); ++k) {
-        if (marks_->has(chain[k - 1], chain[k])) {
-          const double middle = (d.r[k - 1] + d.r[k]) / 2, left = d.t_of_use[owner][k - 1], right = d.t_of_use[owner][k];
-          // The support's error at the ends holds between them too.
-          double at = parameter_at(model_, use, middle) + (left - parameter_at(model_, use, d.r[k - 1]) + right - parameter_at(model_, use, d.r[k])) / 2;
-          if (!(std::min(left, right) < at && at < std::max(left, right))) at = (left + right) / 2;
-          r.push_back(middle), t.push_back(at), is_new.push_back(1);
-        }
-        if (k + 1 < chain.size()) r.push_back(d.r[k]), t.push_back(d.t_of_use[owner][k]), is_new.push_back(0);
-      }
-      if (r.size() + 2 == d.r.size()) continue;
-      const std::vector<Vec3> old = d.xyz;
-      place_vertices_at(d, r, t, model_);
-      for (std::size_t i = 0, k = 1; i < is_new.size(); ++i) {
-        if (is_new[i] == 0) {
-          d.xyz[i + 1] = old[k++];
+      for (std::size_t i = 0, k = 1; i < divided[c].is_new.size(); ++i) {
+        if (divided[c].is_new[i] == 0) {
+          d.xyz[i + 1] = divided[c].old[k++];
           continue;
         }
         split_[marks_->edges().find(chain[k - 1], chain[k])] = add_vertex(d.xyz[i + 1]);
       }
     }
+  }
+
+  Divided divide_curve(std::size_t c) {
+    const std::vector<std::int32_t>& chain = mesh_.curves[c].vertices;
+    DiscreteCurve& d = curves_[c];
+    Divided divided{{}, d.xyz};
+    const auto owner = static_cast<std::size_t>(d.owner);
+    const CurveUse& use = model_.curve(d.curve).uses[owner];
+    std::vector<double> r, t;
+    for (std::size_t k = 1; k < chain.size(); ++k) {
+      if (marks_->has(chain[k - 1], chain[k])) {
+        const double middle = (d.r[k - 1] + d.r[k]) / 2, left = d.t_of_use[owner][k - 1], right = d.t_of_use[owner][k];
+        // The support's error at the ends holds between them too.
+        double at = parameter_at(model_, use, middle) + (left - parameter_at(model_, use, d.r[k - 1]) + right - parameter_at(model_, use, d.r[k])) / 2;
+        if (!(std::min(left, right) < at && at < std::max(left, right))) at = (left + right) / 2;
+        r.push_back(middle), t.push_back(at), divided.is_new.push_back(1);
+      }
+      if (k + 1 < chain.size()) r.push_back(d.r[k]), t.push_back(d.t_of_use[owner][k]), divided.is_new.push_back(0);
+    }
+    if (r.size() + 2 > d.r.size()) place_vertices_at(d, r, t, model_);
+    return divided;
   }
 
   std::int32_t add_vertex(const Vec3& p) {
@@ -264,11 +287,15 @@ class Refiner {
       const std::int32_t m = middle_[point.edge];
       face.uv[m] = point.uv, mesh_.vertices[face.vertex[m]] = point.xyz;
     }
+    if (periodic_)
+      for (std::size_t e = 0; e < local.size(); ++e)
+        if (middle_[e] >= 0) added_[f].middles.emplace(local[e], middle_[e]);
     return divide_elements(
         face, local, middle_, mesh_.vertices, [&](const Vec2& at) { return add_local(at, add_vertex({0, 0, 0})); },
         [&](std::span<const std::int32_t> centres) {
           std::vector<Vec2> at;
           for (const std::int32_t c : centres) at.push_back(face.uv[c]);
+          added_[f].centres.assign(centres.begin(), centres.end());
           evaluate(face.ref, at, [&](std::size_t k, const Vec3& s) { mesh_.vertices[face.vertex[centres[k]]] = s; });
         });
   }
@@ -363,7 +390,7 @@ class Refiner {
   }
 
   void make_nodes() {
-    const ElementWork work{model_, curves_, rules_, options_, result_, monitor_};
+    const ElementWork work{model_, curves_, rules_, options_, result_, monitor_, periodic_ ? &periodic_->model() : nullptr};
     QuadraticReport made = make_quadratic(work);
     if (const std::vector<CuspEnd> cusps = made.cusps; !cusps.empty()) made = make_quadratic(work, cusps);
     for (const InvalidElements& invalid : made.invalid)
@@ -378,6 +405,8 @@ class Refiner {
   SurfaceMesh& mesh_;
   std::vector<DiscreteCurve> curves_;
   bool quadratic_;
+  std::optional<PeriodicRefinement> periodic_;
+  std::vector<AddedVertices> added_;  // by face
   std::optional<EdgeMarks> marks_;   // of the mesh before the round
   std::vector<std::int32_t> split_;  // by edge of marks_: the new vertex
   std::vector<std::vector<std::size_t>> first_of_segment_;  // [curve][segment]: rank of its first vertex in the divided curve
@@ -388,7 +417,6 @@ class Refiner {
 
 void refine_mesh(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const RefineRequest& request, Monitor& monitor,
                  CompositeResult& result) {
-  if (!result.mesh.periodic.empty()) throw InvalidArgument("the mesh cannot be refined: it is periodic");
   if (!request.sizes.empty() && request.sizes.size() != result.mesh.vertices.size())
     throw InvalidArgument("there are " + std::to_string(request.sizes.size()) + " sizes for " + std::to_string(result.mesh.vertices.size()) + " vertices");
   if (const auto wrong = std::find_if(request.sizes.begin(), request.sizes.end(), [](double h) { return !(h > 0) || !std::isfinite(h); });

@@ -25,8 +25,8 @@ struct RefineRequest {
 /// Halves edges of `result.mesh`. New vertices lie on curves at the middle of the length, on faces at the place of the way in (u, v) that is as far
 /// from both ends, or at the node of an element of second order. A triangle with two halved edges or fewer loses its longest edge too, and
 /// edges of straight triangles around new vertices are swapped where shapes gain. A quadrilateral of four halved edges becomes four, else
-/// triangles. Elements of second order get new nodes, and are repaired. Throws InvalidArgument for marks that the mesh does not have and for
-/// periodic meshes, LimitError, and the exceptions of the geometry.
+/// triangles. Elements of second order get new nodes, and are repaired. Periodic faces are divided alike: slaves take the images of
+/// their masters. Throws InvalidArgument for marks that the mesh does not have, LimitError, and the exceptions of the geometry.
 void refine_mesh(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const RefineRequest& request, Monitor& monitor,
                  CompositeResult& result);
 

@@ -106,13 +106,68 @@ class Matcher {
     for (const int r : given.slaves) slaves.push_back(index_of(r));
     for (const int r : given.masters) masters.push_back(index_of(r));
     for (std::size_t i = 0; i < slaves.size(); ++i) {
-      if (slaves[i] == masters[i])
-        throw InvalidModel(Where{.face = given.slaves[i]}, "the face is periodic with itself: divide it into a master and a slave");
+      if (slaves[i] == masters[i]) {
+        add_itself(slaves[i], given);
+        continue;
+      }
       const Isometry map = given.map ? *given.map : map_between(masters[i], slaves[i]);
       std::optional<FacePair> pair = pair_of(masters[i], slaves[i], map);
       if (!pair) throw InvalidModel(Where{.face = ref(slaves[i])}, why_not(masters[i], slaves[i], map));
       pairs_.push_back(std::move(*pair));
     }
+  }
+
+  // The curves of a face that is periodic with itself, like a tube whose borders meet or an annulus that turns.
+  void add_itself(int face, const Periodicity& given) {
+    const Where where{.face = ref(face)};
+    if (!given.map) throw InvalidModel(where, "the face is periodic with itself: its map must be given");
+    FacePair pair{-1, -1, *given.map};
+    for (const int from : faces_[face].curves)
+      for (const int to : faces_[face].curves)
+        if (const std::optional<CurveImage> image = image_of(model_, shapes_[from], shapes_[to], *given.map, gap_); image && !is_identity(from, *image)) {
+          pair.curves.emplace(from, *image);
+          break;
+        }
+    if (pair.curves.empty()) throw InvalidModel(where, "the face is periodic with itself, and the map carries none of its curves onto another one or along itself");
+    if (!turned_curves(face, *given.map).empty()) note_itself(face);
+    pairs_.push_back(std::move(pair));
+  }
+
+  [[nodiscard]] bool is_identity(int from, const CurveImage& image) const {
+    return image.curve == from && (shapes_[from].degenerate || (!image.reversed && wrapped(image.shift) == 0));
+  }
+
+  // The curves of a face that a map carries onto themselves or each other; seams apart, which need no image. Empty: it does not, or moves none.
+  [[nodiscard]] std::map<int, CurveImage> turned_curves(int face, const Isometry& map) const {
+    std::map<int, CurveImage> images;
+    bool moves = false;
+    for (const int from : faces_[face].curves) {
+      if (only_use(from, face) == nullptr || shapes_[from].degenerate) continue;
+      const auto found = std::find_if(faces_[face].curves.begin(), faces_[face].curves.end(), [&](int to) {
+        const std::optional<CurveImage> image = image_of(model_, shapes_[from], shapes_[to], map, gap_);
+        if (image) images.emplace(from, *image);
+        return image.has_value();
+      });
+      if (found == faces_[face].curves.end()) return {};
+      moves = moves || !is_identity(from, images.at(from));
+    }
+    if (!moves) return {};
+    std::erase_if(images, [&](const auto& c) { return is_identity(c.first, c.second); });
+    return images;
+  }
+
+  void note_itself(int face) {
+    remarks_.push_back(Where{.face = ref(face)}.prefix() +
+                       "the map of a periodicity carries the face onto itself: its curves are periodic, its own mesh only if the geometry has its sectors");
+  }
+
+  // A map that carries a face onto itself makes its curves periodic.
+  std::size_t add_turned(int face, const Isometry& map) {
+    FacePair itself{-1, -1, map, turned_curves(face, map)};
+    if (itself.curves.empty()) return 0;
+    note_itself(face);
+    pairs_.push_back(std::move(itself));
+    return 1;
   }
 
   [[nodiscard]] std::vector<Vec3> corners_of(int face) const {
@@ -145,10 +200,12 @@ class Matcher {
   void add_translation(const Vec3& direction) {
     const Vec3 along = direction / norm(direction);
     double low = infinity, high = -infinity;
-    for (const FaceShape& face : faces_)
-      for (const int c : face.curves)
-        for (const Vec3& p : model_.support(model_.curve(c).uses.front()).xyz)
-          low = std::min(low, dot(p, along)), high = std::max(high, dot(p, along));
+    const auto add = [&](int c) {
+      for (const Vec3& p : model_.support(model_.curve(c).uses.front()).xyz) low = std::min(low, dot(p, along)), high = std::max(high, dot(p, along));
+    };
+    for (const FaceShape& face : faces_) std::for_each(face.curves.begin(), face.curves.end(), add);
+    for (int c = 0; c < std::ssize(shapes_); ++c)
+      if (is_of_wires(c)) add(c);
     // Files give lengths with noise: an extent of 1.0000000000002 is 1.
     const double rounded = std::strtod(format_digits(high - low).c_str(), nullptr);
     Isometry map;
@@ -176,16 +233,23 @@ class Matcher {
     return std::max(norm(a.first - b.low), norm(a.second - b.high));
   }
 
-  // The curves of a plane domain, which is one face, or the open borders of sheets.
-  [[nodiscard]] bool may_be_alone(int curve) const { return model_.model.plane || model_.curve(curve).uses.size() == 1; }
+  // The curves of a plane domain, which is one face, the open borders of sheets, and free curves.
+  [[nodiscard]] bool may_be_alone(int curve) const { return model_.model.plane || model_.curve(curve).uses.size() == 1 || is_of_wires(curve); }
 
-  std::size_t add_curves(const Isometry& map) {
+  [[nodiscard]] bool is_of_wires(int curve) const {
+    const std::vector<CurveUse>& uses = model_.curve(curve).uses;
+    return std::all_of(uses.begin(), uses.end(), [this](const CurveUse& use) { return model_.model.faces[use.face].is_wire(); });
+  }
+
+  template <typename Eligible>
+  std::size_t add_curves(const Isometry& map, const Eligible& is_eligible) {
     const std::size_t before = pairs_.size();
     for (const CurveShape& from : shapes_)
       for (const CurveShape& to : shapes_) {
-        if (from.curve == to.curve || from.degenerate || !may_be_alone(from.curve) || !may_be_alone(to.curve)) continue;
+        if (from.degenerate || !is_eligible(from.curve) || !is_eligible(to.curve)) continue;
+        if (from.curve == to.curve && !from.closed) continue;
         const std::optional<CurveImage> image = image_of(model_, from, to, map, gap_);
-        if (!image) continue;
+        if (!image || is_identity(from.curve, *image)) continue;
         pairs_.push_back({-1, -1, map, {{from.curve, *image}}});
         break;
       }
@@ -214,7 +278,7 @@ class Matcher {
   }
 
   std::size_t add_pairs(const Isometry& map) {
-    if (model_.model.plane) return add_curves(map);
+    if (model_.model.plane) return add_curves(map, [this](int c) { return may_be_alone(c); });
     std::size_t found = 0;
     for (int m = 0; m < std::ssize(faces_); ++m) {
       if (!faces_[m].usable) continue;
@@ -230,7 +294,10 @@ class Matcher {
         break;
       }
     }
-    return found > 0 ? found : add_curves(map);
+    found += found == 0 ? add_curves(map, [this](int c) { return may_be_alone(c); }) : add_curves(map, [this](int c) { return is_of_wires(c); });
+    for (int f = 0; f < std::ssize(faces_); ++f)
+      if (faces_[f].usable && !map.reflects()) found += add_turned(f, map);
+    return found;
   }
 
   [[nodiscard]] std::string nearest_miss(const Isometry& map) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -22,6 +23,9 @@ using namespace thresholds::periodic;
 
 // Chains add the gaps of their maps.
 constexpr double gaps_of_chain = 10;
+
+// Turns of a closed curve after which a map must have brought it back.
+constexpr int max_order = 720;
 
 std::vector<CurveImage> images_at(const std::map<int, CurveImage>& curves) {
   std::vector<CurveImage> images;
@@ -187,7 +191,57 @@ class Classes {
     return path;
   }
 
-  // A second chain to a curve carries it like the first one, or, if it is open, the other way round.
+  [[nodiscard]] double apart_on(int curve, const Isometry& a, const Isometry& b) const {
+    double worst = 0;
+    for (const double r : {0.2, 0.7}) {
+      const Vec3 p = support_point(model_, curve, r);
+      worst = std::max(worst, norm(a(p) - b(p)));
+    }
+    return worst;
+  }
+
+  // A map of a closed root onto itself joins the group of its maps.
+  void add_to_cycle(CurveClass& all, const CurveImage& image, const Isometry& map) const {
+    CurveCycle& cycle = all.cycle;
+    const int root = all.members.front().image.curve;
+    if (image.reversed) {
+      if (!cycle.turn) {
+        cycle.turn = map, cycle.turned_at = image.shift - std::floor(image.shift);
+        return;
+      }
+      const CurveImage known{root, true, cycle.turned_at};
+      if (const CurveImage between = composed(image, known); !same_way(between, {root})) add_shift(all, between.shift, cycle.turn->after(map));
+      return;
+    }
+    add_shift(all, image.shift, map);
+  }
+
+  void add_shift(CurveClass& all, double shift, const Isometry& map) const {
+    CurveCycle& cycle = all.cycle;
+    const int root = all.members.front().image.curve;
+    int order = 1;
+    Isometry power = map;
+    while (order <= max_order && apart_on(root, power, {}) > shares::negligible * result_.gap) power = map.after(power), ++order;
+    if (order > max_order)
+      throw InvalidModel(Where{.curve = model_.curve(root).ref},
+                         "a periodicity carries the closed curve onto itself by " + format_number(shift - std::floor(shift)) +
+                             " of its length, and no whole number of edges can be repeated so");
+    const int n = std::lcm(cycle.n, order);
+    if (n == cycle.n) return;
+    // The product of both maps that goes on by 1 / n.
+    const auto parts = [](double r) { return r - std::floor(r); };
+    const double first = 1. / cycle.n, second = std::round(parts(shift) * order) / order;
+    for (int a = 0; a < cycle.n; ++a)
+      for (int b = 0; b < order; ++b) {
+        if (std::abs(parts(a * first + b * second + 0.5 / n) - 1.5 / n) > 0.25 / n) continue;
+        CurveCycle factor{order, map};
+        const Isometry step = factor.power(b).after(cycle.power(a));
+        cycle.n = n, cycle.step = step;
+        return;
+      }
+  }
+
+  // A second chain to a curve carries it like the first one, or the other way round, or, if it is closed, shifted.
   void close(CurveClass& all, const CurveMember& known, const CurveMember& reached, const std::vector<int>& parent) const {
     const int root = all.members.front().image.curve;
     const Curve& shape = model_.curve(root);
@@ -197,10 +251,10 @@ class Classes {
       if (!all.turn) all.turn = known.map.inverse().after(reached.map);
       return;
     }
-    double worst = 0;
-    for (const double r : {0.2, 0.7}) {
-      const Vec3 p = support_point(model_, root, r);
-      worst = std::max(worst, norm(known.map(p) - reached.map(p)));
+    const double worst = apart_on(root, known.map, reached.map);
+    if (closed && !same_way(known.image, reached.image)) {
+      add_to_cycle(all, composed(reached.image, inverse(root, known.image)), known.map.inverse().after(reached.map));
+      return;
     }
     if (same_way(known.image, reached.image) && worst <= gaps_of_chain * result_.gap) {
       if (const Isometry between = known.map.inverse().after(reached.map); between.reflects()) all.mirrors.push_back(between);
@@ -279,6 +333,26 @@ class Classes {
 };
 
 }  // namespace
+
+Isometry CurveCycle::power(int k) const noexcept {
+  Isometry product;
+  for (int i = 0; i < k; ++i) product = step.after(product);
+  return product;
+}
+
+std::vector<double> images_on_root(const CurveClass& all, bool closed, double r) {
+  std::vector<double> images{r};
+  if (!closed) {
+    if (all.turn) images.push_back(1 - r);
+    return images;
+  }
+  for (int k = 0; k < all.cycle.n; ++k) {
+    const double shift = static_cast<double>(k) / all.cycle.n;
+    if (k > 0) images.push_back(wrapped(r + shift));
+    if (all.cycle.turn) images.push_back(wrapped(all.cycle.turned_at - r + shift));
+  }
+  return images;
+}
 
 Vec3 on_planes(Vec3 p, const std::vector<Isometry>& mirrors, double gap) {
   for (const Isometry& mirror : mirrors)

@@ -18,9 +18,21 @@ struct CurveMember {
   Isometry map;      ///< of the root onto the curve
 };
 
+/// The maps of a closed curve onto itself: r -> r + k / n, and beside them r -> turned_at - r if `turn` is set.
+struct CurveCycle {
+  int n = 1;
+  Isometry step;  ///< carries fraction r to r + 1 / n
+  std::optional<Isometry> turn = {};
+  double turned_at = 0;
+
+  [[nodiscard]] bool is_trivial() const noexcept { return n == 1 && !turn; }
+  [[nodiscard]] Isometry power(int k) const noexcept;
+};
+
 struct CurveClass {
   std::vector<CurveMember> members;  ///< the root first, the lowest of their indices
-  std::optional<Isometry> turn = {};  ///< carries the root onto itself, reversed
+  std::optional<Isometry> turn = {};  ///< carries the root, which is open, onto itself, reversed
+  CurveCycle cycle = {};              ///< of a closed root
   std::vector<Isometry> mirrors = {};  ///< reflections in planes that hold the root
 };
 
@@ -40,6 +52,9 @@ struct PeriodicModel {
 
   [[nodiscard]] bool empty() const noexcept { return pairs.empty() && curves.empty(); }
 };
+
+/// Fractions of the root that the maps of the class carry fraction r to, itself first.
+std::vector<double> images_on_root(const CurveClass& all, bool closed, double r);
 
 /// Moves a point that rounding alone has put beside the planes of reflections onto them.
 Vec3 on_planes(Vec3 p, const std::vector<Isometry>& mirrors, double gap);

@@ -44,13 +44,13 @@ SizeSamples least_of(const CurveClass& all, bool closed, const std::vector<SizeS
   least.r = sizes[all.members.front().image.curve].r;
   for (const CurveMember& member : all.members)
     for (const double r : sizes[member.image.curve].r) insert_fraction(least.r, of_root(member, closed, r));
-  if (all.turn)
-    for (const double r : std::vector<double>(least.r)) insert_fraction(least.r, 1 - r);
+  for (const double r : std::vector<double>(least.r))
+    for (const double image : images_on_root(all, closed, r)) insert_fraction(least.r, image);
   for (const double at : least.r) {
     double h = INFINITY, physical = INFINITY;
     for (const CurveMember& member : all.members) {
       const SizeSamples& own = sizes[member.image.curve];
-      for (const double r : {at, all.turn ? 1 - at : at}) {
+      for (const double r : images_on_root(all, closed, at)) {
         h = std::min(h, own.size_at(of_member(member, closed, r)));
         physical = std::min(physical, own.physical_at(of_member(member, closed, r)));
       }
@@ -116,6 +116,129 @@ void make_symmetric(const Isometry& turn, const CurveModel& model, DiscreteCurve
   place_vertices_at(d, r, t, model);
 }
 
+/// The group of a closed root carries its first arc, of length 1 / n, onto all others; a reversal carries parts of the arc onto each other.
+class CycleImages {
+ public:
+  CycleImages(const CurveCycle& cycle, const CurveModel& model, double exact, DiscreteCurve& d) : cycle_(cycle), model_(model), exact_(exact), d_(d) {}
+
+  /// `fixed`: fractions of vertices that must be there. The arcs between them are cut by the sizes of the curve.
+  void cut(const std::vector<double>& fixed) {
+    std::vector<double> ends{0, arc()};
+    const auto add = [&](double r) {
+      for (const double at : {in_arc(r), cycle_.turn ? in_arc(cycle_.turned_at - r) : 0.}) {
+        const auto near = [at](double e) { return std::abs(e - at) <= rounding_of::places; };
+        if (std::none_of(ends.begin(), ends.end(), near)) ends.push_back(at);
+      }
+    };
+    add(0);
+    for (const double r : fixed) add(r);
+    std::sort(ends.begin(), ends.end());
+    const double length = model_.length(d_.curve);
+    const int at_least = cycle_.n * (static_cast<int>(ends.size()) - 1) >= 3 ? 1 : 3;
+    std::vector<double> first;  // of the arc
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      if (i > 0) first.push_back(ends[i]);
+      const std::vector<double> inside = cuts_between(ends[i], ends[i + 1], length, at_least);
+      first.insert(first.end(), inside.begin(), inside.end());
+    }
+    if (cycle_.turn) first = symmetric(first, ends);
+    place(first);
+  }
+
+  /// Moves the vertices, whose fractions nearly repeat, to the images of the vertices of the first arc.
+  void repeat() {
+    std::vector<double> first;
+    for (const double r : d_.r)
+      if (r > rounding_of::places && r < arc() - rounding_of::sizes) first.push_back(r);
+    place(first);
+  }
+
+ private:
+  [[nodiscard]] double arc() const { return 1. / cycle_.n; }
+  [[nodiscard]] double in_arc(double r) const {
+    const double rest = r - std::floor(r / arc()) * arc();
+    return rest < rounding_of::places || rest > arc() - rounding_of::places ? 0 : rest;
+  }
+
+  [[nodiscard]] std::vector<double> cuts_between(double from, double to, double length, int at_least) const {
+    std::vector<double> s{from * length}, h{d_.sizes.size_at(from)};
+    for (std::size_t k = 0; k < d_.sizes.r.size(); ++k)
+      if (d_.sizes.r[k] > from && d_.sizes.r[k] < to) s.push_back(d_.sizes.r[k] * length), h.push_back(d_.sizes.h[k]);
+    s.push_back(to * length), h.push_back(d_.sizes.size_at(to));
+    std::vector<double> cuts = split_by_sizes(s, h, d_.sizes.law, at_least);
+    for (double& cut : cuts) cut /= length;
+    return {cuts.begin() + 1, cuts.end() - 1};
+  }
+
+  // The reversal carries each arc between fixed ends onto itself or onto a second one, which takes the images of the first one's cuts.
+  [[nodiscard]] std::vector<double> symmetric(const std::vector<double>& cuts, const std::vector<double>& ends) const {
+    std::vector<double> result(ends.begin() + 1, ends.end() - 1);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const double middle = (ends[i] + ends[i + 1]) / 2, image = mirrored(middle);
+      if (image < middle - rounding_of::places) continue;
+      const bool itself = image <= middle + rounding_of::places;
+      std::vector<double> inside;
+      for (const double r : cuts)
+        if (r > ends[i] + rounding_of::places && r < ends[i + 1] - rounding_of::places) inside.push_back(r);
+      for (std::size_t k = 0; k < inside.size(); ++k)
+        if (itself)
+          result.push_back((inside[k] + mirrored(inside[inside.size() - 1 - k])) / 2);
+        else
+          result.insert(result.end(), {inside[k], mirrored(inside[k])});
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+  [[nodiscard]] double mirrored(double r) const { return in_arc(cycle_.turned_at - r); }
+
+  void place(const std::vector<double>& first) {
+    std::vector<double> r;
+    for (int k = 0; k < cycle_.n; ++k) {
+      const double begin = static_cast<double>(k) / cycle_.n;
+      if (k > 0) r.push_back(begin);
+      for (const double at : first) r.push_back(begin + at);
+    }
+    place_vertices(d_, r, model_);
+    const auto owner = static_cast<std::size_t>(d_.owner);
+    const CurveUse& use = model_.curve(d_.curve).uses[owner];
+    const CurveSupport& support = model_.support(use);
+    std::vector<double> t(d_.t_of_use[owner].begin() + 1, d_.t_of_use[owner].end() - 1);
+    std::vector<Vec3> target(d_.xyz.begin(), d_.xyz.end());
+    const std::size_t per_arc = first.size() + 1;
+    const auto move = [&](std::size_t to, const Isometry& map, std::size_t from) {
+      if (to == 0 || to >= target.size() - 1) return;
+      target[to] = map(target[from]);
+      const CurvePoint found = find_closest(model_, use, t[to - 1], support.t.front(), support.t.back(), target[to]);
+      t[to - 1] = found.t;
+      if (found.distance > exact_) target[to] = found.xyz;
+    };
+    if (cycle_.turn) {
+      for (std::size_t k = 0; k < per_arc; ++k) {
+        const double at = k == 0 ? 0 : first[k - 1], image = mirrored(at);
+        if (image <= at) continue;
+        const auto found = std::lower_bound(first.begin(), first.end(), image - rounding_of::sizes);
+        if (found == first.end() || *found > image + rounding_of::sizes) continue;
+        const double whole = (*found - (cycle_.turned_at - at)) * cycle_.n;
+        const int turns = static_cast<int>(std::lround(whole));
+        move(static_cast<std::size_t>(found - first.begin()) + 1, cycle_.power((turns % cycle_.n + cycle_.n) % cycle_.n).after(*cycle_.turn), k);
+      }
+    }
+    Isometry map;
+    for (int k = 1; k < cycle_.n; ++k) {
+      map = cycle_.step.after(map);
+      for (std::size_t i = 0; i < per_arc; ++i) move(static_cast<std::size_t>(k) * per_arc + i, map, i);
+    }
+    place_vertices_at(d_, r, t, model_);
+    for (std::size_t i = 1; i + 1 < d_.xyz.size(); ++i)
+      if (norm(d_.xyz[i] - target[i]) <= exact_) d_.xyz[i] = target[i];
+  }
+
+  const CurveCycle& cycle_;
+  const CurveModel& model_;
+  double exact_;
+  DiscreteCurve& d_;
+};
+
 // Vertices in mirror planes are their own images.
 void keep_on_planes(const CurveClass& all, double gap, DiscreteCurve& d) {
   for (std::size_t k = 1; !all.mirrors.empty() && k + 1 < d.xyz.size(); ++k) d.xyz[k] = on_planes(d.xyz[k], all.mirrors, gap);
@@ -161,6 +284,19 @@ int prescribed_member(const CurveClass& all, const CurveModel& model, const std:
                              ", which are periodic: they differ");
   }
   return found;
+}
+
+void require_repeated(const CurveClass& all, const DiscreteCurve& d, const CurveModel& model) {
+  if (all.cycle.is_trivial()) return;
+  const auto& member = *std::find_if(all.members.begin(), all.members.end(), [&](const CurveMember& m) { return m.image.curve == d.curve; });
+  for (const double at : d.r)
+    for (const double r : images_on_root(all, true, of_root(member, true, at))) {
+      const double image = of_member(member, true, r);
+      const auto near = [image](double known) { return std::abs(known - image) <= rounding_of::sizes; };
+      if (std::none_of(d.r.begin(), d.r.end(), near))
+        throw InvalidModel(Where{.curve = model.curve(d.curve).ref},
+                           "the edges that are prescribed on the curve do not repeat under the map that carries it onto itself");
+    }
 }
 
 // Fractions of lengths are known by tables: vertices of the root where closed members begin go to the images of these beginnings.
@@ -216,11 +352,15 @@ void share_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
     DiscreteCurve& root = curves[all.members.front().image.curve];
     if (root.indivisible) continue;
     const int prescribed = prescribed_member(all, model, curves);
+    if (prescribed >= 0) require_repeated(all, curves[all.members[prescribed].image.curve], model);
     if (prescribed < 0) {
       std::vector<double> fixed;
       if (is_closed(model, root.curve))
         for (const CurveMember& member : all.members) insert_fraction(fixed, wrapped(member.image.back(0)));
-      if (!fixed.empty()) cut_at(fixed, model, root);
+      if (!all.cycle.is_trivial())
+        CycleImages(all.cycle, model, rounding_of::places * periodic.gap, root).cut(fixed);
+      else if (!fixed.empty())
+        cut_at(fixed, model, root);
       if (all.turn) make_symmetric(*all.turn, model, root);
     }
     carry_from(all, static_cast<std::size_t>(std::max(prescribed, 0)), model, periodic.gap, curves);
@@ -232,6 +372,7 @@ void carry_vertices(const PeriodicModel& periodic, const CurveModel& model, std:
     DiscreteCurve& root = curves[all.members.front().image.curve];
     if (root.indivisible || root.prescribed) continue;
     if (all.turn) make_symmetric(*all.turn, model, root);
+    if (!all.cycle.is_trivial()) CycleImages(all.cycle, model, rounding_of::places * periodic.gap, root).repeat();
     carry_from(all, 0, model, periodic.gap, curves);
   }
 }
@@ -245,16 +386,13 @@ std::vector<int> complete_classes(const PeriodicModel& periodic, const CurveMode
     std::vector<double> r(root.r.begin() + 1, root.r.end() - 1);
     for (const CurveMember& member : all.members)
       for (const double at : curves[member.image.curve].r) insert_fraction(r, of_root(member, closed, at));
-    if (all.turn)
-      for (const double at : std::vector<double>(r)) insert_fraction(r, 1 - at);
+    for (const double at : std::vector<double>(r))
+      for (const double image : images_on_root(all, closed, at)) insert_fraction(r, image);
     const auto has_all = [&](const CurveMember& member) { return curves[member.image.curve].r.size() == r.size() + 2; };
     if (std::all_of(all.members.begin(), all.members.end(), has_all)) continue;
-    if (all.turn) {
-      place_vertices(root, r, model);
-      make_symmetric(*all.turn, model, root);
-    } else {
-      place_vertices(root, r, model);
-    }
+    place_vertices(root, r, model);
+    if (all.turn) make_symmetric(*all.turn, model, root);
+    if (!all.cycle.is_trivial()) CycleImages(all.cycle, model, rounding_of::places * periodic.gap, root).repeat();
     carry_from(all, 0, model, periodic.gap, curves);
     for (const CurveMember& member : all.members) changed.push_back(member.image.curve);
   }

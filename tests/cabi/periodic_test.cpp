@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "abi_fixture.h"
+#include "carreau_geometry.h"
 
 namespace abi_tests {
 namespace {
@@ -203,11 +204,68 @@ TEST_F(PeriodicTest, BadPeriodicitiesAreRejected) {
   EXPECT_EQ(carreau_model_add_periodicity(session, &slave, &master, 1, bad.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_NE(error().find("changes lengths"), std::string::npos) << error();
   EXPECT_EQ(carreau_model_add_periodicity(session, &slave, &none, 1, up.data()), CARREAU_ERR_ARGUMENT);
-  EXPECT_EQ(carreau_model_add_periodicity(session, &slave, &slave, 1, up.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_add_periodicity(session, &slave, &slave, 1, nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_model_add_periodicity(session, nullptr, &master, 1, up.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_model_add_periodicity(session, nullptr, nullptr, -1, up.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_model_add_periodicity(session, nullptr, nullptr, 0, nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_model_add_period(session, zero), CARREAU_ERR_ARGUMENT);
+}
+
+TEST_F(PeriodicTest, AFaceMayBePeriodicWithItself) {
+  use_sheets({4});
+  const std::int32_t face = 4;
+  std::array<double, 12> along{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0}, across = along;
+  across[3] = 0, across[7] = 1;
+  EXPECT_EQ(carreau_model_add_periodicity(session, &face, &face, 1, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("its map must be given"), std::string::npos) << error();
+  ASSERT_EQ(carreau_model_add_periodicity(session, &face, &face, 1, along.data()), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_model_add_periodicity(session, &face, &face, 1, across.data()), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  std::int64_t pairs = 0, nodes = 0;
+  ASSERT_EQ(carreau_mesh_periodic_count(mesh(), &pairs, &nodes), CARREAU_OK);
+  EXPECT_EQ(pairs, 5);  // three corners and two sides
+  // Glued, the square is a torus: V - F / 2 = 0.
+  std::vector<std::int32_t> dimension(pairs), node(2 * nodes);
+  std::vector<std::int64_t> count(pairs);
+  ASSERT_EQ(carreau_mesh_periodic(mesh(), pairs, nodes, dimension.data(), nullptr, nullptr, count.data(), node.data()), CARREAU_OK);
+  const MeshData data = data_of(mesh());
+  std::vector<std::size_t> root(data.xyz.size() / 3);
+  for (std::size_t v = 0; v < root.size(); ++v) root[v] = v;
+  const auto find = [&](std::size_t v) {
+    while (root[v] != v) v = root[v];
+    return v;
+  };
+  for (std::int64_t k = 0; k < nodes; ++k) root[find(std::size_t(node[2 * k]))] = find(std::size_t(node[2 * k + 1]));
+  std::size_t glued = 0;
+  for (std::size_t v = 0; v < root.size(); ++v) glued += root[v] == v ? 1 : 0;
+  EXPECT_EQ(2 * glued, data.triangle_count());
+}
+
+TEST_F(PeriodicTest, RefinedMeshesStayPeriodic) {
+  for (const char* element : {"p1", "p2"}) {
+    ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);
+    use_sheets({1, 2}, 0.2);
+    ASSERT_EQ(carreau_set_text(session, "element", element), CARREAU_OK) << error();
+    const std::int32_t slave = 2, master = 1;
+    ASSERT_EQ(carreau_model_add_periodicity(session, &slave, &master, 1, up.data()), CARREAU_OK) << error();
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    std::size_t before = check_pairs();
+    // Elements of the slave, and of the master.
+    const std::int32_t elements[4] = {0, 3, std::int32_t(data_of(mesh()).triangle_count()) - 1, std::int32_t(data_of(mesh()).triangle_count()) / 2 + 5};
+    ASSERT_EQ(carreau_mesh_refine(session, CARREAU_MARK_ELEMENTS, 4, elements), CARREAU_OK) << error();
+    std::size_t after = check_pairs();
+    EXPECT_GT(after, before);
+    for (int round = 0; round < 2; ++round) {
+      const std::size_t triangles = data_of(mesh()).triangle_count();
+      ASSERT_EQ(carreau_mesh_halve(session, 1), CARREAU_OK) << error();
+      EXPECT_EQ(data_of(mesh()).triangle_count(), 4 * triangles);
+      EXPECT_GT(check_pairs(), 2 * after);
+      after = check_pairs();
+    }
+    std::vector<double> sizes(data_of(mesh()).xyz.size() / 3, 0.04);
+    ASSERT_EQ(carreau_mesh_refine_sizes(session, std::int64_t(sizes.size()), sizes.data()), CARREAU_OK) << error();
+    check_pairs();
+  }
 }
 
 TEST_F(PeriodicTest, ChainsThatContradictOneAnotherAreReported) {

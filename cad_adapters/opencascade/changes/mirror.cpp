@@ -40,6 +40,7 @@
 #include <utility>
 #include <vector>
 
+#include "changes/mirror_edges.h"
 #include "changes/shape_images.h"
 #include "thresholds.h"
 
@@ -55,7 +56,7 @@ struct Extent {
 class Mirror {
  public:
   Mirror(const TopoDS_Shape& shape, const MirrorPlane& plane)
-      : plane_(gp_Pnt(plane.point[0], plane.point[1], plane.point[2]), gp_Dir(plane.normal[0], plane.normal[1], plane.normal[2])) {
+      : shape_(shape), plane_(gp_Pnt(plane.point[0], plane.point[1], plane.point[2]), gp_Dir(plane.normal[0], plane.normal[1], plane.normal[2])) {
     map_.SetMirror(gp_Ax2(plane_.Location(), plane_.Axis().Direction()));
     Bnd_Box box;
     BRepBndLib::Add(shape, box);
@@ -68,15 +69,22 @@ class Mirror {
   }
 
   void run() {
-    const bool below = std::any_of(heights_.begin(), heights_.end(), [this](const Extent& e) { return e.low < -near_; });
-    const bool above = std::any_of(heights_.begin(), heights_.end(), [this](const Extent& e) { return e.high > near_; });
+    const EdgeHeights loose = heights_of_loose(shape_, plane_);
+    const bool below = loose.low < -near_ || std::any_of(heights_.begin(), heights_.end(), [this](const Extent& e) { return e.low < -near_; });
+    const bool above = loose.high > near_ || std::any_of(heights_.begin(), heights_.end(), [this](const Extent& e) { return e.high > near_; });
     if (!below && !above) throw std::runtime_error("the file has no face off the mirror plane");
     is_whole_ = below && above;
     cut();
     collect(above);
     add_images();
     if (is_whole_) match_other_half();
+    MirroredEdges edges = mirror_loose(shape_, plane_, above, is_whole_, near_, std::max(thresholds::symmetric * diagonal_, near_));
+    for (TopTools_DataMapOfShapeListOfShape::Iterator it(edges.images); it.More(); it.Next()) images_.Bind(it.Key(), it.Value());
+    loose_ = std::move(edges.edges);
   }
+
+  /// The edges of no face, with their images.
+  [[nodiscard]] const TopTools_ListOfShape& loose() const { return loose_; }
 
   /// The shapes that a solid, shell, face, edge or vertex has become.
   [[nodiscard]] TopTools_ListOfShape images_of(const TopoDS_Shape& shape) const {
@@ -236,6 +244,7 @@ class Mirror {
   // ---- their mirror images ----
 
   void add_images() {
+    if (pieces_.IsEmpty()) return;
     BRepBuilderAPI_Transform mirrored(compound_of(pieces_), map_, Standard_True);
     const Handle(BRepTools_ReShape) join = new BRepTools_ReShape;
     TopTools_MapOfShape seen;
@@ -403,8 +412,10 @@ class Mirror {
     return made.Oriented(solid.Orientation());
   }
 
+  TopoDS_Shape shape_;
   gp_Pln plane_;
   gp_Trsf map_;
+  TopTools_ListOfShape loose_;
   double diagonal_ = 0, reach_ = 0, near_ = 0;
   bool is_whole_ = false;
   TopTools_IndexedMapOfShape faces_;
@@ -433,7 +444,7 @@ void mirror(ShapeFile& file, const MirrorPlane& plane) {
   TopTools_ListOfShape faces;
   add_parts(file.shape, TopAbs_FACE, TopAbs_SHELL, faces);
   work.add_free(faces, result);
-  file = with_images(file, compound_of(result), [&work](const TopoDS_Shape& shape) { return work.images_of(shape); });
+  file = with_images(file, compound_of(result), [&work](const TopoDS_Shape& shape) { return work.images_of(shape); }, &work.loose());
 }
 
 }  // namespace carreau_occ

@@ -49,14 +49,17 @@ void add_parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnu
     if (seen.Add(e.Current())) parts.Append(e.Current());
 }
 
-ShapeFile with_images(const ShapeFile& file, const TopoDS_Shape& result, const ImagesOf& images_of) {
+ShapeFile with_images(const ShapeFile& file, const TopoDS_Shape& result, const ImagesOf& images_of, const TopTools_ListOfShape* loose) {
   ShapeFile changed = file;
   TopTools_ListOfShape shapes;
   if (result.ShapeType() == TopAbs_COMPOUND)
     for (TopoDS_Iterator it(result); it.More(); it.Next()) shapes.Append(it.Value());
   else
     shapes.Append(result);
-  add_parts(file.shape, TopAbs_EDGE, TopAbs_FACE, shapes);
+  if (loose == nullptr)
+    add_parts(file.shape, TopAbs_EDGE, TopAbs_FACE, shapes);
+  else
+    for (const TopoDS_Shape& edge : *loose) shapes.Append(edge);
   changed.shape = compound_of(shapes);
   changed.labels.clear();
   for (const ShapeFile::Label& label : file.labels)

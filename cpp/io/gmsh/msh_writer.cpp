@@ -420,7 +420,7 @@ class MshText {
     for (const PeriodicLink& link : *mesh_.periodic) {
       const Entities& entities = entities_[link.dimension];
       const auto slave = entities.find(link.slave), master = entities.find(link.master);
-      if (slave == entities.end() || master == entities.end()) continue;
+      if (slave == entities.end() || master == entities.end() || slave == master) continue;  // no entity is its own master
       Link& all = links.try_emplace({link.dimension, slave->second.tag}, Link{master->second.tag, link.map, {}}).first->second;
       if (all.master == master->second.tag) all.nodes.insert(all.nodes.end(), link.nodes.begin(), link.nodes.end());
     }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "support/error.h"
+#include "surface/discrete/periodic_images.h"
 #include "surface/discrete/periodic_triangles.h"
 #include "surface/discrete/start_mesh.h"
 #include "surface/elements/cross_patch/cross_patch_elements.h"
@@ -104,6 +105,8 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
   };
+  if (options.element != Element::p1)
+    frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& made) { make_cross_patch_elements(before, frame, options, cad, made, monitor); };
   const std::string why = remesh_from_planes(frame, min_mean_shape, cad, options, start.result, monitor);
   if (!why.empty()) monitor.message(Level::detail, "local instead of parametric remeshing: " + why);
   return why.empty();
@@ -140,8 +143,8 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   Start start;
   bool made = false;
   const bool periodic = !model.periodicities.empty();
-  if (periodic && (options.element != Element::p1 || known.by_direction()))
-    throw InvalidArgument("faces given by triangles are periodic: the mesh needs the element p1 and sizes without direction");
+  if (periodic && known.by_direction())
+    throw InvalidArgument("faces given by triangles are periodic: sizes by direction are for patches alone, since only parametric remeshing divides periodic lines alike");
   if (periodic || may_be_made_in_planes(options, known)) {
     begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
     made = make_in_planes(surface, options, cad, monitor, start);

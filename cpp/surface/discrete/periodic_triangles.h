@@ -2,14 +2,13 @@
 // Faces and lines of triangulated surfaces that maps of space carry onto each other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "mesh/surface_mesh.h"
 #include "model/isometry.h"
 #include "model/model.h"
-#include "surface/remesh/base/charts.h"
-#include "surface/result.h"
 
 namespace carreau {
 
@@ -33,12 +32,5 @@ struct PeriodicTriangles {
 /// Finds the pairs of the model's periodicities. `mesh`: of start_mesh(), its first `given` vertices are the surface's; images of corners cut its lines, and lines that are slaves are
 /// turned to run like the images of their masters. Throws InvalidModel: nothing matches, with the distance and the place.
 PeriodicTriangles find_periodic_triangles(const Model& model, double diag, std::size_t given, SurfaceMesh& mesh);
-
-/// Gives lines and masters the least size of both sides. `size`: by vertex of `mesh`. Returns the least factor of a size on a line.
-double share_sizes(const PeriodicTriangles& periodic, const SurfaceMesh& mesh, std::span<double> size);
-
-/// Replaces meshes of slaves by images of their masters' meshes, on the slaves' own triangles of the atlas, and links the vertices. Throws
-/// InvalidModel: an image misses the slave.
-void make_periodic(const PeriodicTriangles& periodic, Cad& cad, CompositeResult& result, Monitor& monitor);
 
 }  // namespace carreau

@@ -83,6 +83,7 @@ class FrameRemesher {
         if (candidate.why.empty()) replacement_.accept(std::move(candidate));
         return candidate.why;
       }
+      if (frame_.elements) mesh->free = std::move(candidate.made.free), mesh->worked = std::move(candidate.made.worked);
       const std::int64_t found = candidate.crossings.count;
       monitor_.message(Level::debug, std::to_string(found) + " pairs of triangles cross");
       const bool stays = round > 0 && found >= last;

@@ -145,19 +145,106 @@ class Cells(unittest.TestCase):
         self.assertEqual(2 * len({made.classes()[n] for cells in made.cells.values() for cell in cells for n in cell}),
                          sum(len(cells) for cells in made.cells.values()))
 
-    def test_other_elements_stay_in_patches(self):
-        """Only p1 crosses borders beside periodic faces: a warning reports it, and all pairs hold."""
-        for element in ("p2", "q1.0", "q1.1", "q2.0"):
-            with self.subTest(element):
-                path = self.path("cell.msh2")
-                done = run("mesh", os.path.join(CELLS, "annulus.step"), "-o", path, "--size", "0.2", "--cross-patch", "--element", element,
-                           "--periodic", "rotate:0,0,0:0,0,1:60")
-                self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertIn("no cross-patch remeshing: faces are periodic", done.stderr)
-                made = Mesh(path)
+    def test_other_elements_cross_patches(self):
+        """Slaves get the images of their masters' elements, with their nodes; the rest crosses borders of patches. Six tubes, glued, have
+        genus 3, a divided torus is a torus, and the sector of a pipe has one pair."""
+        tubes = self.path("tubes.bpt", six_tubes())
+        cases = ((os.path.join(CELLS, "annulus.step"), ("--periodic", "rotate:0,0,0:0,0,1:60"), "0.2", 1), (os.path.join(CELLS, "sector24.step"), ("--periodic", "rotate:0,0,0:0,0,1:15"), ".05", 1),
+                 (tubes, AXES, "0.2", 0))
+        for element in ("p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"):
+            for source, options, size, faces in cases:
+                with self.subTest(element, source=source):
+                    path = self.path("cell.msh2")
+                    done = run("mesh", source, "-o", path, "--size", size, "--cross-patch", "--element", element, *options)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertNotIn("no cross-patch remeshing", done.stderr)
+                    made = Mesh(path)
+                    self.assertEqual(len(made.faces()), faces)
+                    self.assertLess(made.mismatch(), 4e-12)
+                    for _, slave, master, _, nodes in made.faces():
+                        self.assertTrue(made.same_cells(slave, master, nodes))
+                        on_face = {n for cell in made.nodes[master] for n in cell}
+                        self.assertEqual(on_face, {m for _, m in nodes})
+                    if source == tubes:
+                        self.assertEqual(self.euler_of(made), -4)
+                    self.assertEqual(run("check", path).returncode, 0)
+
+    def test_closed_curves_that_maps_carry_onto_themselves(self):
+        """A pipe under turns by 60 degrees: its circles repeat. A ball of two halves under half a turn: its circle is reversed, and one half is the
+        image of the other one."""
+        for turn, options in ((60, ()), (60, ("--face-size", "1=.07")), (72, ("--size-map", ".05 + .1*abs(x)")), (90, ("--element", "p2"))):
+            with self.subTest(turn=turn, options=options):
+                made = Mesh(self.mesh(os.path.join(CELLS, "pipe.step"), "--periodic", f"rotate:0,0,0:0,0,1:{turn}", *options, size="0.2"))
+                rim = {n: p for n, p in made.points.items() if min(abs(p[2]), abs(p[2] - 1)) < 1e-9 and min(abs(math.hypot(*p[:2]) - r) for r in (.5, 1)) < 1e-9}
+                angle = math.radians(turn)
+                for x, y, z in rim.values():
+                    image = (x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle), z)
+                    self.assertLess(min(math.dist(image, p) for p in rim.values()), 4e-12)
+                self.assertEqual(run("check", self.path("cell.msh2")).returncode, 0)
+        for options in ((), ("--size-map", ".1 + .1*abs(y)"), ("--element", "p2"), ("--element", "q1.1"), ("--cross-patch", "--element", "p2")):
+            with self.subTest(options=options):
+                made = Mesh(self.mesh(os.path.join(CELLS, "lens.step"), "--periodic", "rotate:0,0,0:1,0,0:180", *options, size="0.25"))
                 self.assertEqual(len(made.faces()), 1)
                 self.assertLess(made.mismatch(), 2e-12)
-                self.assertEqual(run("check", path).returncode, 0)
+                rim = [p for p in made.points.values() if abs(p[2]) < 1e-9]
+                for x, y, z in rim:
+                    self.assertLess(min(math.dist((x, -y, -z), p) for p in rim), 4e-12)
+                for _, slave, master, _, nodes in made.faces():
+                    self.assertTrue(made.same_cells(slave, master, nodes))
+                self.assertEqual(run("check", self.path("cell.msh2")).returncode, 0)
+
+    def test_a_turn_that_never_returns_is_reported(self):
+        done = run("mesh", os.path.join(CELLS, "pipe.step"), "-o", self.path("none.msh"), "--periodic", "rotate:0,0,0:0,0,1:57.29577951308232", "--size", ".2")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("no whole number of edges can be repeated so", done.stderr)
+
+    def test_a_torus_that_is_cut_once(self):
+        """Its two borders are one circle of space under the turn by 300 degrees; glued, it is a torus."""
+        torus = "x = (2 + .7*cos(v))*cos(u); y = (2 + .7*cos(v))*sin(u); z = .7*sin(v)"
+        for element in ("p1", "p2", "q1.1"):
+            made = Mesh(self.mesh(torus, "--domain", f"box:0,0,{5 * math.pi / 3!r},{2 * math.pi!r}", "--periodic", "rotate:0,0,0:0,0,1:300", "--element", element, size="0.3"))
+            self.assertLess(made.mismatch(), 2e-12)
+            self.assertEqual(self.euler_of(made), 0)
+
+    def test_refined_meshes_stay_periodic(self):
+        """Each halving makes four elements of one; images stay images."""
+        cases = ((os.path.join(CELLS, "fcc.step"), AXES, "0.15"), (os.path.join(CELLS, "sector24.step"), ("--periodic", "rotate:0,0,0:0,0,1:15"), ".06"),
+                 (os.path.join(CELLS, "lens.step"), ("--periodic", "rotate:0,0,0:1,0,0:180"), ".4"))
+        for element in ("p1", "p2", "q1.0", "q1.1", "q2.1"):
+            for source, options, size in cases:
+                counts = []
+                for halvings in (0, 1, 2):
+                    with self.subTest(element, source=source, halvings=halvings):
+                        made = Mesh(self.mesh(source, *options, "--element", element, "--halvings", str(halvings), size=size))
+                        counts.append(sum(map(len, made.cells.values())))
+                        self.assertEqual(counts[-1], counts[0] * 4 ** halvings)
+                        self.assertLess(made.mismatch(), 2e-12)
+                        self.assertEqual(len(made.faces()), 3 if options == AXES else 1)
+                        for _, slave, master, _, nodes in made.faces():
+                            self.assertTrue(made.same_cells(slave, master, nodes))
+                            self.assertEqual({n for cell in made.nodes[master] for n in cell}, {m for _, m in nodes})
+                        if source.endswith("fcc.step"):
+                            self.assertEqual(made.euler_of_skin(), 8)
+                        self.assertEqual(run("check", self.path("cell.msh2")).returncode, 0)
+
+    def test_classes_of_spheres(self):
+        """Pieces of spheres in the corners, on the edges and on the faces of a cube: glued, they are one sphere of eight pieces, three of four and
+        three of two. A vertex on n sides of the cube has 2^n images."""
+        for body, sphere in (("spheres.step", True), ("cube.step", False)):
+            for element in ("p1", "p2", "q1.1"):
+                with self.subTest(body, element=element):
+                    made = Mesh(self.mesh(os.path.join(CELLS, body), *AXES, "--element", element))
+                    self.assertLess(made.mismatch(), 2e-12)
+                    members = {}
+                    for n, root in made.classes().items():
+                        members.setdefault(root, []).append(n)
+                    on_sides = {n: sum(min(abs(x), abs(x - 1)) < 1e-9 for x in p) for n, p in made.points.items()}
+                    for all in members.values():
+                        self.assertEqual({len(all)}, {2 ** on_sides[n] for n in all})
+                    self.assertEqual(max(on_sides.values()), 2 if sphere else 3)
+                    if sphere:
+                        self.assertEqual(made.skin_pieces(), [2, 2, 2, 4, 4, 4, 8])
+                        self.assertEqual(made.euler_of_skin(), 14)  # seven spheres
 
     def test_an_edge_that_a_half_turn_reverses(self):
         """The half turn about the diagonal of a cube's side carries the edge on z onto itself, reversed, and x = 0 onto y = 0."""
@@ -210,6 +297,17 @@ class Cells(unittest.TestCase):
             with self.subTest(options):
                 made = self.check_triangles(self.mesh(stl, *AXES, *options, size=size), 3)
                 self.assertEqual(made.euler_of_skin(), 8)
+
+    def test_other_elements_of_triangles(self):
+        stl = self.mesh(os.path.join(CELLS, "fcc.step"), *AXES, name="fcc.stl", size="0.04")
+        for element in ("p2", "q1.0", "q1.1", "q2.0", "q2.1"):
+            with self.subTest(element):
+                made = self.check_triangles(self.mesh(stl, *AXES, "--element", element, size="0.08"), 3)
+                self.assertEqual(made.euler_of_skin(), 8)
+                for _, _, master, _, nodes in made.faces():
+                    self.assertEqual({n for cell in made.nodes[master] for n in cell}, {m for _, m in nodes})
+        done = run("mesh", stl, *AXES, "-o", self.path("none.msh"), "--set", "metric=1", "--size", "0.08")
+        self.assertNotIn("terminate", done.stderr)
 
     def test_a_sector_of_triangles(self):
         """Both sides of the sector meet in its axis, whose vertices are their own images."""

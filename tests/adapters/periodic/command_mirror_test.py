@@ -79,6 +79,23 @@ class Mirror(unittest.TestCase):
                     for cell in cells:
                         self.assertFalse(all(abs(made.points[n][0]) < 1e-9 for n in cell))
 
+    def test_free_edges_are_mirrored(self):
+        """Edges of no face: a segment and an arc across the plane are cut by it, or completed, and an edge in the plane stays one."""
+        for body in ("wired.step", "half_wired.step"):
+            with self.subTest(body):
+                made = self.check(self.mesh(body, "--mirror", "x"), 0)
+                on_faces = {n for face in made.cells.values() for cell in face for n in cell}
+                free = {n: p for n, p in made.points.items() if n not in on_faces}
+                self.assertEqual(max(p[0] for p in free.values()), 1.5)
+                self.assertEqual(min(p[0] for p in free.values()), -1.5)
+                # Of the segment, the arc and the edge in the plane.
+                self.assertEqual(sum(p[0] == 0 and abs(p[2] - .9) < 1e-12 for p in free.values()), 1)
+                self.assertEqual(sum(abs(p[0]) < 1e-12 and abs(p[2] - 1.8) < 1e-12 for p in free.values()), 1)
+                self.assertGreater(sum(abs(p[0]) < 1e-12 and 1 - 1e-9 < p[2] < 1.2 + 1e-9 for p in free.values()), 2)
+                # One segment of length 3: as many edges on both sides.
+                segment = sorted(p[0] for p in free.values() if abs(p[2] - .9) < 1e-12)
+                self.assertEqual(segment, [-x + 0. for x in reversed(segment)])
+
     def test_images_follow_the_faces(self):
         made = Mesh(self.mesh("half.step", "--mirror", "x"))
         n = len(made.cells) // 2

@@ -4,12 +4,17 @@
 //   sector.step      60 degrees of a cylinder of radius 1 and height 1 about z; annulus.step: of a pipe; sector24.step: 15 degrees of a
 //                    pipe with a hole in it
 //   fcc.step         the unit cube without spheres of radius .3 around its corners and the middles of its faces
+//   spheres.step     the unit cube without spheres of radius .2 around its corners and the middles of its edges and faces
 //   inclusions.step  the unit cube without forty spheres, of which six faces cut some; mismatch.step: the cube without one at one face
 //   block.step       a block of 2 x 1 x .8 about the origin with three bores, symmetric about all planes; half.step: where x > 0; quarter.step: where
 //                    x and y > 0; open.step: half.step without its face at x = 0; uneven.step: the block with a fourth bore
+//   wired.step       the block with free edges across x = 0, and half_wired.step: half.step with their halves
+//   pipe.step        a whole pipe; lens.step: a ball of an upper and a lower half
 //   ball.step, rod.step  a ball of radius 1 and a rod of length 2 along x, about (.3, .1, 0)
 //   shifted.step     the cube without half a sphere at each of two faces: the circles on both begin at different places
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -20,6 +25,8 @@
 #include <STEPControl_Writer.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <array>
@@ -28,6 +35,7 @@
 #include <cstdio>
 #include <exception>
 #include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
 #include <gp_Pnt.hxx>
 #include <numbers>
 #include <stdexcept>
@@ -131,6 +139,20 @@ TopoDS_Shape block(bool uneven) {
   return cut(BRepPrimAPI_MakeBox(gp_Pnt(-1, -0.5, -0.4), gp_Pnt(1, 0.5, 0.4)).Shape(), bores);
 }
 
+// A segment and an arc above the block, from x = `from` to 1.5.
+TopoDS_Shape with_wires(const TopoDS_Shape& body, double from) {
+  const BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  builder.Add(all, body);
+  builder.Add(all, BRepBuilderAPI_MakeEdge(gp_Pnt(from, 0.2, 0.9), gp_Pnt(1.5, 0.2, 0.9)).Edge());
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0.3), gp_Dir(0, 1, 0), gp_Dir(1, 0, 0)), 1.5);
+  const double half = std::numbers::pi / 2;
+  builder.Add(all, BRepBuilderAPI_MakeEdge(circle, from < 0 ? -2 * half : -half, 0.).Edge());
+  builder.Add(all, BRepBuilderAPI_MakeEdge(gp_Pnt(0, -0.3, 1), gp_Pnt(0, 0.3, 1.2)).Edge());
+  return all;
+}
+
 // The shell of a solid without its faces at x = 0.
 TopoDS_Shape opened(const TopoDS_Shape& solid) {
   const BRep_Builder builder;
@@ -154,6 +176,8 @@ void make_symmetric(const std::string& folder) {
   write(half, folder + "/half.step");
   write(cut(half, low), folder + "/quarter.step");
   write(opened(half), folder + "/open.step");
+  write(with_wires(block(false), -1.5), folder + "/wired.step");
+  write(with_wires(half, 0), folder + "/half_wired.step");
   write(BRepPrimAPI_MakeSphere(gp_Pnt(0.3, 0.1, 0), 1.).Shape(), folder + "/ball.step");
   write(BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-0.7, 0.1, 0), gp_Dir(1, 0, 0)), 0.4, 2.).Shape(), folder + "/rod.step");
 }
@@ -163,10 +187,15 @@ void make(const std::string& folder) {
   write(BRepPrimAPI_MakeBox(1., 1., 1.).Shape(), folder + "/cube.step");
   write(BRepPrimAPI_MakeCylinder(1., 1., std::numbers::pi / 3).Shape(), folder + "/sector.step");
   write(pipe_sector(60), folder + "/annulus.step");
+  TopTools_ListOfShape bore_of_pipe;
+  bore_of_pipe.Append(BRepPrimAPI_MakeCylinder(0.5, 1.).Shape());
+  write(cut(BRepPrimAPI_MakeCylinder(1., 1.).Shape(), bore_of_pipe), folder + "/pipe.step");
+  write(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(1., 0., std::numbers::pi / 2).Shape(), BRepPrimAPI_MakeSphere(1., -std::numbers::pi / 2, 0.).Shape()).Shape(), folder + "/lens.step");
   TopTools_ListOfShape hole;
   hole.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0.75 * std::cos(0.13), 0.75 * std::sin(0.13), 0.5), 0.06).Shape());
   write(cut(pipe_sector(15), hole), folder + "/sector24.step");
   write(without_spheres({{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.3), folder + "/fcc.step");
+  write(without_spheres({{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.2), folder + "/spheres.step");
   write(without_spheres(forty(0.12), 0.12, true), folder + "/inclusions.step");
   TopTools_ListOfShape one;
   one.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0, 0.5, 0.5), 0.2).Shape());

@@ -24,11 +24,12 @@ class Mesh:
     def __init__(self, path):
         content = sections(path)
         self.points = {int(n): tuple(map(float, p)) for n, *p in content["Nodes"][1:]}
-        self.cells = {}
+        self.cells, self.nodes = {}, {}  # corners, and all nodes
         for element in content["Elements"][1:]:
             kind, face, nodes = int(element[1]), int(element[4]), [int(n) for n in element[5:]]
             if kind in (2, 3, 9, 16):
                 self.cells.setdefault(face, []).append(nodes[:3 if kind in (2, 9) else 4])
+                self.nodes.setdefault(face, []).append(nodes)
         self.pairs, rows = [], iter(content.get("Periodic", [["0"]])[1:])
         for dimension, slave, master in rows:
             affine = [float(x) for x in next(rows)[1:]]
@@ -78,6 +79,17 @@ class Mesh:
         cells = [tuple(glued[n] for n in cell) for face, all in self.cells.items() if face not in paired for cell in all]
         return euler(cells)
 
+    def skin_pieces(self):
+        """Returns, ascending, the numbers of pieces in the components of the glued faces that are in no pair."""
+        paired = {f for pair in self.faces() for f in pair[1:3]}
+        cells = [tuple(cell) for face, all in self.cells.items() if face not in paired for cell in all]
+        glued, piece = self.classes(), components(cells)
+        whole = components([tuple(glued[n] for n in cell) for cell in cells])
+        pieces = {}
+        for cell in cells:
+            pieces.setdefault(whole[glued[cell[0]]], set()).add(piece[cell[0]])
+        return sorted(map(len, pieces.values()))
+
     def volume(self):
         """Returns the volume inside a closed surface, by the divergence theorem."""
         total = 0
@@ -87,6 +99,22 @@ class Mesh:
                     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (self.points[n] for n in (cell[0], cell[k], cell[k + 1]))
                     total += (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6
         return total
+
+
+def components(cells):
+    """Returns a number of the connected component of each node."""
+    parent = {n: n for cell in cells for n in cell}
+
+    def find(n):
+        while parent[n] != n:
+            parent[n] = parent[parent[n]]
+            n = parent[n]
+        return n
+
+    for first, *others in cells:
+        for n in others:
+            parent[find(n)] = find(first)
+    return {n: find(n) for n in parent}
 
 
 def euler(cells):

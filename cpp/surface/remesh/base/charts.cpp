@@ -93,6 +93,7 @@ void Charts::turn() {
   for (std::size_t first = 0; first < triangles_.size(); ++first) {
     if (known[first] != 0) continue;
     known[first] = 1;
+    triangles_[first].side = static_cast<std::int32_t>(first);
     todo.push_back(static_cast<std::int32_t>(first));
     while (!todo.empty()) {
       const std::int32_t t = todo.back();
@@ -107,6 +108,7 @@ void Charts::turn() {
         if (known[u] == 0) {
           known[u] = 1;
           triangles_[u].turned = turned;
+          triangles_[u].side = static_cast<std::int32_t>(first);
           todo.push_back(u);
         } else if (triangles_[u].turned != turned) {
           twisted_.push_back(mesh_edge(triangles_[t].vertex[i], triangles_[t].vertex[(i + 1) % 3]));

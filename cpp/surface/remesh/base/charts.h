@@ -32,6 +32,7 @@ class Charts {
     std::array<std::int32_t, 3> beyond{-1, -1, -1};   ///< triangle over the side from corner i to the next one; -1: none
     std::array<char, 3> same_chart{};                 ///< it goes on with the same (u, v)
     bool turned = false;                              ///< runs against its face, so that neighbours agree
+    std::int32_t side = 0;                            ///< first triangle that is connected to it without a barrier between
   };
 
   /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too. So are edges that prevent a

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "mesh/elements/jacobian.h"
@@ -19,6 +20,9 @@ using namespace thresholds::remesh;
 PlacedCell CellPlacer::operator()(const SpaceCell& cell, const SpaceCell& nodes) {
   vertex_ = cell;
   n_ = cell[3] < 0 ? 3 : 4;
+  side_ = -1;
+  for (int i = 0; i < n_ && side_ < 0; ++i)
+    if (vertices_.is_free(cell[i])) side_ = charts_.triangles()[vertices_.place(cell[i]).foot.triangle].side;
   const auto at = [&](int k) -> Vec3 { return vertices_.position(cell[k]); };
   const Vec3 a = at(0);
   normal_ = n_ == 3 ? Vec3(cross(at(1) - a, at(2) - a)) : Vec3(cross(at(2) - a, at(3) - at(1)));
@@ -56,7 +60,7 @@ std::vector<std::int32_t> CellPlacer::common_faces() const {
   for (int i = 0; i < n_; ++i) {
     std::vector<std::int32_t> faces;
     for (const SurfacePlace& p : vertices_.places(vertex_[i]))
-      if (!p.regular || dot(p.normal, normal_) > 0) faces.push_back(face_of(p));
+      if (is_allowed(p) && (!p.regular || dot(p.normal, normal_) > 0)) faces.push_back(face_of(p));
     std::ranges::sort(faces);
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     if (i == 0) {
@@ -74,7 +78,7 @@ std::optional<PlacedCell> CellPlacer::in_one_chart(std::int32_t face) const {
   for (int i = 0; i < n_; ++i) {
     const auto places = vertices_.places(vertex_[i]);
     for (std::size_t k = 0; k < places.size(); ++k)
-      if (face_of(places[k]) == face) choice[i].push_back(static_cast<std::int32_t>(k));
+      if (face_of(places[k]) == face && is_allowed(places[k])) choice[i].push_back(static_cast<std::int32_t>(k));
   }
   if (n_ == 3) choice[3].push_back(-1);
   for (const std::int32_t a : choice[0])
@@ -115,10 +119,10 @@ PlacedCell CellPlacer::placed(std::int32_t face, const Choice& k, bool turned, b
 std::int32_t CellPlacer::nearest_place(std::int32_t v, std::int32_t face) const {
   const auto places = vertices_.places(v);
   std::int32_t best = 0;
-  std::pair<bool, double> most{false, -infinity};
+  std::tuple<bool, bool, double> most{false, false, -infinity};
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::pair here{face_of(places[k]) == face && dot(places[k].normal, normal_) > 0,
-                         dot(places[k].normal, normal_)};
+    const std::tuple here{is_allowed(places[k]), face_of(places[k]) == face && dot(places[k].normal, normal_) > 0,
+                          dot(places[k].normal, normal_)};
     if (here > most) most = here, best = static_cast<std::int32_t>(k);
   }
   return best;

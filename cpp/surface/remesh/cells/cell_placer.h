@@ -38,12 +38,14 @@ class CellPlacer {
       : vertices_(vertices), charts_(charts), cad_(cad) {}
 
   /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which
-  /// all of its corners have places that fit. Otherwise it belongs to the face of the closest point of its centroid.
+  /// all of its corners have places that fit. Otherwise it belongs to the face of the closest point of its centroid. A corner that is free
+  /// fixes the side of barriers on which the cell lies.
   PlacedCell operator()(const SpaceCell& cell, const SpaceCell& nodes = {-1, -1, -1, -1});
 
  private:
   using Choice = std::array<std::int32_t, 4>;
   [[nodiscard]] std::int32_t face_of(const SurfacePlace& p) const { return charts_.face(p.foot); }
+  [[nodiscard]] bool is_allowed(const SurfacePlace& p) const { return side_ < 0 || charts_.triangles()[p.foot.triangle].side == side_; }
   [[nodiscard]] bool is_turned(const SurfacePlace& p) const { return charts_.triangles()[p.foot.triangle].turned; }
   [[nodiscard]] const SurfacePlace& place(int corner, const Choice& k) const {
     return vertices_.places(vertex_[corner])[k[corner]];
@@ -67,6 +69,7 @@ class CellPlacer {
   Cad& cad_;
   SpaceCell vertex_{};
   int n_ = 3;
+  std::int32_t side_ = -1;  ///< Charts::Triangle::side; -1: no corner is free
   Vec3 normal_;
 };
 
