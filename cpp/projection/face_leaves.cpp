@@ -106,7 +106,7 @@ void bound_third_order(SurfaceLeaf& leaf) {
 /// Around points, `margin` farther, along the lines of the middle of a leaf.
 template <typename Points>
 TurnedBox turned_box(const std::array<Vec3, 9>& at, const Points& points, double margin) {
-  TurnedBox box{at[4], {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  TurnedBox box{at[4], {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, {}};
   const Vec3 along = at[5] - at[3], across = at[7] - at[1], normal = cross(along, across);
   if (norm(normal) > 1e-6 * norm(along) * norm(across) && norm(along) > 0 && norm(across) > 0) {
     box.axes[0] = along / norm(along), box.axes[2] = normal / norm(normal);
@@ -119,6 +119,7 @@ TurnedBox turned_box(const std::array<Vec3, 9>& at, const Points& points, double
     }
   const Vec3 by{margin, margin, margin};
   box.low -= by, box.high += by;
+  for (int k = 0; k < 2; ++k) box.scale[k] = box.high[k] > box.low[k] ? std::min(1 / (box.high[k] - box.low[k]), 1e300) : 0;
   return box;
 }
 

@@ -2,7 +2,6 @@
 // Pieces of faces and of curves that are nearly quadratic, in trees of boxes.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -25,23 +24,26 @@ struct TurnedBox {
   Vec3 origin;
   std::array<Vec3, 3> axes;  ///< orthonormal
   Vec3 low, high;            ///< along the axes, from the origin
+  Vec2 scale;                ///< the inverse of the first two lengths
 
-  [[nodiscard]] double squared_distance(const Vec3& x) const noexcept {
+  /// Its nearest point: the square of the distance, and the place along the first two axes, from 0 to 1.
+  struct Nearest {
+    double square;
+    Vec2 share;
+  };
+  [[nodiscard]] Nearest nearest(const Vec3& x) const noexcept {
     const Vec3 r = x - origin;
+    Vec3 inside;
     double square = 0;
     for (int k = 0; k < 3; ++k) {
-      const double at = dot(r, axes[static_cast<std::size_t>(k)]), before = low[k] - at, after = at - high[k], beyond = before > after ? before : after;
-      square += beyond > 0 ? beyond * beyond : 0;
+      const double at = dot(r, axes[static_cast<std::size_t>(k)]), low_side = low[k] > at ? low[k] : at;
+      inside[k] = low_side < high[k] ? low_side : high[k];
+      square += (at - inside[k]) * (at - inside[k]);
     }
-    return square;
+    const auto share = [&](int k) { return (inside[k] - low[k]) * scale[k]; };
+    return {square, {share(0), share(1)}};
   }
-  /// The place of the nearest point along the first two axes, from 0 to 1.
-  [[nodiscard]] Vec2 share_at(const Vec3& x) const noexcept {
-    const Vec3 r = x - origin;
-    Vec2 share;
-    for (int k = 0; k < 2; ++k) share[k] = high[k] > low[k] ? std::clamp((dot(r, axes[static_cast<std::size_t>(k)]) - low[k]) / (high[k] - low[k]), 0.0, 1.0) : 0.5;
-    return share;
-  }
+  [[nodiscard]] double squared_distance(const Vec3& x) const noexcept { return nearest(x).square; }
 };
 
 /// Coefficients of u^i v^j in a bicubic polynomial, two neighbours in j together: coordinate k has them from 8 k + 2 i on.

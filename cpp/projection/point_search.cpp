@@ -33,54 +33,79 @@ PointSearch::PointSearch(const PieceTree& tree, std::span<const Vec3> points, do
   group.trial.clear();
   begin_at_predecessor(bound);
   const auto matters = [&](double least) { return least <= (1 + 1e-12) * bound * bound; };
-  const bool is_near = norm(x_ - group.centre) <= group.reach;
-  const auto look = [&](std::span<const PieceTree::Piece> pieces) {
-    for (const PieceTree::Piece& piece : pieces)
-      if (const double square = squared_distance(piece.box, x_); matters(square)) look_at(piece, square, !is_near, bound);
-  };
-  if (is_near)
-    look(group.near);
-  else
+  if (!(norm(x_ - group.centre) <= group.reach)) collect(points, bound);
+  if (group.reach >= 0) {
+    const double off = (1 + 1e-12) * norm(x_ - group.centre);
+    for (const SearchGroup::Near& each : group.near) {
+      if (each.distance > bound + off) continue;
+      if (const double square = squared_distance(each.piece.box, x_); matters(square)) look_at(each.piece, square, true, bound);
+    }
+  } else {
     tree.boxes().nearest_first([&](std::int32_t n) { return squared_distance(tree.boxes().node(static_cast<std::size_t>(n)).box, x_); }, matters,
-                               [&](const BoxTree::Node& leaf) { look(tree.pieces(leaf)); });
+                               [&](const BoxTree::Node& leaf) {
+                                 for (const PieceTree::Piece& piece : tree.pieces(leaf))
+                                   if (const double square = squared_distance(piece.box, x_); matters(square)) look_at(piece, square, false, bound);
+                               });
+  }
   refine(bound);
-  if (!is_near) collect(points, bound);
   next_ = group.kept.size();
   group.kept.insert(group.kept.end(), group.trial.begin(), group.trial.end());
   end_ = group.kept.size();
   begin();
 }
 
-// A neighbour in the ball has its closest point within bound + reach, which lies within bound + 2 reach of this point.
+// Collects the pieces for this point and the next ones, as many as lie in a small ball: their closest points are no farther from its centre
+// than the bound there and twice its radius.
 void PointSearch::collect(std::span<const Vec3> points, double bound) {
-  group_->reach = -1;
-  if (group_->entity < 0) return;
-  const Pieces& pieces = tree_->of(group_->entity);
-  const auto k = static_cast<std::size_t>(group_->piece);
-  const double size = k < pieces.leaves.size() ? pieces.leaves[k].size : 0, most = limit::near_points * bound + limit::near_points_in_leaf * size;
+  SearchGroup& group = *group_;
+  group.reach = -1;
+  if (!(bound < infinity)) return;
+  const Pieces& of_place = tree_->of(group.entity);
+  const auto rank = static_cast<std::size_t>(group.piece);
+  const bool on_leaf = rank < of_place.leaves.size();
+  const double most = limit::near_points * bound + limit::near_points_in_leaf * (on_leaf ? of_place.leaves[rank].size : 0);
+  Vec3 centre = x_;
   double reach = 0;
-  std::size_t n = 1;
-  for (; n < std::min(points.size(), limit::points_that_share); ++n) {
-    const double way = norm(points[n] - x_);
-    if (way > most) break;
-    reach = std::max(reach, way);
+  for (std::size_t n = std::min(points.size(), limit::points_that_share); n > 1; n = n / 2) {
+    BoxTree::Box box;
+    for (const Vec3& p : points.first(n)) box.add(p);
+    const Vec3 middle = (box.low + box.high) / 2;
+    if (norm(x_ - middle) > most) continue;
+    double radius = 0;
+    for (const Vec3& p : points.first(n)) radius = std::max(radius, norm(p - middle));
+    if (radius > most) continue;
+    centre = middle, reach = (1 + 1e-12) * radius;
+    break;
   }
-  if (n < 3) return;
-  group_->centre = x_, group_->reach = reach;
-  group_->near.clear();
-  const double radius = (1 + 1e-12) * (bound + 2 * reach), square = radius * radius;
-  tree_->boxes().all_that_meet([&](const BoxTree::Box& box) { return squared_distance(box, x_) <= square; },
+  double radius = bound + norm(x_ - centre);
+  if (on_leaf && reach > 0) {
+    const SurfaceLeaf& leaf = of_place.leaves[rank];
+    const LeafPlace place = nearest_on(leaf, centre, (group.place - leaf.region.low).cwiseQuotient(leaf.region.size()), nullptr, infinity);
+    radius = std::min(radius, std::max(place.distance + leaf.error + place.slack, std::sqrt(leaf.box.squared_distance(centre))));
+  }
+  group.near.clear();
+  radius = (1 + 1e-12) * (radius + 2 * reach);
+  const double square = radius * radius;
+  bool few = true;
+  tree_->boxes().all_that_meet([&](const BoxTree::Box& box) { return few && squared_distance(box, centre) <= square; },
                                [&](const BoxTree::Node& leaf) {
-                                 for (const PieceTree::Piece& piece : tree_->pieces(leaf))
-                                   if (squared_distance(piece.box, x_) <= square) group_->near.push_back(piece);
+                                 for (const PieceTree::Piece& piece : tree_->pieces(leaf)) {
+                                   double least = squared_distance(piece.box, centre);
+                                   if (least > square) continue;
+                                   const Pieces& pieces = tree_->of(piece.entity);
+                                   if (const auto k = static_cast<std::size_t>(piece.rank); k < pieces.leaves.size())
+                                     least = std::max(least, pieces.leaves[k].box.squared_distance(centre));
+                                   if (least <= square) group.near.push_back({piece, (1 - 1e-12) * std::sqrt(least)});
+                                 }
+                                 few = group.near.size() <= limit::pieces_that_are_shared;
                                });
+  if (few) group.centre = centre, group.reach = reach;
 }
 
 // The place of the predecessor is near, and gives the bound that excludes most pieces.
 void PointSearch::begin_at_predecessor(double& bound) {
   if (group_->entity < 0) return;
-  Candidate& candidate = group_->trial.emplace_back();
-  candidate.entity = group_->entity, candidate.piece = group_->piece;
+  Candidate& candidate = group_->trial.emplace_back(Candidate{group_->entity, group_->piece, {}, 0, 0, 0, false});
   if (const CurveLeaf* curve = curve_of(candidate)) {
     look_at(*curve, candidate, bound);
   } else {
@@ -93,28 +118,37 @@ void PointSearch::begin_at_predecessor(double& bound) {
   }
 }
 
-// `square`: of the distance of its box. `sampled`: there may be no good bound yet, and samples give one.
-void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool sampled, double& bound) {
+// `square`: of the distance of its box. `is_near`: the predecessor gave a good bound. Otherwise samples give one.
+void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool is_near, double& bound) {
   if (piece.entity == group_->entity && piece.rank == group_->piece) return;  // known
   const Pieces& pieces = tree_->of(piece.entity);
   const auto k = static_cast<std::size_t>(piece.rank);
-  const SurfaceLeaf* leaf = k < pieces.leaves.size() ? &pieces.leaves[k] : nullptr;
-  if (leaf != nullptr) square = std::max(square, leaf->box.squared_distance(x_));
+  Candidate candidate{piece.entity, piece.rank, {}, 0, 0, 0, false};
+  if (k >= pieces.leaves.size()) {
+    candidate.floor = (1 - 1e-12) * std::sqrt(square);
+    look_at(pieces.curves[k - pieces.leaves.size()], candidate, bound);
+    return group_->trial.push_back(candidate);
+  }
+  const SurfaceLeaf& leaf = pieces.leaves[k];
+  const TurnedBox::Nearest nearest = leaf.box.nearest(x_);
+  square = std::max(square, nearest.square);
   if (square > (1 + 1e-12) * bound * bound) return;
-  Candidate& candidate = group_->trial.emplace_back();
-  candidate.entity = piece.entity, candidate.piece = piece.rank, candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
-  if (leaf == nullptr) return look_at(pieces.curves[k - pieces.leaves.size()], candidate, bound);
-  if (!sampled) {
-    candidate.start = leaf->box.share_at(x_), candidate.distance = candidate.floor;
+  candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
+  if (is_near) {
+    candidate.start = nearest.share;
+    solve(candidate, nullptr, bound);
+    if (candidate.least() <= bound) group_->trial.push_back(candidate);
     return;
   }
-  const NearestSample sample = nearest_sample(*leaf, x_);
+  const NearestSample sample = nearest_sample(leaf, x_);
   candidate.start = place_of(sample);
   candidate.distance = std::sqrt(sample.square);
-  candidate.error = leaf->cover;
-  if (leaf->cut) return;
-  bound = std::min(bound, candidate.distance);
-  if (candidate.distance < nearest_sample_) nearest_sample_ = candidate.distance, solve(candidate, nullptr, bound);  // a bound for the others
+  candidate.error = leaf.cover;
+  if (!leaf.cut) {
+    bound = std::min(bound, candidate.distance);
+    if (candidate.distance < nearest_sample_) nearest_sample_ = candidate.distance, solve(candidate, nullptr, bound);  // a bound for the others
+  }
+  group_->trial.push_back(candidate);
 }
 
 void PointSearch::look_at(const CurveLeaf& curve, Candidate& candidate, double& bound) {

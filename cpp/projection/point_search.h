@@ -39,9 +39,13 @@ struct SearchGroup {
   Vec2 place;
 
   // These pieces hold the closest points of all points in a ball.
+  struct Near {
+    PieceTree::Piece piece;
+    double distance = 0;  // of the centre, a lower bound
+  };
   Vec3 centre;
   double reach = -1;
-  std::vector<PieceTree::Piece> near;
+  std::vector<Near> near;
 };
 
 class PointSearch {
@@ -67,7 +71,7 @@ class PointSearch {
  private:
   void begin_at_predecessor(double& bound);
   void collect(std::span<const Vec3> points, double bound);
-  void look_at(const PieceTree::Piece& piece, double square, bool sampled, double& bound);
+  void look_at(const PieceTree::Piece& piece, double square, bool is_near, double& bound);
   void look_at(const CurveLeaf& curve, Candidate& candidate, double& bound);
   void solve(Candidate& candidate, const NearestSample* sample, double& bound) const;
   void refine(double& bound);
