@@ -8,7 +8,9 @@
 
 #include "mesh/crossings/box_pairs.h"
 #include "mesh/crossings/changed_triangles.h"
+#include "mesh/crossings/face_graphs.h"
 #include "mesh/crossings/graphs.h"
+#include "mesh/crossings/shared_cells.h"
 #include "mesh/crossings/shared_search.h"
 #include "mesh/crossings/spatial_order.h"
 #include "mesh/crossings/views.h"
@@ -254,12 +256,45 @@ Intersections get(PacketReader& packet) {
   return found;
 }
 
+/// Graphs of whole faces, then of neighbouring triangles among the others. Returns the number of its graph by triangle, or -1.
+std::vector<std::int32_t> all_graphs(std::span<const Vec3> vertices, std::span<const Indices> triangles, const SoundTriangles& sound,
+                                     const FacesOfTriangles& faces, int threads, Monitor& monitor) {
+  std::vector<std::int32_t> graph(triangles.size(), -1);
+  const std::int32_t of_faces = find_face_graphs(vertices, triangles, sound.view, faces, graph, threads, monitor);
+  std::vector<std::int32_t> rest = sound.numbers;
+  if (of_faces > 0) std::erase_if(rest, [&](std::int32_t t) { return graph[static_cast<std::size_t>(t)] >= 0; });
+  if (rest.empty()) return graph;
+  rest = spatial_order(vertices, triangles, std::move(rest), monitor, threads);
+  const std::vector<std::int32_t> more = find_graphs(vertices, triangles, sound.view, rest, threads, monitor);
+  for (const std::int32_t t : rest)
+    if (const std::int32_t g = more[static_cast<std::size_t>(t)]; g >= 0) graph[static_cast<std::size_t>(t)] = of_faces + g;
+  return graph;
+}
+
+/// Triangles that may cross triangles of other graphs, graph by graph, neighbours near each other.
+std::vector<std::int32_t> doubtful_order(std::span<const Vec3> vertices, std::span<const Indices> triangles,
+                                         std::vector<std::int32_t> numbers, std::span<const std::int32_t> graph, int threads,
+                                         Monitor& monitor) {
+  const std::vector<std::int32_t> near = spatial_order(
+      vertices, triangles, near_other_sets(vertices, triangles, std::move(numbers), graph, threads, monitor), monitor, threads);
+  const auto rank = [&](std::int32_t t) { return static_cast<std::size_t>(graph[static_cast<std::size_t>(t)] + 1); };
+  std::vector<std::size_t> next;  // by graph
+  for (const std::int32_t t : near) {
+    if (rank(t) + 1 >= next.size()) next.resize(rank(t) + 2, 0);
+    ++next[rank(t) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::int32_t> order(near.size());
+  for (const std::int32_t t : near) order[next[rank(t)]++] = t;
+  return order;
+}
+
 /// Finds crossings between sound triangles, at least one of each pair in `asked`; empty: all.
 Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices> triangles, SoundTriangles sound,
-                         const std::vector<char>& asked, std::size_t limit, const Crew& crew, Monitor& monitor) {
-  std::vector<std::int32_t> order =
-      spatial_order(vertices, triangles, std::move(sound.numbers), monitor, crew.threads);
-  const std::vector<std::int32_t> graph = find_graphs(vertices, triangles, sound.view, order, crew.threads, monitor);
+                         const std::vector<char>& asked, std::size_t limit, const Crew& crew, Monitor& monitor,
+                         const FacesOfTriangles& faces = {}) {
+  const std::vector<std::int32_t> graph = all_graphs(vertices, triangles, sound, faces, crew.threads, monitor);
+  std::vector<std::int32_t> order = doubtful_order(vertices, triangles, std::move(sound.numbers), graph, crew.threads, monitor);
   const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, crew.threads);
   const auto ask = [&](std::size_t part, Monitor&) {
     Intersections here;
@@ -304,9 +339,9 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
 }
 
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                                 std::size_t limit, const Crew& crew, Monitor& monitor) {
+                                 std::size_t limit, const Crew& crew, Monitor& monitor, const FacesOfTriangles& faces) {
   return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, crew.threads, monitor), {}, limit, crew,
-                    monitor);
+                    monitor, faces);
 }
 
 Intersections find_intersections_of(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,

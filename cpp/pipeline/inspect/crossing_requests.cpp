@@ -153,6 +153,18 @@ class Planner {
 
 }  // namespace
 
+namespace {
+
+// They come first (assemble()).
+std::int32_t vertices_on_curves(const SurfaceMesh& mesh) {
+  std::int32_t last = -1;
+  for (const CurveMesh& curve : mesh.curves)
+    for (const std::int32_t v : curve.vertices) last = std::max(last, v);
+  return last + 1;
+}
+
+}  // namespace
+
 Crossings::Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
   if (run.result.shares) {
     PartCrossings parts = find_part_crossings(run, max_pairs);
@@ -168,7 +180,7 @@ Crossings::Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
   }
   if (!run.result.shares)
     found = find_intersections(mesh().vertices, triangles_, max_pairs, {run.options.team, run.options.threads},
-                               run.monitor);
+                               run.monitor, {first_, vertices_on_curves(mesh())});
 }
 
 std::pair<int, int> Crossings::origin(std::int32_t triangle) const {
