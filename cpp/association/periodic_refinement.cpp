@@ -5,6 +5,7 @@
 #include <array>
 
 #include "periodic/closest.h"
+#include "periodic/root_maps.h"
 #include "periodic/shared_curves.h"
 #include "support/rounding_of.h"
 #include "surface/carry/carry_faces.h"
@@ -69,12 +70,7 @@ bool PeriodicRefinement::spread(const std::vector<DiscreteCurve>& curves, EdgeMa
       }
     };
     for (const CurveMember& member : all.members) join_by(member.image);
-    if (all.turn) join_by({root, true, 1});
-    for (int k = 0; k < all.cycle.n; ++k) {
-      const double shift = static_cast<double>(k) / all.cycle.n;
-      if (k > 0) join_by({root, false, shift});
-      if (all.cycle.turn) join_by({root, true, all.cycle.turned_at + shift});
-    }
+    for (const CurveMember& each : maps_of_root(all)) join_by(each.image);
   }
   for (const FacePair& pair : periodic_.pairs) {
     const FaceMesh &from = mesh_.faces[pair.master], &to = mesh_.faces[pair.slave];

@@ -138,7 +138,7 @@ class Matcher {
   }
 
   // The curves of a face that a map carries onto themselves or each other; seams apart, which need no image. Empty: it does not, or moves none.
-  [[nodiscard]] std::map<int, CurveImage> turned_curves(int face, const Isometry& map) const {
+  [[nodiscard]] std::map<int, CurveImage> turned_curves(int face, const Isometry& map) {
     std::map<int, CurveImage> images;
     bool moves = false;
     for (const int from : faces_[face].curves) {
@@ -151,7 +151,7 @@ class Matcher {
       if (found == faces_[face].curves.end()) return {};
       moves = moves || !is_identity(from, images.at(from));
     }
-    if (!moves) return {};
+    if (!moves || !has_image_inside({face, face, map, images})) return {};
     std::erase_if(images, [&](const auto& c) { return is_identity(c.first, c.second); });
     return images;
   }

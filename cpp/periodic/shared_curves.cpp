@@ -150,6 +150,11 @@ class CycleImages {
     std::vector<double> first;
     for (const double r : d_.r)
       if (r > rounding_of::places && r < arc() - rounding_of::sizes) first.push_back(r);
+    if (cycle_.turn) {
+      std::vector<double> ends{0, arc()};
+      if (const double at = in_arc(cycle_.turned_at); at > 0) ends.insert(ends.begin() + 1, at);
+      first = symmetric(first, ends);
+    }
     place(first);
   }
 
@@ -205,9 +210,9 @@ class CycleImages {
     std::vector<double> t(d_.t_of_use[owner].begin() + 1, d_.t_of_use[owner].end() - 1);
     std::vector<Vec3> target(d_.xyz.begin(), d_.xyz.end());
     const std::size_t per_arc = first.size() + 1;
-    const auto move = [&](std::size_t to, const Isometry& map, std::size_t from) {
+    const auto move = [&](std::size_t to, const Vec3& where) {
       if (to == 0 || to >= target.size() - 1) return;
-      target[to] = map(target[from]);
+      target[to] = where;
       const CurvePoint found = find_closest(model_, use, t[to - 1], support.t.front(), support.t.back(), target[to]);
       t[to - 1] = found.t;
       if (found.distance > exact_) target[to] = found.xyz;
@@ -215,18 +220,19 @@ class CycleImages {
     if (cycle_.turn) {
       for (std::size_t k = 0; k < per_arc; ++k) {
         const double at = k == 0 ? 0 : first[k - 1], image = mirrored(at);
-        if (image <= at) continue;
+        if (image < at - rounding_of::sizes) continue;
         const auto found = std::lower_bound(first.begin(), first.end(), image - rounding_of::sizes);
         if (found == first.end() || *found > image + rounding_of::sizes) continue;
-        const double whole = (*found - (cycle_.turned_at - at)) * cycle_.n;
-        const int turns = static_cast<int>(std::lround(whole));
-        move(static_cast<std::size_t>(found - first.begin()) + 1, cycle_.power((turns % cycle_.n + cycle_.n) % cycle_.n).after(*cycle_.turn), k);
+        const auto to = static_cast<std::size_t>(found - first.begin()) + 1;
+        const int turns = static_cast<int>(std::lround((*found - (cycle_.turned_at - at)) * cycle_.n));
+        const Isometry map = cycle_.power((turns % cycle_.n + cycle_.n) % cycle_.n).after(*cycle_.turn);
+        move(to, to == k ? Vec3(0.5 * (target[k] + map(target[k]))) : map(target[k]));
       }
     }
     Isometry map;
     for (int k = 1; k < cycle_.n; ++k) {
       map = cycle_.step.after(map);
-      for (std::size_t i = 0; i < per_arc; ++i) move(static_cast<std::size_t>(k) * per_arc + i, map, i);
+      for (std::size_t i = 0; i < per_arc; ++i) move(static_cast<std::size_t>(k) * per_arc + i, map(target[i]));
     }
     place_vertices_at(d_, r, t, model_);
     for (std::size_t i = 1; i + 1 < d_.xyz.size(); ++i)

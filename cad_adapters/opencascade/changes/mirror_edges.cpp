@@ -116,7 +116,7 @@ class EdgeMirror {
       const bool is_last = k == cuts.size();
       const double from = k == 0 ? first : cuts[k - 1], to = is_last ? last : cuts[k];
       const TopoDS_Vertex end = is_last ? TopExp::LastVertex(edge) : vertex_in_plane(curve->Value(to));
-      const BRepBuilderAPI_MakeEdge piece(curve, begin, end, from, to);
+      BRepBuilderAPI_MakeEdge piece(curve, begin, end, from, to);
       if (!piece.IsDone()) throw std::runtime_error("OpenCASCADE cannot cut an edge of no face by the mirror plane");
       pieces.push_back(TopoDS::Edge(piece.Edge()));
       begin = end;
@@ -136,8 +136,11 @@ class EdgeMirror {
       for (const int i : {places / 5, places / 2, places - places / 7}) {
         const gp_Pnt p = curve.Value(at(curve, i));
         const bool none = images.IsEmpty();
-        const BRepExtrema_DistShapeShape distance = none ? BRepExtrema_DistShapeShape() : BRepExtrema_DistShapeShape(BRepBuilderAPI_MakeVertex(p).Vertex(), all);
-        if (!none && distance.IsDone() && distance.Value() <= within) continue;
+        if (!none) {
+          const TopoDS_Vertex vertex = BRepBuilderAPI_MakeVertex(p);
+          const BRepExtrema_DistShapeShape distance(vertex, all);
+          if (distance.IsDone() && distance.Value() <= within) continue;
+        }
         char text[160];
         std::snprintf(text, sizeof text, "the body is not symmetric about the mirror plane: an edge of no face has no image at (%.6g, %.6g, %.6g)", p.X(), p.Y(), p.Z());
         throw std::runtime_error(text);

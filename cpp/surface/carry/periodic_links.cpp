@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "periodic/root_maps.h"
 #include "periodic/shared_curves.h"
 #include "surface/carry/carry_patch.h"
 
@@ -141,19 +142,14 @@ class Linker {
     if (all.cycle.is_trivial() || mesh_.independent || curve.vertices.size() != curves_[root].xyz.size()) return;
     const auto n = static_cast<std::size_t>(curves_[root].segments());
     std::vector<char> known(n, 0);
-    std::vector<std::pair<Isometry, CurveImage>> maps;
-    for (int k = 0; k < all.cycle.n; ++k) {
-      const double shift = static_cast<double>(k) / all.cycle.n;
-      if (k > 0) maps.push_back({all.cycle.power(k), {root, false, shift}});
-      if (all.cycle.turn) maps.push_back({all.cycle.power(k).after(*all.cycle.turn), {root, true, all.cycle.turned_at + shift}});
-    }
+    const std::vector<CurveMember> maps = maps_of_root(all);
     std::vector<PeriodicLink> links;
-    for (const auto& [map, image] : maps) links.push_back(link(1, curve.shown_ref(), curve.shown_ref(), map));
+    for (const CurveMember& each : maps) links.push_back(link(1, curve.shown_ref(), curve.shown_ref(), each.map));
     for (std::size_t v = 0; v < n; ++v) {
       if (known[v] != 0) continue;
       known[v] = 1;
       for (std::size_t m = 0; m < maps.size(); ++m) {
-        const int w = vertex_image(curves_[root], curves_[root], maps[m].second, true, static_cast<int>(v)) % static_cast<int>(n);
+        const int w = vertex_image(curves_[root], curves_[root], maps[m].image, true, static_cast<int>(v)) % static_cast<int>(n);
         if (w < 0 || known[w] != 0) continue;
         known[w] = 1;
         links[m].nodes.push_back({curve.vertices[w], curve.vertices[v]});

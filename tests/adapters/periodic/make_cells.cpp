@@ -195,7 +195,7 @@ void make(const std::string& folder) {
   hole.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0.75 * std::cos(0.13), 0.75 * std::sin(0.13), 0.5), 0.06).Shape());
   write(cut(pipe_sector(15), hole), folder + "/sector24.step");
   write(without_spheres({{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.3), folder + "/fcc.step");
-  write(without_spheres({{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.2), folder + "/spheres.step");
+  write(without_spheres({{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 0.2, true), folder + "/spheres.step");
   write(without_spheres(forty(0.12), 0.12, true), folder + "/inclusions.step");
   TopTools_ListOfShape one;
   one.Append(BRepPrimAPI_MakeSphere(gp_Pnt(0, 0.5, 0.5), 0.2).Shape());

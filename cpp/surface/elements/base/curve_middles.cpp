@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "periodic/closest.h"
+#include "periodic/root_maps.h"
 #include "periodic/shared_curves.h"
 #include "periodic/thresholds.h"
 #include "support/rounding_of.h"
@@ -102,10 +103,61 @@ std::optional<CurveMiddle> EdgeMiddles::at(std::size_t curve, std::size_t k, dou
   if (!is_known(work_, curve)) return std::nullopt;
   const PeriodicModel* periodic = work_.periodic;
   if (periodic != nullptr && periodic->has_class[curve] != 0 && periodic->place[curve][1] > 0) return image(curve, k, shift);
+  if (periodic != nullptr && periodic->has_class[curve] != 0)
+    if (std::optional<CurveMiddle> repeated = repeated_middle(curve, k, shift)) return repeated;
   std::optional<CurveMiddle> middle = at_share(curve, k, middle_share(work_.curves[curve], k) + shift);
   if (middle && periodic != nullptr && periodic->has_class[curve] != 0)
     middle->xyz = on_planes(middle->xyz, periodic->curves[periodic->place[curve][0]].mirrors, periodic->gap);
   return middle;
+}
+
+// If maps carry the root onto itself: the image of the middle of the first edge among the images of edge k.
+std::optional<CurveMiddle> EdgeMiddles::repeated_middle(std::size_t curve, std::size_t k, double shift) {
+  const CurveClass& all = work_.periodic->curves[work_.periodic->place[curve][0]];
+  const DiscreteCurve& d = work_.curves[curve];
+  const Curve& shape = work_.model.curve(static_cast<int>(curve));
+  const bool closed = shape.end1 == shape.end2;
+  const int n = d.segments();
+  int first = static_cast<int>(k);
+  const CurveMember* found = nullptr;  // carries edge k to the first one
+  const CurveMember* itself = nullptr;
+  const std::vector<CurveMember> maps = maps_of_root(all);
+  for (const CurveMember& each : maps) {
+    const int i = vertex_image(d, d, each.image, closed, static_cast<int>(k));
+    if (i < 0) continue;
+    const int edge = each.image.reversed ? (i + n - 1) % n : i % n;
+    if (edge == static_cast<int>(k)) itself = &each;
+    if (edge < first) first = edge, found = &each;
+  }
+  if (found == nullptr && itself == nullptr) return {};
+  const bool reversed = found != nullptr && found->image.reversed;
+  std::optional<CurveMiddle> middle;
+  Vec3 target;
+  if (found != nullptr) {
+    const std::optional<CurveMiddle> known = at(curve, static_cast<std::size_t>(first), reversed ? -shift : shift);
+    if (!known) return {};
+    target = found->map.inverse()(known->xyz);
+    const double share = middle_share(d, static_cast<std::size_t>(first)) + (reversed ? -shift : shift);
+    middle = at_share(curve, k, reversed ? 1 - share : share);
+  } else {
+    middle = at_share(curve, k, 0.5);
+    if (middle) target = 0.5 * (middle->xyz + itself->map(middle->xyz));
+  }
+  if (middle) move_to(curve, k, target, *middle);
+  return middle;
+}
+
+// Moves the middle of an edge to the points of its uses closest to a place, which it takes if it lies on the curve.
+void EdgeMiddles::move_to(std::size_t curve, std::size_t k, const Vec3& target, CurveMiddle& middle) {
+  const DiscreteCurve& to = work_.curves[curve];
+  const std::vector<CurveUse>& uses = work_.model.curve(static_cast<int>(curve)).uses;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const auto [low, high] = std::minmax(to.t_of_use[u][k], to.t_of_use[u][k + 1]);
+    const CurvePoint point = find_closest(work_.model, uses[u], (low + high) / 2, low, high, target);
+    middle.uv_of_use[u] = point.uv;
+    if (static_cast<int>(u) == to.owner)
+      middle.xyz = point.distance <= rounding_of::places * work_.periodic->gap ? target : point.xyz;
+  }
 }
 
 // The point of the root's edge, carried; on the other uses its closest points.
@@ -123,19 +175,10 @@ std::optional<CurveMiddle> EdgeMiddles::image(std::size_t curve, std::size_t k, 
   const int segment = member.image.reversed ? (i + n - 1) % n : i % n;
   const bool reversed = member.image.reversed;
   const double share = middle_share(from, static_cast<std::size_t>(segment)) + (reversed ? -shift : shift);
-  std::optional<CurveMiddle> known = at_share(static_cast<std::size_t>(root), static_cast<std::size_t>(segment), share);
+  std::optional<CurveMiddle> known = at(static_cast<std::size_t>(root), static_cast<std::size_t>(segment), reversed ? -shift : shift);
   std::optional<CurveMiddle> middle = at_share(curve, k, reversed ? 1 - share : share);
   if (!known || !middle) return middle;
-  known->xyz = on_planes(known->xyz, all.mirrors, work_.periodic->gap);
-  const Vec3 target = member.map(known->xyz);
-  const std::vector<CurveUse>& uses = work_.model.curve(static_cast<int>(curve)).uses;
-  for (std::size_t u = 0; u < uses.size(); ++u) {
-    const auto [low, high] = std::minmax(to.t_of_use[u][k], to.t_of_use[u][k + 1]);
-    const CurvePoint point = find_closest(work_.model, uses[u], (low + high) / 2, low, high, target);
-    middle->uv_of_use[u] = point.uv;
-    if (static_cast<int>(u) == to.owner)
-      middle->xyz = point.distance <= rounding_of::places * work_.periodic->gap ? target : point.xyz;
-  }
+  move_to(curve, k, member.map(known->xyz), *middle);
   return middle;
 }
 

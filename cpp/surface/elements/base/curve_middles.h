@@ -36,6 +36,8 @@ class EdgeMiddles {
  private:
   [[nodiscard]] std::optional<CurveMiddle> at_share(std::size_t curve, std::size_t k, double share);
   [[nodiscard]] std::optional<CurveMiddle> image(std::size_t curve, std::size_t k, double shift);
+  [[nodiscard]] std::optional<CurveMiddle> repeated_middle(std::size_t curve, std::size_t k, double shift);
+  void move_to(std::size_t curve, std::size_t k, const Vec3& target, CurveMiddle& middle);
 
   const ElementWork& work_;
   DiscreteCurve piece_;
