@@ -133,6 +133,7 @@ void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool is_
   candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
   if (is_near) {
     candidate.start = nearest.share;
+    if (const double sum = candidate.start.sum(); pieces.triangles && sum > 1) candidate.start /= sum;
     solve(candidate, nullptr, bound);
     if (candidate.least() <= bound) group_->trial.push_back(candidate);
     return;
