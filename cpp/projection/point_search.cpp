@@ -132,8 +132,7 @@ void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool is_
   if (square > (1 + 1e-12) * bound * bound) return;
   candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
   if (is_near) {
-    candidate.start = nearest.share;
-    if (const double sum = candidate.start.sum(); pieces.triangles && sum > 1) candidate.start /= sum;
+    candidate.start = pieces.triangles ? place_of(nearest_sample(pieces.leaves[k], x_)) : nearest.share;
     solve(candidate, nullptr, bound);
     if (candidate.least() <= bound) group_->trial.push_back(candidate);
     return;
