@@ -374,7 +374,11 @@ PieceTree::PieceTree(std::span<const Pieces> entities, std::int32_t only) : enti
   std::vector<Piece> pieces;
   for (std::size_t e = 0; e < entities.size(); ++e) {
     if (only >= 0 && e != static_cast<std::size_t>(only)) continue;
-    for (const BoxTree::Box& box : entities[e].boxes) pieces.push_back({box, static_cast<std::int32_t>(e), static_cast<std::int32_t>(&box - entities[e].boxes.data())});
+    const Pieces& of = entities[e];
+    for (std::size_t k = 0; k < of.boxes.size(); ++k) {
+      const bool is_leaf = k < of.turned.size();
+      pieces.push_back({of.boxes[k], is_leaf ? of.turned[k] : TurnedBox(), static_cast<std::int32_t>(e), static_cast<std::int32_t>(k), is_leaf});
+    }
   }
   std::vector<BoxTree::Box> boxes;
   std::vector<Vec3> centres;
@@ -436,7 +440,7 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
           pieces.leaves.push_back({{cell.low, cell.high}, nine_of(samples), error, judgement.size, 0, cell.cut});
           SurfaceLeaf& leaf = pieces.leaves.back();
           const double margin = error + limit::error_margin * judgement.bulge;
-          leaf.cover = cover_of(leaf, judgement.bulge), leaf.terms = judgement.terms, leaf.box = turned_box(leaf.at, samples, margin);
+          leaf.cover = cover_of(leaf, judgement.bulge), leaf.terms = judgement.terms, pieces.turned.push_back(turned_box(leaf.at, samples, margin));
           bound_third_order(leaf);
           pieces.boxes.push_back(box_of(samples, margin));
         }
@@ -493,7 +497,7 @@ Pieces pieces_of_triangles(std::span<const Region> regions, const EvaluateFace& 
       leaf.terms.set(0, 0, a), leaf.terms.set(1, 0, -3 * a + 4 * ab - b), leaf.terms.set(2, 0, 2 * (a - 2 * ab + b));
       leaf.terms.set(0, 1, -3 * a + 4 * ac - c), leaf.terms.set(1, 1, 4 * (a - ab - ac + bc)), leaf.terms.set(0, 2, 2 * (a - 2 * ac + c));
       bound_third_order(leaf);
-      leaf.box = turned_box(leaf.at, std::span<const Vec3>(places.data() + t * each, each), leaf.error + bulge);
+      pieces.turned.push_back(turned_box(leaf.at, std::span<const Vec3>(places.data() + t * each, each), leaf.error + bulge));
       const Vec3 by = (leaf.error + bulge) * Vec3(1, 1, 1);
       box.low -= by, box.high += by;
       pieces.leaves.push_back(leaf), pieces.boxes.push_back(box);

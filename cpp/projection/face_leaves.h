@@ -68,7 +68,6 @@ struct SurfaceLeaf {
   double size = 0;         ///< diameter in space
   double cover = 0;        ///< no point of the leaf is farther from the nearest of the nine places
   bool cut = false;        ///< the boundary of the domain crosses it
-  TurnedBox box = {};
   BicubicTerms terms = {};  ///< of the interpolation, from 0 to 1
   /// Half of the squared distance differs from its expansion of second order after a way w by at most (bend + third * distance) |w|^3.
   double bend = 0, third = 0;
@@ -107,6 +106,7 @@ struct Pieces {
   std::vector<SurfaceLeaf> leaves;
   std::vector<CurveLeaf> curves;
   std::vector<BoxTree::Box> boxes;  // of the leaves, then of the curves
+  std::vector<TurnedBox> turned;    // of the leaves
   BoxTree::Box box;
   Region region;                        ///< of a face; of triangles each leaf has its own
   std::optional<TrimmedDomain> domain;  ///< of a face whose domain is not a box
@@ -118,7 +118,9 @@ class PieceTree {
  public:
   struct Piece {
     BoxTree::Box box;
+    TurnedBox turned;                   ///< of a leaf of a face
     std::int32_t entity = 0, rank = 0;  ///< index among the entities, and of the piece in its entity
+    bool is_leaf = false;
   };
   PieceTree() = default;
   /// The pieces of all entities, or of entity `only` if it is not negative.

@@ -38,7 +38,7 @@ PointSearch::PointSearch(const PieceTree& tree, std::span<const Vec3> points, do
     const double off = (1 + 1e-12) * norm(x_ - group.centre);
     for (const SearchGroup::Near& each : group.near) {
       if (each.distance > bound + off) continue;
-      if (const double square = squared_distance(each.piece.box, x_); matters(square)) look_at(each.piece, square, true, bound);
+      if (const double square = squared_distance(each.piece->box, x_); matters(square)) look_at(*each.piece, square, true, bound);
     }
   } else {
     tree.boxes().nearest_first([&](std::int32_t n) { return squared_distance(tree.boxes().node(static_cast<std::size_t>(n)).box, x_); }, matters,
@@ -81,7 +81,7 @@ void PointSearch::collect(std::span<const Vec3> points, double bound) {
   if (on_leaf && reach > 0) {
     const SurfaceLeaf& leaf = of_place.leaves[rank];
     const LeafPlace place = nearest_on(leaf, centre, (group.place - leaf.region.low).cwiseQuotient(leaf.region.size()), nullptr, infinity);
-    radius = std::min(radius, std::max(place.distance + leaf.error + place.slack, std::sqrt(leaf.box.squared_distance(centre))));
+    radius = std::min(radius, std::max(place.distance + leaf.error + place.slack, std::sqrt(of_place.turned[rank].squared_distance(centre))));
   }
   group.near.clear();
   radius = (1 + 1e-12) * (radius + 2 * reach);
@@ -92,10 +92,8 @@ void PointSearch::collect(std::span<const Vec3> points, double bound) {
                                  for (const PieceTree::Piece& piece : tree_->pieces(leaf)) {
                                    double least = squared_distance(piece.box, centre);
                                    if (least > square) continue;
-                                   const Pieces& pieces = tree_->of(piece.entity);
-                                   if (const auto k = static_cast<std::size_t>(piece.rank); k < pieces.leaves.size())
-                                     least = std::max(least, pieces.leaves[k].box.squared_distance(centre));
-                                   if (least <= square) group.near.push_back({piece, (1 - 1e-12) * std::sqrt(least)});
+                                   if (piece.is_leaf) least = std::max(least, piece.turned.squared_distance(centre));
+                                   if (least <= square) group.near.push_back({&piece, (1 - 1e-12) * std::sqrt(least)});
                                  }
                                  few = group.near.size() <= limit::pieces_that_are_shared;
                                });
@@ -110,7 +108,7 @@ void PointSearch::begin_at_predecessor(double& bound) {
     look_at(*curve, candidate, bound);
   } else {
     const SurfaceLeaf& leaf = pieces_of(candidate).leaves[static_cast<std::size_t>(candidate.piece)];
-    candidate.floor = (1 - 1e-12) * std::sqrt(leaf.box.squared_distance(x_));
+    candidate.floor = (1 - 1e-12) * std::sqrt(pieces_of(candidate).turned[static_cast<std::size_t>(candidate.piece)].squared_distance(x_));
     const NearestSample sample = nearest_sample(leaf, x_);
     candidate.start = (group_->place - leaf.region.low).cwiseQuotient(leaf.region.size());
     solve(candidate, &sample, bound);
@@ -124,22 +122,22 @@ void PointSearch::look_at(const PieceTree::Piece& piece, double square, bool is_
   const Pieces& pieces = tree_->of(piece.entity);
   const auto k = static_cast<std::size_t>(piece.rank);
   Candidate candidate{piece.entity, piece.rank, {}, 0, 0, 0, false};
-  if (k >= pieces.leaves.size()) {
+  if (!piece.is_leaf) {
     candidate.floor = (1 - 1e-12) * std::sqrt(square);
     look_at(pieces.curves[k - pieces.leaves.size()], candidate, bound);
     return group_->trial.push_back(candidate);
   }
-  const SurfaceLeaf& leaf = pieces.leaves[k];
-  const TurnedBox::Nearest nearest = leaf.box.nearest(x_);
+  const TurnedBox::Nearest nearest = piece.turned.nearest(x_);
   square = std::max(square, nearest.square);
   if (square > (1 + 1e-12) * bound * bound) return;
   candidate.floor = (1 - 1e-12) * std::sqrt(square);  // a sample may be a corner of a flat box
   if (is_near) {
-    candidate.start = nearest.share;
+    candidate.start = pieces.triangles ? place_of(nearest_sample(pieces.leaves[k], x_)) : nearest.share;
     solve(candidate, nullptr, bound);
     if (candidate.least() <= bound) group_->trial.push_back(candidate);
     return;
   }
+  const SurfaceLeaf& leaf = pieces.leaves[k];
   const NearestSample sample = nearest_sample(leaf, x_);
   candidate.start = place_of(sample);
   candidate.distance = std::sqrt(sample.square);

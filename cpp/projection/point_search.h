@@ -40,7 +40,7 @@ struct SearchGroup {
 
   // These pieces hold the closest points of all points in a ball.
   struct Near {
-    PieceTree::Piece piece;
+    const PieceTree::Piece* piece = nullptr;
     double distance = 0;  // of the centre, a lower bound
   };
   Vec3 centre;

@@ -54,15 +54,20 @@ std::string kind_of(int dimension) { return dimension == 2 ? "face" : dimension 
 std::vector<std::int64_t> along_curve(std::span<const Vec3> x) {
   BoxTree::Box box;
   for (const Vec3& p : x) box.add(p);
-  constexpr std::uint64_t cells = 1U << 10U;
+  constexpr std::uint32_t cells = 1U << 10U;
+  const auto spread = [](std::uint32_t bits) {  // two zeros after each bit
+    bits = (bits | bits << 16U) & 0x030000ffU, bits = (bits | bits << 8U) & 0x0300f00fU;
+    bits = (bits | bits << 4U) & 0x030c30c3U;
+    return (bits | bits << 2U) & 0x09249249U;
+  };
+  const Vec3 size = box.high - box.low;
   std::vector<std::uint32_t> keys;
   keys.reserve(x.size());
   for (const Vec3& p : x) {
     std::uint32_t key = 0;
     for (int k = 0; k < 3; ++k) {
-      const double side = box.high[k] - box.low[k], share = side > 0 ? (p[k] - box.low[k]) / side : 0;
-      const auto cell = std::min(static_cast<std::uint64_t>(share * cells), cells - 1);
-      for (unsigned bit = 0; bit < 10; ++bit) key |= static_cast<std::uint32_t>((cell >> bit) & 1U) << (3 * bit + static_cast<unsigned>(k));
+      const double share = size[k] > 0 ? (p[k] - box.low[k]) / size[k] : 0;
+      key |= spread(std::min(static_cast<std::uint32_t>(share * cells), cells - 1)) << static_cast<unsigned>(k);
     }
     keys.push_back(key);
   }

@@ -9,9 +9,9 @@ namespace carreau::thresholds::projection {
 // Leaves of a face (face_leaves)
 /// Number. Each direction of a face is cut in so many cells at first. An odd number does not follow the periods of a surface.
 inline constexpr int first_cells = 3;
-/// Radians. The lines u and v of a leaf turn by at most this angle, so that the squared distance has one minimum over the leaf for points
-/// that are nearer than its radius of curvature. [Projector.FoldedPatchHasTwoMinimaAndTheNearerOneWins]
-inline constexpr double turn_of_leaf = 0.5;
+/// Radians. Bezier's polygons of the lines u and v of a leaf turn by at most this angle, so that the squared distance has one minimum over the
+/// leaf for points that are nearer than its radius of curvature. [Projector.FoldedPatchHasTwoMinimaAndTheNearerOneWins]
+inline constexpr double turn_of_leaf = 0.67;
 /// Share of the diameter of a leaf. The surface differs from the interpolation by at most this at the other samples. Newton's method needs
 /// two evaluations from there, and one if the surface is bicubic.
 inline constexpr double error_of_leaf = 0.005;

@@ -337,6 +337,21 @@ TEST(Projector, TeapotAgreesWithEachFaceAlone) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(any[i].distance, least[i], 1e-11);
 }
 
+TEST(Projector, NoPlaceNearAPoleIsMissed) {
+  // Above the bottom of the teapot, where four patches have a common pole: descents on their leaves are long.
+  const AnalyticCad teapot = testing::teapot();
+  std::vector<Vec3> x = random_points(4000, 0.9);
+  for (Vec3& p : x) p.z() = 0.13 + 0.12 / 0.9 * p.z();
+  const std::vector<ProjectedPoint> any = project(teapot, x);
+  std::vector<double> least(x.size(), 1e300);
+  for (const auto& [ref, face] : teapot.faces) {
+    if (!(norm(face.at({0, 0}).s) < 0.2)) continue;
+    const std::vector<ProjectedPoint> one = project(teapot, x, 2, ref);
+    for (std::size_t i = 0; i < x.size(); ++i) least[i] = std::min(least[i], one[i].distance);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LE(any[i].distance, least[i] + 1e-11) << x[i].transpose();
+}
+
 TEST(Projector, HostThatFailsBeyondItsDomain) {
   // The upper half of the unit sphere as a height over the disc, which is NaN outside.
   AnalyticCad cad;
