@@ -82,7 +82,10 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
     run.report(Level::warning, "no cross-patch remeshing: faces are periodic, and elements other than p1 cross no periodic border");
   else if (run.options.independent)
     inspectors.push_back(make_cross_patch_inspector());
-  if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
+  if (!run.layers.empty())
+    inspectors.push_back(make_row_inspector());
+  else if (run.options.element != Element::p1)
+    inspectors.push_back(make_element_inspector());
   return inspectors;
 }
 
