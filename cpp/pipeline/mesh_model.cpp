@@ -80,7 +80,10 @@ std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
     run.report(Level::warning, "no cross-patch remeshing: layers grow from curves");
   else if (run.options.independent)
     inspectors.push_back(make_cross_patch_inspector());
-  if (run.options.element != Element::p1) inspectors.push_back(make_element_inspector());
+  if (!run.layers.empty())
+    inspectors.push_back(make_row_inspector());
+  else if (run.options.element != Element::p1)
+    inspectors.push_back(make_element_inspector());
   return inspectors;
 }
 

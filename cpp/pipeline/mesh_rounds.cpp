@@ -152,6 +152,10 @@ void MeshRounds::apply(const RefinementRequests& requests) {
     run_.curves = first_curves_, run_.finer = first_finer_;
     return;
   }
+  for (const RowLimit& limit : requests.rows) {
+    run_.layers.add_limit(limit);
+    run_.known.forget(static_cast<std::size_t>(limit.face));
+  }
   halve_segments(run_, requests.segments);
   if (run_.finer.size() < requests.sizes.size()) run_.finer.resize(requests.sizes.size());
   for (std::size_t f = 0; f < requests.sizes.size(); ++f)

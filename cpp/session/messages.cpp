@@ -118,7 +118,7 @@ void describe_result(const CompositeResult& result, const QualitySummary& q, Mon
   if (monitor.hears(Level::debug)) describe_entities(mesh, monitor);
 }
 
-void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor) {
+void describe_layers(std::span<const LayerFigures> layers, std::span<const CurveLayers> given, Monitor& monitor) {
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const LayerFigures& l = layers[i];
     const std::string name = "layers" + (layers.size() > 1 ? " " + std::to_string(i + 1) : std::string());
@@ -130,20 +130,34 @@ void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor) {
                     name + ": " + std::to_string(l.cells) + " cells in " +
                         (l.fewest_rows < l.rows ? std::to_string(l.fewest_rows) + " to " : std::string()) + std::to_string(l.rows) +
                         " rows; first height " + short_number(l.first_mean) + " (" + short_number(l.first_min) + " to " +
-                        short_number(l.first_max) + ")" +
+                        short_number(l.first_max) + "), " + short_number(l.first_min / given[i].first) + " to " +
+                        short_number(l.first_max / given[i].first) + " of the request" +
                         (l.growth_max > 0 ? ", growth " + short_number(l.growth_mean) + " (" + short_number(l.growth_min) + " to " +
                                                 short_number(l.growth_max) + ")"
                                           : std::string()));
   }
 }
 
+namespace {
+
+std::string list_of(const std::vector<BareEdges::OfCurve>& curves) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, curves.size()); ++k)
+    text += (k > 0 ? ", " : "") + std::to_string(curves[k].bare) + " on curve " + std::to_string(curves[k].curve) + " of face " +
+            std::to_string(curves[k].face);
+  return curves.size() > most ? text + ", and edges of " + std::to_string(curves.size() - most) + " other places" : text;
+}
+
+}  // namespace
+
 void describe_bare_edges(std::span<const BareEdges> layers, Monitor& monitor) {
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const BareEdges& edges = layers[i];
     if (edges.bare == 0 || edges.bare == edges.sides) continue;  // describe_layers() reports that no row has room
     monitor.message(Level::warning, "layers" + (layers.size() > 1 ? " " + std::to_string(i + 1) : std::string()) + ": " +
-                                        std::to_string(edges.bare) + " of " + std::to_string(edges.sides) +
-                                        " edges have no row, the first on face " + std::to_string(edges.face));
+                                        std::to_string(edges.bare) + " of " + std::to_string(edges.sides) + " edges have no row: " +
+                                        list_of(edges.curves));
   }
 }
 

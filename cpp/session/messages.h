@@ -26,8 +26,8 @@ void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor);
 /// A summary of a run in a few lines.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
 
-/// A line for each set of layers along curves: heights of the first row, growth, rows.
-void describe_layers(std::span<const LayerFigures> layers, Monitor& monitor);
+/// A line for each set of layers along curves: heights of the first row, also over the requested height, growth, rows.
+void describe_layers(std::span<const LayerFigures> layers, std::span<const CurveLayers> given, Monitor& monitor);
 /// A warning for each set of layers with edges that have no row.
 void describe_bare_edges(std::span<const BareEdges> layers, Monitor& monitor);
 

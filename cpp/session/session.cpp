@@ -310,7 +310,7 @@ void Session::make_mesh_of(Model& known, Monitor& run, PartMesh* part) {
     keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
                 std::move(parts), background, measuring);
     s.layer_figures = std::move(figures);
-    describe_layers(s.layer_figures, s.monitor);
+    describe_layers(s.layer_figures, s.layers, s.monitor);
     describe_bare_edges(edges, s.monitor);
     if (part != nullptr) *part = part_of_mesh();
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""volumes.py CARREAU [FILE]...: a table of solids and engines: tetrahedra, worst shape, seconds of the engine, solids. It makes 27 solids with Gmsh's
+"""volumes.py CARREAU [FILE]...: a table of solids and engines: tetrahedra, worst shape, seconds of the engine, solids. It makes 28 solids with Gmsh's
 OpenCASCADE (python3-gmsh) and adds the CAD files of its arguments. `carreau volume` verifies each surface triangle by triangle."""
 import json
 import math
@@ -193,6 +193,11 @@ def gear(occ):
         teeth.append((3, occ.addBox(0.9, -0.1, 0, 0.3, 0.2, 0.5)))
         occ.rotate(teeth[-1:], 0, 0, 0, 0, 0, 1, k * math.pi / 6)
     drill(occ, occ.fuse([(3, occ.addCylinder(0, 0, 0, 0, 0, 0.5, 1))], teeth)[0], 0.3)
+
+
+@solid
+def nozzle(occ):
+    occ.cut([(3, occ.addCone(0, 0, 0, 0, 0, 3, 1, 0.5))], [(3, occ.addCone(0, 0, 0, 0, 0, 3, 0.8, 0.3))])
 
 
 def row(program, path, folder):

@@ -102,6 +102,7 @@ def test_calculix_bends_a_beam(document):
     analysis.addObject(material)
     fixed = ObjectsFem.makeConstraintFixed(document, "Fixed")
     fixed.References = [(box, face_at(box.Shape, 0))]
+    fixed.Label = "Wall"
     analysis.addObject(fixed)
     force = ObjectsFem.makeConstraintForce(document, "Force")
     force.References = [(box, face_at(box.Shape, LENGTH))]
@@ -112,6 +113,8 @@ def test_calculix_bends_a_beam(document):
     obj.ElementSize = 4
     document.recompute()
     mesh_object.mesh(obj)
+    groups = {obj.FemMesh.getGroupName(g): obj.FemMesh.getGroupElements(g) for g in obj.FemMesh.Groups}
+    assert groups["Wall"] == groups["Fixed_Faces"] == groups[face_at(box.Shape, 0)], sorted(groups)
     from femtools import ccxtools
     tools = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
     tools.update_objects()

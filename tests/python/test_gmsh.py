@@ -122,5 +122,57 @@ def test_pyvista_gets_elements_and_fields(monkeypatch):
     assert made.cell_data["group"].tolist() == [1, 2]
     assert made.field_data["group_names"] == ["face_1", "face_2"] and made.field_data["group_numbers"] == [1, 2]
     dome = lambda u, v: (u, v, u * u + v * v)  # noqa: E731
-    curved = carreau.mesh(dome, domain=(0, 0, 1, 1), size=0.5, element="p2").to_pyvista()
+    mesh = carreau.mesh(dome, domain=(0, 0, 1, 1), size=0.5, element="p2")
+    curved = mesh.to_pyvista()
     assert set(curved.arrays[1]) == {22} and len(curved.arrays[0]) == 7 * curved.n_cells
+    mesh.add_field("flux", np.arange(len(mesh.triangles)))
+    curved = mesh.to_pyvista(edges=True)
+    n = len(mesh.triangles)
+    assert curved.arrays[1].tolist() == [22] * n + [21] * len(mesh.edges) and curved.cell_data["curve"][n:].tolist() == mesh.curve_ids.tolist()
+    assert curved.cell_data["face"].tolist() == [1] * n + [0] * len(mesh.edges) == curved.cell_data["group"].tolist()
+    assert curved.cell_data["flux"][:n].tolist() == list(range(n)) and np.isnan(curved.cell_data["flux"][n:]).all()
+
+
+@pytest.mark.parametrize("order", [3, 4])
+@pytest.mark.parametrize("element", ["p2", "q2.1"])
+def test_orders_three_and_four_keep_groups_and_edges(tmp_path, order, element):
+    meshio, vtk = pytest.importorskip("meshio"), pytest.importorskip("vtk")
+    session = carreau.Session(hphydef=0.4, element=element)
+    session.add(carreau.Patch(lambda u, v: (u, v, 0.3 * u * v)))
+    mesh = session.generate()
+    raised = session.raise_order(order)
+    width = (order + 1) * (order + 2) // 2 if element == "p2" else (order + 1) ** 2
+    made = raised.to_meshio(mesh)
+    name = f"{'triangle' if element == 'p2' else 'quad'}{width}"
+    assert [block.type for block in made.cells] == [name, f"line{order + 1}"]
+    assert made.field_data["face_1"].tolist() == [1, 2] and set(made.cell_data["gmsh:physical"][1]) == set(mesh.curve_ids)
+    made.write(tmp_path / "raised.msh", file_format="gmsh22")
+    back = carreau.read(tmp_path / "raised.msh")
+    assert back.order == order and len(back.edges) == len(mesh.edges)
+
+    class Grid:
+        def __init__(self, rows, kinds, points):
+            self.rows, self.kinds, self.points, self.n_cells = rows, kinds, points, len(kinds)
+            self.cell_data, self.point_data, self.field_data = {}, {}, {}
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, "pyvista", types.SimpleNamespace(UnstructuredGrid=Grid))
+        grid = raised.to_pyvista(mesh)
+    lines = len(raised.edges)
+    assert grid.kinds.tolist() == [69 if element == "p2" else 70] * (grid.n_cells - lines) + [68] * lines
+    assert grid.cell_data["curve"][-lines:].tolist() == raised.edge_refs.tolist() and grid.field_data["group_names"] == ["face_1"]
+    # VTK's own places of the nodes of a cell give the nodes: u and v are the first coordinates, and cells are affine in them but for improved places.
+    cell = vtk.vtkLagrangeTriangle() if element == "p2" else vtk.vtkLagrangeQuadrilateral()
+    cell.GetPointIds().SetNumberOfIds(width), cell.GetPoints().SetNumberOfPoints(width)
+    if element != "p2":
+        cell.SetOrder(order, order)
+    cell.Initialize()
+    places = np.array([cell.GetParametricCoords()[k] for k in range(3 * width)]).reshape(-1, 3)[:, :2]
+    nodes = raised.nodes[grid.rows[: (width + 1) * (grid.n_cells - lines)].reshape(-1, width + 1)[:, 1:]]
+    r, s = places[:, 0, None], places[:, 1, None]
+    for corner in nodes:
+        if element == "p2":
+            expected = (1 - r - s) * corner[0] + r * corner[1] + s * corner[2]
+        else:
+            expected = (1 - r) * (1 - s) * corner[0] + r * (1 - s) * corner[1] + r * s * corner[2] + (1 - r) * s * corner[3]
+        assert np.allclose(corner[:, :2], expected[:, :2], atol=0.03)

@@ -10,6 +10,27 @@ from numpy.typing import NDArray
 from ._records import Face, Quality
 
 
+class RaisedContent(Protocol):
+    """Members of carreau.session.Raised."""
+
+    @property
+    def order(self) -> int: ...
+    @property
+    def nodes(self) -> NDArray[np.float64]: ...
+    @property
+    def triangles(self) -> NDArray[np.int32]: ...
+    @property
+    def triangle_refs(self) -> NDArray[np.int32]: ...
+    @property
+    def quads(self) -> NDArray[np.int32]: ...
+    @property
+    def quad_refs(self) -> NDArray[np.int32]: ...
+    @property
+    def edges(self) -> NDArray[np.int32]: ...
+    @property
+    def edge_refs(self) -> NDArray[np.int32]: ...
+
+
 class MeshContent(Protocol):
     """Members of carreau.Mesh."""
 

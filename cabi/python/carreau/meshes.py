@@ -292,11 +292,12 @@ class Mesh:
         """Puts the mesh into the running Gmsh, whose model has the same CAD file; see carreau.to_gmsh."""
         to_gmsh(self, tolerance)
 
-    def to_pyvista(self) -> Any:
-        """A pyvista.PolyData of the triangles, or a pyvista.UnstructuredGrid of other elements; cell_data["face"] has the references,
+    def to_pyvista(self, edges: bool = False) -> Any:
+        """A pyvista.PolyData of the triangles, or a pyvista.UnstructuredGrid of other elements; cell_data["face"] has the references. With
+        edges, edges of curves are cells behind the elements, whose references are in cell_data["curve"];
         field_data["face_names"] the names of faces 1, 2, ...; faces of one name are a group, whose number is in cell_data["group"] and
         whose name stands beside it in field_data["group_numbers"] and ["group_names"]. Raises ImportError without the package pyvista."""
-        return to_pyvista(self)
+        return to_pyvista(self, edges)
 
     def picture(self, path: Optional[Path] = None, **options: Any) -> bytes:
         """A picture as PNG, written to a file where a path is given. options: width and height (pixels), view ("iso",

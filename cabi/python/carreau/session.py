@@ -13,6 +13,7 @@ from ._geometries import Geometries
 from ._calls import counted
 from ._library import lib
 from ._session import SessionBase, log, parameters
+from .convert import raised_to_meshio, raised_to_pyvista
 from .errors import PartialError
 from .meshes import Ints, Mesh, Reals
 from .progress import Progress
@@ -31,6 +32,14 @@ class Raised(NamedTuple):
     edges: Ints
     edge_refs: Ints
     invalid: int
+
+    def to_meshio(self, mesh: Optional[Mesh] = None) -> Any:
+        """A meshio.Mesh as of Mesh.to_meshio(); mesh names its faces and curves."""
+        return raised_to_meshio(self, mesh)
+
+    def to_pyvista(self, mesh: Optional[Mesh] = None) -> Any:
+        """A pyvista.UnstructuredGrid of Lagrange cells, with edges of curves, as of Mesh.to_pyvista()."""
+        return raised_to_pyvista(self, mesh)
 
 
 class Session(SessionBase, Geometries):

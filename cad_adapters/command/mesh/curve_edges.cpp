@@ -2,8 +2,11 @@
 #include "mesh/curve_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -156,8 +159,13 @@ namespace {
 constexpr const char* layers_option = "--layers";
 
 struct LayerRule {
-  std::string entities, first;
+  std::string entities, first;  ///< first is empty if y+ gives the height
   double ratio = 1.2;
+  double wall_units = 0, y_plus = 0;  ///< friction velocity over viscosity, 1 / length; y+ of the first height; 0: not given
+
+  [[nodiscard]] double first_height(double diagonal) const {
+    return first.empty() ? y_plus / wall_units : parse_length(first, layers_option).of(diagonal);
+  }
   std::int32_t count = 10;
 };
 
@@ -166,7 +174,7 @@ LayerRule parse_layers(const std::string& rule) {
   LayerRule parsed{.entities = entities, .first = {}};
   const auto refuse = [&] {
     throw Failure(std::string(layers_option) + " '" + rule + "': layers are written as in " + entities +
-                  "=first:0.001,ratio:1.2,count:20.");
+                  "=first:0.001,ratio:1.2,count:20; u_tau/nu:50000 gives y+ of the first height, and yplus:1 beside it the height.");
   };
   const auto number = [&](std::string_view word, auto& value) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -183,12 +191,17 @@ LayerRule parse_layers(const std::string& rule) {
       number(value, parsed.ratio);
     else if (name == "count")
       number(value, parsed.count);
+    else if (name == "u_tau/nu")
+      number(value, parsed.wall_units);
+    else if (name == "yplus")
+      number(value, parsed.y_plus);
     else
       refuse();
     begin = end + 1;
   }
-  if (parsed.first.empty()) refuse();
-  (void)parse_length(parsed.first, std::string(layers_option) + " '" + rule + "'");
+  const bool by_wall = parsed.wall_units > 0 && std::isfinite(parsed.wall_units);
+  if (parsed.first.empty() ? !(by_wall && parsed.y_plus > 0) : parsed.y_plus != 0 || !(by_wall || parsed.wall_units == 0)) refuse();
+  if (!parsed.first.empty()) (void)parse_length(parsed.first, std::string(layers_option) + " '" + rule + "'");
   return parsed;
 }
 
@@ -226,7 +239,7 @@ void add_layers(carreau_session* session, const MeshOptions& options, const CadI
     }
     const std::vector<std::int32_t> refs(curves.begin(), curves.end());
     require(session, carreau_add_layers(session, static_cast<std::int64_t>(refs.size()), refs.data(),
-                                        parse_length(rule.first, layers_option).of(input.diagonal()), rule.ratio, rule.count));
+                                        rule.first_height(input.diagonal()), rule.ratio, rule.count));
   }
 }
 
@@ -237,7 +250,21 @@ std::string missing_rows(carreau_session* session, const MeshOptions& options) {
   return rules.empty() ? "" : std::string(layers_option) + " " + rules + ": some edges have no row.";
 }
 
-nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options) {
+std::vector<std::string> y_plus_lines(carreau_session* session, const MeshOptions& options) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < options.layers.size(); ++i) {
+    const double scale = parse_layers(options.layers[i]).wall_units;
+    const carreau_layers_report r = report_on(session, i);
+    if (!(scale > 0) || r.rows == 0) continue;
+    std::array<char, 128> line{};
+    (void)std::snprintf(line.data(), line.size(), "layers     y+ %.4g (%.4g to %.4g) at the first height, ", scale * r.first_mean,
+                        scale * r.first_min, scale * r.first_max);
+    lines.push_back(line.data() + options.layers[i]);
+  }
+  return lines;
+}
+
+nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options, double diagonal) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < options.layers.size(); ++i) {
     const carreau_layers_report r = report_on(session, i);
@@ -247,6 +274,12 @@ nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& 
                     {"fewest_rows", r.fewest_rows},
                     {"first_height", {{"min", r.first_min}, {"mean", r.first_mean}, {"max", r.first_max}}},
                     {"growth", {{"min", r.growth_min}, {"mean", r.growth_mean}, {"max", r.growth_max}}}});
+    const LayerRule rule = parse_layers(options.layers[i]);
+    const auto times = [&r](double scale) -> nlohmann::ordered_json {
+      return {{"min", scale * r.first_min}, {"mean", scale * r.first_mean}, {"max", scale * r.first_max}};
+    };
+    list.back()["first_over_request"] = times(1 / rule.first_height(diagonal));
+    if (rule.wall_units > 0) list.back()["y_plus"] = times(rule.wall_units);
   }
   return list;
 }

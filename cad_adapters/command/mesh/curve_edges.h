@@ -29,7 +29,9 @@ void add_layers(carreau_session* session, const MeshOptions& options, const CadI
 /// A sentence on the layers of the last mesh that lack rows on some edges; empty: all edges have rows.
 std::string missing_rows(carreau_session* session, const MeshOptions& options);
 
-/// The figures of each set of layers of the last mesh.
-nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options);
+/// The figures of each set of layers of the last mesh. `diagonal`: of the model.
+nlohmann::ordered_json layers_json(carreau_session* session, const MeshOptions& options, double diagonal);
+/// Lines with y+ of the first rows, for layers with a friction velocity over viscosity.
+std::vector<std::string> y_plus_lines(carreau_session* session, const MeshOptions& options);
 
 }  // namespace command

@@ -310,6 +310,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   const carreau_report r = report_of(run.session);
   const std::vector<carreau_interface> interfaces = interfaces_of(run.session);
   std::vector<std::string> lines = first_lines(run);
+  for (std::string& line : y_plus_lines(run.session, run.options)) lines.push_back(std::move(line));
   if (std::string line = short_edges_line(run.short_edges); !line.empty()) lines.push_back(std::move(line));
   lines.push_back(interfaces_line(interfaces));
   for (std::string& line : gluing_lines(run.input, interfaces)) lines.push_back(std::move(line));
@@ -341,7 +342,7 @@ nlohmann::ordered_json part_json(const MeshRun& run, int processes) {
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
                                     {"seconds", {{"reading", run.seconds_reading}, {"writing", run.seconds_writing}, {"processor", run.seconds_processor}}}};
-  if (!run.options.layers.empty()) summary["layers"] = layers_json(run.session, run.options);
+  if (!run.options.layers.empty()) summary["layers"] = layers_json(run.session, run.options, run.input.diagonal());
   if (is_measured(run)) summary["delivered"] = delivered_json(run.session);
   return summary;
 }
@@ -389,7 +390,7 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                                       {"processor", run.seconds_processor}}}};
   if (nlohmann::ordered_json loop = run.adaptation != nullptr ? run.adaptation->json(run.session) : nullptr; !loop.is_null())
     summary["adaptation"] = std::move(loop);
-  if (!run.options.layers.empty()) summary["layers"] = layers_json(run.session, run.options);
+  if (!run.options.layers.empty()) summary["layers"] = layers_json(run.session, run.options, run.input.diagonal());
   if (delivered) summary["delivered"] = delivered_json(run.session);
   return summary;
 }

@@ -19,6 +19,7 @@ struct RefinementRequests {
   /// Edges to halve: {curve, segment} of CompositeRun::cut_curves, ascending, each once.
   std::vector<std::pair<std::int32_t, int>> segments = {};
   std::vector<std::vector<EdgeSizes::Source>> sizes = {};  ///< by face; may be shorter than the list of faces
+  std::vector<RowLimit> rows = {};  ///< of layers
   std::int64_t max_triangles = 0;                     ///< of the next mesh; 0: as many as the run allows
   bool first_curves = false;     ///< the round begins with the curves and sizes of the first mesh, without other refinement
   bool patch_elements = false;   ///< patches place their vertices for quadrilaterals, and the mesh keeps them
@@ -51,6 +52,8 @@ class Inspector {
 [[nodiscard]] std::unique_ptr<Inspector> make_crossing_inspector();
 /// Elements of meshes that keep the borders of their patches; invalid ones are divided.
 [[nodiscard]] std::unique_ptr<Inspector> make_element_inspector();
+/// The same elements of a mesh with layers: rows beside invalid and crossing ones retreat first.
+[[nodiscard]] std::unique_ptr<Inspector> make_row_inspector();
 /// Frees the mesh of the borders of its patches and makes its elements; invalid and crossing ones are divided.
 [[nodiscard]] std::unique_ptr<Inspector> make_cross_patch_inspector();
 

@@ -36,6 +36,10 @@ class KnownPatches {
   /// A copy of the outcome of the round before, if the face had the same input then.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
+  /// The face has other input from now on.
+  void forget(std::size_t face) {
+    if (face < known_.size()) known_[face].reset();
+  }
   void clear() { known_.clear(), flattened_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::max_known; }
   /// Ends the keeping: later rounds mesh with other options.
   void end() { clear(), over_ = true; }

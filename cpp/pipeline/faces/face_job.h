@@ -66,6 +66,7 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool sample_bounded(Monitor& monitor);
   bool take_best(Monitor& monitor);
   void set_rows_apart();
+  [[nodiscard]] bool retreat();
   void add_remark(const std::string& what);
   bool refill_undersampled(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
@@ -93,6 +94,7 @@ class FaceJob final : public SteppedTask {
   PatchInput given_, input_;
   std::optional<LayerRows> rows_;  // along curves with layers: input_ is the rest of the face
   bool rows_known_ = false;
+  std::vector<RowLimit> row_limits_;  // that turned triangles require
   Cad* cad_;
   const SizeRules* rules_;
   const LayerCurves& layers_;

@@ -8,6 +8,7 @@
 
 #include "pipeline/base/inspector.h"
 #include "pipeline/base/run.h"
+#include "pipeline/inspect/crossing_requests.h"
 #include "support/format.h"
 #include "surface/elements/second_order/quadratic.h"
 #include "surface/elements/base/invalid_report.h"
@@ -19,6 +20,9 @@ namespace carreau {
 namespace {
 
 using namespace thresholds::elements;
+
+/// Rounds in which rows lose half of their height: 40 rows end.
+constexpr int max_retreats = 6;
 
 bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
   bool any = false;
@@ -71,7 +75,7 @@ void report_invalid(CompositeRun& run, const QuadraticReport& report) {
     run.report(Level::warning, mark_invalid(run.result.mesh.faces[invalid.face], invalid.uv, invalid.count));
 }
 
-class ElementInspector final : public Inspector {
+class ElementInspector : public Inspector {
  public:
   void inspect(CompositeRun& run) override {
     if (run.result.mesh.independent) return;  // it has its elements
@@ -100,13 +104,77 @@ class ElementInspector final : public Inspector {
     report_invalid(run, best_);
   }
 
+ protected:
+  [[nodiscard]] const QuadraticReport& now() const { return now_; }
+
  private:
   QuadraticReport now_, best_;
   std::optional<double> left_;  // triangles that finer meshes may have together; empty before the first mesh
   int round_ = 0;
 };
 
+// Rows retreat beside elements that are invalid, and beside triangles that cross. Nodes bend elements of order 2: their straight
+// triangles may cross.
+class RowInspector final : public ElementInspector {
+ public:
+  void inspect(CompositeRun& run) override {
+    if (run.options.element != Element::p1) ElementInspector::inspect(run);
+    crossings_ = {};
+    if (run.options.crossing_rounds == 0 || run.options.element == Element::p2) return;
+    const Crossings crossings(run);
+    crossings_ = crossings.found;
+    limits_.clear();
+    for (const TriangleIntersection& pair : crossings_.pairs)
+      for (const std::int32_t t : pair.triangles) {
+        const auto& [a, b, c] = crossings.corners(t);
+        const std::vector<Vec3>& at = crossings.mesh().vertices;
+        const double longest = std::max({norm(at[b] - at[a]), norm(at[c] - at[b]), norm(at[a] - at[c])});
+        retreat(run, crossings.origin(t).first, pair.place, longest);
+      }
+  }
+
+  [[nodiscard]] bool is_better(const CompositeRun& run) const override {
+    return faults() < best_ || (run.options.element != Element::p1 && faults() == best_ && ElementInspector::is_better(run));
+  }
+  void keep() override { best_ = faults(), ElementInspector::keep(); }
+
+  [[nodiscard]] std::optional<RefinementRequests> requests(const CompositeRun& run) override {
+    if (round_ < max_retreats && faults() > 0) {
+      std::vector<RowLimit> limits = std::exchange(limits_, {});
+      for (std::size_t f = 0; f < now().finer.size(); ++f)
+        for (const EdgeSizes::Source& side : now().finer[f]) retreat(run, static_cast<int>(f), 0.5 * (side.a + side.b), norm(side.b - side.a));
+      limits.insert(limits.end(), limits_.begin(), limits_.end());
+      limits_.clear();
+      ++round_;
+      if (!limits.empty()) return RefinementRequests{.rows = std::move(limits)};
+    }
+    if (run.options.element == Element::p1) return {};
+    return ElementInspector::requests(run);
+  }
+
+  void report(CompositeRun& run) override {
+    if (run.options.element != Element::p1) ElementInspector::report(run);
+  }
+
+ private:
+  [[nodiscard]] std::int64_t faults() const { return crossings_.count + static_cast<std::int64_t>(count(now())); }
+
+  void retreat(const CompositeRun& run, int face, const Vec3& place, double reach) {
+    if (static_cast<std::size_t>(face) >= run.layer_cells.size()) return;
+    const FaceMesh& mesh = run.result.mesh.faces[static_cast<std::size_t>(face)];
+    halve_rows_near(face, place, reach, run.layer_cells[static_cast<std::size_t>(face)],
+                    [&](std::int32_t v) { return run.result.mesh.vertices[mesh.vertex[v]]; }, has_quads_only(run.options.element), limits_);
+  }
+
+  Intersections crossings_;
+  std::vector<RowLimit> limits_;
+  std::int64_t best_ = 0;
+  int round_ = 0;
+};
+
 }  // namespace
+
+std::unique_ptr<Inspector> make_row_inspector() { return std::make_unique<RowInspector>(); }
 
 std::unique_ptr<Inspector> make_element_inspector() { return std::make_unique<ElementInspector>(); }
 

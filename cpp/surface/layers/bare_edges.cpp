@@ -31,13 +31,14 @@ std::vector<BareEdges> find_bare_edges(const SurfaceMesh& mesh, const std::vecto
     for (const CurveMeshUse& use : curve.uses) {
       const FaceMesh& face = mesh.faces[static_cast<std::size_t>(use.face)];
       if (face.triangles.empty()) continue;
+      const std::int64_t before = edges.bare;
       for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k) {
         const int sides = use.internal ? 2 : 1;
         const auto found = covered.find(key(use.face, curve.vertices[k], curve.vertices[k + 1]));
         const int bare = sides - std::min(sides, found != covered.end() ? found->second : 0);
         edges.sides += sides, edges.bare += bare;
-        if (bare > 0 && edges.face == 0) edges.face = face.ref;
       }
+      if (edges.bare > before) edges.curves.push_back({.curve = curve.shown_ref(), .face = face.ref, .bare = edges.bare - before});
     }
   }
   return all;

@@ -13,8 +13,13 @@ namespace carreau {
 
 /// Sides of edges: an edge counts for each face, and twice inside a face.
 struct BareEdges {
+  /// The bare ones of a curve on a face, by their references.
+  struct OfCurve {
+    int curve = 0, face = 0;
+    std::int64_t bare = 0;
+  };
   std::int64_t sides = 0, bare = 0;
-  int face = 0;  ///< reference of the first face with a bare side
+  std::vector<OfCurve> curves;  ///< with a bare side, in the order of the mesh
 };
 
 /// Counts the sides of edges without a cell, for each set of layers. `cells`: by face.

@@ -8,6 +8,7 @@
 
 #include "curve/discrete_curve.h"
 #include "mesh/layer_cell.h"
+#include "surface/layers/row_limits.h"
 
 namespace carreau {
 
@@ -42,6 +43,9 @@ class LayerCurves {
   }
   /// Heights of the rows, lowest first, as long as they are at most `longest`. There is one row at least.
   [[nodiscard]] std::vector<double> heights(int layers, double longest) const;
+  /// Limits of rows, in all faces.
+  [[nodiscard]] const std::vector<RowLimit>& limits() const noexcept { return limits_; }
+  void add_limit(const RowLimit& limit) { limits_.push_back(limit); }
   /// Share of the height of a row that its lower half has, when it is cut.
   [[nodiscard]] double lower_half(int layers) const noexcept {
     return 1 / (1 + std::sqrt(layers_[static_cast<std::size_t>(layers)].ratio));
@@ -50,6 +54,7 @@ class LayerCurves {
  private:
   std::vector<CurveLayers> layers_;
   std::vector<int> of_curve_;
+  std::vector<RowLimit> limits_;
 };
 
 /// Moves vertices of curves that end at curves with layers: they lie at the heights of the rows.

@@ -21,7 +21,8 @@ using namespace thresholds::layers;
 
 class RowMaker {
  public:
-  RowMaker(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved) : face_(input, layers, cad, halved) {}
+  RowMaker(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved, std::span<const RowLimit> limits)
+      : face_(input, layers, cad, halved), limits_(limits) {}
 
   std::optional<LayerRows> run() {
     chains_ = find_chains(face_);
@@ -30,7 +31,7 @@ class RowMaker {
       for (Column& column : chain.columns) raise(column);
     const RowObstacles obstacles(face_);
     for (RowChain& chain : chains_)
-      for (Column& column : chain.columns) obstacles.end(column);
+      for (Column& column : chain.columns) obstacles.end(column), limit(column);
     int highest = 0;
     for (;;) {
       settle_levels();
@@ -48,26 +49,37 @@ class RowMaker {
   }
 
  private:
+  // Columns are geodesics: on developable faces rows are as high as in the plane.
   void raise(Column& column) {
     if (column.on_side || !column.stands) return;
     if (!inside_) {
       const SampledDomain sampled = sampled_domain(face_.plane);
       inside_.emplace(sampled.vertices, sampled.edges);
     }
-    const ColumnPlane plane{face_.xyz(column.base), RowFace::unit(cross(column.normal, column.up))};
     Vec2 at = face_.uv(column.base);
-    Vec3 p = plane.base, towards = column.up;
+    Vec3 p = face_.xyz(column.base), towards = column.up;
     for (const double h : column.heights) {
       const double step = h * column.stretch;
       SurfaceJet jet = surface_at(face_.cad, face_.input.ref, want_position | want_first, at);
+      const Vec3 normal = RowFace::unit(cross(jet.su, jet.sv));
+      towards = RowFace::unit(towards - dot(towards, normal) * normal);
+      const ColumnPlane plane{p, cross(normal, towards)};
       Vec2 next = at + in_parameters(jet, step * towards);
       if (!find_step(face_.cad, face_.input.ref, plane, p, step, [this](const Vec2& q) { return inside_->contains(q); }, next, jet))
         break;
       column.at.push_back(add_vertex(next, jet, column));
-      towards = RowFace::unit(jet.s - p);
+      // The chord of a geodesic turns half as much as its tangent.
+      const Vec3 chord = RowFace::unit(jet.s - p);
+      towards = 2 * dot(chord, towards) * chord - towards;
       p = jet.s, at = next;
     }
     column.levels = static_cast<int>(column.at.size()) - 1;
+  }
+
+  void limit(Column& column) const {
+    const Vec3& base = face_.xyz(column.base);
+    for (const RowLimit& limit : limits_)
+      if (norm(base - limit.place) <= limit.reach) column.levels = std::min(column.levels, limit.rows);
   }
 
   int add_vertex(const Vec2& at, const SurfaceJet& jet, const Column& column) {
@@ -127,10 +139,21 @@ class RowMaker {
 
   [[nodiscard]] bool turns_left(int a, int b, int c) const { return orientation(face_.uv(a), face_.uv(b), face_.uv(c)) > 0; }
 
+  // In (u, v), and in space about the normal of the surface at the upper edge.
+  [[nodiscard]] bool turns_left(int a, int b, int c, const Vec3& normal) const {
+    const Vec3 area = cross(face_.xyz(b) - face_.xyz(a), face_.xyz(c) - face_.xyz(a));
+    return turns_left(a, b, c) && dot(area, normal) > min_cell_agreement * norm(area);
+  }
+  [[nodiscard]] Vec3 normal_of(int v) const {
+    const std::size_t n = face_.plane.vertices.size(), k = static_cast<std::size_t>(v);
+    return k >= n ? face_.rows.normal[k - n] : face_.normal_at(v);
+  }
+
   [[nodiscard]] bool is_sound(const LayerCell& cell, bool in_fan) const {
     const auto& [a, b, c, d] = cell.corners;
-    if (cell.is_triangle()) return turns_left(a, b, c);
-    if (!(turns_left(a, b, c) && turns_left(b, c, d) && turns_left(c, d, a) && turns_left(d, a, b))) return false;
+    if (cell.is_triangle()) return turns_left(a, b, c, RowFace::unit(normal_of(b) + normal_of(c)));
+    const Vec3 up = RowFace::unit(normal_of(c) + normal_of(d));
+    if (!(turns_left(a, b, c, up) && turns_left(b, c, d, up) && turns_left(c, d, a, up) && turns_left(d, a, b, up))) return false;
     return in_fan || norm(face_.xyz(c) - face_.xyz(d)) >= min_narrowing * norm(face_.xyz(b) - face_.xyz(a));
   }
 
@@ -232,14 +255,16 @@ class RowMaker {
   }
 
   RowFace face_;
+  std::span<const RowLimit> limits_;
   std::vector<RowChain> chains_;
   std::optional<PolygonLocator> inside_;
 };
 
 }  // namespace
 
-std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved) {
-  return RowMaker(input, layers, cad, halved).run();
+std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved,
+                                         std::span<const RowLimit> limits) {
+  return RowMaker(input, layers, cad, halved, limits).run();
 }
 
 PatchMesh with_rows(const LayerRows& rows, const FaceDomain& domain, const std::vector<Vec3>& curve_xyz, PatchMesh rest) {

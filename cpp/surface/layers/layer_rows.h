@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "surface/layers/layer_curves.h"
@@ -23,9 +24,10 @@ struct LayerRows {
 };
 
 /// Makes the rows of a face. Rows end early where they would meet a boundary, other rows, or a fold. Nothing if no curve
-/// of the face has layers. `halved`: edges of curves will be cut in two, so their chords turn half as much. Throws the host's
-/// exceptions.
-std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved = false);
+/// of the face has layers. `halved`: edges of curves will be cut in two, so their chords turn half as much. `limits`: of this face. Throws
+/// the host's exceptions.
+std::optional<LayerRows> make_layer_rows(const PatchInput& input, const LayerCurves& layers, Cad& cad, bool halved = false,
+                                         std::span<const RowLimit> limits = {});
 
 /// Adds the rows to the mesh of the rest. `domain`: of the whole face, with `curve_xyz`.
 PatchMesh with_rows(const LayerRows& rows, const FaceDomain& domain, const std::vector<Vec3>& curve_xyz, PatchMesh rest);

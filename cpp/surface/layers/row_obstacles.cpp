@@ -13,6 +13,8 @@ RowObstacles::RowObstacles(const RowFace& face) : face_(face) {
   for (const PlaneEdge& edge : face_.plane.edges) {
     if (!face_.is_on_curve(edge.a) || !face_.is_on_curve(edge.b)) continue;
     Obstacle obstacle{.a = face_.xyz(edge.a), .b = face_.xyz(edge.b)};
+    const Vec2 middle = 0.5 * (face_.uv(edge.a) + face_.uv(edge.b));
+    obstacle.sagitta = norm(surface_at(face_.cad, face_.input.ref, want_position, middle).s - 0.5 * (obstacle.a + obstacle.b));
     if (const int layers = face_.layers_of(edge); layers >= 0) {
       obstacle.up = RowFace::unit(cross(face_.normal_at(edge.a), face_.direction(edge.a, edge.b)));
       for (const double h : face_.layers.heights(layers, norm(obstacle.b - obstacle.a))) obstacle.total += h;
@@ -53,12 +55,14 @@ void RowObstacles::end(Column& column) const {
                       [&](const BoxTree::Node& leaf) {
                         for (const std::int32_t k : tree_.things(leaf)) near.push_back(&obstacles_[static_cast<std::size_t>(k)]);
                       });
-  double height = 0;
+  double height = 0, sagitta = 0;
+  for (const Obstacle* own : near)
+    if (own->a == base || own->b == base) sagitta = std::max(sagitta, own->sagitta);
   for (int k = 0; k < column.levels; ++k) {
     const double h = column.heights[static_cast<std::size_t>(k)];
     height += h;
     const Vec3& p = face_.xyz(column.at[static_cast<std::size_t>(k) + 1]);
-    const bool free = std::all_of(near.begin(), near.end(), [&](const Obstacle* o) { return is_clear(column, *o, p, height, h); });
+    const bool free = std::all_of(near.begin(), near.end(), [&](const Obstacle* o) { return is_clear(column, *o, p, height, h, sagitta); });
     if (!free) {
       column.levels = k;
       return;
@@ -66,19 +70,22 @@ void RowObstacles::end(Column& column) const {
   }
 }
 
-bool RowObstacles::is_clear(const Column& column, const Obstacle& obstacle, const Vec3& p, double height, double row) const {
+// Triangles between two chords lean, or turn over, by the sagittas of the chords over the gap.
+bool RowObstacles::is_clear(const Column& column, const Obstacle& obstacle, const Vec3& p, double height, double row,
+                            double sagitta) const {
+  const double upright = std::max(sagitta, obstacle.sagitta);
   const Vec3 nearest = nearest_on(obstacle, p);
   const double distance = norm(nearest - p);
   if (!(obstacle.total > 0)) {
     if (nearest == face_.xyz(column.base)) return true;
-    return distance >= wall_clearance * row;
+    return distance >= std::max(wall_clearance * row, upright);
   }
   const Vec3 plain_up = RowFace::unit(column.up - dot(column.up, column.along) * column.along);
   const Vec3& base = face_.xyz(column.base);
   // The base is not behind the edge: the other side of an inner curve does not count.
   const bool faces = dot(obstacle.up, plain_up) < facing_cosine && dot(nearest - base, plain_up) > min_ahead * height &&
                      dot(base - obstacle.a, obstacle.up) > 0;
-  return distance >= (faces ? std::min(height, obstacle.total) + row : min_clearance * height);
+  return distance >= (faces ? std::min(height, obstacle.total) + std::max(row, upright) : min_clearance * height);
 }
 
 }  // namespace carreau

@@ -31,6 +31,9 @@ inline constexpr double facing_cosine = -0.7;
 /// Share of its height over its own curve by which an edge that faces a vertex lies ahead of the curve: the other side of a
 /// sharp edge does not. [LayerRows.AnAerofoilHasAFanAtItsTrailingEdge]
 inline constexpr double min_ahead = 0.1;
+/// Least cosine between the normals of halves of cells and of the surface: one of triangles that stand upright is below.
+/// [LayerRows.RowsOnCoarseFlanksDoNotTurnOver]
+inline constexpr double min_cell_agreement = 0.08;
 /// Share of the edge below that the upper edge of a cell keeps. [LayerRows.RowsThatMeetEnd]
 inline constexpr double min_narrowing = 0.2;
 /// Steps of Newton's method for a vertex of a column, and the errors along and across it that are accepted, as shares of

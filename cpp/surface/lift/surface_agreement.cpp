@@ -100,7 +100,9 @@ SurfaceAgreement measure_agreement(const PatchInput& input, Cad& cad, const std:
   Pieces pieces(input, cad, mesh);
   for (const int t : doubtful) {
     const Vec3 n = normal_of(mesh, static_cast<std::size_t>(t)), m = pieces.over(t).vector;
-    if (!(dot(n, m) >= min_agreement * norm(n) * norm(m))) ++agreement.turned;
+    if (dot(n, m) >= min_agreement * norm(n) * norm(m)) continue;
+    ++agreement.turned;
+    agreement.turned_triangles.push_back(t);
   }
   if (!(excess_by_corners(mesh) > notable_area)) return agreement;
   double area = 0, of_surface = 0;

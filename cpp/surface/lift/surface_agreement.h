@@ -14,6 +14,7 @@ namespace carreau {
 struct SurfaceAgreement {
   /// Triangles that turn their backs on the surface they stand for, or stand upright on it.
   std::int64_t turned = 0;
+  std::vector<int> turned_triangles = {};  ///< their numbers
   /// Area of the mesh over the area of the surface, less 1. Chords make a mesh smaller. It is larger where long edges
   /// leave the surface by as much as their neighbours are away. Triangles then stand on it like scales (Schwarz's
   /// lantern). 0 if it is small, or normals are not known.

@@ -111,7 +111,7 @@ def numbers_of(references, part, prefix):
 
 def add_analysis_groups(mesh, content, by_face, by_solid, part, members):
     """Adds the groups by which FreeCAD's solvers find nodes, faces and volumes of constraints and materials exactly: NAME_Nodes, NAME_Faces,
-    NAME_Volumes. Others are found by their places."""
+    NAME_Volumes. Others are found by their places. A group with the label of the object is for other solvers."""
     for each in members:
         references = getattr(each, "References", None)
         if not references:
@@ -121,10 +121,12 @@ def add_analysis_groups(mesh, content, by_face, by_solid, part, members):
             elements = [element for face in faces for element in by_face.get(face, [])]
             nodes = sorted({node for element in elements for node in content.triangles[element - 1]})
             mesh.addGroupElements(mesh.addGroup(f"{each.Name}_Nodes", "Node"), nodes)
-            mesh.addGroupElements(mesh.addGroup(f"{each.Name}_Faces", "Face"), elements)
+            for name in (f"{each.Name}_Faces", each.Label):
+                mesh.addGroupElements(mesh.addGroup(name, "Face"), elements)
         elif solids:
             elements = [element for solid in solids for element in by_solid.get(solid, [])]
-            mesh.addGroupElements(mesh.addGroup(f"{each.Name}_Volumes", "Volume"), elements)
+            for name in (f"{each.Name}_Volumes", each.Label):
+                mesh.addGroupElements(mesh.addGroup(name, "Volume"), elements)
 
 
 def mesh_shape(shape, settings, progress=None, part=None, members=()):
