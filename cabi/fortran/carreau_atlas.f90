@@ -19,7 +19,8 @@ module carreau_atlas
   public :: carreau_atlas_points, carreau_add_atlas
 
   integer(c_int32_t), parameter, public :: CARREAU_LOOP_EVEN = 0, CARREAU_LOOP_SMOOTH = 1
-  integer(c_int32_t), parameter, public :: CARREAU_BORDER_SPLINE = 0, CARREAU_BORDER_CUBIC = 1, CARREAU_BORDER_POLYGON = 2
+  integer(c_int32_t), parameter, public :: CARREAU_BORDER_SPLINE = 0, CARREAU_BORDER_CUBIC = 1, CARREAU_BORDER_POLYGON = 2, &
+    CARREAU_BORDER_OUTER_SPLINE = 3, CARREAU_BORDER_OUTER_CUBIC = 4
   integer(c_int32_t), parameter, public :: CARREAU_ZONE_OUTSIDE = 0, CARREAU_ZONE_ANNULUS = 1, CARREAU_ZONE_INSIDE = 2
 
   type, public :: carreau_loop

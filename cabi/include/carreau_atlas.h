@@ -55,11 +55,14 @@ CARREAU_API carreau_status carreau_loop_pivots(carreau_loop* loop, int64_t capac
 /* Holds the annulus between two polygons with its parameters. */
 typedef struct carreau_annulus carreau_annulus;
 
-/* The outer border, as a multiple of the inner one about each pivot. */
+/* The border that follows from the other one, as a multiple of it about each pivot. The inner border is rounded, and the outer one follows,
+ * unless the name has OUTER: then the outer border is rounded, more is covered, and the inner border is less like the given one. */
 enum {
-  CARREAU_BORDER_SPLINE = 0,  /* a cubic between two vertices: C1, and inside the polygons */
-  CARREAU_BORDER_CUBIC = 1,   /* one cubic a pivot: C1, simpler, covers less */
-  CARREAU_BORDER_POLYGON = 2  /* the polygons themselves: C0 only */
+  CARREAU_BORDER_SPLINE = 0,       /* a cubic between two vertices: C1, and inside the polygons */
+  CARREAU_BORDER_CUBIC = 1,        /* one cubic a pivot: C1, simpler, covers less */
+  CARREAU_BORDER_POLYGON = 2,      /* the polygons themselves: C0 only */
+  CARREAU_BORDER_OUTER_SPLINE = 3, /* as SPLINE, from the outer border */
+  CARREAU_BORDER_OUTER_CUBIC = 4   /* as CUBIC, from the outer border */
 };
 
 /* Zones of a point. */
@@ -115,7 +118,7 @@ typedef struct carreau_atlas carreau_atlas;
 /* Zeros in all members but struct_size are the defaults; NULL in place of the struct is the same. */
 typedef struct carreau_atlas_options {
   size_t struct_size;
-  int32_t border; /* CARREAU_BORDER_SPLINE or CARREAU_BORDER_CUBIC */
+  int32_t border; /* CARREAU_BORDER_..., not POLYGON */
   int32_t reach;  /* of clusters that the library makes, in edges: 1 (0 is the same) for the smallest, 2, 3 for larger ones */
 } carreau_atlas_options;
 

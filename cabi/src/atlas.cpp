@@ -75,16 +75,20 @@ void put_all(const Polygon& points, std::int64_t capacity, double* out, std::int
   for (std::size_t k = 0; k < points.size(); ++k) put(points[k], out, k);
 }
 
+bool begins_outside(std::int32_t border) { return border == CARREAU_BORDER_OUTER_SPLINE || border == CARREAU_BORDER_OUTER_CUBIC; }
+
 OuterBorder border_of(std::int32_t given) {
   switch (given) {
     case CARREAU_BORDER_SPLINE:
+    case CARREAU_BORDER_OUTER_SPLINE:
       return OuterBorder::spline;
     case CARREAU_BORDER_CUBIC:
+    case CARREAU_BORDER_OUTER_CUBIC:
       return OuterBorder::cubic;
     case CARREAU_BORDER_POLYGON:
       return OuterBorder::polygon;
     default:
-      throw InvalidArgument("the border of an annulus is " + std::to_string(given) + "; it must be 0, 1 or 2");
+      throw InvalidArgument("the border of an annulus is " + std::to_string(given) + "; it must be from 0 to 4");
   }
 }
 
@@ -197,7 +201,7 @@ carreau_status carreau_annulus_build(carreau_annulus* annulus, int64_t n, const 
   return guarded(annulus, [&] {
     annulus->content = std::make_shared<carreau::atlas::Annulus>(
         polygon_of(n, inner_xy, "inner_xy"), polygon_of(m, outer_xy, "outer_xy"),
-        carreau::atlas::AnnulusOptions{.border = border_of(border), .star = star != 0, .phi = {}});
+        carreau::atlas::AnnulusOptions{.border = border_of(border), .outer_first = begins_outside(border), .star = star != 0, .phi = {}});
   });
 }
 
@@ -272,9 +276,9 @@ carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_opt
     carreau::atlas::CoveringOptions known;
     if (options != nullptr) {
       const carreau_atlas_options given = read_struct(options, "carreau_atlas_options");
-      known.border = border_of(given.border);
+      known.border = border_of(given.border), known.outer_first = begins_outside(given.border);
       if (known.border == OuterBorder::polygon)
-        throw InvalidArgument("the borders of an atlas must be smooth: CARREAU_BORDER_SPLINE or CARREAU_BORDER_CUBIC");
+        throw InvalidArgument("the borders of an atlas must be smooth; CARREAU_BORDER_POLYGON is not");
       if (given.reach != 0) known.hops = given.reach;
     }
     const auto surface = triangulation_of(n, xyz, m, triangles);

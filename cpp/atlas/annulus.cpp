@@ -33,7 +33,8 @@ Annulus::Annulus(Polygon inner, Polygon outer, AnnulusOptions options)
   chosen_ = choose_pivots(inner_, &outer_, options.star);
   parts_ = make_parts(inner_, chosen_.pivots, options.phi, period_);
   std::vector<OuterPieces> pieces = outer_pieces(inner_, outer_, parts_);
-  described_ = polygon_of(parts_, pieces);
+  const bool outer_first = options.outer_first && options.border != OuterBorder::polygon;
+  described_ = outer_first ? begin_outside(parts_, pieces) : polygon_of(parts_, pieces);
   smooth_borders(parts_, std::move(pieces), options.border);
   if (options.border != OuterBorder::polygon) make_smooth(parts_);
   for (const Part& part : parts_) chain_.push_back(part.pivot);
@@ -47,8 +48,7 @@ std::size_t Annulus::part_around(const Vec2& p) const {
     const Pair<double> polar = part.polar(pair_of(p));
     const double off = std::max({0.0, -polar[0], polar[0] - part.total()});
     if (off >= least) continue;
-    const double rho = part.inner_radius(polar[0]);
-    const double tau = (polar[1] - rho) / ((part.ratio_at(polar[0]) - 1) * rho);
+    const double tau = part.stratum(polar[1], polar[0]);
     const double outside = std::max({off, -tau, tau - 1});
     if (outside < least) least = outside, best = n;
     if (least <= 0) break;
@@ -61,7 +61,7 @@ bool Annulus::encloses(const Vec2& p) const {
   for (const Part& part : parts_) {
     if ((part.side > 0) == in_chain) continue;
     const Pair<double> polar = part.polar(pair_of(p));
-    if (polar[0] >= 0 && polar[0] <= part.total() && polar[1] < part.inner_radius(polar[0])) return part.side > 0;
+    if (polar[0] >= 0 && polar[0] <= part.total() && polar[1] < part.radius(0.0, polar[0])) return part.side > 0;
   }
   return in_chain;
 }

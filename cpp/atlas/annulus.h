@@ -12,6 +12,8 @@ namespace carreau::atlas {
 
 struct AnnulusOptions {
   OuterBorder border = OuterBorder::spline;
+  /// The outer border is rounded, and the inner one follows by b (end of Atlas sec. 5.4.4): covers more, less like the given inner border.
+  bool outer_first = false;
   bool star = false;  ///< one pivot where the inner border is star-shaped
   /// At vertices of the inner border: increasing, the first one again after `period`. Empty: by lengths.
   std::vector<double> phi = {};
@@ -65,7 +67,7 @@ Pair<Number> Annulus::at(const Number& tau, const Number& phi) const {
   const Part& part = parts_[part_of(parts_, period_, x)];
   const Number moved = phi + (x - value_of(phi));
   const Number angle = hermite(part.angle_data(interval_of(part.phi, x), tau), moved);
-  const Number r = ((1.0 - tau) + tau * part.ratio_at(angle)) * part.inner_radius(angle);
+  const Number r = part.radius(tau, angle);
   const Pair<Number> u = part.direction(angle);
   return {part.pivot.x() + r * u[0], part.pivot.y() + r * u[1]};
 }
@@ -76,8 +78,7 @@ std::optional<Strata<Number>> Annulus::find(const Pair<Number>& p) const {
   if (n == parts_.size()) return {};
   const Part& part = parts_[n];
   const Pair<Number> polar = part.polar(p);
-  const Number rho = part.inner_radius(polar[0]);
-  const Number tau = (polar[1] - rho) / ((part.ratio_at(polar[0]) - 1.0) * rho);  // Atlas eq. 5.9
+  const Number tau = part.stratum(polar[1], polar[0]);
   const std::size_t k = interval_of(part.angle, value_of(polar[0]));
   return Strata<Number>{tau, Number(hermite_inverse(part.angle_data(k, tau), polar[0]))};
 }

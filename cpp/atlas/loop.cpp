@@ -30,7 +30,7 @@ Loop::Place Loop::at(double phi) const {
   const Jet x(phi, 1, 0);
   const Jet angle = hermite(part.angle_data(interval_of(part.phi, phi), Jet(0.0)), x);
   const Pair<Jet> u = part.direction(angle);
-  const Jet rho = part.inner_radius(angle);
+  const Jet rho = part.base_radius(angle);
   return {part.pivot + Vec2((rho * u[0]).f, (rho * u[1]).f), {(rho * u[0]).u, (rho * u[1]).u}};
 }
 
@@ -39,7 +39,7 @@ double Loop::phi_of(const Vec2& p, double tolerance) const {
   for (const Part& part : parts_) {
     const Pair<double> polar = part.polar(pair_of(p));
     const double angle = std::clamp(polar[0], 0.0, part.total());
-    const double distance = std::abs(polar[1] - part.inner_radius(angle)) + polar[1] * std::abs(angle - polar[0]);
+    const double distance = std::abs(polar[1] - part.base_radius(angle)) + polar[1] * std::abs(angle - polar[0]);
     if (!(distance < best)) continue;
     best = distance;
     phi = hermite_inverse(part.angle_data(interval_of(part.angle, angle), 0.0), angle);

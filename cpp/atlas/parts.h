@@ -35,6 +35,7 @@ struct Part {
   std::vector<Rounding> rounding = {};     ///< of each knot; empty: none
   std::vector<double> ratio_angle = {};    ///< knots of b, which is outer radius by inner radius; empty: a loop only
   std::vector<double> ratio = {};          ///< its values: cubics with zero slopes between them
+  bool outer_first = false;                ///< lines and roundings are the outer border, and b is inner radius by outer radius
   std::vector<Vec2> outer_line = {};  ///< in place of the values, the outer border is straight pieces; empty: it is not
 
   [[nodiscard]] double total() const { return angle.back(); }
@@ -43,10 +44,18 @@ struct Part {
   /// Angle and distance of a point.
   template <typename Number>
   [[nodiscard]] Pair<Number> polar(const Pair<Number>& p) const;
+  /// Radius of the border that lines and roundings describe: of the inner one, unless outer_first.
   template <typename Number>
-  [[nodiscard]] Number inner_radius(const Number& at) const;
+  [[nodiscard]] Number base_radius(const Number& at) const;
   template <typename Number>
   [[nodiscard]] Number ratio_at(const Number& at) const;
+  /// Radius in the stratum tau, and the stratum of a radius.
+  template <typename Number>
+  [[nodiscard]] Number radius(const Number& tau, const Number& at) const;
+  template <typename Number>
+  [[nodiscard]] Number stratum(const Number& radius, const Number& at) const;
+  /// +1: from the base the other border lies away from the pivot; -1: towards it.
+  [[nodiscard]] double sense() const { return outer_first ? -side : side; }
   /// Angle as a function of phi on the knots from k to k + 1, in the stratum tau.
   template <typename Number>
   [[nodiscard]] HermiteData<Number> angle_data(std::size_t k, const Number& tau) const;
@@ -91,7 +100,7 @@ Pair<Number> Part::polar(const Pair<Number>& p) const {
 }
 
 template <typename Number>
-Number Part::inner_radius(const Number& at) const {
+Number Part::base_radius(const Number& at) const {
   using std::cos, std::sin;
   const double x = value_of(at);
   const std::size_t k = interval_of(angle, x);
@@ -122,9 +131,23 @@ Number Part::ratio_at(const Number& at) const {
 }
 
 template <typename Number>
+Number Part::radius(const Number& tau, const Number& at) const {
+  const Number share = outer_first ? 1.0 - tau : tau;
+  return ((1.0 - share) + share * ratio_at(at)) * base_radius(at);
+}
+
+template <typename Number>
+Number Part::stratum(const Number& radius, const Number& at) const {
+  const Number rho = base_radius(at);
+  const Number share = (radius - rho) / ((ratio_at(at) - 1.0) * rho);  // Atlas eq. 5.9
+  return outer_first ? 1.0 - share : share;
+}
+
+template <typename Number>
 HermiteData<Number> Part::angle_data(std::size_t k, const Number& tau) const {
+  const Number share = outer_first ? 1.0 - tau : tau;
   const auto at_joint = [&](double speed, std::size_t edge, double at, double b) {
-    return speed / (radius_on(line[edge], at) * ((1.0 - tau) + tau * b));
+    return speed / (radius_on(line[edge], at) * ((1.0 - share) + share * b));
   };
   const std::size_t last = angle.size() - 2;
   const double even = (angle[k + 1] - angle[k]) / (phi[k + 1] - phi[k]);

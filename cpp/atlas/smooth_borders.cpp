@@ -89,7 +89,7 @@ class PartBorders {
     return 1 + thresholds::used_room * (b - 1);
   }
 
-  [[nodiscard]] double nearer(double a, double b) const { return part_.side > 0 ? std::min(a, b) : std::max(a, b); }
+  [[nodiscard]] double nearer(double a, double b) const { return part_.sense() > 0 ? std::min(a, b) : std::max(a, b); }
 
  private:
   [[nodiscard]] double outer(std::size_t k, double at) const { return radius_on(pieces_.line(k), at); }
@@ -102,10 +102,15 @@ class PartBorders {
   [[nodiscard]] Rounding arc(std::size_t k, double share) const {
     Rounding r;
     r.at = part_.angle[k];
-    r.first = r.at - share * (r.at - part_.angle[k - 1]), r.last = r.at + share * (part_.angle[k + 1] - r.at);
+    double before_it = share * (r.at - part_.angle[k - 1]), behind_it = share * (part_.angle[k + 1] - r.at);
+    if (part_.outer_first) {  // vertices of both borders can be seen in nearly one direction
+      before_it = std::min(before_it, thresholds::most_uneven_arc * behind_it);
+      behind_it = std::min(behind_it, thresholds::most_uneven_arc * before_it);
+    }
+    r.first = r.at - before_it, r.last = r.at + behind_it;
     const Vec2 &before = part_.line[k - 1], &after = part_.line[k];
     const double radii[] = {radius_on(before, r.first), radius_on(before, r.at), radius_on(after, r.last)};
-    if (part_.side > 0) {
+    if (part_.sense() > 0) {
       r.radius = *std::max_element(std::begin(radii), std::end(radii));
     } else {
       r.radius = *std::min_element(std::begin(radii), std::end(radii));
@@ -118,7 +123,7 @@ class PartBorders {
 
   /// Half of the width between the polygons must remain around a vertex.
   [[nodiscard]] bool leaves_room(const Rounding& r) const {
-    double polygonal = part_.side > 0 ? std::numeric_limits<double>::infinity() : 0, rounded = polygonal;
+    double polygonal = part_.sense() > 0 ? std::numeric_limits<double>::infinity() : 0, rounded = polygonal;
     for (std::size_t k = 0; k + 1 < pieces_.angle.size(); ++k) {
       const double a = std::max(pieces_.angle[k], r.first), z = std::min(pieces_.angle[k + 1], r.last);
       if (a >= z) continue;
@@ -127,7 +132,7 @@ class PartBorders {
         rounded = nearer(rounded, outer(k, at) / r.radius);
       }
     }
-    return (rounded - 1) * part_.side >= (polygonal - 1) * part_.side / 2;
+    return (rounded - 1) * part_.sense() >= (polygonal - 1) * part_.sense() / 2;
   }
 
   Part& part_;
@@ -140,36 +145,36 @@ void agree_at_joints(std::vector<Part>& parts) {
     Part &p = parts[n], &next = parts[next_of(n, parts.size())];
     const double rho = radius_on(p.line.back(), p.total()), rho_next = radius_on(next.line.front(), 0);
     const double width = std::min(std::abs(p.ratio.back() - 1) * rho, std::abs(next.ratio.front() - 1) * rho_next);
-    p.ratio.back() = 1 + p.side * width / rho, next.ratio.front() = 1 + next.side * width / rho_next;
+    p.ratio.back() = 1 + p.sense() * width / rho, next.ratio.front() = 1 + next.sense() * width / rho_next;
   }
 }
 
 /// Widths beside one another may differ by at most the steepest slope: otherwise the room is reduced.
-bool level(Part& part) {
+bool level(Part& part, double steepest) {
   bool any = false;
   const auto lower = [&](std::size_t k, std::size_t beside) {
     const double most = std::abs(part.ratio[beside] - 1) +
-                        thresholds::steepest_ratio * std::abs(part.ratio_angle[k] - part.ratio_angle[beside]);
+                        steepest * std::abs(part.ratio_angle[k] - part.ratio_angle[beside]);
     if (!(std::abs(part.ratio[k] - 1) > most)) return;
-    part.ratio[k] = 1 + part.side * most, any = true;
+    part.ratio[k] = 1 + part.sense() * most, any = true;
   };
   for (std::size_t k = 1; k < part.ratio.size(); ++k) lower(k, k - 1);
   for (std::size_t k = part.ratio.size() - 1; k-- > 0;) lower(k, k + 1);
   return any;
 }
 
+}  // namespace
+
 /// Lowering at joints goes round at most once.
-void limit_slopes(std::vector<Part>& parts) {
+void limit_slopes(std::vector<Part>& parts, double steepest) {
   agree_at_joints(parts);
   for (std::size_t round = 0; round <= parts.size(); ++round) {
     bool any = false;
-    for (Part& part : parts) any = level(part) || any;
+    for (Part& part : parts) any = level(part, steepest) || any;
     if (!any) return;
     agree_at_joints(parts);
   }
 }
-
-}  // namespace
 
 void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, OuterBorder kind) {
   for (std::size_t n = 0; n < parts.size(); ++n) {
@@ -198,7 +203,7 @@ void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, O
     for (std::size_t k = 1; k < count; ++k) part.ratio.push_back(borders.nearer(bound[k - 1], bound[k]));
     part.ratio.push_back(bound.back());
   }
-  if (kind != OuterBorder::polygon) limit_slopes(parts);
+  if (kind != OuterBorder::polygon) limit_slopes(parts, thresholds::steepest_ratio);
 }
 
 }  // namespace carreau::atlas

@@ -9,9 +9,20 @@ namespace carreau::atlas::thresholds {
 /// sec. 5.4.2). It is halved where the arc would leave the annulus.
 inline constexpr double rounded_share = 1.0 / 3;
 
+/// Change by radian of the outer border over the inner one, before it is rounded: the arc at the end of a steeper edge is a step. From 2 the
+/// hook of fig. 5.28 is covered less than from inside.
+inline constexpr double steepest_outer = 5;
+
+/// Ratio of both sides of an arc on an outer border: an arc that is much wider on one side is a step on the other one.
+inline constexpr double most_uneven_arc = 4;
+
 /// The smooth outer border keeps this share of the room of the polygonal border, so that rounding does not put it
 /// outside. One thousandth is far above the rounding errors, and invisible.
 inline constexpr double used_room = 0.999;
+
+/// A smooth outer border from which the inner one follows keeps this share of the room at joints, so that its edge there can be parallel to
+/// the inner border.
+inline constexpr double room_at_joints = 0.9;
 
 /// An outer border comes no nearer to a pivot outside than this share of the inner border's distance. Otherwise angles
 /// lose their meaning there, and derivatives grow as the inverse of the distance.

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The three annuli of Atlas fig. 5.26 to 5.28: pictures of the lines of both parameters, the pivots and the pseudo-skeleton, and
- * the parameters themselves as OpenEXR files.
+ * the parameters themselves as OpenEXR files. Zones of a chart by four kinds of borders, and a transition (fig. 5.22 and 5.23).
  *
- *   c_annuli [FOLDER]        writes squares.png, squares.exr, hexagons.png, ... and prints how much of each annulus is covered
+ *   c_annuli [FOLDER]        writes squares.png, squares.exr, hexagons.png, ..., zones.png and transition.png, and prints how much
+ *                            of each annulus is covered
  */
 #include <carreau_atlas.h>
 #include <math.h>
@@ -26,6 +27,9 @@ static const figure figures[] = {
     {"hook", 10, 10,
      {0, 0, 6, 0, 6, 5, 3.4, 5, 3.4, 4, 5, 4, 5, 1, 1, 1, 1, 6, 0, 6},
      {-.6, -.6, 6.6, -.6, 6.6, 5.6, 2.8, 5.6, 2.8, 3.4, 4.4, 3.4, 4.4, 1.6, 1.6, 1.6, 1.6, 6.6, -.6, 6.6}}};
+
+enum { KINDS = 4 };
+static const int32_t kinds[KINDS] = {CARREAU_BORDER_SPLINE, CARREAU_BORDER_CUBIC, CARREAU_BORDER_OUTER_SPLINE, CARREAU_BORDER_OUTER_CUBIC};
 
 static unsigned char image[SIZE][SIZE][3];
 
@@ -146,8 +150,9 @@ static int draw(const figure* f, const char* folder) {
   char path[1024];
   carreau_annulus* annulus;
   if (carreau_annulus_create(&annulus) != CARREAU_OK) return 1;
-  carreau_annulus_build(annulus, f->n, f->inner, f->m, f->outer, CARREAU_BORDER_CUBIC, 0);
-  const double simple = covered(annulus, f);
+  double share[KINDS];
+  for (int k = 0; k < KINDS; ++k)
+    if (carreau_annulus_build(annulus, f->n, f->inner, f->m, f->outer, kinds[k], 0) == CARREAU_OK) share[k] = covered(annulus, f);
   if (carreau_annulus_build(annulus, f->n, f->inner, f->m, f->outer, CARREAU_BORDER_SPLINE, 0) != CARREAU_OK)
     return fprintf(stderr, "%s\n", carreau_annulus_last_error(annulus)), 1;
   carreau_annulus_pivots(annulus, MOST, pivots, &count), carreau_annulus_skeleton(annulus, MOST, skeleton, &edges);
@@ -170,13 +175,122 @@ static int draw(const figure* f, const char* folder) {
   if (write_png(path) != 0) return fprintf(stderr, "%s cannot be written\n", path), 1;
   snprintf(path, sizeof path, "%s/%s.exr", folder, f->name);
   if (carreau_annulus_write_exr(annulus, path, SIZE) != CARREAU_OK) fprintf(stderr, "%s\n", carreau_annulus_last_error(annulus)); /* no OpenEXR */
-  printf("%-9s %2d pivots; covered by splines %.3f, by one cubic a pivot %.3f\n", f->name, (int)count, covered(annulus, f), simple);
+  printf("%-9s %2d pivots; covered by splines %.3f, by one cubic a pivot %.3f; from the outer border %.3f, %.3f\n", f->name, (int)count,
+         share[0], share[1], share[2], share[3]);
   carreau_annulus_free(annulus);
+  return 0;
+}
+
+/* ---- An atlas of a torus: chart 0, and its neighbour by the most places ---- */
+
+enum { ROWS = 36, COLUMNS = 18, HALF = SIZE / 2 };
+
+static carreau_status torus(carreau_atlas* atlas, int32_t border) {
+  static double xyz[3 * ROWS * COLUMNS];
+  static int32_t triangles[6 * ROWS * COLUMNS];
+  const double turn = 2 * acos(-1.);
+  for (int i = 0; i < ROWS; ++i)
+    for (int j = 0; j < COLUMNS; ++j) {
+      const double a = turn * i / ROWS, b = turn * (j + .5 * (i % 2)) / COLUMNS, r = 2 + .8 * cos(b);
+      const int v = i * COLUMNS + j, odd = i % 2, next = (i + 1) % ROWS * COLUMNS;
+      xyz[3 * v] = r * cos(a), xyz[3 * v + 1] = r * sin(a), xyz[3 * v + 2] = .8 * sin(b);
+      const int32_t right = next + (j + odd) % COLUMNS, left = next + (j + odd + COLUMNS - 1) % COLUMNS, up = i * COLUMNS + (j + 1) % COLUMNS;
+      const int32_t both[6] = {v, right, up, v, left, right};
+      for (int k = 0; k < 6; ++k) triangles[6 * v + k] = both[k];
+    }
+  const carreau_atlas_options options = {.struct_size = sizeof options, .border = border};
+  return carreau_atlas_build(atlas, &options, ROWS * COLUMNS, xyz, 2 * ROWS * COLUMNS, triangles, NULL);
+}
+
+/* Puts the box of a chart's annulus into a square of pixels. */
+static void frame_chart(carreau_atlas* atlas, int64_t chart) {
+  enum { N = 400 };
+  double places[2 * N], xy[2 * N], high[2];
+  carreau_atlas_chart info = {.struct_size = sizeof info};
+  carreau_atlas_chart_info(atlas, chart, &info);
+  for (int k = 0; k < N; ++k) places[2 * k] = 1, places[2 * k + 1] = info.period * k / N;
+  carreau_atlas_annulus_points(atlas, chart, N, places, xy);
+  for (int c = 0; c < 2; ++c) {
+    low[c] = high[c] = xy[c];
+    for (int k = 0; k < N; ++k) low[c] = fmin(low[c], xy[2 * k + c]), high[c] = fmax(high[c], xy[2 * k + c]);
+  }
+  const double width = 1.06 * fmax(high[0] - low[0], high[1] - low[1]);
+  scale = HALF / width;
+  for (int c = 0; c < 2; ++c) low[c] = (low[c] + high[c] - width) / 2;
+}
+
+static void pixels_of(double* xy) {
+  for (int j = 0; j < HALF; ++j)
+    for (int i = 0; i < HALF; ++i) xy[2 * (j * HALF + i)] = low[0] + (i + .5) / scale, xy[2 * (j * HALF + i) + 1] = low[1] + (HALF - j - .5) / scale;
+}
+
+static void colour(int left, int top, int pixel, int r, int g, int b) {
+  unsigned char* at = image[top + pixel / HALF][left + pixel % HALF];
+  at[0] = (unsigned char)r, at[1] = (unsigned char)g, at[2] = (unsigned char)b;
+}
+
+static double xy[2 * HALF * HALF], other[2 * HALF * HALF];
+static int32_t zones[HALF * HALF], found[HALF * HALF], sharing[HALF * HALF];
+
+/* Pure, double and triple zones of chart 0. Returns the neighbour with the most common places. */
+static int64_t draw_zones(carreau_atlas* atlas, int left, int top) {
+  carreau_atlas_counts counts = {.struct_size = sizeof counts};
+  carreau_atlas_count(atlas, &counts);
+  frame_chart(atlas, 0), pixels_of(xy);
+  carreau_atlas_zones(atlas, 0, HALF * HALF, xy, zones, NULL);
+  for (int k = 0; k < HALF * HALF; ++k) sharing[k] = 0;
+  int64_t neighbour = 1;
+  int most = 0;
+  for (int64_t j = 1; j < counts.charts; ++j) {
+    int common = 0;
+    carreau_atlas_transition(atlas, 0, j, HALF * HALF, xy, other, found);
+    for (int k = 0; k < HALF * HALF; ++k) common += found[k], sharing[k] += found[k];
+    if (common > most) most = common, neighbour = j;
+  }
+  for (int k = 0; k < HALF * HALF; ++k) {
+    const int grey = zones[k] == CARREAU_ZONE_OUTSIDE ? 255 : (zones[k] == CARREAU_ZONE_INSIDE ? 225 : (sharing[k] > 1 ? 90 : 165));
+    colour(left, top, k, grey, grey, zones[k] == CARREAU_ZONE_OUTSIDE ? 255 : grey + 20);
+  }
+  return neighbour;
+}
+
+/* The part of chart i that it shares with chart j, with lines of chart 0's coordinates. */
+static void draw_shared(carreau_atlas* atlas, int64_t i, int64_t j, double step, int left, int top) {
+  frame_chart(atlas, i), pixels_of(xy);
+  carreau_atlas_zones(atlas, i, HALF * HALF, xy, zones, NULL);
+  carreau_atlas_transition(atlas, i, j, HALF * HALF, xy, other, found);
+  for (int k = 0; k < HALF * HALF; ++k) {
+    const double* own = i == 0 ? xy + 2 * k : other + 2 * k;
+    const int dark = ((int)floor(own[0] / step) + (int)floor(own[1] / step)) & 1;
+    const int grey = zones[k] == CARREAU_ZONE_OUTSIDE ? 255 : 230;
+    if (found[k]) colour(left, top, k, dark ? 40 : 120, dark ? 90 : 160, 210);
+    else colour(left, top, k, grey, grey, grey);
+  }
+}
+
+static int draw_atlas(const char* folder) {
+  char path[1024];
+  carreau_atlas* atlas;
+  if (carreau_atlas_create(&atlas) != CARREAU_OK) return 1;
+  int64_t neighbour = 1;
+  for (int k = KINDS - 1; k >= 0; --k) {
+    if (torus(atlas, kinds[k]) != CARREAU_OK) return fprintf(stderr, "%s\n", carreau_atlas_last_error(atlas)), 1;
+    neighbour = draw_zones(atlas, k % 2 * HALF, k / 2 * HALF);
+  }
+  snprintf(path, sizeof path, "%s/zones.png", folder);
+  if (write_png(path) != 0) return fprintf(stderr, "%s cannot be written\n", path), 1;
+  for (int j = 0; j < SIZE; ++j)
+    for (int i = 0; i < 3 * SIZE; ++i) image[j][i / 3][i % 3] = 255;
+  const double step = 12 / scale;
+  draw_shared(atlas, 0, neighbour, step, 0, HALF / 2), draw_shared(atlas, neighbour, 0, step, HALF, HALF / 2);
+  snprintf(path, sizeof path, "%s/transition.png", folder);
+  if (write_png(path) != 0) return fprintf(stderr, "%s cannot be written\n", path), 1;
+  carreau_atlas_free(atlas);
   return 0;
 }
 
 int main(int argc, char** argv) {
   for (size_t k = 0; k < sizeof figures / sizeof *figures; ++k)
     if (draw(&figures[k], argc > 1 ? argv[1] : ".") != 0) return 1;
-  return 0;
+  return draw_atlas(argc > 1 ? argv[1] : ".");
 }

@@ -15,7 +15,8 @@ from ._library import lib
 from .errors import ArgumentError
 
 Reals = NDArray[np.float64]
-BORDERS = {"spline": c.BORDER_SPLINE, "cubic": c.BORDER_CUBIC, "polygon": c.BORDER_POLYGON}
+BORDERS = {"spline": c.BORDER_SPLINE, "cubic": c.BORDER_CUBIC, "polygon": c.BORDER_POLYGON,
+           "outer-spline": c.BORDER_OUTER_SPLINE, "outer-cubic": c.BORDER_OUTER_CUBIC}
 
 
 class _Handle:

@@ -162,8 +162,8 @@ void add_atlas_options(CLI::App* app, AtlasChoice& choice) {
   app->add_option("--reach", choice.reach, "Edges of an atlas' clusters from their middles: 1 (default), 2 or 3")
       ->check(CLI::Range(1, 3))
       ->type_name(kind::number);
-  app->add_option("--border", choice.border, "Outer borders of an atlas' charts: spline (default) or cubic, which covers less")
-      ->check(CLI::IsMember({"spline", "cubic"}));
+  app->add_option("--border", choice.border, "Borders of an atlas' charts: spline (default), cubic, outer-spline, outer-cubic")
+      ->check(CLI::IsMember({"spline", "cubic", "outer-spline", "outer-cubic"}));
 }
 
 void add_grid_options(CLI::App* app, GridChoice& choice) {

@@ -80,6 +80,7 @@ void Covering::build(const Partition& partition, const CoveringOptions& options)
     set_phi(surface_, ring);
     RingChart chart = chart_of_ring(surface_, frame, ring);
     AnnulusOptions annulus{.border = options.border,
+                           .outer_first = options.outer_first,
                            .star = true,
                            .phi = std::move(chart.phi),
                            .period = sixth_turn * static_cast<double>(corners.size())};

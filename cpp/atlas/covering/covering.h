@@ -39,6 +39,7 @@ enum class Zone { pure, shared, outside };
 struct CoveringOptions {
   int hops = 1;  ///< about how many edges a cluster reaches from its middle
   OuterBorder border = OuterBorder::spline;
+  bool outer_first = false;  ///< see AnnulusOptions
 };
 
 class Covering {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/blended_surface.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -28,14 +27,14 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
     primitives_.push_back(primitive_of(coarse_heights(covering_, chart), chart.frame));
   }
   const std::vector<Primitive> before = primitives_;
-  is_moved_.assign(before.size(), false);
   std::string fold;
   for (int parts = thresholds::grid_of_t; parts <= thresholds::finest_grid_of_t; parts *= 2) {
     const FoldReport report = mend_folds(covering_, heights_, primitives_, parts);
     if (parts == thresholds::grid_of_t) folds_ = report;
     folds_.folded_after = report.folded_after;
-    for (std::size_t i = 0; i < before.size(); ++i) is_moved_[i] = before[i].coefficient != primitives_[i].coefficient;
-    folds_.mended_charts = static_cast<std::size_t>(std::count(is_moved_.begin(), is_moved_.end(), true));
+    folds_.mended_charts = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      folds_.mended_charts += before[i].coefficient != primitives_[i].coefficient ? 1 : 0;
     fold = find_fold(*this);
     if (fold.empty()) return;
     if (report.folded_after > 0) break;  // a finer grid sees more folds, not fewer
@@ -44,8 +43,10 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
 }
 
 template <typename Number>
-std::array<Number, 3> BlendedSurface::onto(const std::vector<std::int32_t>& vertices, const std::array<Number, 3>& x) const {
-  // The heights do not move points of the surface. The first step leaves a share of the distance, and the second a share of that.
+std::array<Number, 3> BlendedSurface::onto(const std::vector<std::int32_t>& vertices,
+                                           const std::array<Number, 3>& x) const {
+  // The heights do not move points of the surface. The first step leaves a share of the distance, and the second a
+  // share of that.
   return heights_.onto(vertices, heights_.onto(vertices, x));
 }
 

@@ -11,9 +11,10 @@
 
 namespace carreau::atlas {
 
-/// S(m) = H(x) at x = sum of alpha_j P_j(phi_ij m): the primitives P_j place m in space, and H moves the place onto the heights of all
-/// charts, which are blended by weights of space. Transitions are not projections: the P_j of a place lie apart on the surface, and x is
-/// below it by the height of their chord. The point does not depend on the chart of m.
+/// S(m) = H(x) at x = sum of alpha_j P_j(phi_ij m): the primitives P_j place m in space, and H moves the place onto the
+/// heights of all vertices, which are blended by weights of space. Transitions are not projections: the P_j of a place
+/// lie apart on the surface, and x is below it by the height of their chord. The point does not depend on the chart of
+/// m.
 class BlendedSurface {
  public:
   explicit BlendedSurface(Covering covering);
@@ -28,8 +29,6 @@ class BlendedSurface {
 
   /// Point and derivatives by the place of a T.
   [[nodiscard]] SurfaceJet at_triple(std::size_t triple, const Vec2& place) const;
-  /// Returns whether the repair of folds moved the primitive of a chart.
-  [[nodiscard]] bool is_moved(std::size_t chart) const { return is_moved_[chart]; }
 
   /// The border of a chart's face: the face holds the points of each T that are nearer to its corner than to the
   /// others. Side k runs from the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is
@@ -47,12 +46,12 @@ class BlendedSurface {
   [[nodiscard]] std::array<Number, 3> placed(std::size_t triple, const Pair<Number>& place, int corner) const;
   /// x on the heights about the vertices around.
   template <typename Number>
-  [[nodiscard]] std::array<Number, 3> onto(const std::vector<std::int32_t>& vertices, const std::array<Number, 3>& x) const;
+  [[nodiscard]] std::array<Number, 3> onto(const std::vector<std::int32_t>& vertices,
+                                           const std::array<Number, 3>& x) const;
 
   Covering covering_;
   HeightBlend heights_;
   std::vector<Primitive> primitives_;
-  std::vector<bool> is_moved_;
   FoldReport folds_;
 };
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/fold_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/atlas/thresholds.h"
 #include "model/format_point.h"
+#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
 
 /// The area of the surface against the normal of planes, and the size of its gradient.
 struct Turn {
+  Vec3 at{0, 0, 0};
   double area = 0, slope = 0;
   /// Returns whether the area is positive at all places this near.
   [[nodiscard]] bool holds(double distance) const { return area > thresholds::fold_safety * slope * distance; }
@@ -19,7 +22,7 @@ struct Turn {
 Turn turn_of(const SurfaceJet& jet, const Vec3& normal) {
   const Vec3 by_u = cross(jet.suu, jet.sv) + cross(jet.su, jet.suv);
   const Vec3 by_v = cross(jet.suv, jet.sv) + cross(jet.su, jet.svv);
-  return {dot(cross(jet.su, jet.sv), normal), std::hypot(dot(by_u, normal), dot(by_v, normal))};
+  return {jet.s, dot(cross(jet.su, jet.sv), normal), std::hypot(dot(by_u, normal), dot(by_v, normal))};
 }
 
 class FoldSearch {
@@ -34,13 +37,13 @@ class FoldSearch {
         look_at_cell(triple, {place(i, j), place(i + 1, j), place(i, j + 1)}, 0);
         if (i + j < n - 1) look_at_cell(triple, {place(i + 1, j + 1), place(i, j + 1), place(i + 1, j)}, 0);
       }
+    for (int corner = 0; corner < 3; ++corner) look_at_strips(triple, corner);
   }
 
-  /// The pure zone of a chart whose primitive is no height field.
   void look_at_pure_zone(std::size_t chart) {
     const Annulus& annulus = surface_.covering().charts()[chart].annulus;
-    Vec2 low = annulus.inner()[0], high = low;
-    for (const Vec2& p : annulus.inner()) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    Vec2 low = annulus.outer()[0], high = low;  // the smooth inner border is not inside the given one
+    for (const Vec2& p : annulus.outer()) low = low.cwiseMin(p), high = high.cwiseMax(p);
     look_at_square(chart, (low + high) / 2, (high - low).maxCoeff() / 2, 0);
   }
 
@@ -50,26 +53,67 @@ class FoldSearch {
  private:
   using Cell = std::array<Vec2, 3>;
 
+  [[nodiscard]] const std::array<std::int32_t, 3>& charts_of(std::size_t triple) const {
+    return surface_.covering().triples()[triple].chart;
+  }
+  [[nodiscard]] const Chart& chart(std::int32_t i) const {
+    return surface_.covering().charts()[static_cast<std::size_t>(i)];
+  }
+
+  [[nodiscard]] Turn turn_at(std::size_t triple, const Vec2& place) const {
+    const std::array<double, 3> weights = Covering::weights(pair_of(place));
+    Vec3 normal(0, 0, 0);
+    for (std::size_t c = 0; c < 3; ++c) normal += weights[c] * chart(charts_of(triple)[c]).frame.normal;
+    return turn_of(surface_.at_triple(triple, place), normal);
+  }
+
   void look_at_cell(std::size_t triple, const Cell& cell, int depth) {
     if (!found_.empty()) return;
     const Vec2 centre = (cell[0] + cell[1] + cell[2]) / 3;
     const double reach = norm(cell[1] - cell[0]) / std::numbers::sqrt3;
     for (int c = 0; c < 3; ++c)
       if (norm(centre - corner_of_t(c)) + reach < inner_length) return;  // in a pure zone
-    const auto weights = Covering::weights(pair_of(centre));
-    const auto& charts = surface_.covering().triples()[triple].chart;
-    Vec3 normal(0, 0, 0);
-    for (std::size_t c = 0; c < 3; ++c)
-      normal += weights[c] * surface_.covering().charts()[static_cast<std::size_t>(charts[c])].frame.normal;
-    const SurfaceJet jet = surface_.at_triple(triple, centre);
-    const Turn turn = turn_of(jet, normal);
+    const Turn turn = turn_at(triple, centre);
     if (turn.holds(reach)) return;
-    if (turn.area <= 0) return note(jet.s, charts[0]);
-    if (depth == thresholds::cell_divisions) return;
+    if (turn.area <= 0 || depth == thresholds::cell_divisions) return note(turn, charts_of(triple)[0]);
     const Cell middle{(cell[1] + cell[2]) / 2, (cell[2] + cell[0]) / 2, (cell[0] + cell[1]) / 2};
     look_at_cell(triple, middle, depth + 1);
     for (std::size_t c = 0; c < 3; ++c)
       look_at_cell(triple, {cell[c], middle[(c + 2) % 3], middle[(c + 1) % 3]}, depth + 1);
+  }
+
+  /// The strips between knots of a chart's phi that are narrower than cells: the area changes in steps across knots.
+  void look_at_strips(std::size_t triple, int corner) {
+    const auto c = static_cast<std::size_t>(corner);
+    const Annulus& annulus = chart(charts_of(triple)[c]).annulus;
+    const double first = surface_.covering().triples()[triple].slot[c] * sixth_turn;
+    std::vector<double> knots{0, sixth_turn};
+    for (const Part& part : annulus.parts())
+      for (const double phi : part.phi)
+        if (const double at = std::fmod(phi - first + 2 * annulus.period(), annulus.period()); at < sixth_turn)
+          knots.push_back(at);
+    std::sort(knots.begin(), knots.end());
+    constexpr double wide = 2.0 / thresholds::cells_of_t;
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+      if (knots[k + 1] - knots[k] > wide || knots[k + 1] - knots[k] < rounding_of::places) continue;
+      for (int i = 0; i < thresholds::cells_of_strip; ++i)
+        look_at_strip(triple, corner, Vec2(i, i + 1) / thresholds::cells_of_strip, {knots[k], knots[k + 1]}, 0);
+    }
+  }
+
+  /// A rectangle of tau and phi about a corner: the longer side is halved.
+  void look_at_strip(std::size_t triple, int corner, const Vec2& tau, const Vec2& phi, int depth) {
+    if (!found_.empty()) return;
+    const auto place = [&](double t, double x) { return value_of(from_polar(corner, polar_at(t, x))); };
+    const double t = tau.sum() / 2, x = phi.sum() / 2;
+    const double along = norm(place(tau[1], x) - place(tau[0], x)), across = norm(place(t, phi[1]) - place(t, phi[0]));
+    const Turn turn = turn_at(triple, place(t, x));
+    if (turn.holds(std::hypot(along, across) / 2)) return;
+    if (turn.area <= 0 || depth == 2 * thresholds::cell_divisions)
+      return note(turn, charts_of(triple)[static_cast<std::size_t>(corner)]);
+    const bool is_long = along > across;
+    look_at_strip(triple, corner, is_long ? Vec2(tau[0], t) : tau, is_long ? phi : Vec2(phi[0], x), depth + 1);
+    look_at_strip(triple, corner, is_long ? Vec2(t, tau[1]) : tau, is_long ? phi : Vec2(x, phi[1]), depth + 1);
   }
 
   void look_at_square(std::size_t chart, const Vec2& centre, double half, int depth) {
@@ -77,17 +121,17 @@ class FoldSearch {
     const Chart& own = surface_.covering().charts()[chart];
     const bool is_small = depth >= thresholds::square_divisions;
     if (is_small && !own.annulus.encloses(centre)) return;  // the cells of T reach the border
-    const SurfaceJet jet = surface_.at(chart, centre);
-    const Turn turn = turn_of(jet, own.frame.normal);
+    const Turn turn = turn_of(surface_.at(chart, centre), own.frame.normal);
     if (depth > 0 && turn.holds(std::numbers::sqrt2 * half)) return;
-    if (is_small && turn.area <= 0) return note(jet.s, static_cast<std::int32_t>(chart));
-    if (depth == thresholds::square_divisions + thresholds::cell_divisions) return;
+    if (is_small && (turn.area <= 0 || depth == thresholds::square_divisions + thresholds::cell_divisions))
+      return note(turn, static_cast<std::int32_t>(chart));
     for (const double x : {-.5, .5})
       for (const double y : {-.5, .5}) look_at_square(chart, centre + half * Vec2(x, y), half / 2, depth + 1);
   }
 
-  void note(const Vec3& at, std::int32_t chart) {
-    found_ = "the blended surface is turned over near " + format_point(at) + ", in chart " + std::to_string(chart + 1) +
+  void note(const Turn& turn, std::int32_t chart) {
+    found_ = "the blended surface is turned over near " + format_point(turn.at) + ", in chart " +
+             std::to_string(chart + 1) +
              ": charts disagree there; smaller clusters (reach 1) or more even triangles help";
   }
 
@@ -99,9 +143,9 @@ class FoldSearch {
 
 std::string find_fold(const BlendedSurface& surface) {
   FoldSearch search(surface);
-  for (std::size_t t = 0; t < surface.covering().triples().size() && search.found().empty(); ++t) search.look_at_triple(t);
-  for (std::size_t i = 0; i < surface.covering().charts().size(); ++i)
-    if (surface.is_moved(i)) search.look_at_pure_zone(i);
+  for (std::size_t t = 0; t < surface.covering().triples().size() && search.found().empty(); ++t)
+    search.look_at_triple(t);
+  for (std::size_t i = 0; i < surface.covering().charts().size(); ++i) search.look_at_pure_zone(i);
   return search.found();
 }
 

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "geometry/atlas/thresholds.h"
-#include "support/angles.h"
 #include "support/rounding_of.h"
 
 namespace carreau::atlas {

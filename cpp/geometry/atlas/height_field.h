@@ -45,8 +45,8 @@ HeightField fit_heights(std::span<const Height> points, int degree);
 /// The quadratic field of the heights of a chart's region, at its vertices and at the vertices of its border.
 HeightField coarse_heights(const Covering& covering, const Chart& chart);
 
-/// Heights about one vertex, and the ellipsoid in which they count: form[0] x^2 + form[1] x y + form[2] y^2 + form[3] z^2 < 1 in the
-/// frame of the vertex.
+/// Heights about one vertex, and the ellipsoid in which they count: form[0] x^2 + form[1] x y + form[2] y^2 + form[3]
+/// z^2 < 1 in the frame of the vertex.
 struct LocalHeights {
   Frame frame;
   HeightField field;
@@ -54,8 +54,8 @@ struct LocalHeights {
   double reach = 0;  ///< the radius of a ball that holds the ellipsoid
 };
 
-/// Fits a field of higher degree to the vertices of three rings whose normals are not steep over the vertex's plane; near vertices weigh
-/// more. Distances are relative to the fan of the vertex, which can be longer than wide.
+/// Fits a field of higher degree to the vertices of three rings whose normals are not steep over the vertex's plane;
+/// near vertices weigh more. Distances are relative to the fan of the vertex, which can be longer than wide.
 LocalHeights local_heights(const Covering& covering, std::int32_t vertex);
 
 }  // namespace carreau::atlas

@@ -45,7 +45,11 @@ std::vector<std::size_t> sorted(std::vector<std::size_t> list) {
 class FoldMender {
  public:
   FoldMender(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives, int parts)
-      : covering_(covering), heights_(heights), primitives_(primitives), grid_(covering, parts), rank_(primitives.size(), none) {}
+      : covering_(covering),
+        heights_(heights),
+        primitives_(primitives),
+        grid_(covering, parts),
+        rank_(primitives.size(), none) {}
 
   FoldReport mend() {
     FoldReport report;
@@ -90,7 +94,8 @@ class FoldMender {
   }
   bool note(FoldPlace place, const std::vector<std::int32_t>& vertices, Folds& folds) {
     if (place.jacobian(primitives_) > thresholds::watched_jacobian) return false;
-    // The heights move a place along their own direction, which differs from the mean of the planes' normals on coarse surfaces.
+    // The heights move a place along their own direction, which differs from the mean of the planes' normals on coarse
+    // surfaces.
     place.normal = norm(place.normal) * heights_.direction(vertices, place.point(primitives_));
     const double jacobian = place.jacobian(primitives_);
     watched_.push_back(place);
@@ -224,7 +229,8 @@ class FoldMender {
 
 }  // namespace
 
-FoldReport mend_folds(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives, int parts) {
+FoldReport mend_folds(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives,
+                      int parts) {
   return FoldMender(covering, heights, primitives, parts).mend();
 }
 

@@ -43,9 +43,10 @@ inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 /// A step that leaves more than this share of the energy is the last.
 inline constexpr double notable_gain = 0.999;
 
-/// The final check: cells of the grid on each T, divisions of a cell that has no bound, divisions of the square around a
-/// pure zone before those, and the factor on derivatives that bounds the area between places.
-inline constexpr int cells_of_t = 32, cell_divisions = 2, square_divisions = 3;
+/// The final check: cells of the grid on each T, cells along a narrow strip between two knots of phi, divisions of the square around a pure
+/// zone before a place counts, divisions of a cell without a bound, and the factor on derivatives that bounds the area between places.
+/// All cells of spheres, tori and ellipsoids have a bound after six divisions; a cell that has none after fourteen is rejected.
+inline constexpr int cells_of_t = 32, cells_of_strip = 16, square_divisions = 4, cell_divisions = 14;
 inline constexpr double fold_safety = 1.5;
 
 }  // namespace carreau::atlas::thresholds

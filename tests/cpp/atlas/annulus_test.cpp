@@ -47,10 +47,23 @@ double covered(const Annulus& a) {
 
 std::vector<Borders> figures() { return {test::two_squares(), test::two_hexagons(), test::hook()}; }
 
+std::vector<AnnulusOptions> smooth_kinds() {
+  std::vector<AnnulusOptions> kinds;
+  for (const bool outer_first : {false, true})
+    for (const OuterBorder kind : {OuterBorder::spline, OuterBorder::cubic})
+      kinds.push_back({.border = kind, .outer_first = outer_first});
+  return kinds;
+}
+std::vector<AnnulusOptions> smooth_and_polygonal() {
+  std::vector<AnnulusOptions> kinds = smooth_kinds();
+  kinds.push_back({.border = OuterBorder::polygon});
+  return kinds;
+}
+
 TEST(Annulus, FiguresAreDescribedByTheSkeletonAndThereAndBack) {
   for (const Borders& b : figures())
-    for (const OuterBorder kind : {OuterBorder::polygon, OuterBorder::spline, OuterBorder::cubic}) {
-      const Annulus a(b.inner, b.outer, {.border = kind});
+    for (const AnnulusOptions& options : smooth_and_polygonal()) {
+      const Annulus a(b.inner, b.outer, options);
       EXPECT_EQ(a.pivot_choice(), PivotChoice::skeleton);
       std::mt19937_64 random(7);
       std::uniform_real_distribution<double> unit(0, 1);
@@ -76,9 +89,9 @@ TEST(Annulus, PolygonalBordersAreTheGivenOnes) {
 }
 
 TEST(Annulus, ThousandRandomOnesAreDescribed) {
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(1), random_outer(2);
   int made = 0, by_skeleton = 0;
-  double spline = 0, cubic = 0, least = 1, worst = 0, worst_phi = 0, in_space = 0;
+  double spline = 0, cubic = 0, least = 1, worst = 0, worst_phi = 0, in_space = 0, in_space_outer = 0;
   std::uniform_real_distribution<double> unit(0, 1);
   while (made < 1000) {
     const auto borders = test::random_borders(random);
@@ -86,10 +99,14 @@ TEST(Annulus, ThousandRandomOnesAreDescribed) {
     ++made;
     const Annulus a(borders->inner, borders->outer);
     const Annulus simple(borders->inner, borders->outer, {.border = OuterBorder::cubic});
+    const Annulus outer(borders->inner, borders->outer, {.outer_first = true});
+    const Annulus simple_outer(borders->inner, borders->outer, {.border = OuterBorder::cubic, .outer_first = true});
     by_skeleton += a.pivot_choice() == PivotChoice::skeleton;
-    for (const Annulus* one : {&a, &simple})
+    for (const Annulus* one : {&a, &simple, &outer, &simple_outer})
       for (int k = 0; k < 20; ++k) {
-        const double tau = unit(random), phi = a.period() * unit(random);
+        const bool from_inside = one == &a || one == &simple;
+        std::mt19937_64& source = from_inside ? random : random_outer;
+        const double tau = unit(source), phi = a.period() * unit(source);
         const auto p = one->at(Jet(tau, 1, 0), Jet(phi, 0, 1));
         EXPECT_GT(p[0].u * p[1].v - p[0].v * p[1].u, 0) << "Jacobian of annulus " << made;
         const auto back = one->find(Pair<double>{p[0].f, p[1].f});
@@ -97,7 +114,8 @@ TEST(Annulus, ThousandRandomOnesAreDescribed) {
         // One rounding of the point, which no inverse can undo, is 1e-16 by the width of the annulus in tau.
         const double off_tau = std::abs(back->tau - tau), off_phi = circular(back->phi - phi, a.period());
         const double width = norm(Vec2(p[0].u, p[1].u));
-        in_space = std::max(in_space, off_tau * width);
+        double& largest = from_inside ? in_space : in_space_outer;
+        largest = std::max(largest, off_tau * width);
         if (width > .01) worst = std::max(worst, off_tau);
         worst_phi = std::max(worst_phi, off_phi);
       }
@@ -108,6 +126,7 @@ TEST(Annulus, ThousandRandomOnesAreDescribed) {
             << ", least " << least << ", by cubics " << cubic / made << "; there and back: tau in space " << in_space
             << ", phi " << worst_phi << ", tau where wider than .01 " << worst << "\n";
   EXPECT_LT(in_space, 1e-14);
+  EXPECT_LT(in_space_outer, 5e-14);  // outer borders can be nearly radial
   EXPECT_LT(worst_phi, 1e-12);
   EXPECT_LT(worst, 1e-12);
   EXPECT_GT(by_skeleton, 700);
@@ -117,14 +136,18 @@ TEST(Annulus, ThousandRandomOnesAreDescribed) {
 TEST(Annulus, IsInsideThePolygonalOne) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0, 1);
+  const std::vector<AnnulusOptions> kinds = smooth_kinds();
   int points = 0;
-  while (points < 100000) {
+  while (points < 200000) {
     const auto b = test::random_borders(random);
     if (!b) continue;
-    const Annulus a(b->inner, b->outer, {.border = points % 2 == 0 ? OuterBorder::spline : OuterBorder::cubic});
+    const AnnulusOptions& options = kinds[static_cast<std::size_t>(points / 999) % kinds.size()];
+    const Annulus a(b->inner, b->outer, options);
     for (int k = 0; k < 999; ++k, ++points) {
-      // Both borders, and between; at tau = 0 on straight parts of the inner border rounding decides.
-      const double tau = k % 3 == 0 ? 1 : (k % 3 == 1 ? 1e-9 : unit(random));
+      // Both borders, and between; on straight parts of the border that was given rounding decides.
+      constexpr double off = 1e-9;
+      const double inner = options.outer_first ? 0 : off, outer = options.outer_first ? 1 - off : 1;
+      const double tau = k % 3 == 0 ? outer : (k % 3 == 1 ? inner : unit(random));
       const Vec2 p = value_of(a.at(tau, a.period() * unit(random)));
       ASSERT_TRUE(is_inside(b->outer, p));
       ASSERT_FALSE(is_inside(b->inner, p));
@@ -168,6 +191,36 @@ TEST(Annulus, SlopesOfBothSidesMeetWithOrderOne) {
   }
 }
 
+/// Exact derivatives on both sides: knots of outer borders can be too near to one another for differences.
+TEST(Annulus, IsC1FromTheOuterBorder) {
+  std::mt19937_64 random(6);
+  for (int made = 0; made < 200;) {
+    const auto b =
+        made < 3 ? std::optional<Borders>(figures()[static_cast<std::size_t>(made)]) : test::random_borders(random);
+    if (!b) continue;
+    ++made;
+    for (const OuterBorder kind : {OuterBorder::spline, OuterBorder::cubic}) {
+      const Annulus a(b->inner, b->outer, {.border = kind, .outer_first = true});
+      for (const Part& part : a.parts())
+        for (const double phi : part.phi)
+          for (const double tau : {0., .37, 1.}) {
+            // The difference of slopes at a distance h of both sides, over the slopes.
+            const auto jump = [&](double h) {
+              const auto left = a.at(Slope(tau, 1, 0), Slope(phi - h, 0, 1)),
+                         right = a.at(Slope(tau, 1, 0), Slope(phi + h, 0, 1));
+              const double scale = std::hypot(left[0].v, left[1].v) + std::hypot(left[0].u, left[1].u);
+              return std::max(std::hypot(left[0].v - right[0].v, left[1].v - right[1].v),
+                              std::hypot(left[0].u - right[0].u, left[1].u - right[1].u)) /
+                     scale;
+            };
+            // Where knots are 1e-5 from one another slopes change fast, but they do not jump.
+            EXPECT_LT(jump(1e-13), std::max(1e-6, .2 * jump(1e-12))) << made << " " << phi << " " << tau;
+            EXPECT_LT(jump(1e-13), 1e-3);
+          }
+    }
+  }
+}
+
 TEST(Annulus, IsC1AcrossJointsAndVerticesAndAnywhere) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -207,17 +260,40 @@ TEST(Annulus, DerivativesMatchDifferences) {
   }
 }
 
+/// End of Atlas sec. 5.4.4: from the outer border the result covers more of the polygonal annulus, and its inner border
+/// is further from the given one.
+TEST(Annulus, FromTheOuterBorderMoreIsCoveredAndTheInnerBorderIsLessWellMet) {
+  const auto from_inner =
+      [](const Annulus& a) {  // area between the given and the smooth inner border, over the annulus'
+        Polygon smooth;
+        constexpr int samples = 4000;
+        for (int k = 0; k < samples; ++k) smooth.push_back(value_of(a.at(0., a.period() * k / samples)));
+        return (signed_area(smooth) - signed_area(a.inner())) / (signed_area(a.outer()) - signed_area(a.inner()));
+      };
+  for (const Borders& b : figures())
+    for (const OuterBorder kind : {OuterBorder::spline, OuterBorder::cubic}) {
+      const Annulus inner(b.inner, b.outer, {.border = kind}),
+          outer(b.inner, b.outer, {.border = kind, .outer_first = true});
+      std::cout << "covered from inside " << covered(inner) << ", from outside " << covered(outer)
+                << "; beside the inner border " << from_inner(inner) << ", " << from_inner(outer) << "\n";
+      EXPECT_GT(covered(outer), covered(inner));
+      EXPECT_GT(from_inner(outer), from_inner(inner));
+    }
+}
+
 TEST(Annulus, EnclosesTheInsideOfItsSmoothBorder) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(-1, 7);
   for (const Borders& b : figures()) {
-    const Annulus a(b.inner, b.outer);
-    Polygon smooth;
-    constexpr int samples = 20000;
-    for (int k = 0; k < samples; ++k) smooth.push_back(value_of(a.at(0., a.period() * k / samples)));
-    for (int k = 0; k < 500; ++k) {
-      const Vec2 p(unit(random), unit(random));
-      EXPECT_EQ(a.encloses(p), is_inside(smooth, p)) << p.transpose();
+    for (const AnnulusOptions& options : smooth_kinds()) {
+      const Annulus a(b.inner, b.outer, options);
+      Polygon smooth;
+      constexpr int samples = 20000;
+      for (int k = 0; k < samples; ++k) smooth.push_back(value_of(a.at(0., a.period() * k / samples)));
+      for (int k = 0; k < 500; ++k) {
+        const Vec2 p(unit(random), unit(random));
+        EXPECT_EQ(a.encloses(p), is_inside(smooth, p)) << p.transpose();
+      }
     }
   }
 }

@@ -103,6 +103,84 @@ TEST(Covering, TransitionsAreInverseAndTransitive) {
   check_transitions(Covering(test::torus(2, .8, 36, 18), {.hops = 2, .border = OuterBorder::cubic}), 1e-10);
 }
 
+/// Atlas fig. 5.22: the triple zones of a chart are the images of the disc of radius sqrt 3 / 12 about the middle of T,
+/// one a corner, each touches both borders of the annulus at one place, and double zones lie between them.
+TEST(Covering, ZonesOfAChartAreImagesOfADisc) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const Vec2 middle = (corner_of_t(0) + corner_of_t(1) + corner_of_t(2)) / 3;
+  for (const bool outer_first : {false, true})
+    for (const OuterBorder border : {OuterBorder::spline, OuterBorder::cubic}) {
+      const Covering covering(test::torus(2, .8, 36, 18), {.border = border, .outer_first = outer_first});
+      const auto charts_at = [&](std::size_t i, const Vec2& m) {
+        const auto on = covering.on_t(i, pair_of(m));
+        const std::array<double, 3> w = Covering::weights(on->place);
+        return std::count_if(w.begin(), w.end(), [](double x) { return x > 0; });
+      };
+      int doubles = 0, triples = 0;
+      for (std::size_t i = 0; i < covering.charts().size(); ++i) {
+        const Annulus& a = covering.charts()[i].annulus;
+        for (int k = 0; k < 50; ++k) {
+          const Vec2 m = value_of(a.at(unit(random), a.period() * unit(random)));
+          const double off = norm(value_of(covering.on_t(i, pair_of(m))->place) - middle) - std::sqrt(3) / 12;
+          if (std::abs(off) < 1e-9) continue;
+          EXPECT_EQ(charts_at(i, m), off < 0 ? 3 : 2);
+          ++(off < 0 ? triples : doubles);
+        }
+        for (std::size_t k = 0; k < covering.charts()[i].corners.size(); ++k) {
+          const double at = (static_cast<double>(k) + .5) * sixth_turn;
+          for (const double tau : {1e-6, 1 - 1e-6}) EXPECT_EQ(charts_at(i, value_of(a.at(tau, at))), 3);
+          for (const double tau : {1e-6, .5, 1 - 1e-6})
+            EXPECT_EQ(charts_at(i, value_of(a.at(tau, at + sixth_turn / 2))), 2);
+        }
+      }
+      EXPECT_GT(triples, 100);
+      EXPECT_GT(doubles, 100);
+    }
+}
+
+/// Atlas fig. 5.23: the part of a chart that it shares with a neighbour is mapped onto the neighbour's part. Both have
+/// the area that the Jacobian of the transition gives, which is positive.
+TEST(Covering, TransitionsMapSharedPartsOntoOneAnother) {
+  for (const bool outer_first : {false, true}) {
+    const Covering covering(test::icosphere(2), {.outer_first = outer_first});
+    constexpr int n = 96;
+    for (std::size_t t = 0; t < covering.triples().size(); ++t) {
+      const Triple& triple = covering.triples()[t];
+      const auto number = static_cast<std::int32_t>(t);
+      double by_jacobian = 0, by_places = 0;
+      // Corners 0 and 1 share the places whose strata lie below 1 in both.
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+          const Vec2 place = ((i + 1. / 3) * corner_of_t(1) + (j + 1. / 3) * corner_of_t(2)) / n;
+          bool shared = true;
+          for (int c = 0; c < 2; ++c) {
+            const double tau = share_of(to_polar(c, pair_of(place)));
+            shared = shared && tau > .02 && tau < .98;
+          }
+          if (!shared) continue;
+          const auto area = [&](int c) {
+            const Pair<Jet> at = covering.from_t(number, c, parameters_at<Jet>(place));
+            return at[0].u * at[1].v - at[0].v * at[1].u;
+          };
+          const Vec2 m = value_of(covering.from_t(number, 0, pair_of(place)));
+          constexpr double h = 1e-7;
+          const auto to = [&](const Vec2& p) {
+            return covering.transition(static_cast<std::size_t>(triple.chart[0]),
+                                       static_cast<std::size_t>(triple.chart[1]), p);
+          };
+          const auto east = to(m + Vec2(h, 0)), west = to(m - Vec2(h, 0)), north = to(m + Vec2(0, h)),
+                     south = to(m - Vec2(0, h));
+          ASSERT_TRUE(east && west && north && south);
+          const double jacobian = cross(*east - *west, *north - *south) / (4 * h * h);
+          EXPECT_GT(jacobian, 0);
+          by_jacobian += jacobian * area(0), by_places += area(1);
+        }
+      EXPECT_NEAR(by_jacobian / by_places, 1, 1e-4);
+    }
+  }
+}
+
 TEST(Covering, IsTheSameEachTime) {
   const Covering once(test::torus(2, .8, 36, 18)), again(test::torus(2, .8, 36, 18));
   ASSERT_EQ(once.charts().size(), again.charts().size());

@@ -48,7 +48,9 @@ MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
 carreau_status build(carreau_atlas* atlas, const MeshArrays& arrays, const AtlasChoice& choice) {
   carreau_atlas_options options{};
   options.struct_size = sizeof options;
-  options.border = choice.border == "cubic" ? CARREAU_BORDER_CUBIC : CARREAU_BORDER_SPLINE;
+  const bool is_cubic = choice.border.find("cubic") != std::string::npos;
+  options.border = choice.border.rfind("outer-", 0) == 0 ? (is_cubic ? CARREAU_BORDER_OUTER_CUBIC : CARREAU_BORDER_OUTER_SPLINE)
+                                                         : (is_cubic ? CARREAU_BORDER_CUBIC : CARREAU_BORDER_SPLINE);
   options.reach = choice.reach;
   return carreau_atlas_build(atlas, &options, std::ssize(arrays.vertices), arrays.vertices.front().data(),
                              std::ssize(arrays.triangles), arrays.triangles.front().data(), nullptr);

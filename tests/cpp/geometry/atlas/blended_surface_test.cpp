@@ -147,14 +147,14 @@ Faults faults_of(const Triangulation& given, Normal&& normal_at) {
 
 Vec3 normal_of_sphere(const Vec3& p) { return p / norm(p); }
 
-/// Weights of space: places where charts squeeze their parameters are no exceptions.
+/// Heights about vertices: neither places where charts squeeze their parameters are exceptions, nor surfaces that turn by 36 degrees along
+/// an edge, nor triangles that are 3.5 times longer than wide.
 TEST(BlendedSurface, NormalsAreWithinATenthOfTheAngleOfChords) {
   const auto check = [](const Triangulation& given, const auto& normal_at) {
     const Faults faults = faults_of(given, normal_at);
     EXPECT_LT(faults.worst, .1);
   };
-  check(test::icosphere(2), normal_of_sphere);
-  check(test::icosphere(3), normal_of_sphere);
+  for (const int level : {1, 2, 3}) check(test::icosphere(level), normal_of_sphere);
   const auto normal_of_torus = [](double radius) {
     return [radius](const Vec3& p) -> Vec3 {
       const double inwards = 1 - radius / std::hypot(p.x(), p.y());
@@ -162,10 +162,54 @@ TEST(BlendedSurface, NormalsAreWithinATenthOfTheAngleOfChords) {
     };
   };
   check(test::torus(1, .4, 48, 24), normal_of_torus(1));
+  check(test::torus(1, .4, 20, 20), normal_of_torus(1));
+  check(test::torus(1, .4, 20, 10), normal_of_torus(1));
   check(test::torus(2, .8, 36, 18), normal_of_torus(2));
   Triangulation ellipsoid = test::icosphere(3);
   for (Vec3& p : ellipsoid.vertices) p = Vec3(2 * p.x(), p.y(), .7 * p.z());
   check(ellipsoid, [](const Vec3& p) -> Vec3 { return normal_of_sphere({p.x() / 4, p.y(), p.z() / .49}); });
+}
+
+/// Places of T that are not on the grid of the check, also in strips between knots of phi that are narrower than its cells.
+TEST(BlendedSurface, NoPlaceOfAnAcceptedSurfaceIsTurnedOver) {
+  std::mt19937_64 random(10);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const Triangulation& given : {test::icosphere(3), test::torus(1, .4, 20, 20), test::torus(2, .8, 36, 18)}) {
+    const BlendedSurface surface{Covering(given)};
+    const Covering& covering = surface.covering();
+    for (std::size_t t = 0; t < covering.triples().size(); ++t)
+      for (int k = 0; k < 500; ++k) {
+        double x = unit(random), y = unit(random);
+        if (x + y > 1) x = 1 - x, y = 1 - y;
+        const Vec2 place = x * corner_of_t(1) + y * corner_of_t(2);
+        const std::array<double, 3> weights = Covering::weights(pair_of(place));
+        if (*std::max_element(weights.begin(), weights.end()) == 1) continue;  // in a pure zone
+        Vec3 normal(0, 0, 0);
+        for (std::size_t c = 0; c < 3; ++c)
+          normal += weights[c] * covering.charts()[static_cast<std::size_t>(covering.triples()[t].chart[c])].frame.normal;
+        const SurfaceJet jet = surface.at_triple(t, place);
+        EXPECT_GT(dot(cross(jet.su, jet.sv), normal), 0) << t << " " << place.transpose();
+      }
+  }
+}
+
+/// The ellipsoid of a vertex holds the fan with a margin of a half.
+TEST(LocalHeights, EllipsoidsHoldTheFan) {
+  Triangulation ellipsoid = test::icosphere(3);
+  for (Vec3& p : ellipsoid.vertices) p = Vec3(8 * p.x(), p.y(), p.z());
+  const Covering covering(ellipsoid);
+  for (std::int32_t v = 0; v < 642; ++v) {
+    const LocalHeights local = local_heights(covering, v);
+    EXPECT_EQ(local.frame.origin, covering.surface().vertices[static_cast<std::size_t>(v)]);
+    double farthest = 0;
+    for (const std::int32_t w : covering.fans().around(v)) {
+      const Vec2 q = local.frame.project(covering.surface().vertices[static_cast<std::size_t>(w)]);
+      const double form = local.form[0] * q.x() * q.x() + local.form[1] * q.x() * q.y() + local.form[2] * q.y() * q.y();
+      farthest = std::max(farthest, form);
+      EXPECT_LT(norm(q), local.reach);
+    }
+    EXPECT_NEAR(farthest, 1 / 2.25, 1e-9) << v;
+  }
 }
 
 TEST(BlendedSurface, CurvaturesSeeNoWaves) {
