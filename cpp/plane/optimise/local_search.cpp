@@ -100,7 +100,7 @@ void keep_most_promising(SearchZone& zone, std::vector<Change>& changes, double 
     change.promise = infinity;
     if (apply(zone, change)) {
       relax_zone(zone, true);
-      change.promise = std::round(zone.cost(2 * mean).mean / mean / rounding_of::sizes);
+      change.promise = std::round(zone.cost_of_shapes(2 * mean).mean / mean / rounding_of::sizes);
     }
     zone.restore();
   }

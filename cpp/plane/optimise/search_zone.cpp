@@ -75,9 +75,8 @@ void SearchZone::add_edges(const Triangle& T, int t, ZoneCost& all) {
   }
 }
 
-ZoneCost SearchZone::cost(double enough) {
+ZoneCost SearchZone::cost_of_shapes(double enough) {
   ZoneCost all;
-  double sum = 0;
   int count = 0;
   const auto counts = [](const Triangle& T) { return T.v[0] >= 0 && T.done != Done::frozen; };
   for (const std::int32_t t : triangles)
@@ -87,12 +86,21 @@ ZoneCost SearchZone::cost(double enough) {
     const Triangle& T = work.mesh.triangles[t];
     if (!counts(T)) continue;
     const double q = shape(T.v[0], T.v[1], T.v[2]);
-    sum += shape_cost(q);
-    if (sum > most) break;
+    all.sum += shape_cost(q);
+    if (all.sum > most) break;
     all.worst = std::min(all.worst, q);
-    add_edges(T, t, all);
   }
-  all.mean = count > 0 ? sum / count : 0, all.sum = sum;
+  all.mean = count > 0 ? all.sum / count : 0;
+  return all;
+}
+
+ZoneCost SearchZone::cost(double enough) {
+  ZoneCost all = cost_of_shapes(enough);
+  if (all.mean > enough) return all;
+  for (const std::int32_t t : triangles) {
+    const Triangle& T = work.mesh.triangles[t];
+    if (T.v[0] >= 0 && T.done != Done::frozen) add_edges(T, t, all);
+  }
   return all;
 }
 

@@ -43,6 +43,8 @@ class SearchZone {
   void restore();
   /// Once its mean is `enough` the rest does not matter.
   [[nodiscard]] ZoneCost cost(double enough);
+  /// cost() without the edges.
+  [[nodiscard]] ZoneCost cost_of_shapes(double enough);
   [[nodiscard]] double shape(int p, int q, int r);
   /// Moves a vertex.
   void place(int v, Vec2 p);

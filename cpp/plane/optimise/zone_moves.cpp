@@ -2,9 +2,11 @@
 #include "plane/optimise/zone_moves.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/star_cost.h"
+#include "support/infinity.h"
 #include "support/rounding_of.h"
 
 namespace carreau::plane {
@@ -13,25 +15,36 @@ namespace {
 
 constexpr double steps[] = {0.15, 0.05};  // units
 
-// Goes from the place of v to the best of six at this distance, and so on as long as that helps. `best`: the cost of
-// the star.
-void search_at(SearchZone& zone, int v, double step, int turns, double& best) {
+// Goes from the place of v to the best of six at this distance, and so on as long as that helps.
+void search_at(SearchZone& zone, int v, double step, int turns) {
   Vertex& P = zone.work.mesh.vertices[v];
+  const UnitCircle circle(P.metric());
   for (int turn = 0; turn < turns; ++turn) {
-    const UnitCircle circle(P.metric());
+    const FrozenStar star(zone.work, v, zone.star.link);
     const Vec2 centre = P.point();
+    double best = star.cost(Vec2(0, 0), infinity, shape_cost, zone.shapes_asked);
     bool any = false;
     for (const Vec2& d : six_directions) {
-      const Vec2 kept = P.point(), to = centre + circle.vector(step * d);
-      P.x = to.x(), P.y = to.y();
-      const double now = star_cost(zone.work.shapes, v, zone.star.link, best, shape_cost, zone.shapes_asked);
-      if (now < best * (1 - rounding_of::sizes))
-        best = now, any = true;
-      else
-        P.x = kept.x(), P.y = kept.y();
+      const Vec2 by = circle.vector(step * d);
+      const double now = star.cost(by, best, shape_cost, zone.shapes_asked);
+      if (!(now < best * (1 - rounding_of::sizes))) continue;
+      const Vec2 to = centre + by;
+      best = now, P.x = to.x(), P.y = to.y(), any = true;
     }
     if (!any) break;
   }
+}
+
+// Of the star of v; `worst`: the triangle that costs most.
+double star_cost(SearchZone& zone, int v, std::size_t& worst) {
+  const std::vector<std::int32_t>& link = zone.star.link;
+  double sum = 0, most = 0;
+  for (std::size_t k = 0; k < link.size(); ++k) {
+    const double one = shape_cost(zone.shape(v, link[k], link[k + 1 < link.size() ? k + 1 : 0]));
+    sum += one;
+    if (one > most) most = one, worst = k;
+  }
+  return sum;
 }
 
 // The best place of v, whose star is collected; its old place, if no place is better. `in_vain`: steps of the first
@@ -40,25 +53,22 @@ Vec2 best_place(SearchZone& zone, int v, bool quick, bool in_vain) {
   Vertex& P = zone.work.mesh.vertices[v];
   std::vector<std::int32_t>& link = zone.star.link;
   const Vertex old = P;
-  double best = 0, most = 0;
   std::size_t worst = 0;
-  const std::size_t n = link.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const double one = shape_cost(zone.shape(v, link[k], link[k + 1 < n ? k + 1 : 0]));
-    best += one;
-    if (one > most) most = one, worst = k;
-  }
-  if (best < static_cast<double>(n) * cheap_enough) return old.point();
+  const double before = star_cost(zone, v, worst);
+  if (before < static_cast<double>(link.size()) * cheap_enough) return old.point();
   // The worst triangle is evaluated first: most moves need no more.
   std::rotate(link.begin(), link.begin() + static_cast<std::ptrdiff_t>(worst), link.end());
   for (const double step : steps) {
     if (in_vain && step == steps[0]) continue;
-    search_at(zone, v, step, quick ? 1 : turns_a_step, best);
+    search_at(zone, v, step, quick ? 1 : turns_a_step);
     if (quick) break;
   }
   const Vec2 found = P.point();
-  P = old;
-  return found;
+  if (found == old.point()) return found;
+  const PlaceKey place = std::exchange(zone.places[v], key_of_place(found));
+  const bool better = star_cost(zone, v, worst) < before;
+  P = old, zone.places[v] = place;
+  return better ? found : old.point();
 }
 
 void move(SearchZone& zone, int v, bool quick) {
