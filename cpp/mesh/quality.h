@@ -38,6 +38,7 @@ struct QualitySummary {
   Distribution q1, q2;
   double angle_min_deg = 0, angle_max_deg = 0, area = 0;
   double edge_min = 0, edge_mean = 0, edge_max = 0;
+  double side_sum = 0;  ///< of the lengths of all sides of triangles
   double degree6 = 0;  ///< share of interior vertices of degree 6
 };
 QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);

@@ -18,17 +18,21 @@ namespace carreau {
 /// Triangles of a surface mesh are numbered face after face, in the order of flatten(). The mesh outlives the lists.
 class TriangleLists {
  public:
-  explicit TriangleLists(const FlatMesh& mesh) : vertices_(mesh.vertices), nodes_(mesh.vertices.size()) {
+  explicit TriangleLists(const FlatMesh& mesh) : vertices_(mesh.vertices), nodes_(mesh.vertices.size()), on_curves_(mesh.vertices.size()) {
     add(mesh.triangles, nullptr);
   }
   explicit TriangleLists(const SurfaceMesh& mesh)
       : vertices_(mesh.vertices), nodes_(mesh.vertices.size() + mesh.mid_vertices.size()) {
     for (const FaceMesh& face : mesh.faces) add(face.triangles, face.vertex.data());
+    for (const CurveMesh& curve : mesh.curves)
+      for (const std::int32_t v : curve.vertices) on_curves_ = std::max(on_curves_, static_cast<std::size_t>(v) + 1);
   }
 
   /// Corners; nodes on edges follow them.
   [[nodiscard]] std::span<const Vec3> vertices() const noexcept { return vertices_; }
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
+  /// Vertices from this number on lie on no curve; the number of vertices if curves are not known.
+  [[nodiscard]] std::size_t on_curves() const noexcept { return on_curves_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
   /// use(t, corners) for each triangle t, begin <= t < end, in order.
@@ -62,7 +66,7 @@ class TriangleLists {
   }
 
   std::span<const Vec3> vertices_;
-  std::size_t nodes_, size_ = 0;
+  std::size_t nodes_, size_ = 0, on_curves_ = 0;
   std::vector<List> lists_;  // none is empty
 };
 

@@ -31,6 +31,17 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
     }
 }
 
+namespace {
+
+// The quality without roots, and twice flat_quality.
+bool is_surely_not_flat(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c, n = cross(ab, ca);
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
+  return 12 * dot(n, n) > 4 * flat_quality * flat_quality * squares * squares;
+}
+
+}  // namespace
+
 void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor) {
   for (FaceMesh& face : mesh.faces) {
     if (face.status != FaceStatus::meshed && face.status != FaceStatus::mended) continue;
@@ -39,7 +50,7 @@ void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor) {
     for (std::size_t t = 0; t < face.triangles.size(); ++t) {
       const auto& [a, b, c] = face.triangles[t];
       const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.vertices[face.vertex[v]]; };
-      if (quality_q2(at(a), at(b), at(c)) > flat_quality) continue;
+      if (is_surely_not_flat(at(a), at(b), at(c)) || quality_q2(at(a), at(b), at(c)) > flat_quality) continue;
       if (flat++ == 0 && !face.is_spread(t)) where.uv = (face.uv[a] + face.uv[b] + face.uv[c]) / 3;
     }
     if (flat == 0) continue;

@@ -27,7 +27,8 @@ class Assembler {
     flattened_.resize(patches.size());
     corner_vertex_.assign(topology_.points.size(), unknown);
     add_curves();
-    reserve(patches);
+    is_only_ = std::count_if(patches.begin(), patches.end(), [](const auto& patch) { return patch.has_value(); }) == 1;
+    if (!is_only_) reserve(patches);
     for (std::size_t f = 0; f < patches.size(); ++f) {
       add_face(f, patches[f]);
       patches[f].reset();
@@ -116,15 +117,27 @@ class Assembler {
   }
 
   // Vertices inside the face have consecutive numbers.
-  void add_vertices(std::size_t f, const FaceDomain& domain, const PatchMesh& patch, std::vector<std::int32_t>& vertex) {
+  void add_vertices(std::size_t f, const FaceDomain& domain, PatchMesh& patch, std::vector<std::int32_t>& vertex) {
     const std::size_t given = domain.origin.size();
     vertex.resize(patch.xyz.size());
     for (std::size_t v = 0; v < given; ++v) vertex[v] = imposed_vertex(f, domain, patch, v);
     std::iota(vertex.begin() + static_cast<std::ptrdiff_t>(given), vertex.end(), static_cast<std::int32_t>(mesh_.vertices.size()));
-    const auto inside = static_cast<std::ptrdiff_t>(given);
-    mesh_.vertices.insert(mesh_.vertices.end(), patch.xyz.begin() + inside, patch.xyz.end());
-    sizes_.insert(sizes_.end(), patch.size.begin() + inside, patch.size.end());
+    put_after(mesh_.vertices, given, patch.xyz);
+    put_after(sizes_, given, patch.size);
     mesh_.vertex_ref.resize(mesh_.vertices.size(), 0);
+  }
+
+  // Appends the values from `given` on. The array of the only patch becomes the array of the mesh, without a copy of most values.
+  template <typename T>
+  void put_after(std::vector<T>& all, std::size_t given, std::vector<T>& of_patch) const {
+    if (!is_only_ || all.size() > given) {
+      all.insert(all.end(), of_patch.begin() + static_cast<std::ptrdiff_t>(given), of_patch.end());
+      return;
+    }
+    const auto spare = static_cast<std::ptrdiff_t>(given - all.size());
+    std::copy(all.begin(), all.end(), of_patch.begin() + spare);
+    of_patch.erase(of_patch.begin(), of_patch.begin() + spare);
+    all = std::move(of_patch);
   }
 
   static void leave_out_flat(FaceMesh& face, std::vector<std::int32_t>& numbers) {
@@ -151,6 +164,7 @@ class Assembler {
   SurfaceMesh& mesh_;
   std::vector<double>& sizes_;
   std::vector<std::int32_t> corner_vertex_;
+  bool is_only_ = false;  // there is one patch
   std::vector<std::vector<std::int32_t>> flattened_;  // by face: numbers in the patch
 };
 

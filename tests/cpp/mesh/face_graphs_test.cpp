@@ -165,9 +165,10 @@ TEST(NearOtherSets, KeepsAllPairsOfDifferentSets) {
   };
   for (std::size_t s = 0; s < set.size(); ++s)
     for (std::size_t t = s + 1; t < set.size(); ++t)
-      if ((set[s] != set[t] || set[s] < 0) && meet(s, t))
+      if ((set[s] != set[t] || set[s] < 0) && meet(s, t)) {
         for (const std::size_t each : {s, t})
           EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), static_cast<std::int32_t>(each)));
+      }
 }
 
 }  // namespace

@@ -116,5 +116,56 @@ TEST(QualitySummary, MatchesTheFlatCopyOfFaces) {
   EXPECT_EQ(seen, 3U);
 }
 
+/// Two faces with a common side, each 40 x 40 squares cut in two, in space. Vertices on the 7 curves come first.
+SurfaceMesh two_faces() {
+  SurfaceMesh mesh;
+  constexpr int n = 40;
+  std::vector<std::int32_t> number((2 * n + 1) * (n + 1));
+  const auto at = [&](int i, int j) -> std::int32_t& { return number[static_cast<std::size_t>(i * (n + 1) + j)]; };
+  const auto on_curve = [](int i, int j) { return i % n == 0 || j % n == 0; };
+  for (const bool curves : {true, false})
+    for (int i = 0; i <= 2 * n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        if (on_curve(i, j) != curves) continue;
+        at(i, j) = static_cast<std::int32_t>(mesh.vertices.size());
+        mesh.vertices.push_back({i + 0.3 * std::sin(7 * i + j), j + 0.3 * std::cos(3 * i + 5 * j), 0.1 * (i * j % 7)});
+        if (!curves) continue;
+        if (mesh.curves.empty()) mesh.curves.emplace_back();
+        mesh.curves.back().vertices.push_back(at(i, j));
+      }
+  for (const int first : {0, n}) {
+    FaceMesh& face = mesh.faces.emplace_back();
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) face.vertex.push_back(static_cast<std::int32_t>(v));
+    for (int i = first; i < first + n; ++i)
+      for (int j = 0; j < n; ++j) {
+        face.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        face.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        if (first > 0)  // turned over
+          for (auto t = face.triangles.end() - 2; t != face.triangles.end(); ++t) std::swap((*t)[0], (*t)[1]);
+      }
+  }
+  return mesh;
+}
+
+// Curves give the figures of edges without a list of all edges.
+TEST(QualitySummary, DoesNotDependOnKnowledgeOfCurves) {
+  SurfaceMesh whole = two_faces(), hole = whole, triple = whole;
+  hole.faces[0].triangles.erase(hole.faces[0].triangles.begin() + 1777);
+  triple.faces[1].triangles.push_back(triple.faces[1].triangles[901]);
+  for (const SurfaceMesh& mesh : {whole, hole, triple})
+    for (const int threads : {1, 3}) {
+      const QualitySummary p = summarise_quality(flatten(mesh, false), threads), q = summarise_quality(TriangleLists(mesh), threads);
+      EXPECT_EQ(p.edges, q.edges);
+      EXPECT_EQ(p.open_edges, q.open_edges);
+      EXPECT_EQ(p.edge_min, q.edge_min);
+      EXPECT_EQ(p.edge_mean, q.edge_mean);
+      EXPECT_EQ(p.edge_max, q.edge_max);
+      EXPECT_EQ(p.degree6, q.degree6);
+    }
+  const QualitySummary q = summarise_quality(TriangleLists(whole), 1);
+  EXPECT_EQ(q.open_edges, 240U);
+  EXPECT_EQ(q.edges, (3 * 6400U + 240U) / 2);
+}
+
 }  // namespace
 }  // namespace carreau
