@@ -76,6 +76,24 @@ void sum_all(const BezierPatch& patch, const Basis& u, const Basis& v, SurfaceJe
   jet.suv = {x.r[0], y.r[0], z.r[0]}, jet.svv = {x.r[1], y.r[1], z.r[1]};
 }
 
+/// The position and the first derivatives in one pass, each in the order of sum().
+void sum_first(const BezierPatch& patch, const Basis& u, const Basis& v, SurfaceJet& jet) {
+  using Pair [[gnu::vector_size(16)]] = double;
+  Pair x{}, y{}, z{}, xy_v{};  // at [0]: of the position, at [1]: along u
+  double z_v = 0;
+  const Vec3* point = patch.control.data();
+  for (int i = 0; i <= patch.m; ++i) {
+    const Pair along{u[0][i], u[1][i]};
+    for (int j = 0; j <= patch.n; ++j, ++point) {
+      const Pair weight = along * v[0][j];
+      const double weight_v = u[0][i] * v[1][j];
+      x += weight * point->x(), y += weight * point->y(), z += weight * point->z();
+      xy_v += weight_v * Pair{point->x(), point->y()}, z_v += weight_v * point->z();
+    }
+  }
+  jet.s = {x[0], y[0], z[0]}, jet.su = {x[1], y[1], z[1]}, jet.sv = {xy_v[0], xy_v[1], z_v};
+}
+
 }  // namespace
 
 void evaluate(const BezierPatch& patch, unsigned want, const Vec2& uv, SurfaceJet& jet) {
@@ -85,6 +103,7 @@ void evaluate(const BezierPatch& patch, unsigned want, const Vec2& uv, SurfaceJe
   bernstein(patch.n, uv.y(), order, v);
   constexpr unsigned everything = want_position | want_first | want_second;
   if ((want & everything) == everything) return sum_all(patch, u, v, jet);
+  if ((want & everything) == (want_position | want_first)) return sum_first(patch, u, v, jet);
   if ((want & want_position) != 0) jet.s = sum(patch, u, 0, v, 0);
   if ((want & want_first) != 0) jet.su = sum(patch, u, 1, v, 0), jet.sv = sum(patch, u, 0, v, 1);
   if ((want & want_second) != 0)

@@ -2,7 +2,6 @@
 #include "surface/remesh/bounds/spread_triangle.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "surface/remesh/bounds/pole.h"
@@ -50,7 +49,10 @@ std::optional<SurfacePlace> SpreadTriangle::below_pole(const std::array<double, 
 std::optional<SurfacePlace> SpreadTriangle::near(const std::array<double, 3>& weight) const {
   const Vec3 target = flat(weight);
   std::array<int, 3> order{0, 1, 2};
-  std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
+  const auto put_in_order = [&](int i, int j) {
+    if (weight[order[i]] < weight[order[j]]) std::swap(order[i], order[j]);
+  };
+  put_in_order(0, 1), put_in_order(1, 2), put_in_order(0, 1);
   for (const int i : order)
     if (place_[i].regular)
       if (const auto found = charts_.towards(cad_, place_[i], target, true, thresholds::bounds::near_foot)) return found;

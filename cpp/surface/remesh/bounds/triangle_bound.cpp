@@ -244,28 +244,35 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
   return least > 0 ? std::atan((std::tan(largest) * upright + off(&Bend::leaning)) / least) : turned;
 }
 
+// Parts beside each other have a middle in common: weights are sums of powers of 1/2, and equal ones are equal in all bits.
 void TriangleBound::want_middles() {
-  wanted_.clear();
-  wanted_.reserve(3 * open_.size());
+  wanted_.clear(), middle_.clear();
+  middle_.reserve(3 * open_.size());
   for (const Part& part : open_)
-    for (std::size_t i = 0; i < 3; ++i) wanted_.push_back(0.5 * (part.corner[i].at + part.corner[(i + 1) % 3].at));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const PlaceInTriangle middle = 0.5 * (part.corner[i].at + part.corner[(i + 1) % 3].at);
+      const auto known = std::find(wanted_.rbegin(), wanted_.rend(), middle);
+      middle_.push_back(known == wanted_.rend() ? wanted_.size() : static_cast<std::size_t>(wanted_.rend() - known) - 1);
+      if (known == wanted_.rend()) wanted_.push_back(middle);
+    }
 }
 
 void TriangleBound::take(std::span<const BoundPlace> places) {
   const std::vector<Part> parts = std::exchange(open_, {});
-  std::vector<std::array<Seen, 3>> middles(parts.size());
-  for (std::size_t k = 0; k < places.size(); ++k) middles[k / 3][k % 3] = see(places[k], wanted_[k]);
+  std::vector<Seen> seen;
+  for (std::size_t k = 0; k < places.size(); ++k) seen.push_back(see(places[k], wanted_[k]));
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Part& part = parts[k];
+    const std::array<Seen, 3> middle{seen[middle_[3 * k]], seen[middle_[3 * k + 1]], seen[middle_[3 * k + 2]]};
     Bends bends;
     for (std::size_t i = 0; i < 3; ++i) {
-      bends[i] = bend_of(part.corner[i].place, middles[k][i].place, part.corner[(i + 1) % 3].place);
+      bends[i] = bend_of(part.corner[i].place, middle[i].place, part.corner[(i + 1) % 3].place);
       bends[i].raise(part.bends[i].times(min_of_parent / 4));
     }
     if (part.cuts % 2 == 0 && std::ranges::count(part.corner, true, &Seen::singular) == 1)
-      cut_at_pole(part, middles[k], bends);
+      cut_at_pole(part, middle, bends);
     else
-      cut(part.corner, middles[k], bends, part.cuts + 1);
+      cut(part.corner, middle, bends, part.cuts + 1);
   }
   want_middles();
 }

@@ -101,7 +101,8 @@ class TriangleBound {
   double deviation_ = 0, angle_ = 0;
   int parts_ = 0;
   std::vector<Part> open_;
-  std::vector<PlaceInTriangle> wanted_;
+  std::vector<PlaceInTriangle> wanted_;  // once each
+  std::vector<std::size_t> middle_;       // of each side of each open part: its rank in wanted_
 };
 
 }  // namespace carreau
