@@ -147,11 +147,33 @@ void find_narrow(CompositeRun& run) {
   run.result.report.seconds_curves += seconds_since(start);
 }
 
+namespace {
+
+// Rows are low beside long edges of curves: faces with curves that have layers, or that rows may end at.
+std::vector<char> faces_beside_rows(const CompositeRun& run) {
+  std::vector<char> beside;
+  if (run.layers.empty()) return beside;
+  beside.resize(run.model.faces.size(), 0);
+  const auto mark = [&](int c) {
+    for (const CurveUse& use : run.topology.curves[c].uses) beside[use.face] = 1;
+  };
+  for (int c = 0; c < static_cast<int>(run.topology.curves.size()); ++c) {
+    if (run.layers.of_curve(c) < 0) continue;
+    mark(c);
+    for (const int end : {run.topology.curves[c].end1, run.topology.curves[c].end2})
+      for (const int side : run.topology.points[end].curves) mark(side);
+  }
+  return beside;
+}
+
+}  // namespace
+
 void refine_boundaries(CompositeRun& run) {
   const auto start = std::chrono::steady_clock::now();
+  const std::vector<char> beside_rows = faces_beside_rows(run);
   for (;;) {
     run.domains =
-        refine_domains(run.curve_model, run.rules, run.options, run.limits(), run.narrow, run.curves, run.monitor, &run.periodic);
+        refine_domains(run.curve_model, run.rules, run.options, run.limits(), run.narrow, run.curves, run.monitor, &run.periodic, beside_rows);
     if (mesh_as_others(run, run.domains.unmatched)) continue;
     run.between.clear();
     for (const NarrowFace& face : run.narrow.strips)

@@ -97,7 +97,6 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   const Topology& used = periodic.placed.empty() ? topology : placed;
   CompositeRun run(model, used, supports, cad, options, std::move(periodic), monitor);
   if (layers != nullptr) run.layers = layer_curves(model, topology, layers->given, options);
-  if (!run.layers.empty()) run.options.check_adjacent_edges = 0;  // rows are low beside long edges of curves
   if (run.options.parts && !run.layers.empty()) run.make_whole();
   const auto agree = [&] {
     if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);

@@ -158,6 +158,18 @@ class CadFiles(unittest.TestCase):
         for growth in layers["growth"].values():
             self.assertAlmostEqual(growth / 1.3, 1, delta=0.05)
 
+    def test_y_plus_of_the_first_row(self):
+        done = run("mesh", os.path.join(SHAPES, "plate.step"), "-o", self.path("l.mesh"), "--size", "4%", "--json",
+                   "--layers", "edge:1=yplus:2,u_tau/nu:200,ratio:1.3,count:6")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"layers +y\+ [12]\.?\d* \([\d.]+ to [\d.]+\) at the first height, edge:1=yplus:2")
+        layers, = json.loads(done.stdout)["layers"]
+        for name, expected in (("y_plus", 2), ("first_over_request", 1), ("first_height", 0.01)):
+            for value in layers[name].values():
+                self.assertAlmostEqual(value / expected, 1, delta=0.05)
+        for wrong in ("yplus:1", "yplus:1,u_tau/nu:0", "first:.01,yplus:1,u_tau/nu:100", "first:.01,u_tau/nu:-1", "u_tau/nu:100"):
+            self.assertIn("layers are written as in edge:1=first:", self.failure("--size", "1", "--layers", "edge:1=" + wrong))
+
     def test_layers_of_curved_elements(self):
         for element in ("p2", "q1.1", "q2.0", "q2.1"):
             with self.subTest(element):

@@ -2,13 +2,13 @@
 // carreau_set_team without MPI: ranks are threads of this process, each with its own session.
 #include <algorithm>
 #include <array>
-#include <barrier>
 #include <carreau.hpp>
 #include <functional>
 #include <mutex>
 #include <thread>
 
 #include "abi_fixture.h"
+#include "common/meeting.h"
 
 namespace {
 
@@ -16,7 +16,7 @@ namespace {
 struct Office {
   explicit Office(int ranks) : barrier(ranks), given(static_cast<std::size_t>(ranks)) {}
 
-  std::barrier<> barrier;
+  carreau::testing::Meeting barrier;
   std::mutex mutex;
   std::int64_t taken = 0;
   std::vector<std::string> given;

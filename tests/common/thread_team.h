@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <barrier>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -12,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/meeting.h"
 #include "support/ranks/team.h"
 
 namespace carreau::testing {
@@ -21,7 +21,7 @@ struct CommonOfThreads {
   explicit CommonOfThreads(int n) : given(static_cast<std::size_t>(n)), meeting(n) {}
   std::vector<std::string> given;
   std::atomic<std::int64_t> next{0};
-  std::barrier<> meeting;
+  Meeting meeting;
 };
 
 class ThreadLink final : public TeamLink {

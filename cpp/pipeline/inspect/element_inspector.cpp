@@ -22,7 +22,7 @@ namespace {
 using namespace thresholds::elements;
 
 /// Rounds in which rows lose half of their height: 40 rows end.
-constexpr int max_retreats = 6;
+constexpr int max_retreats = 12;
 
 bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
   bool any = false;

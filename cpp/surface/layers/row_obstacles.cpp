@@ -14,7 +14,8 @@ RowObstacles::RowObstacles(const RowFace& face) : face_(face) {
     if (!face_.is_on_curve(edge.a) || !face_.is_on_curve(edge.b)) continue;
     Obstacle obstacle{.a = face_.xyz(edge.a), .b = face_.xyz(edge.b)};
     const Vec2 middle = 0.5 * (face_.uv(edge.a) + face_.uv(edge.b));
-    obstacle.sagitta = norm(surface_at(face_.cad, face_.input.ref, want_position, middle).s - 0.5 * (obstacle.a + obstacle.b));
+    obstacle.sagitta = (face_.halved ? 0.25 : 1) *
+                       norm(surface_at(face_.cad, face_.input.ref, want_position, middle).s - 0.5 * (obstacle.a + obstacle.b));
     if (const int layers = face_.layers_of(edge); layers >= 0) {
       obstacle.up = RowFace::unit(cross(face_.normal_at(edge.a), face_.direction(edge.a, edge.b)));
       for (const double h : face_.layers.heights(layers, norm(obstacle.b - obstacle.a))) obstacle.total += h;

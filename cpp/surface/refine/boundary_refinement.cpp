@@ -35,8 +35,8 @@ using Splits = std::map<int, std::set<int>>;
 class Refiner {
  public:
   Refiner(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
-          const NarrowModel& narrow, std::vector<DiscreteCurve>& curves, const PeriodicModel* periodic, std::set<int>& given_up,
-          Monitor& monitor)
+          const NarrowModel& narrow, std::vector<DiscreteCurve>& curves, const PeriodicModel* periodic, const std::vector<char>& uneven,
+          std::set<int>& given_up, Monitor& monitor)
       : curve_model_(model),
         model_(model.model),
         topology_(model.topology),
@@ -47,6 +47,7 @@ class Refiner {
         strips_(narrow.strips),
         curves_(curves),
         periodic_(periodic),
+        uneven_(uneven),
         given_up_(given_up),
         monitor_(monitor) {
     const std::size_t n = model_.faces.size();
@@ -95,7 +96,7 @@ class Refiner {
         });
     if (!isotropic_) finest_.emplace(topology_, curves_);
     repeat(
-        options_.check_adjacent_edges, [this](int f) { return Found{.ask_metric = may_be_unbalanced(f)}; },
+        options_.check_adjacent_edges, [this](int f) { return Found{.ask_metric = !is_uneven(f) && may_be_unbalanced(f)}; },
         [this](int f, Found& found, Monitor& monitor) {
           if (!found.ask_metric) return;
           const PlaneDomain& plane = result_.domain[f]->plane;
@@ -324,6 +325,7 @@ class Refiner {
   // Returns whether edges at a vertex differ so much that the balance needs a look. With a uniform size lengths on
   // curves decide, without a callback. With a gradation they decide together with the largest change of sizes up to the
   // middles of edges.
+  [[nodiscard]] bool is_uneven(int f) const { return static_cast<std::size_t>(f) < uneven_.size() && uneven_[f] != 0; }
   [[nodiscard]] bool may_be_unbalanced(int f) const {
     if (!rules_.constant() && (limits_.field == nullptr || !isotropic_)) return true;
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
@@ -410,6 +412,7 @@ class Refiner {
   std::vector<char> left_out_;  // by face
   std::vector<DiscreteCurve>& curves_;
   const PeriodicModel* periodic_;  // null: none
+  const std::vector<char>& uneven_;
   std::set<int>& given_up_;  // faces whose edges are no longer cut
   Monitor& monitor_;
   RefinedDomains result_;
@@ -433,12 +436,12 @@ class Refiner {
 
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
-                              Monitor& monitor, const PeriodicModel* periodic) {
+                              Monitor& monitor, const PeriodicModel* periodic, const std::vector<char>& uneven) {
   const std::vector<DiscreteCurve> unrefined = curves;
   std::set<int> given_up;
   std::map<int, std::string> why;
   for (;;) {
-    RefinedDomains result = Refiner(model, rules, options, limits, narrow, curves, periodic, given_up, monitor).run();
+    RefinedDomains result = Refiner(model, rules, options, limits, narrow, curves, periodic, uneven, given_up, monitor).run();
     const std::size_t known = why.size();
     for (int f = 0; f < static_cast<int>(result.failure.size()); ++f)
       if (!result.failure[f].empty() && result.mended[f] != 0) why.emplace(f, result.failure[f]), given_up.insert(f);

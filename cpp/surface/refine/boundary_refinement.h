@@ -30,10 +30,11 @@ struct RefinedDomains {
 /// splits them where boundaries come close or lengths of neighbours differ (CheckCloseEdges, CheckAdjacentEdges,
 /// CheckWellDefined). The options prescribe the number of rounds. `limits`: limits of the sizes in which lengths are
 /// compared. Strips in `narrow`, and points whose curves vanish, are passed over and get no domain. The two sides of
-/// strips keep vertices at the same places. Periodic curves keep corresponding vertices.
+/// strips keep vertices at the same places. Periodic curves keep corresponding vertices. Neighbours may differ in faces that
+/// `uneven` marks.
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
-                              Monitor& monitor, const PeriodicModel* periodic = nullptr);
+                              Monitor& monitor, const PeriodicModel* periodic = nullptr, const std::vector<char>& uneven = {});
 
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel if two
 /// such curves are prescribed to have one edge.

@@ -246,6 +246,55 @@ TEST(LayerRows, RowsThatMeetEnd) {
   EXPECT_LE(wall.figures[0].rows, 9);
 }
 
+// In the plane the corner's columns lie on the bisectors. A cylinder is developable: its rows have the same heights.
+TEST(LayerRows, CornersOnACylinderKeepTheGrowth) {
+  AnalyticCad cad;
+  cad.faces[1] = {cylinder, rectangle({0, 0}, {1.4, 2.8})};
+  const CurveLayers layers{.curves = {1, 2, 3, 4}, .first = 0.3, .ratio = 1.2, .count = 3};
+  const Layered run(cad, 0.55, {layers});
+  EXPECT_EQ(run.figures[0].rows, 3);
+  EXPECT_NEAR(run.figures[0].growth_min / layers.ratio, 1, 0.02);
+  EXPECT_NEAR(run.figures[0].growth_max / layers.ratio, 1, 0.02);
+}
+
+/// Chords of a ring that is narrower than their sagittas.
+TEST(LayerRows, RowsOnCoarseFlanksDoNotTurnOver) {
+  const auto ring = [](Vec2 p) -> SurfaceJet {
+    const double c = std::cos(p.x()), s = std::sin(p.x());
+    return {{p.y() * c, p.y() * s, 0}, {-p.y() * s, p.y() * c, 0}, {c, s, 0}, {-p.y() * c, -p.y() * s, 0}, {-s, c, 0}, {}};
+  };
+  for (const double size : {0.3, 0.45, 0.6})
+    for (const double width : {0.1, 0.2, 0.3}) {
+      AnalyticCad cad;
+      cad.faces[1] = {ring, rectangle({0, 2}, {2, 2 + width})};
+      const CurveLayers layers{.curves = {1, 3}, .first = 0.02, .ratio = 1.2, .count = 6};
+      const Layered run(cad, size, {layers});
+      const SurfaceMesh& mesh = run.session->mesh();
+      for (const auto& [a, b, c] : mesh.faces[0].triangles) {
+        const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(mesh.faces[0].vertex[static_cast<std::size_t>(v)])]; };
+        EXPECT_LT(cross(at(b) - at(a), at(c) - at(a)).z(), 0) << size << ' ' << width;  // S_u x S_v points down
+      }
+    }
+}
+
+TEST(LayerRows, RowsBesideAFaultLoseHalf) {
+  const std::vector<Vec3> at{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}};
+  const std::vector<LayerCell> cells{{.corners = {0, 1, 4, 3}, .layers = 0, .row = 0}, {.corners = {3, 4, 7, 6}, .layers = 0, .row = 1},
+                                     {.corners = {1, 2, 5, 4}, .layers = 0, .row = 0}};
+  std::vector<RowLimit> limits;
+  const auto place = [&](std::int32_t v) { return at[static_cast<std::size_t>(v)]; };
+  halve_rows_near(7, {0, 2.5, 0}, 0.6, cells, place, false, limits);
+  ASSERT_EQ(limits.size(), 1U);
+  EXPECT_EQ(limits[0].face, 7);
+  EXPECT_EQ(limits[0].rows, 1);
+  EXPECT_LE(norm(limits[0].place - at[0]), limits[0].reach);
+  EXPECT_LE(norm(limits[0].place - at[1]), limits[0].reach);
+  EXPECT_GT(norm(limits[0].place - at[2]), limits[0].reach);
+  halve_rows_near(7, {2, 1, 0}, 0.1, cells, place, false, limits);
+  ASSERT_EQ(limits.size(), 2U);
+  EXPECT_EQ(limits[1].rows, 0);
+}
+
 TEST(LayerRows, QuadrilateralsComeInRows) {
   const CurveLayers layers{.curves = {1}, .first = 0.01, .ratio = 1.3, .count = 8};
   const Layered run(plane_of(rectangle({0, 0}, {2, 1})), 0.1, {layers}, "q1.0");
