@@ -181,25 +181,43 @@ static int draw(const figure* f, const char* folder) {
   return 0;
 }
 
-/* ---- An atlas of a torus: chart 0, and its neighbour by the most places ---- */
+/* ---- An atlas of a sphere of 320 triangles: chart 0, and the neighbour that shares most of it ---- */
 
-enum { ROWS = 36, COLUMNS = 18, HALF = SIZE / 2 };
+enum { PARTS = 4, VERTICES = 10 * PARTS * PARTS + 2, HALF = SIZE / 2 };
 
-static carreau_status torus(carreau_atlas* atlas, int32_t border) {
-  static double xyz[3 * ROWS * COLUMNS];
-  static int32_t triangles[6 * ROWS * COLUMNS];
-  const double turn = 2 * acos(-1.);
-  for (int i = 0; i < ROWS; ++i)
-    for (int j = 0; j < COLUMNS; ++j) {
-      const double a = turn * i / ROWS, b = turn * (j + .5 * (i % 2)) / COLUMNS, r = 2 + .8 * cos(b);
-      const int v = i * COLUMNS + j, odd = i % 2, next = (i + 1) % ROWS * COLUMNS;
-      xyz[3 * v] = r * cos(a), xyz[3 * v + 1] = r * sin(a), xyz[3 * v + 2] = .8 * sin(b);
-      const int32_t right = next + (j + odd) % COLUMNS, left = next + (j + odd + COLUMNS - 1) % COLUMNS, up = i * COLUMNS + (j + 1) % COLUMNS;
-      const int32_t both[6] = {v, right, up, v, left, right};
-      for (int k = 0; k < 6; ++k) triangles[6 * v + k] = both[k];
-    }
+/* The number of a vertex, which may be new. */
+static int32_t vertex_at(const double* p, double* xyz, int* count) {
+  const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+  for (int v = 0; v < *count; ++v)
+    if (fabs(xyz[3 * v] - p[0] / length) + fabs(xyz[3 * v + 1] - p[1] / length) + fabs(xyz[3 * v + 2] - p[2] / length) < 1e-9) return v;
+  for (int c = 0; c < 3; ++c) xyz[3 * *count + c] = p[c] / length;
+  return (*count)++;
+}
+
+static carreau_status sphere(carreau_atlas* atlas, int32_t border) {
+  const double g = 1.618033988749895;
+  const double corner[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
+                                {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const int face[20][3] = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                           {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  static double xyz[3 * VERTICES];
+  static int32_t triangles[60 * PARTS * PARTS];
+  int count = 0, m = 0;
+  for (int f = 0; f < 20; ++f)
+    for (int i = 0; i < PARTS; ++i)
+      for (int j = 0; i + j < PARTS; ++j)
+        for (int up = 0; up <= (i + j + 1 < PARTS); ++up) {
+          const int at[3][2] = {{i + up, j + up}, {i + 1 - up, j + up}, {i + up, j + 1 - up}};
+          for (int k = 0; k < 3; ++k) {
+            double p[3];
+            for (int c = 0; c < 3; ++c)
+              p[c] = (PARTS - at[k][0] - at[k][1]) * corner[face[f][0]][c] + at[k][0] * corner[face[f][1]][c] + at[k][1] * corner[face[f][2]][c];
+            triangles[3 * m + k] = vertex_at(p, xyz, &count);
+          }
+          ++m;
+        }
   const carreau_atlas_options options = {.struct_size = sizeof options, .border = border};
-  return carreau_atlas_build(atlas, &options, ROWS * COLUMNS, xyz, 2 * ROWS * COLUMNS, triangles, NULL);
+  return carreau_atlas_build(atlas, &options, count, xyz, m, triangles, NULL);
 }
 
 /* Puts the box of a chart's annulus into a square of pixels. */
@@ -274,7 +292,7 @@ static int draw_atlas(const char* folder) {
   if (carreau_atlas_create(&atlas) != CARREAU_OK) return 1;
   int64_t neighbour = 1;
   for (int k = KINDS - 1; k >= 0; --k) {
-    if (torus(atlas, kinds[k]) != CARREAU_OK) return fprintf(stderr, "%s\n", carreau_atlas_last_error(atlas)), 1;
+    if (sphere(atlas, kinds[k]) != CARREAU_OK) return fprintf(stderr, "%s\n", carreau_atlas_last_error(atlas)), 1;
     neighbour = draw_zones(atlas, k % 2 * HALF, k / 2 * HALF);
   }
   snprintf(path, sizeof path, "%s/zones.png", folder);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/fold_check.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "geometry/atlas/fold_places.h"
 #include "geometry/atlas/thresholds.h"
 #include "model/format_point.h"
-#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 namespace {
@@ -37,7 +36,10 @@ class FoldSearch {
         look_at_cell(triple, {place(i, j), place(i + 1, j), place(i, j + 1)}, 0);
         if (i + j < n - 1) look_at_cell(triple, {place(i + 1, j + 1), place(i, j + 1), place(i + 1, j)}, 0);
       }
-    for (int corner = 0; corner < 3; ++corner) look_at_strips(triple, corner);
+    for (int corner = 0; corner < 3; ++corner)
+      for (const Vec2& phi : narrow_strips(surface_.covering(), triple, corner))
+        for (int i = 0; i < thresholds::cells_of_strip; ++i)
+          look_at_strip(triple, corner, Vec2(i, i + 1) / thresholds::cells_of_strip, phi, 0);
   }
 
   void look_at_pure_zone(std::size_t chart) {
@@ -80,25 +82,6 @@ class FoldSearch {
     look_at_cell(triple, middle, depth + 1);
     for (std::size_t c = 0; c < 3; ++c)
       look_at_cell(triple, {cell[c], middle[(c + 2) % 3], middle[(c + 1) % 3]}, depth + 1);
-  }
-
-  /// The strips between knots of a chart's phi that are narrower than cells: the area changes in steps across knots.
-  void look_at_strips(std::size_t triple, int corner) {
-    const auto c = static_cast<std::size_t>(corner);
-    const Annulus& annulus = chart(charts_of(triple)[c]).annulus;
-    const double first = surface_.covering().triples()[triple].slot[c] * sixth_turn;
-    std::vector<double> knots{0, sixth_turn};
-    for (const Part& part : annulus.parts())
-      for (const double phi : part.phi)
-        if (const double at = std::fmod(phi - first + 2 * annulus.period(), annulus.period()); at < sixth_turn)
-          knots.push_back(at);
-    std::sort(knots.begin(), knots.end());
-    constexpr double wide = 2.0 / thresholds::cells_of_t;
-    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-      if (knots[k + 1] - knots[k] > wide || knots[k + 1] - knots[k] < rounding_of::places) continue;
-      for (int i = 0; i < thresholds::cells_of_strip; ++i)
-        look_at_strip(triple, corner, Vec2(i, i + 1) / thresholds::cells_of_strip, {knots[k], knots[k + 1]}, 0);
-    }
   }
 
   /// A rectangle of tau and phi about a corner: the longer side is halved.

@@ -30,7 +30,11 @@ struct FoldPlace {
   [[nodiscard]] double jacobian(const std::vector<Primitive>& primitives) const;
 };
 
-/// Places of all T on a grid; values common to all T are computed once.
+/// The strips of a T between knots of phi of the chart at a corner that are narrower than cells of the check: the area
+/// changes in steps across knots. Each strip is a pair of angles about the corner.
+std::vector<Vec2> narrow_strips(const Covering& covering, std::size_t triple, int corner);
+
+/// Places of all T on a grid, and in narrow strips; values common to all T are computed once.
 class FoldGrid {
  public:
   /// `parts` of the sides of T.
@@ -40,6 +44,7 @@ class FoldGrid {
   template <typename Visit>
   void visit_triple(std::size_t triple, Visit&& visit) const {
     for (const Node& node : nodes_) visit(place(triple, node));
+    for (const Vec2& at : in_strips_[triple]) visit(place(triple, node_at(at)));
   }
   /// Places where a chart is alone: on its triangles and at the border of its pure zone.
   [[nodiscard]] std::vector<FoldPlace> of_pure_zone(std::size_t chart) const;
@@ -50,10 +55,12 @@ class FoldGrid {
     std::array<Slope, 3> weight;
     std::array<Polar<Slope>, 3> place;
   };
+  [[nodiscard]] static Node node_at(const Vec2& place);
   [[nodiscard]] FoldPlace place(std::size_t triple, const Node& node) const;
 
   const Covering& covering_;
   std::vector<Node> nodes_;
+  std::vector<std::vector<Vec2>> in_strips_;  ///< by T
 };
 
 }  // namespace carreau::atlas
