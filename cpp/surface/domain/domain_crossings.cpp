@@ -220,11 +220,13 @@ double count_pairs(const EdgeGrid& grid) {
 
 std::optional<EdgeConflict> find_a_crossing(const PlaneDomain& domain) {
   require_sound(domain);
+  if (is_star(domain)) return {};
   return Sweep(domain).run();
 }
 
 std::vector<EdgeConflict> find_crossings(const PlaneDomain& domain) {
   require_sound(domain);
+  if (is_star(domain)) return {};
   const EdgeGrid grid = grid_of(domain);
   const double n = static_cast<double>(domain.edges.size());
   // Long edges that run close together in a slanting direction crowd the cells. The sweep handles them, but finds one

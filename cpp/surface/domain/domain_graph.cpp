@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "predicates/predicates.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -32,6 +33,31 @@ std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain) {
   for (const PlaneEdge& e : domain.edges)
     if (bounds(e)) edges.emplace_back(e.a, e.b);
   return edges;
+}
+
+int turn_about_mean(const PlaneDomain& domain, std::span<const std::pair<int, int>> edges) {
+  if (edges.empty()) return 0;
+  Vec2 mean{0, 0};
+  for (const auto& [a, b] : edges) mean += domain.vertices[a] / static_cast<double>(edges.size());
+  const int turn = orientation(mean, domain.vertices[edges[0].first], domain.vertices[edges[0].second]);
+  int crossings = 0;  // of the line along u through the mean: two a turn
+  for (const auto& [a, b] : edges) {
+    const Vec2 &p = domain.vertices[a], &q = domain.vertices[b];
+    if (orientation(mean, p, q) != turn) return 0;
+    crossings += (p.y() <= mean.y()) != (q.y() <= mean.y()) ? 1 : 0;
+  }
+  return crossings == 2 ? turn : 0;
+}
+
+bool is_star(const PlaneDomain& domain) {
+  if (domain.edges.size() != domain.vertices.size()) return false;
+  constexpr char begun = 1, ended = 2;
+  std::vector<char> at(domain.vertices.size(), 0);
+  for (const PlaneEdge& e : domain.edges) {
+    if (!bounds(e) || (at[e.a] & begun) != 0 || (at[e.b] & ended) != 0) return false;
+    at[e.a] |= begun, at[e.b] |= ended;
+  }
+  return turn_about_mean(domain, bounding_edges(domain)) > 0;
 }
 
 DomainIncidence::DomainIncidence(const PlaneDomain& domain, Which which) {

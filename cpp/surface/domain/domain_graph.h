@@ -22,6 +22,14 @@ inline bool bounds(const PlaneEdge& edge) noexcept { return edge.kind != PlaneEd
 /// The ends of the boundary and degenerate edges, in their order.
 std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain);
 
+/// Returns 1 if the directed edges turn left about the mean of their first ends, once altogether, -1 if right, 0
+/// otherwise. Edges that form loops and turn once are one loop that does not meet itself.
+int turn_about_mean(const PlaneDomain& domain, std::span<const std::pair<int, int>> edges);
+
+/// Returns whether the domain is one loop that turns left about its mean once, without internal edges and points. Sound
+/// domains only. Most small ones are; no other check can find a fault of these.
+bool is_star(const PlaneDomain& domain);
+
 /// The edges at each vertex, in increasing order.
 class DomainIncidence {
  public:

@@ -2,7 +2,9 @@
 // Loops of a domain: whether they close, their orientation, and the parts outside.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,6 +77,17 @@ double side_of_inside(const PlaneDomain& domain, const Boundary& boundary, const
     vote += (left ? 1 : -1) * std::max(share, 1e-30);
   }
   return vote;
+}
+
+/// As side_of_inside(), if the chain is the whole boundary and does not meet itself for certain; otherwise 0.
+int side_of_star(const PlaneDomain& domain, std::span<const Chain> chains) {
+  if (chains.size() != 1 || !chains[0].closed) return 0;
+  std::vector<std::pair<int, int>> edges;
+  for (std::size_t i = 0; i < chains[0].edges.size(); ++i) {
+    const PlaneEdge& e = domain.edges[chains[0].edges[i]];
+    edges.push_back(chains[0].against[i] != 0 ? std::pair(e.b, e.a) : std::pair(e.a, e.b));
+  }
+  return turn_about_mean(domain, edges);
 }
 
 double extent_of(const PlaneDomain& domain) {
@@ -187,7 +200,7 @@ Sentences find_open_loops(const PlaneDomain& domain, const EdgeNamer& name) {
 
 Sentences find_loop_defects(const PlaneDomain& domain, const EdgeNamer& name) {
   Report report{domain, name, find_open_loops(domain, name)};
-  if (!report.sentences.empty()) return report.sentences;
+  if (!report.sentences.empty() || is_star(domain)) return report.sentences;
   const Boundary boundary(domain);
   const DomainIncidence incidence(domain, DomainIncidence::Which::bounding);
   for (const Chain& chain : boundary_chains(domain, incidence)) report_chain(boundary, chain, report);
@@ -202,11 +215,14 @@ bool orient_loops(PlaneDomain& domain, int seed, bool left) {
     throw DomainError("the orientation is given by an edge that is not on the boundary");
   const DomainIncidence incidence(domain, DomainIncidence::Which::bounding);
   if (has_odd_vertex(domain, incidence)) return false;
-  const Boundary boundary(domain);
+  const std::vector<Chain> chains = boundary_chains(domain, incidence);
+  const int side = side_of_star(domain, chains);
+  std::optional<Boundary> boundary;
+  if (side == 0) boundary.emplace(domain);
   const double extent = extent_of(domain);
   std::vector<int> to_turn;
-  for (const Chain& chain : boundary_chains(domain, incidence)) {
-    const bool inside_left = side_of_inside(domain, boundary, chain, extent) > 0;
+  for (const Chain& chain : chains) {
+    const bool inside_left = boundary ? side_of_inside(domain, *boundary, chain, extent) > 0 : side > 0;
     for (std::size_t i = 0; i < chain.edges.size(); ++i) {
       const bool edge_has_left = inside_left != (chain.against[i] != 0);
       if (chain.edges[i] == seed && edge_has_left != left) return false;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "base/failure.h"
 
@@ -12,11 +13,27 @@ namespace command {
 
 namespace {
 constexpr int samples = 32;  // of each curve: a circle's box and length are then known within 0.5 %
+
+struct Box {
+  Place low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void add(const Place& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  [[nodiscard]] bool empty() const { return low.x > high.x; }
+  [[nodiscard]] double diagonal() const { return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z); }
+  [[nodiscard]] bool holds(const Box& other, double margin) const {
+    return low.x <= other.low.x - margin && low.y <= other.low.y - margin && low.z <= other.low.z - margin &&
+           high.x >= other.high.x + margin && high.y >= other.high.y + margin && high.z >= other.high.z + margin;
+  }
+};
+
 }
 
 template <typename Visit, typename Failed>
-void ModelInput::walk(std::int32_t face, std::int32_t ic, Visit&& visit, Failed&& failed) const {
-  for (int i = 0; i <= samples; ++i) {
+void ModelInput::walk(std::int32_t face, std::int32_t ic, int step, Visit&& visit, Failed&& failed) const {
+  for (int i = 0; i <= samples; i += step) {
     double u = 0, v = 0;
     Place p;
     if (on_curve(face, ic, static_cast<double>(i) / samples, u, v) && locate(face, u, v, p))
@@ -26,19 +43,30 @@ void ModelInput::walk(std::int32_t face, std::int32_t ic, Visit&& visit, Failed&
   }
 }
 
+// A side stays within its length of the box of five of its points: most sides of large models are far inside the box of
+// all, and need no more.
 void ModelInput::measure(const std::string& path) {
-  Place low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const FaceModel::Face& face : model_.faces)
-    for (std::size_t c = 0; c < face.curves.size(); ++c)
-      walk(
-          face.ref, static_cast<std::int32_t>(c + 1),
-          [&](const Place& p) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-          },
-          [] {});  // reported with the place when the mesh is made
-  diagonal_ = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
-  if (!(diagonal_ > 0) || !std::isfinite(diagonal_) || low.x > high.x)
+  constexpr int step = samples / 4;
+  Box all;
+  std::vector<Box> of_sides;
+  const auto sides = [&](auto&& each) {
+    for (const FaceModel::Face& face : model_.faces)
+      for (std::size_t c = 0; c < face.curves.size(); ++c) each(face.ref, static_cast<std::int32_t>(c + 1));
+  };
+  const auto failed = [] {};  // reported with the place when the mesh is made
+  sides([&](std::int32_t face, std::int32_t ic) {
+    Box& box = of_sides.emplace_back();
+    walk(face, ic, step, [&](const Place& p) { box.add(p); }, failed);
+    if (!box.empty()) all.add(box.low), all.add(box.high);
+  });
+  const Box coarse = all;
+  std::size_t side = 0;
+  sides([&](std::int32_t face, std::int32_t ic) {
+    const Box& box = of_sides[side++];
+    if (box.empty() || !coarse.holds(box, box.diagonal())) walk(face, ic, 1, [&](const Place& p) { all.add(p); }, failed);
+  });
+  diagonal_ = all.diagonal();
+  if (all.empty() || !(diagonal_ > 0) || !std::isfinite(diagonal_))
     throw Failure("'" + path + "': its curves have no extent in space.");
 }
 
@@ -56,7 +84,7 @@ ModelFigures ModelInput::look_at() const {
       bool first = true, failed = false;
       Place before;
       walk(
-          face.ref, ic,
+          face.ref, ic, 1,
           [&](const Place& p) {
             if (!first) length += std::hypot(p.x - before.x, p.y - before.y, p.z - before.z);
             first = false, before = p;

@@ -49,9 +49,9 @@ class ModelInput : public CadInput {
 
  private:
   [[nodiscard]] FaceLook look_at(const FaceModel::Face& face) const;
-  /// Places of `samples` + 1 points of a curve; calls visit(place), or failed() where the geometry fails.
+  /// Each `step`-th place of `samples` + 1 points of a curve; calls visit(place), or failed() where the geometry fails.
   template <typename Visit, typename Failed>
-  void walk(std::int32_t face, std::int32_t ic, Visit&& visit, Failed&& failed) const;
+  void walk(std::int32_t face, std::int32_t ic, int step, Visit&& visit, Failed&& failed) const;
 
   FaceModel model_;
   double diagonal_ = 0;
