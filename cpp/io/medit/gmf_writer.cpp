@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 #include "io/element_lists.h"
+#include "io/files.h"
 #include "io/medit/gmf.h"
+#include "io/medit/surface_file.h"
 #include "io/mesh_writers.h"
 
 namespace carreau {
@@ -14,20 +18,20 @@ namespace {
 class GmfWriter {
  public:
   GmfWriter(int version, const ByteSink& sink) : version_(version), sink_(sink) {
-    block_.reserve(block_size);
+    block_.resize(block_size);
     append(std::int32_t{1});
     append(std::int32_t{version});
   }
 
   /// Starts a section of `count` records of `record` bytes each.
   void section(GmfCode code, std::size_t count, std::size_t record) {
-    const std::uint64_t next = gmf_next(written_ + block_.size(), version_, count, record);
+    const std::uint64_t next = gmf_next(written_ + used_, version_, count, record);
     append(static_cast<std::int32_t>(code));
     position(next);
     append(static_cast<std::int32_t>(count));
   }
   void dimension(int value) {
-    const std::uint64_t next = gmf_next(written_ + block_.size(), version_, 0, 0);
+    const std::uint64_t next = gmf_next(written_ + used_, version_, 0, 0);
     append(static_cast<std::int32_t>(GmfCode::dimension));
     position(next);
     append(std::int32_t{value});
@@ -51,12 +55,19 @@ class GmfWriter {
     }
   }
 
+  void vertex(const Vec3& p, std::int32_t ref, int dimension) {
+    if (dimension == 3)
+      append(std::array<double, 3>{p.x(), p.y(), p.z()});
+    else
+      append(std::array<double, 2>{p.x(), p.y()});
+    append(ref);
+  }
+
   template <typename T>
   void append(T value) {
-    if (block_.size() + sizeof value > block_size) flush();
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    block_.append(raw, sizeof value);
+    if (used_ + sizeof value > block_size) flush();
+    std::memcpy(block_.data() + used_, &value, sizeof value);
+    used_ += sizeof value;
   }
 
  private:
@@ -69,14 +80,15 @@ class GmfWriter {
       append(static_cast<std::int64_t>(value));
   }
   void flush() {
-    sink_(block_);
-    written_ += block_.size();
-    block_.clear();
+    sink_(std::string_view(block_).substr(0, used_));
+    written_ += used_;
+    used_ = 0;
   }
 
   int version_;
   const ByteSink& sink_;
   std::string block_;
+  std::size_t used_ = 0;  // bytes of the block
   std::uint64_t written_ = 0;
 };
 
@@ -122,21 +134,34 @@ std::string gmf_bytes(const FlatMesh& mesh, int version, const MeshAssociation* 
   return bytes;
 }
 
+void write_surface(const SurfaceMesh& mesh, const FlatMesh& frame, const std::string& path) {
+  const GmfCounts counts{
+      .dimension = frame.dimension, .vertices = mesh.vertices.size(), .triangles = mesh.triangle_count(), .edges = frame.edges.size(), .cells = 0};
+  NewFile file(path);
+  std::uint64_t at = 0;
+  const ByteSink sink = [&](std::string_view block) { file.write_at(at, block), at += block.size(); };
+  GmfWriter writer(gmf_needs_64_bits(counts) ? 3 : 2, sink);
+  writer.dimension(frame.dimension);
+  writer.section(GmfCode::vertices, counts.vertices, 8 * static_cast<std::size_t>(frame.dimension) + 4);
+  for (std::size_t v = 0; v < counts.vertices; ++v) writer.vertex(mesh.vertices[v], ref_of(frame.vertex_refs, v), frame.dimension);
+  writer.entities(GmfCode::edges, frame.edges, frame.edge_refs);
+  if (counts.triangles > 0) writer.section(GmfCode::triangles, counts.triangles, 16);
+  for (const FaceMesh& face : mesh.faces) {
+    const std::int32_t ref = face.shown_ref();
+    for (const auto& [a, b, c] : face.triangles) writer.append(std::array{face.vertex[a] + 1, face.vertex[b] + 1, face.vertex[c] + 1, ref});
+  }
+  writer.end();
+  file.commit();
+}
+
 void write_gmf(const FlatMesh& mesh, int version, const MeshAssociation* association, const ByteSink& sink) {
   GmfWriter writer(version, sink);
   writer.dimension(mesh.dimension);
   const MeditElements elements(mesh);
   writer.section(GmfCode::vertices, mesh.vertices.size() + elements.centres.size(),
                  8 * static_cast<std::size_t>(mesh.dimension) + 4);
-  const auto add = [&](const Vec3& p, std::int32_t ref) {
-    if (mesh.dimension == 3)
-      writer.append(std::array<double, 3>{p.x(), p.y(), p.z()});
-    else
-      writer.append(std::array<double, 2>{p.x(), p.y()});
-    writer.append(ref);
-  };
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) add(mesh.vertices[i], ref_of(mesh.vertex_refs, i));
-  for (const Vec3& centre : elements.centres) add(centre, 0);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) writer.vertex(mesh.vertices[i], ref_of(mesh.vertex_refs, i), mesh.dimension);
+  for (const Vec3& centre : elements.centres) writer.vertex(centre, 0, mesh.dimension);
   const ElementLists& lists = elements.lists;
   writer.entities(GmfCode::edges, lists.edges.nodes, lists.edges.refs);
   writer.entities(GmfCode::triangles, elements.triangles, elements.triangle_refs);

@@ -234,6 +234,13 @@ std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices, std::span<
                                       std::span<const TriangleView> views, std::span<std::int32_t> order, int threads,
                                       Monitor& monitor) {
   std::vector<std::int32_t> graph(triangles.size(), alone);
+  find_graphs_of(vertices, triangles, views, order, 0, graph, threads, monitor);
+  return graph;
+}
+
+void find_graphs_of(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                    std::span<const TriangleView> views, std::span<std::int32_t> order, std::int32_t first,
+                    std::span<std::int32_t> graph, int threads, Monitor& monitor) {
   const std::size_t parts = (order.size() + triangles_at_once - 1) / triangles_at_once;
   std::vector<std::int32_t> count(parts, 0);
   GraphsAtHand at_hand;
@@ -248,7 +255,7 @@ std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices, std::span<
         at_hand.give_back(std::move(graphs));
       },
       monitor);
-  std::vector<std::int32_t> before(parts, 0);
+  std::vector<std::int32_t> before(parts, first);
   for (std::size_t part = 1; part < parts; ++part) before[part] = before[part - 1] + count[part - 1];
   run_each(
       parts, false, threads,
@@ -257,7 +264,6 @@ std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices, std::span<
           if (std::int32_t& g = graph[static_cast<std::size_t>(order[k])]; g >= 0) g += before[part];
       },
       monitor);
-  return graph;
 }
 
 }  // namespace carreau

@@ -25,4 +25,9 @@ std::vector<std::int32_t> find_graphs(std::span<const Vec3> vertices,
                                       std::span<const TriangleView> views, std::span<std::int32_t> order, int threads,
                                       Monitor& monitor);
 
+/// Writes these numbers, counted from `first`, into `graph`, by triangle of the mesh, for the triangles of `order` alone.
+void find_graphs_of(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                    std::span<const TriangleView> views, std::span<std::int32_t> order, std::int32_t first,
+                    std::span<std::int32_t> graph, int threads, Monitor& monitor);
+
 }  // namespace carreau

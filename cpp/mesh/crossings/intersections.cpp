@@ -261,13 +261,12 @@ std::vector<std::int32_t> all_graphs(std::span<const Vec3> vertices, std::span<c
                                      const FacesOfTriangles& faces, int threads, Monitor& monitor) {
   std::vector<std::int32_t> graph(triangles.size(), -1);
   const std::int32_t of_faces = find_face_graphs(vertices, triangles, sound.view, faces, graph, threads, monitor);
-  std::vector<std::int32_t> rest = sound.numbers;
-  if (of_faces > 0) std::erase_if(rest, [&](std::int32_t t) { return graph[static_cast<std::size_t>(t)] >= 0; });
+  std::vector<std::int32_t> rest;
+  for (const std::int32_t t : sound.numbers)
+    if (graph[static_cast<std::size_t>(t)] < 0) rest.push_back(t);
   if (rest.empty()) return graph;
   rest = spatial_order(vertices, triangles, std::move(rest), monitor, threads);
-  const std::vector<std::int32_t> more = find_graphs(vertices, triangles, sound.view, rest, threads, monitor);
-  for (const std::int32_t t : rest)
-    if (const std::int32_t g = more[static_cast<std::size_t>(t)]; g >= 0) graph[static_cast<std::size_t>(t)] = of_faces + g;
+  find_graphs_of(vertices, triangles, sound.view, rest, of_faces, graph, threads, monitor);
   return graph;
 }
 

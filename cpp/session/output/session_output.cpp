@@ -9,6 +9,7 @@
 #include "io/delivered_json.h"
 #include "io/files.h"
 #include "io/high_order/curved_files.h"
+#include "io/medit/surface_file.h"
 #include "io/mesh_files.h"
 #include "model/geometries.h"
 #include "periodic/closest.h"
@@ -118,6 +119,21 @@ const std::map<int, int>& Session::shown_points() const { return (void)mesh(), s
 
 const EntityNames& Session::names() const { return (void)mesh(), state_->meshed.model.names; }
 
+namespace {
+
+// The flat mesh without places of vertices and without triangles.
+FlatMesh frame_of(const SurfaceMesh& mesh, const Model& model, bool with_edges) {
+  SurfaceMesh lines;
+  lines.curves = mesh.curves;
+  FlatMesh frame = flatten(lines, with_edges);
+  frame.vertex_refs = mesh.vertex_ref;
+  if (model.plane) frame.dimension = 2;
+  show_points(model, frame.vertex_refs);
+  return frame;
+}
+
+}  // namespace
+
 void Session::write(const std::string& path) {
   if (suffix_of(path) == ".exr") {
     (void)mesh();
@@ -130,6 +146,11 @@ void Session::write(const std::string& path) {
   const MeshFormat format = mesh_format_of(path);
   MeshAssociation association;
   const MeshFileOptions file = file_options(format, association);
+  const std::string option = state_->parameters.text("option");
+  if (format == MeshFormat::meshb && file.association == nullptr && (option.empty() || option == "allsurf3d") && !mesh().cells_are_not_triangles()) {
+    state_->monitor.progress(Phase::writing, 0, 1);
+    return write_surface(mesh(), frame_of(mesh(), state_->meshed.model, state_->parameters.integer("flag") == 1), path);
+  }
   write_mesh(exported_as(format), path, format, file);
 }
 
