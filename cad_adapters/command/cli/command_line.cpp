@@ -66,28 +66,27 @@ void choose_surface(const CLI::App& sub, MoleculeChoice& molecule, bool quiet) {
 
 }  // namespace
 
-CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches.", "carreau") {
+CommandLine::CommandLine(std::string_view first) : app_("Meshes of surfaces made of parametric patches.", "carreau") {
   set_help(app_);
   app_.set_version_flag("--version", std::string("carreau ") + carreau_version());
   app_.require_subcommand(1);
   app_.footer(
       "Exit status: 0 success, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
       "command: carreau help COMMAND. Manual: man carreau");
-  add_mesh();
-  add_volume();
-  add_plane();
-  add_adapt();
-  add_refine();
-  add_info();
-  add_areas();
-  add_curve();
-  add_project();
-  add_check();
-  add_picture();
-  add_report();
-  add_fields();
-  add_params();
-  add_completion();
+  struct Command {
+    std::string_view name;
+    void (CommandLine::*add)();
+  };
+  static constexpr Command commands[] = {
+      {"mesh", &CommandLine::add_mesh}, {"volume", &CommandLine::add_volume}, {"plane", &CommandLine::add_plane},
+      {"adapt", &CommandLine::add_adapt}, {"refine", &CommandLine::add_refine}, {"info", &CommandLine::add_info},
+      {"areas", &CommandLine::add_areas}, {"curve", &CommandLine::add_curve}, {"project", &CommandLine::add_project},
+      {"check", &CommandLine::add_check}, {"picture", &CommandLine::add_picture}, {"report", &CommandLine::add_report},
+      {"fields", &CommandLine::add_fields}, {"params", &CommandLine::add_params}, {"completion", &CommandLine::add_completion},
+  };
+  const auto* const only = std::find_if(std::begin(commands), std::end(commands), [&](const Command& each) { return each.name == first && first != "completion"; });
+  for (const Command& each : commands)
+    if (only == std::end(commands) || &each == only) (this->*each.add)();
   arrange_options(app_);
 }
 
@@ -488,38 +487,39 @@ int CommandLine::run(int argc, char** argv) {
 }
 
 int CommandLine::run_command() {
+  const std::string& command = app_.get_subcommands().front()->get_name();
   for (MeshOptions* options : {&mesh_, &plane_, &adapt_, &fields_.mesh}) read_sizes(*options);
-  if (app_.got_subcommand("mesh")) {
+  if (command == "mesh") {
     mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
     check_scope(*app_.get_subcommand("mesh"), inputs_, mesh_, false);
     choose_surface(*app_.get_subcommand("mesh"), mesh_.molecule, mesh_.quiet);
     return mesh(mesh_);
   }
-  if (app_.got_subcommand("volume")) {
+  if (command == "volume") {
     volume_.input = solids_.front(), volume_.more_inputs.assign(solids_.begin() + 1, solids_.end());
     check_scope(*app_.get_subcommand("volume"), solids_, volume_, false);
     choose_surface(*app_.get_subcommand("volume"), volume_.molecule, volume_.quiet);
     return mesh(volume_);
   }
-  if (app_.got_subcommand("plane")) return mesh(plane_);
-  if (app_.got_subcommand("adapt")) {
+  if (command == "plane") return mesh(plane_);
+  if (command == "adapt") {
     adapt_.plane.is_plane = is_plane_file(adapt_.input);
     check_scope(*app_.get_subcommand("adapt"), {adapt_.input}, adapt_, adapt_.plane.is_plane);
     return mesh(adapt_);
   }
-  if (app_.got_subcommand("refine")) return refine(refine_);
-  if (app_.got_subcommand("info")) {
+  if (command == "refine") return refine(refine_);
+  if (command == "info") {
     check_scope(*app_.get_subcommand("info"), {info_.input}, info_, false);
     return info(info_);
   }
-  if (app_.got_subcommand("areas")) return areas(areas_);
-  if (app_.got_subcommand("curve")) return curve(curve_);
-  if (app_.got_subcommand("project")) {
+  if (command == "areas") return areas(areas_);
+  if (command == "curve") return curve(curve_);
+  if (command == "project") {
     check_scope(*app_.get_subcommand("project"), {project_.input}, project_, false);
     return project(project_);
   }
-  if (app_.got_subcommand("check")) return check(check_);
-  if (app_.got_subcommand("picture")) {
+  if (command == "check") return check(check_);
+  if (command == "picture") {
     parse_picture_size(picture_size_, picture_);
     picture_.scene.paint = paint_ == "face"        ? Paint::face
                            : paint_ == "reference" ? Paint::reference
@@ -531,14 +531,14 @@ int CommandLine::run_command() {
     if (picture_.scene.around && !(around_[3] > 0)) throw Failure("--around requires a radius above 0 as its fourth number.");
     return picture(picture_);
   }
-  if (app_.got_subcommand("report")) return report(report_);
-  if (app_.got_subcommand("fields")) {
+  if (command == "report") return report(report_);
+  if (command == "fields") {
     parse_field_size(field_size_, fields_);
     if (suffix_of(fields_.mesh.input) != ".env")
       check_scope(*app_.get_subcommand("fields"), {fields_.mesh.input}, fields_.mesh, false);
     return fields(fields_);
   }
-  if (app_.got_subcommand("completion")) return print_completion(app_, shell_);
+  if (command == "completion") return print_completion(app_, shell_);
   return params(params_);
 }
 

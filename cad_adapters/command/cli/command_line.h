@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 
 #include "commands/commands.h"
 
@@ -13,7 +14,8 @@ namespace command {
 /// The parser and its results.
 class CommandLine {
  public:
-  CommandLine();
+  /// `first`: the first word of the command line. If it is a command, the others are left out, since their options take time to make.
+  explicit CommandLine(std::string_view first = {});
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 

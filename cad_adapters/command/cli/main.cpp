@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   command::prepare_heap();
   open_standard_files();
   try {
-    command::CommandLine line;
+    command::CommandLine line(argc > 1 ? argv[1] : "");
     return flushed(line.run(argc, argv));
   } catch (const std::bad_alloc&) {
     command::print_marked("carreau", command::colour::red, "there is not enough memory");
