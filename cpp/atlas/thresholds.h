@@ -9,9 +9,6 @@ namespace carreau::atlas::thresholds {
 /// sec. 5.4.2). It is halved where the arc would leave the annulus.
 inline constexpr double rounded_share = 1.0 / 3;
 
-/// The smooth outer border keeps this share of the room of the polygonal border, so that rounding does not put it
-/// outside. One thousandth is far above the rounding errors, and invisible.
-inline constexpr double used_room = 0.999;
 
 /// An outer border comes no nearer to a pivot outside than this share of the inner border's distance. Otherwise angles
 /// lose their meaning there, and derivatives grow as the inverse of the distance.

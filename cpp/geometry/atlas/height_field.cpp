@@ -7,6 +7,7 @@
 
 #include "geometry/atlas/thresholds.h"
 #include "support/angles.h"
+#include "support/shares.h"
 
 namespace carreau::atlas {
 namespace {
@@ -79,7 +80,7 @@ HeightField fine_heights(const Covering& covering, const Chart& chart) {
     }
   for (const std::int32_t v : beyond) {
     const Vec2 q = chart.frame.project(vertex(covering, v));
-    points.push_back({{q.x(), q.y(), chart.frame.height(vertex(covering, v))}, thresholds::weight_beyond});
+    points.push_back({{q.x(), q.y(), chart.frame.height(vertex(covering, v))}, shares::notable});
   }
   int degree = thresholds::max_degree;
   while (degree > 2 && static_cast<double>(points.size()) <

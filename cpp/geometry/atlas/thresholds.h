@@ -5,8 +5,6 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Weight of such a vertex against a vertex of the region.
-inline constexpr double weight_beyond = 0.1;
 /// Degree of heights, and points that each of their coefficients needs.
 inline constexpr int max_degree = 6;
 inline constexpr double points_per_term = 1.7;
@@ -31,16 +29,10 @@ inline constexpr double watched_jacobian = 0.7;
 
 /// Weight of distances from the initial positions, 1 at first: factor of each round, and minimum.
 inline constexpr double loosening = 0.3, min_anchor = 1e-4;
-/// Below this weight, neighbours move as well; before, charts at the fold alone, so that the repair stays local.
-inline constexpr double giving_way = 0.1;
-/// Mean square of values per coefficient that the vertices of a chart do not determine.
-inline constexpr double undetermined = 1e-3;
 /// Steps of a round. Joint.off and spot need one round, the bunny three; the weight of distances is least after eight.
 inline constexpr int mend_steps = 30;
 /// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
 inline constexpr double min_damping = 1e-6, max_damping = 1e8;
-/// A step that leaves more than this share of the energy is the last.
-inline constexpr double notable_gain = 0.999;
 
 /// The final check: cells of the grid on each T, divisions of a cell that has no bound, divisions of the square around a
 /// pure zone before those, and the factor on derivatives that bounds the area between places.
