@@ -44,7 +44,7 @@ namespace {
 template <typename T>
 carreau_status create(T** out) {
   if (out == nullptr) return CARREAU_ERR_ARGUMENT;
-  return status_of([&] { *out = new T(); }, [](const char*, const carreau::Where&) {});
+  return status_of([&] { *out = new T(); });
 }
 
 template <typename T>

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cfenv>
-#include <new>
 
 #include "handles.h"
-#include "place_in_sentence.h"
 #include "support/error.h"
 
 namespace carreau::abi {
@@ -50,43 +48,17 @@ class BusyScope {
   bool owned_;
 };
 
-/// Runs body() and returns the status of its exception. `on_error(sentence, where)` keeps the sentence; it may throw.
-template <typename Body, typename OnError>
-carreau_status status_of(Body&& body, OnError&& on_error) noexcept {
-  const auto fail = [&](carreau_status status, const char* sentence, const Where& where) noexcept {
-    try {
-      on_error(sentence, where);
-    } catch (...) {  // no memory for the sentence: the status alone must do
-    }
-    return status;
-  };
+/// Returns the status of the exception that is being handled, and keeps its sentence in `slot` if there is one.
+carreau_status status_of_exception(ErrorSlot* slot) noexcept;
+
+/// Runs body() and returns the status of its exception.
+template <typename Body>
+carreau_status status_of(Body&& body, ErrorSlot* slot = nullptr) noexcept {
   try {
     body();
     return CARREAU_OK;
-  } catch (const StatusError& error) {
-    return fail(error.status, error.what(), error.where());
-  } catch (const InvalidArgument& error) {
-    return fail(CARREAU_ERR_ARGUMENT, error.what(), error.where());
-  } catch (const InvalidModel& error) {
-    return fail(CARREAU_ERR_MODEL, error.what(), error.where());
-  } catch (const FileError& error) {
-    return fail(CARREAU_ERR_FILE, error.what(), error.where());
-  } catch (const CallbackError& error) {
-    return fail(CARREAU_ERR_CALLBACK, error.what(), error.where());
-  } catch (const DomainError& error) {
-    // When no face could be meshed, the sentence quotes the reason of the first one.
-    return fail(CARREAU_ERR_DOMAIN, error.what(),
-                error.where().face != 0 ? error.where() : place_in_sentence(error.what()));
-  } catch (const LimitError& error) {
-    return fail(CARREAU_ERR_LIMIT, error.what(), error.where());
-  } catch (const Cancelled& error) {
-    return fail(CARREAU_ERR_CANCELLED, error.what(), error.where());
-  } catch (const std::bad_alloc&) {
-    return fail(CARREAU_ERR_MEMORY, "out of memory", {});
-  } catch (const std::exception& error) {
-    return fail(CARREAU_ERR_INTERNAL, error.what(), {});
   } catch (...) {
-    return fail(CARREAU_ERR_INTERNAL, "unknown exception", {});
+    return status_of_exception(slot);
   }
 }
 
@@ -100,7 +72,7 @@ carreau_status guarded(Handle* handle, Body&& body) noexcept {
   const FloatingPointScope floating_point;
   ErrorSlot& slot = handle->error;
   slot.clear();
-  return status_of(body, [&slot](const char* sentence, const Where& where) { slot.keep(sentence, where); });
+  return status_of(body, &slot);
 }
 
 /// Faces of a mesh outside of sessions: references of triangles, and the known properties of faces.

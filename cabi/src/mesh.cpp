@@ -117,7 +117,7 @@ carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out
 
 carreau_status carreau_mesh_create(carreau_mesh** out_mesh) {
   if (out_mesh == nullptr) return CARREAU_ERR_ARGUMENT;
-  return status_of([&] { *out_mesh = new carreau_mesh(nullptr); }, [](const char*, const carreau::Where&) {});
+  return status_of([&] { *out_mesh = new carreau_mesh(nullptr); });
 }
 
 void carreau_mesh_free(carreau_mesh* mesh) {

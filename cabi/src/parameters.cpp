@@ -33,7 +33,7 @@ carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_para
     parameter.set_by = info.set_by;
     write_struct(parameter, out_parameter, "out_parameter");
   };
-  return status_of(fill, [](const char*, const carreau::Where&) {});
+  return status_of(fill);
 }
 
 carreau_status carreau_set_integer(carreau_session* session, const char* name, int32_t value) {

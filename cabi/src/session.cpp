@@ -53,7 +53,7 @@ void require_geometry(const carreau_session& handle) {
 
 carreau_status carreau_session_create(carreau_session** out_session) {
   if (out_session == nullptr) return CARREAU_ERR_ARGUMENT;
-  return status_of([&] { *out_session = new carreau_session; }, [](const char*, const carreau::Where&) {});
+  return status_of([&] { *out_session = new carreau_session; });
 }
 
 void carreau_session_free(carreau_session* session) {
@@ -84,7 +84,7 @@ carreau_status carreau_last_error_place(const carreau_session* session, carreau_
     place.t = where.t.value_or(nan);
     write_struct(place, out_place, "out_place");
   };
-  return status_of(fill, [](const char*, const carreau::Where&) {});
+  return status_of(fill);
 }
 
 carreau_status carreau_set_error(carreau_session* session, carreau_status error, const char* sentence) {

@@ -1,15 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files: read, added to sessions, closed.
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <new>
 #include <string_view>
 
 #include "changes/mirror.h"
 #include "handle.h"
+
+namespace carreau_occ::abi {
+
+carreau_status status_of_exception(std::string* kept) noexcept {
+  const auto fail = [kept](carreau_status status, const char* sentence) noexcept {
+    try {
+      if (kept != nullptr) *kept = sentence;
+    } catch (...) {  // no memory for the sentence: the status alone must do
+    }
+    return status;
+  };
+  try {
+    throw;
+  } catch (const Failure& failure) {
+    return fail(failure.status, failure.what());
+  } catch (const std::bad_alloc&) {
+    return fail(CARREAU_ERR_MEMORY, "out of memory");
+  } catch (const Standard_Failure& failure) {
+    return fail(CARREAU_ERR_FILE, failure.GetMessageString());
+  } catch (const std::exception& error) {
+    return fail(CARREAU_ERR_FILE, error.what());
+  } catch (...) {
+    return fail(CARREAU_ERR_INTERNAL, "unknown exception");
+  }
+}
+
+}  // namespace carreau_occ::abi
 
 using namespace carreau_occ;
 using namespace carreau_occ::abi;
@@ -199,7 +228,7 @@ carreau_status open(carreau_session* session, carreau_cad_file** out_file, ReadI
 
 carreau_status carreau_cad_create(carreau_cad_file** out_file) {
   if (out_file == nullptr) return CARREAU_ERR_ARGUMENT;
-  return status_of([&] { *out_file = new carreau_cad_file; }, [](const char*) {});
+  return status_of([&] { *out_file = new carreau_cad_file; });
 }
 
 void carreau_cad_close(carreau_cad_file* file) { delete file; }

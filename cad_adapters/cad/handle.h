@@ -15,13 +15,10 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <Standard_Failure.hxx>
 
 #include "carreau_cad.h"
 
@@ -50,29 +47,17 @@ struct Failure : std::runtime_error {
   carreau_status status;
 };
 
-/// Runs body() and returns the status of its exception; keep(sentence) may throw.
-template <typename Body, typename Keep>
-carreau_status status_of(Body&& body, Keep&& keep) noexcept {
-  const auto fail = [&](carreau_status status, const char* sentence) noexcept {
-    try {
-      keep(sentence);
-    } catch (...) {  // no memory for the sentence: the status alone must do
-    }
-    return status;
-  };
+/// Returns the status of the exception that is being handled, and keeps its sentence in `kept` if there is one.
+carreau_status status_of_exception(std::string* kept) noexcept;
+
+/// Runs body() and returns the status of its exception.
+template <typename Body>
+carreau_status status_of(Body&& body, std::string* kept = nullptr) noexcept {
   try {
     body();
     return CARREAU_OK;
-  } catch (const Failure& failure) {
-    return fail(failure.status, failure.what());
-  } catch (const std::bad_alloc&) {
-    return fail(CARREAU_ERR_MEMORY, "out of memory");
-  } catch (const Standard_Failure& failure) {
-    return fail(CARREAU_ERR_FILE, failure.GetMessageString());
-  } catch (const std::exception& error) {
-    return fail(CARREAU_ERR_FILE, error.what());
   } catch (...) {
-    return fail(CARREAU_ERR_INTERNAL, "unknown exception");
+    return status_of_exception(kept);
   }
 }
 
@@ -81,7 +66,7 @@ template <typename Body>
 carreau_status guarded_call(carreau_cad_file* file, Body&& body) noexcept {
   if (file == nullptr) return CARREAU_ERR_ARGUMENT;
   file->error.clear();
-  return status_of(body, [file](const char* sentence) { file->error = sentence; });
+  return status_of(body, &file->error);
 }
 
 template <typename T>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapt/recovery.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "adapt/thresholds.h"
+#include "metric/least_squares.h"
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
 #include "support/work_sizes.h"
@@ -17,23 +17,7 @@ namespace {
 
 using namespace thresholds::adapt;
 
-constexpr int unknowns = 5;
-
-using Coefficients = Eigen::Matrix<double, unknowns, 1>;
-
-/// Equations of a fit, a row for each neighbour.
-struct Equations {
-  Eigen::Matrix<double, Eigen::Dynamic, unknowns> left;
-  Eigen::VectorXd right;
-};
-
-/// Least squares; empty when columns depend on each other. `left` is overwritten.
-std::optional<Coefficients> solve(Equations& equations) {
-  const Eigen::HouseholderQR<Eigen::Ref<decltype(Equations::left)>> qr(equations.left);
-  const Coefficients diagonal = qr.matrixQR().diagonal().cwiseAbs();
-  if (!(diagonal.minCoeff() > min_pivot * diagonal.maxCoeff())) return {};
-  return qr.solve(equations.right);
-}
+constexpr std::size_t unknowns = 5;
 
 VertexFrame frame_of(const Vec3& normal) {
   const double length = norm(normal);
@@ -121,24 +105,22 @@ class Fitter {
     for (std::size_t k = 1; k < around_.size(); ++k)
       offset_.push_back(
           result.frame.in_plane(field_.vertices[static_cast<std::size_t>(around_[k])] - field_.vertices[at]));
-    if (offset_.size() < static_cast<std::size_t>(unknowns)) return false;
+    if (offset_.size() < unknowns) return false;
     const std::optional<Whitening> white = whitening(offset_);
     if (!white) return false;
-    const auto n = static_cast<Eigen::Index>(offset_.size());
-    equations_.left.resize(n, unknowns), equations_.right.resize(n);
+    equations_.reset(offset_.size(), unknowns), right_.resize(offset_.size());
     for (std::size_t k = 0; k < offset_.size(); ++k) {
       const Vec2 d = white->of(offset_[k]);
       const double weight = 1 / std::max(norm(d), 1e-3);
       const double rise = field_.values[static_cast<std::size_t>(around_[k + 1])] - field_.values[at];
-      const auto row = static_cast<Eigen::Index>(k);
-      equations_.left.row(row) << d.x(), d.y(), d.x() * d.x() / 2, d.x() * d.y(), d.y() * d.y() / 2;
-      equations_.left.row(row) *= weight;
-      equations_.right[row] = weight * rise;
+      const std::array<double, unknowns> row{d.x(), d.y(), d.x() * d.x() / 2, d.x() * d.y(), d.y() * d.y() / 2};
+      for (std::size_t c = 0; c < unknowns; ++c) equations_.at(k, c) = weight * row[c];
+      right_[k] = weight * rise;
     }
-    const std::optional<Coefficients> x = solve(equations_);
-    if (!x) return false;
-    result.gradient = white->gradient((*x)[0], (*x)[1]);
-    result.hessian = white->hessian((*x)[2], (*x)[3], (*x)[4]);
+    if (!equations_.factorise(ColumnOrder::given, min_pivot)) return false;
+    equations_.solve(right_);
+    result.gradient = white->gradient(right_[0], right_[1]);
+    result.hessian = white->hessian(right_[2], right_[3], right_[4]);
     return true;
   }
 
@@ -146,7 +128,8 @@ class Fitter {
   const Neighbours& neighbours_;
   std::vector<std::int32_t> mark_, around_;
   std::vector<Vec2> offset_;
-  Equations equations_;
+  LeastSquares equations_;
+  std::vector<double> right_;
 };
 
 /// Gradient in (x, y) of the linear interpolation of `values` in a triangle, times its doubled area.
@@ -226,24 +209,23 @@ std::vector<Vec3> graph_normals(const ScalarField& field) {
 /// do not determine it.
 std::optional<Metric2> quadric_through(const ScalarField& field, std::int32_t v, const std::vector<std::int32_t>& around,
                                        const VertexFrame& frame) {
-  const auto n = static_cast<Eigen::Index>(around.size());
+  const std::size_t n = around.size();
   if (n < 3) return {};
   std::vector<Vec2> offsets;
   for (const std::int32_t w : around) offsets.push_back(frame.in_plane(on_graph(field, w) - on_graph(field, v)));
   const std::optional<Whitening> white = whitening(offsets);
   if (!white) return {};
-  Eigen::Matrix<double, Eigen::Dynamic, 3> left(n, 3);
-  Eigen::VectorXd right(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Vec2 d = white->of(offsets[static_cast<std::size_t>(k)]);
-    left.row(k) << d.x() * d.x() / 2, d.x() * d.y(), d.y() * d.y() / 2;
-    right[k] = dot(on_graph(field, around[static_cast<std::size_t>(k)]) - on_graph(field, v), frame.normal);
+  LeastSquares equations;
+  equations.reset(n, 3);
+  std::vector<double> right(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 d = white->of(offsets[k]);
+    equations.at(k, 0) = d.x() * d.x() / 2, equations.at(k, 1) = d.x() * d.y(), equations.at(k, 2) = d.y() * d.y() / 2;
+    right[k] = dot(on_graph(field, around[k]) - on_graph(field, v), frame.normal);
   }
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(left);
-  const Eigen::Vector3d pivots = qr.matrixQR().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > min_quadric_pivot * pivots.maxCoeff())) return {};
-  const Eigen::Vector3d x = qr.solve(right);
-  return white->hessian(x[0], x[1], x[2]);
+  if (!equations.factorise(ColumnOrder::longest_first, min_quadric_pivot)) return {};
+  equations.solve(right);
+  return white->hessian(right[0], right[1], right[2]);
 }
 
 /// The Hessian in the plane of a graph whose second fundamental form is `bending` in the frame.

@@ -6,6 +6,7 @@
 
 #include "atlas/thresholds.h"
 #include "predicates/clamped_int.h"
+#include "support/shares.h"
 
 namespace carreau::atlas {
 namespace {
@@ -86,7 +87,7 @@ class PartBorders {
       const double a = std::max(from, r.first), z = std::min(to, r.last);
       if (a < z) b = nearer(b, nearer(outer(k, a), outer(k, z)) / r.radius);
     }
-    return 1 + thresholds::used_room * (b - 1);
+    return 1 + (1 - shares::negligible) * (b - 1);
   }
 
   [[nodiscard]] double nearer(double a, double b) const { return part_.sense() > 0 ? std::min(a, b) : std::max(a, b); }

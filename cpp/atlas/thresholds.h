@@ -16,10 +16,6 @@ inline constexpr double steepest_outer = 5;
 /// Ratio of both sides of an arc on an outer border: an arc that is much wider on one side is a step on the other one.
 inline constexpr double most_uneven_arc = 4;
 
-/// The smooth outer border keeps this share of the room of the polygonal border, so that rounding does not put it
-/// outside. One thousandth is far above the rounding errors, and invisible.
-inline constexpr double used_room = 0.999;
-
 /// A smooth outer border from which the inner one follows keeps this share of the room at joints, so that its edge there can be parallel to
 /// the inner border.
 inline constexpr double room_at_joints = 0.9;

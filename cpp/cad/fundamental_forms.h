@@ -27,7 +27,6 @@ struct PrincipalFrame {
   Vec2 x1, x2;  ///< the same directions in the parameter plane: w1 = x1.x Su + x1.y Sv
 
   [[nodiscard]] double mean() const noexcept { return (k1 + k2) / 2; }
-  [[nodiscard]] double gauss() const noexcept { return k1 * k2; }
   /// Largest |curvature|, the inverse of the smallest radius.
   [[nodiscard]] double largest() const noexcept;
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "high_order/shape.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "metric/least_squares.h"
 #include "support/infinity.h"
 
 namespace carreau {
@@ -51,32 +51,37 @@ std::array<double, 2> legendre_derivatives(int p, double x) {
 class Parts {
  public:
   Parts(bool quad, int n) : quad_(quad), n_(n), indices_(lattice(quad, n)) {
-    const auto count = static_cast<Eigen::Index>(indices_.size());
-    Eigen::MatrixXd at_nodes(count, count);
-    for (Eigen::Index r = 0; r < count; ++r)
-      for (Eigen::Index c = 0; c < count; ++c) at_nodes(r, c) = bernstein(quad, n, indices_[c], node(indices_[r]));
-    const Eigen::MatrixXd inverse = at_nodes.inverse();
+    const std::size_t count = indices_.size();
+    std::vector<double> at_nodes(count * count), there(count * count);
+    for (std::size_t r = 0; r < count; ++r)
+      for (std::size_t c = 0; c < count; ++c) at_nodes[r * count + c] = bernstein(quad, n, indices_[c], node(indices_[r]));
+    const std::vector<double> inverse = inverse_of(at_nodes, count);
     for (int part = 0; part < 4; ++part) {
-      Eigen::MatrixXd there(count, count);
-      for (Eigen::Index r = 0; r < count; ++r)
-        for (Eigen::Index c = 0; c < count; ++c) there(r, c) = bernstein(quad, n, indices_[c], in_part(part, node(indices_[r])));
-      part_[part] = inverse * there;
+      for (std::size_t r = 0; r < count; ++r)
+        for (std::size_t c = 0; c < count; ++c) there[r * count + c] = bernstein(quad, n, indices_[c], in_part(part, node(indices_[r])));
+      part_[part].assign(count * count, 0);
+      for (std::size_t r = 0; r < count; ++r)
+        for (std::size_t k = 0; k < count; ++k)
+          for (std::size_t c = 0; c < count; ++c) part_[part][r * count + c] += inverse[r * count + k] * there[k * count + c];
     }
   }
 
   /// A lower bound of the polynomial.
-  [[nodiscard]] double least(const Eigen::VectorXd& values, int depth) const {
-    const double low = values.minCoeff();
+  [[nodiscard]] double least(const std::vector<double>& values, int depth) const {
+    const double low = *std::min_element(values.begin(), values.end());
     if (low > 0 || depth == 0) return low;
     double corner = infinity;  // values that the polynomial takes
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const auto [a, b] = indices_[i];
-      if ((a == 0 || a == n_) && (b == 0 || b == n_)) corner = std::min(corner, values[static_cast<Eigen::Index>(i)]);
+      if ((a == 0 || a == n_) && (b == 0 || b == n_)) corner = std::min(corner, values[i]);
     }
     if (corner <= 0) return low;
     double least_part = infinity;
-    for (const Eigen::MatrixXd& part : part_) {
-      least_part = std::min(least_part, least(part * values, depth - 1));
+    for (const std::vector<double>& part : part_) {
+      std::vector<double> there(values.size(), 0);
+      for (std::size_t r = 0; r < there.size(); ++r)
+        for (std::size_t c = 0; c < there.size(); ++c) there[r] += part[r * there.size() + c] * values[c];
+      least_part = std::min(least_part, least(there, depth - 1));
       if (least_part <= low) break;
     }
     return std::max(low, least_part);
@@ -101,7 +106,7 @@ class Parts {
   bool quad_;
   int n_;
   std::vector<Index> indices_;
-  std::array<Eigen::MatrixXd, 4> part_;
+  std::array<std::vector<double>, 4> part_;  // matrices by rows
 };
 
 constexpr int part_depth = 3;
@@ -159,13 +164,11 @@ std::vector<Vec2> node_coordinates(bool quad, int order, NodePlaces places, std:
 
 ElementShape::ElementShape(bool quad, int order, NodePlaces places)
     : quad_(quad), order_(order), reference_(node_coordinates(quad, order, places, node_indices(quad, order))), indices_(node_indices(quad, order)) {
-  const auto n = static_cast<Eigen::Index>(reference_.size());
-  Eigen::MatrixXd values(n, n);
-  for (Eigen::Index r = 0; r < n; ++r)
-    for (Eigen::Index c = 0; c < n; ++c) values(r, c) = bernstein(quad, order, indices_[c], reference_[r]);
-  const Eigen::MatrixXd inverse = values.inverse();
-  for (Eigen::Index r = 0; r < n; ++r)
-    for (Eigen::Index c = 0; c < n; ++c) to_bezier_.push_back(inverse(r, c));
+  const std::size_t n = reference_.size();
+  std::vector<double> values(n * n);
+  for (std::size_t r = 0; r < n; ++r)
+    for (std::size_t c = 0; c < n; ++c) values[r * n + c] = bernstein(quad, order, indices_[c], reference_[r]);
+  to_bezier_ = inverse_of(values, n);
   fill_inner(places_on_edge(order, places));
   fill_products();
 }
@@ -254,8 +257,8 @@ double ElementShape::least_jacobian(std::span<const Vec3> nodes) const {
   mean *= 1.0 / static_cast<double>(all.size());
   const double square = dot(mean, mean);
   if (!(square > 0)) return 0;
-  Eigen::VectorXd along(static_cast<Eigen::Index>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i) along[static_cast<Eigen::Index>(i)] = dot(c[all[i][0]][all[i][1]], mean) / square;
+  std::vector<double> along(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) along[i] = dot(c[all[i][0]][all[i][1]], mean) / square;
   return Parts::of(quad_, quad_ ? 2 * order_ - 1 : 2 * order_ - 2).least(along, part_depth);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 
 #include "size/thresholds.h"
@@ -60,8 +59,6 @@ SizeParameters enlarged(SizeParameters size, double factor) noexcept {
     *h *= factor;
   return size;
 }
-
-double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
 
 GeometricRule geometric_rule(const SizeParameters& p) noexcept {
   GeometricRule rule{

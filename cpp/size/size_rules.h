@@ -75,9 +75,6 @@ SizeParameters enlarged(SizeParameters size, double factor) noexcept;
 /// The rule for geometric sizes, with the factors of guarantees and enlargement.
 GeometricRule geometric_rule(const SizeParameters& size) noexcept;
 
-/// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
-double size_per_radius(double angle_deg) noexcept;
-
 /// Mean of several sizes. values not empty.
 double mean_size(SizeMean kind, std::span<const double> values);
 

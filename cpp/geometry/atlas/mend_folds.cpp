@@ -7,6 +7,7 @@
 #include "geometry/atlas/fold_places.h"
 #include "geometry/atlas/mend_step.h"
 #include "geometry/atlas/thresholds.h"
+#include "support/shares.h"
 #include "support/work_bounds.h"
 
 namespace carreau::atlas {
@@ -32,7 +33,7 @@ Gram gram_of(const Covering& covering, const Chart& chart, const Primitive& p) {
           gram(r, c) += each * b[static_cast<std::size_t>(r)] * b[static_cast<std::size_t>(c)];
     }
   // Coefficients that the vertices do not determine also move little.
-  for (int k = 0; k < Primitive::terms; ++k) gram(k, k) += thresholds::undetermined / size2;
+  for (int k = 0; k < Primitive::terms; ++k) gram(k, k) += shares::negligible / size2;
   return gram;
 }
 
@@ -120,7 +121,7 @@ class FoldMender {
       }
       double& anchor = anchor_[rank_[i]];
       anchor = std::max(anchor * thresholds::loosening, thresholds::min_anchor);
-      if (anchor > thresholds::giving_way) continue;
+      if (anchor > shares::notable) continue;
       for (const Corner& corner : covering_.charts()[i].corners)
         for (const std::int32_t j : covering_.triples()[static_cast<std::size_t>(corner.triple)].chart)
           if (rank_[static_cast<std::size_t>(j)] == none) add(static_cast<std::size_t>(j));
@@ -194,7 +195,7 @@ class FoldMender {
       const std::vector<MendRow> pulling = rows();
       if (pulling.empty()) return;
       const double then = step_down(pulling, damping, now);
-      if (!(then < thresholds::notable_gain * now)) return;
+      if (!(then < (1 - shares::negligible) * now)) return;
       now = then;
     }
   }

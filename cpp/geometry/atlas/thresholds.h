@@ -32,16 +32,10 @@ inline constexpr double watched_jacobian = 0.7;
 
 /// Weight of distances from the initial positions, 1 at first: factor of each round, and minimum.
 inline constexpr double loosening = 0.3, min_anchor = 1e-4;
-/// Below this weight, neighbours move as well; before, charts at the fold alone, so that the repair stays local.
-inline constexpr double giving_way = 0.1;
-/// Mean square of values per coefficient that the vertices of a chart do not determine.
-inline constexpr double undetermined = 1e-3;
 /// Steps of a round. Joint.off and spot need one round, the bunny three; the weight of distances is least after eight.
 inline constexpr int mend_steps = 30;
 /// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
 inline constexpr double min_damping = 1e-6, max_damping = 1e8;
-/// A step that leaves more than this share of the energy is the last.
-inline constexpr double notable_gain = 0.999;
 
 /// The final check: cells of the grid on each T, cells along a narrow strip between two knots of phi, divisions of the square around a pure
 /// zone before a place counts, divisions of a cell without a bound, and the factor on derivatives that bounds the area between places.

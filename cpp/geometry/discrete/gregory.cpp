@@ -198,11 +198,6 @@ Vec3 point_of(const Cubic& z, double t) noexcept {
   return s * s * s * z[0] + 3 * s * s * t * z[1] + 3 * s * t * t * z[2] + t * t * t * z[3];
 }
 
-Vec3 derivative_of(const Cubic& z, double t) noexcept {
-  const double s = 1 - t;
-  return 3 * (s * s * (z[1] - z[0]) + 2 * s * t * (z[2] - z[1]) + t * t * (z[3] - z[2]));
-}
-
 GregoryTriangle gregory_triangle(const std::array<Cubic, 3>& sides, const std::array<Vec3, 6>& normals) noexcept {
   GregoryTriangle patch;
   for (std::size_t i = 0; i < 3; ++i) {

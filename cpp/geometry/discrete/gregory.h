@@ -12,7 +12,6 @@ namespace carreau::discrete {
 /// A cubic Bezier curve.
 using Cubic = std::array<Vec3, 4>;
 Vec3 point_of(const Cubic& curve, double t) noexcept;
-Vec3 derivative_of(const Cubic& curve, double t) noexcept;
 
 /// A patch over the triangle u, v >= 0, u + v <= 1 with the corners (0, 0), (1, 0), (0, 1): S = sum of B(ijk) P(ijk) of
 /// degree four, where the three points inside depend on the place (Gregory).

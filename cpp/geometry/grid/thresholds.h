@@ -16,8 +16,6 @@ inline constexpr int max_sweeps = 2000;
 inline constexpr double same_slope = 1e-6;
 /// Squared sine of the angle of parameter lines, below which a node is singular. [Ridges.*]
 inline constexpr double flat_node = 1e-12;
-/// Cosine of the angle of two principal directions of a triangle, from which they are one: half of the quarter turn between both. [Ridges.*]
-inline constexpr double same_direction = 0.7;
 /// Least fall of the curvature k across a ridge: its second derivative is so many k^3. An ellipse of axes a, b has 3 (1 - (b / a)^2) there; the
 /// circle 0. [Ridges.CirclesHaveNone]
 inline constexpr double ridge_falls = 0.1;

@@ -134,14 +134,6 @@ Jacobian jacobian(CellKind kind, std::span<const Vec3> nodes) noexcept {
   return j;
 }
 
-Vec3 point_of_side(CellKind kind, std::span<const Vec3> nodes, int side, double s) noexcept {
-  const int n = corner_count(kind);
-  const Vec3 a = nodes[static_cast<std::size_t>(side)], b = nodes[static_cast<std::size_t>((side + 1) % n)];
-  if (!is_quadratic(kind)) return (1 - s) * a + s * b;
-  const Vec3 m = nodes[static_cast<std::size_t>(n + side)];
-  return (1 - s) * (1 - 2 * s) * a + 4 * s * (1 - s) * m + s * (2 * s - 1) * b;
-}
-
 Vec3 point_of_cell(CellKind kind, std::span<const Vec3> x, double s, double t) noexcept {
   const double r = 1 - s - t;
   switch (kind) {

@@ -38,7 +38,5 @@ double min_of_triangle6(std::span<const Vec2> nodes) noexcept;
 
 /// The point of an element at (s, t) of its reference: the triangle s, t >= 0, s + t <= 1, or the unit square.
 Vec3 point_of_cell(CellKind kind, std::span<const Vec3> nodes, double s, double t) noexcept;
-/// The point of side `side` (from corner `side` to the next) at s in [0, 1].
-Vec3 point_of_side(CellKind kind, std::span<const Vec3> nodes, int side, double s) noexcept;
 
 }  // namespace carreau

@@ -14,6 +14,7 @@
 #include "metric/field_length.h"
 #include "metric/metric3_algebra.h"
 #include "metric/unit_edge.h"
+#include "support/shares.h"
 #include "surface/improve/assembled_search.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/evening.h"
@@ -53,7 +54,7 @@ class ChordGradation {
   static constexpr auto size_of = geometric_mean_size;
 
   ChordGradation(double limit, const GeometricLimits& kept, const CompositeResult& result, Cad& cad, Monitor& monitor)
-      : log_limit_(thresholds::chord_gradation::aim * std::log(limit)),
+      : log_limit_((1 - shares::negligible) * std::log(limit)),
         keeps_(kept.any()),
         kept_(kept),
         result_(result),

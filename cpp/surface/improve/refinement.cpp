@@ -275,7 +275,7 @@ class Refinement {
       return false;
     if (is_flat(a, m, c) || is_flat(m, b, c) || is_flat(b, m, d) || is_flat(m, a, d)) return false;
     // Angles of triangles that follow the surface are not worth slivers.
-    const auto is_poor = [&](const Vec3& u, const Vec3& v, const Vec3& w) { return quality_q2(u, v, w) < min_shape; };
+    const auto is_poor = [&](const Vec3& u, const Vec3& v, const Vec3& w) { return quality_q2(u, v, w) < min_divided_shape; };
     if (least > 0 && input_.isotropic && (is_poor(a, m, c) || is_poor(m, b, c) || is_poor(b, m, d) || is_poor(m, a, d))) return false;
     editable_->split(q, uv, m);
     if (with_normals_) mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{0, 0, 0}));

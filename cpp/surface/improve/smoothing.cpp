@@ -13,6 +13,7 @@
 #include "mesh/shape_levels.h"
 #include "mesh/trial.h"
 #include "support/angles.h"
+#include "support/shares.h"
 #include "surface/improve/thresholds.h"
 
 namespace carreau {
@@ -148,7 +149,7 @@ class Smoothing {
     const double length = mean_edge(v);
     order_ = star(v);
     const Vec3 normal = cross(e1, e2);
-    const Vec2 way = search_along_compass(worst_in_order(-1, normal), first_step * length, last_step * length,
+    const Vec2 way = search_along_compass(worst_in_order(-1, normal), first_step * length, shares::small * length,
                                           [&](const Vec2& there, double best) {
                                             mesh_.xyz[v] = home + there.x() * e1 + there.y() * e2;
                                             return worst_in_order(best, normal);

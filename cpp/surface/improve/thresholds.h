@@ -10,15 +10,15 @@ namespace carreau::thresholds {
 
 /// Vertices moved for shapes in space (improve/smoothing_test).
 namespace smoothing {
-/// Mean lengths of the edges around: steps of the search, from the first, halved down to the last.
-inline constexpr double first_step = 0.4, last_step = 0.01;
+/// Mean lengths of the edges around: first step of the search, halved down to shares::small.
+inline constexpr double first_step = 0.4;
 }  // namespace smoothing
 
 /// Triangles that leave the surface (agreement_test, guarantees_test, lift/surface_agreement_test).
 namespace refinement {
 /// Shape of the triangles that a division for an angle or a distance makes, with isotropic sizes. Halves of an equilateral
 /// triangle have .75.
-inline constexpr double min_shape = 0.4;
+inline constexpr double min_divided_shape = 0.4;
 /// Largest number of divisions that lead to a triangle. If all triangles beside a coarse chord are turned over,
 /// divisions would continue until vertices coincide.
 inline constexpr std::uint8_t deepest = 12;
@@ -45,8 +45,6 @@ inline constexpr int placements = 4;
 
 /// Gradation along chords (grade/gradation_test, guarantees_test).
 namespace chord_gradation {
-/// Share of the limit's logarithm that edges are improved to: they are measured again, with other rounding.
-inline constexpr double aim = 0.999;
 /// Rings of changes that follow each other.
 inline constexpr int max_rings = 10;
 }  // namespace chord_gradation

@@ -6,12 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "support/angles.h"
 #include "support/error.h"
-#include "surface/layers/thresholds.h"
 
 namespace carreau {
-
-using namespace thresholds::layers;
 
 LayerCurves::LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers, bool halved)
     : layers_(layers.begin(), layers.end()) {
@@ -66,7 +64,7 @@ class SideRows {
       const DiscreteCurve& wall = curves_[static_cast<std::size_t>(c)];
       const Vec3 along_wall = away(wall, other.end2 == point && other.end1 != point);
       const double sine = norm(cross(along_side, along_wall)) / (norm(along_side) * norm(along_wall));
-      if (!(sine > min_sine_of_side)) continue;
+      if (!(sine > angles::cosine_of_45)) continue;  // cells would be skewed
       std::vector<double> at;
       double sum = 0;
       for (const double h : layers_.heights(layers, norm(along_wall))) at.push_back(sum += h / sine);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/shares.h"
 #include "surface/layers/row_face.h"
 #include "surface/layers/surface_step.h"
 #include "surface/layers/thresholds.h"
@@ -82,7 +83,7 @@ ColumnPlace dividing_place(Cad& cad, int face, const ColumnPlace& low, const Col
     place.xyz = surface_at(cad, face, want_position, place.uv).s;
     const double below = norm(place.xyz - low.xyz), above = norm(high.xyz - place.xyz);
     const double error = below - share * (below + above);
-    if (!(std::abs(error) > thresholds::layers::max_height_error * below)) break;
+    if (!(std::abs(error) > shares::negligible * below)) break;
     const double next = t - error / (below + above);
     if (!(next > 0 && next < 1)) break;
     t = next;

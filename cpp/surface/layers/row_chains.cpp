@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "surface/layers/row_face.h"
+#include "support/angles.h"
 #include "surface/layers/thresholds.h"
 
 namespace carreau {
@@ -178,7 +179,7 @@ class ChainFinder {
     const Vec3 side = RowFace::unit(face_.xyz(first ? at(other).a : at(other).b) - face_.xyz(v));
     const Vec3 inward = first ? column.along : Vec3(-column.along);
     const double sine = dot(side, column.up), cosine = dot(side, inward);
-    if (sine > min_sine_of_side) {
+    if (sine > angles::cosine_of_45) {  // else cells are skewed
       column.on_side = column.is_turned = true;
       column.lean = cosine / sine;  // towards the layers if positive
       follow_side(column, other, sine, first);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "support/angles.h"
+#include "support/shares.h"
 #include "surface/layers/thresholds.h"
 
 namespace carreau {
@@ -84,7 +86,7 @@ bool RowObstacles::is_clear(const Column& column, const Obstacle& obstacle, cons
   const Vec3 plain_up = RowFace::unit(column.up - dot(column.up, column.along) * column.along);
   const Vec3& base = face_.xyz(column.base);
   // The base is not behind the edge: the other side of an inner curve does not count.
-  const bool faces = dot(obstacle.up, plain_up) < facing_cosine && dot(nearest - base, plain_up) > min_ahead * height &&
+  const bool faces = dot(obstacle.up, plain_up) < -angles::cosine_of_45 && dot(nearest - base, plain_up) > shares::notable * height &&
                      dot(base - obstacle.a, obstacle.up) > 0;
   return distance >= (faces ? std::min(height, obstacle.total) + std::max(row, upright) : min_clearance * height);
 }

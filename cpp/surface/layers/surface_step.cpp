@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "support/infinity.h"
-#include "surface/layers/thresholds.h"
+#include "support/shares.h"
+#include "support/work_bounds.h"
 
 namespace carreau {
-
-using namespace thresholds::layers;
 
 Vec2 in_parameters(const SurfaceJet& jet, const Vec3& v) {
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv), det = e * g - f * f;
@@ -22,7 +21,7 @@ bool find_step(Cad& cad, int face, const ColumnPlane& plane, const Vec3& p, doub
                const std::function<bool(const Vec2&)>& is_inside, Vec2& at, SurfaceJet& jet) {
   double best = infinity;
   const double noise = 4e-16 * (norm(p) + step);
-  for (int k = 0; k < max_newton_steps; ++k) {
+  for (int k = 0; k < work_bounds::passes; ++k) {
     if (!is_finite(at) || !is_inside(at)) return false;
     jet = surface_at(cad, face, want_position | want_first, at);
     const Vec3 from = jet.s - p;
@@ -39,7 +38,8 @@ bool find_step(Cad& cad, int face, const ColumnPlane& plane, const Vec3& p, doub
     at = at - Vec2((d * off - b * error) / det, (a * error - c * off) / det);
   }
   const double off = std::abs(dot(jet.s - plane.base, plane.across)), error = std::abs(norm(jet.s - p) - step);
-  return off <= max_side_error * step && error <= max_height_error * step;
+  // Accepted errors across and along the column. Two steps suffice on smooth surfaces.
+  return off <= shares::small * step && error <= shares::negligible * step;
 }
 
 }  // namespace carreau

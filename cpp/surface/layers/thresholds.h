@@ -6,9 +6,6 @@ namespace carreau::thresholds::layers {
 
 // In brackets: the tests of each value, in tests/cpp/surface/layers.
 
-/// Sine of the angle between a curve with layers and a curve that ends at it. Rows end at vertices of the other curve if
-/// it is larger (45 to 135 degrees): cells are not skewed more. [LayerRows.SidesHaveTheirVerticesAtTheHeights]
-inline constexpr double min_sine_of_side = 0.7;
 /// Angles inside the domain, degrees. Beyond the first a fan of columns turns around the corner; below the second the
 /// corner has no column, since rows would be twice as long as high. [LayerRows.CornersHaveFansAndMerge]
 inline constexpr double min_fan_angle = 240, min_column_angle = 60;
@@ -26,20 +23,11 @@ inline constexpr double lean_reach = 2;
 inline constexpr double min_clearance = 0.85;
 /// Share of the height of the last row that the rows keep from edges without layers. [LayerRows.RowsThatMeetEnd]
 inline constexpr double wall_clearance = 0.5;
-/// Cosine of normals of edges that face each other. [LayerRows.RowsThatMeetEnd]
-inline constexpr double facing_cosine = -0.7;
-/// Share of its height over its own curve by which an edge that faces a vertex lies ahead of the curve: the other side of a
-/// sharp edge does not. [LayerRows.AnAerofoilHasAFanAtItsTrailingEdge]
-inline constexpr double min_ahead = 0.1;
 /// Least cosine between the normals of halves of cells and of the surface: one of triangles that stand upright is below.
 /// [LayerRows.RowsOnCoarseFlanksDoNotTurnOver]
 inline constexpr double min_cell_agreement = 0.08;
 /// Share of the edge below that the upper edge of a cell keeps. [LayerRows.RowsThatMeetEnd]
 inline constexpr double min_narrowing = 0.2;
-/// Steps of Newton's method for a vertex of a column, and the errors along and across it that are accepted, as shares of
-/// its height. Two steps suffice on smooth surfaces.
-inline constexpr int max_newton_steps = 20;
-inline constexpr double max_height_error = 1e-3, max_side_error = 1e-2;
 /// Trials for a place that divides a step of a column. Parameters of even speed need one.
 inline constexpr int max_divisions_of_step = 8;
 

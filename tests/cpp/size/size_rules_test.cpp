@@ -349,10 +349,4 @@ TEST(CurveRadius, AgreesWithClosedForms) {
   EXPECT_EQ(curve_radius(cylinder(2).jet({0.3, 1}), {{0.3, 1}, {0, 0}, {}}), infinity);
 }
 
-TEST(SizePerRadius, IsTheChordOfTwiceTheAngle) {
-  // HDR eq. 2.33: the chord that makes the angle with its circle.
-  EXPECT_DOUBLE_EQ(size_per_radius(30), 1);
-  EXPECT_DOUBLE_EQ(size_per_radius(90), 2);
-}
-
 }  // namespace

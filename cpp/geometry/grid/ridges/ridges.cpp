@@ -11,6 +11,7 @@
 
 #include "geometry/grid/differences.h"
 #include "geometry/grid/thresholds.h"
+#include "support/angles.h"
 
 namespace carreau::grid {
 
@@ -181,7 +182,7 @@ class Finder {
       along[k] = sign * bend.along;
       slope[k] = sign * (bend.slope == 0 ? std::numeric_limits<double>::min() : bend.slope);
       for (std::size_t m = 0; m < k; ++m)
-        if (dot(along[k], along[m]) < thresholds::same_direction) return;  // an umbilic is near
+        if (dot(along[k], along[m]) < angles::cosine_of_45) return;  // an umbilic is near
     }
     std::vector<std::pair<Edge, double>> ends;
     double curvature = 0;
@@ -219,7 +220,7 @@ class Finder {
       const double t = (x * at_y - y * at_x) / (at_y - at_x);
       const Bend middle = field_.at(start + t * step);
       const double turn = dot(a.along, middle.along);
-      if (!middle.known || std::abs(turn) < thresholds::same_direction) break;
+      if (!middle.known || std::abs(turn) < angles::cosine_of_45) break;
       const double value = turn < 0 ? -middle.slope : middle.slope;
       if (value == 0) return start + t * step;
       const bool left = (value < 0) == (at_x < 0);
