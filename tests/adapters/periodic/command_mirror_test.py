@@ -108,6 +108,9 @@ class Mirror(unittest.TestCase):
                     made = self.check(self.mesh(body, "--mirror", plane), axis, at, within=0. if at == 0 else 1e-12)
                     self.assertEqual(euler([c for f in made.cells.values() for c in f]), 2)
                     self.assertLess(abs(made.volume() - volume), 0.05 * volume)
+        for element in ("p2", "q1.0", "q1.1", "q2.1"):  # the poles are in the halves
+            with self.subTest(element):
+                self.check(self.mesh("ball.step", "--mirror", "z", "--element", element, size="0.4"), 2)
 
     def test_elements_of_all_kinds(self):
         for element in ("p2", "q1.0", "q1.1", "q2.0", "q2.1"):

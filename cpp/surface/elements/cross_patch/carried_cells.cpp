@@ -12,6 +12,7 @@
 
 #include "model/traces.h"
 #include "periodic/closest.h"
+#include "periodic/root_maps.h"
 #include "predicates/predicates.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
@@ -78,7 +79,7 @@ class CellCarrier {
     if (model_.curve(root).degenerate) return;
     for (const bool mids : {false, true}) {
       const std::vector<MeshNode>& from = mids ? nodes_[root].mids : nodes_[root].vertices;
-      if (all.turn) make_symmetric(root, *all.turn, from);
+      repeat(root, maps_of_root(all), from);
       for (const MeshNode& node : from) put(root, node, on_planes(at(node), all.mirrors, periodic_.gap));
       for (const CurveMember& member : all.members) {
         const int c = member.image.curve;
@@ -94,11 +95,21 @@ class CellCarrier {
     }
   }
 
-  void make_symmetric(int root, const Isometry& turn, const std::vector<MeshNode>& nodes) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const std::size_t other = nearest(nodes, turn(at(nodes[k])), 0);
-      if (other == k) put(root, nodes[k], 0.5 * (at(nodes[k]) + turn(at(nodes[k]))));
-      if (other > k && other < nodes.size()) put(root, nodes[other], turn(at(nodes[k])));
+  // Maps that carry the root onto itself: the first node of each orbit has its place.
+  void repeat(int root, const std::vector<CurveMember>& maps, const std::vector<MeshNode>& nodes) {
+    std::vector<char> placed(maps.empty() ? 0 : nodes.size(), 0);
+    for (std::size_t k = 0; k < placed.size(); ++k) {
+      if (placed[k] != 0) continue;
+      placed[k] = 1;
+      for (const CurveMember& each : maps) {
+        const Vec3 image = each.map(at(nodes[k]));
+        const std::size_t other = nearest(nodes, image, nodes.size());
+        if (other >= nodes.size()) continue;
+        if (nodes[other] == nodes[k]) put(root, nodes[k], 0.5 * (at(nodes[k]) + image));
+        if (placed[other] != 0) continue;
+        placed[other] = 1;
+        put(root, nodes[other], image);
+      }
     }
   }
 
@@ -106,7 +117,7 @@ class CellCarrier {
   [[nodiscard]] std::size_t nearest(const std::vector<MeshNode>& nodes, const Vec3& target, std::size_t hint) const {
     const std::size_t n = nodes.size();
     for (const std::size_t k : {hint, hint + 1, hint + n - 1})
-      if (n > 0 && norm(at(nodes[k % n]) - target) <= periodic_.gap) return k % n;
+      if (n > 0 && hint < n && norm(at(nodes[k % n]) - target) <= periodic_.gap) return k % n;
     std::size_t best = n;
     double least = infinity;
     for (std::size_t k = 0; k < n; ++k)

@@ -313,7 +313,7 @@ void place_cells(const ElementWork& work, SlaveQuads& quads) {
     const std::int32_t w = quads.image[v];
     if (w < 0) continue;
     vertices.from_uv[w] = master.patch.uv[v];
-    if (slave.patch.fixed[w] != 0) continue;
+    if (slave.patch.fixed[w] != 0 && slave.vertex[w] >= 0) continue;  // middles beside poles are fixed, and not placed yet
     vertices.known[w] = 0;
     vertices.target[w] = quads.pair->map(master.xyz[v]);
     slave.size[w] = master.size[v] >= 0 ? master.size[v] : work.result.vertex_size[master.vertex[v]];

@@ -274,6 +274,7 @@ Middles halve_curves(const ElementWork& work, const std::vector<FaceQuads>& face
     if (mesh.curves[c].vertices.size() < 2) continue;
     middles[c].assign(mesh.curves[c].vertices.size() - 1, -1);
     if (halved[c] == 0) continue;
+    for (std::size_t k = 0; work.periodic != nullptr && k <= middles[c].size(); ++k) work.curves[c].xyz[2 * k] = mesh.vertices[mesh.curves[c].vertices[k]];  // old ones stay
     for (std::size_t k = 0; k < middles[c].size(); ++k)
       middles[c][k] = add_vertex(work, work.curves[c].xyz[2 * k + 1], work.curves[c].size[2 * k + 1]);
   }
