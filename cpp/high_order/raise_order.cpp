@@ -15,6 +15,7 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -50,8 +51,9 @@ class Raiser {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) place_edges(f);
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) place_inside(f);
     repair();
-    fill();
     for (const PeriodicLink& link : mesh_.periodic) link_nodes(link);
+    follow_masters();
+    fill();
     associate_nodes();
     return std::move(out_);
   }
@@ -569,6 +571,46 @@ class Raiser {
     std::sort(link.nodes.begin(), link.nodes.end());
     link.nodes.erase(std::unique(link.nodes.begin(), link.nodes.end()), link.nodes.end());
     out_.periodic.push_back(std::move(link));
+  }
+
+  // Repairs have moved nodes of a face and of its image each in their own way: the image follows.
+  void follow_masters() {
+    std::vector<char> on_curve(out_.nodes.size(), 0);
+    for (const MeshAssociation::OnCurve& on : on_curves_) on_curve[on.node] = 1;
+    for (const PeriodicLink& link : out_.periodic) {
+      if (link.dimension != 2) continue;
+      const std::map<std::int32_t, std::int32_t> master = [&] {
+        std::map<std::int32_t, std::int32_t> by_slave;
+        for (const auto& [slave, image] : link.nodes) by_slave.emplace(slave, image);
+        return by_slave;
+      }();
+      std::map<std::size_t, Wanted> wanted;  // by face
+      std::vector<std::size_t> changed;
+      for (std::size_t k = 0; k < elements_.size(); ++k) {
+        const Element& e = elements_[k];
+        if (mesh_.faces[e.face].shown_ref() != link.slave) continue;
+        const double size = norm(out_.nodes[e.node[0]] - out_.nodes[e.node[2]]);
+        for (std::size_t i = static_cast<std::size_t>(e.corners); i < shape(e).node_count(); ++i) {
+          const auto found = master.find(e.node[i]);
+          if (found == master.end() || on_curve[e.node[i]] != 0) continue;
+          const Vec3 image = link.map(out_.nodes[found->second]);
+          if (norm(image - out_.nodes[e.node[i]]) <= rounding_of::digits * size) continue;
+          changed.push_back(k);
+          if (is_finite(node_uv_[found->second]) && is_finite(node_uv_[e.node[i]])) {
+            Wanted& of = wanted[static_cast<std::size_t>(e.face)];
+            of.node.push_back(e.node[i]), of.target.push_back(image), of.guess.push_back(node_uv_[e.node[i]]), of.reach.push_back(rounding_of::sizes * size);
+          } else {
+            out_.nodes[e.node[i]] = image, node_uv_[e.node[i]] = {nan, nan};
+          }
+        }
+      }
+      for (const auto& [f, of] : wanted) place(f, of);
+      std::erase_if(invalid_, [&](std::size_t k) { return std::binary_search(changed.begin(), changed.end(), k); });
+      changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+      for (const std::size_t k : changed)
+        if (score(elements_[k]) < least_jacobian) invalid_.push_back(k);
+      std::sort(invalid_.begin(), invalid_.end());
+    }
   }
 
   void link_inner(const Element& slave, const Element& master, PeriodicLink& link) const {
