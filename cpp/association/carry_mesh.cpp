@@ -85,7 +85,10 @@ class Carrier {
       if (back) std::reverse(after.vertices.begin(), after.vertices.end());
       const Vec3 &p = to_.topology.points[curve.end1].position, &q = to_.topology.points[curve.end2].position;
       DiscreteCurve& discrete = curves_to_[d] = undivided_curve(to_, d, p, q);
-      if (!discrete.indivisible) {
+      if (is_unchanged(c, d)) {
+        discrete = curves_from_[c], discrete.curve = static_cast<int>(d);
+        out_.curve_size[d] = from_.result.curve_size[c];
+      } else if (!discrete.indivisible) {
         const std::vector<double>& r = curves_from_[c].r;
         std::vector<double> inside(r.begin() + 1, r.end() - 1), t;
         if (back) {
@@ -104,6 +107,16 @@ class Carrier {
     }
     for (const DiscreteCurve& curve : curves_to_) out_.gaps.push_back({curve.gap, curve.gap_use});
     out_.curve_parameters = parameters_of_curves(to_, curves_to_);
+  }
+
+  /// All uses of the curve have the supports that they had: shares of its length would only round its parameters.
+  [[nodiscard]] bool is_unchanged(std::size_t c, std::size_t d) const {
+    const std::vector<CurveUse>&before = from_.model.topology.curves[c].uses, &after = to_.topology.curves[d].uses;
+    if (match_.reversed[c] != 0 || before.size() != after.size()) return false;
+    return std::equal(before.begin(), before.end(), after.begin(), [&](const CurveUse& a, const CurveUse& b) {
+      const CurveSupport &p = from_.model.support(a), &q = to_.support(b);
+      return match_.face[a.face] == b.face && a.curve == b.curve && a.reversed == b.reversed && p.t == q.t && p.uv == q.uv && p.xyz == q.xyz;
+    });
   }
 
   /// Uses of the old curve in a face, and uses of the new curve that may be theirs.
@@ -247,6 +260,11 @@ class Carrier {
     if (before.triangles.empty()) return;
     after.status = FaceStatus::meshed, after.why.clear();
     Boundary places = best_boundary(f, work);
+    const std::vector<int>& around = from_.model.topology.curve_of[f];
+    // A boundary that has not changed keeps its places, whatever gaps its curves have in space.
+    if (std::all_of(around.begin(), around.end(), [&](int c) { return is_unchanged(static_cast<std::size_t>(c), static_cast<std::size_t>(match_.curve[c])); }))
+      for (std::size_t v = 0; v < before.uv.size(); ++v)
+        if (places.known[v] != 0) places.uv[v] = before.uv[v];
     place_points(from_.model.model.faces[f], model, before, places);
     after.vertex = before.vertex;
     const bool same = agree(before, places);

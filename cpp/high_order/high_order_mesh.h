@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "high_order/shape.h"
+#include "mesh/periodic_link.h"
 #include "model/names.h"
 #include "projection/mesh_association.h"
 
@@ -26,6 +27,7 @@ struct HighOrderMesh {
   std::int64_t repaired = 0;              ///< elements that were invalid at first, and are valid
   std::vector<std::int32_t> invalid;      ///< elements that stay invalid: triangles, then quadrilaterals behind them
   std::vector<std::array<std::int32_t, 2>> coarse = {};  ///< their edges off curves, by vertices; all edges of elements between curves
+  std::vector<PeriodicLink> periodic = {};  ///< with all nodes
   MeshAssociation association = {};  ///< of the nodes; cell_uv of triangles, then of quadrilaterals. Empty: not known
 };
 

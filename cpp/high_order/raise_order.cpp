@@ -15,6 +15,7 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -50,6 +51,8 @@ class Raiser {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) place_edges(f);
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) place_inside(f);
     repair();
+    for (const PeriodicLink& link : mesh_.periodic) link_nodes(link);
+    follow_masters();
     fill();
     associate_nodes();
     return std::move(out_);
@@ -202,8 +205,7 @@ class Raiser {
   }
 
   [[nodiscard]] std::int32_t node_of_side(const FaceMesh& face, const Element& e, int side, std::size_t m) const {
-    const std::int32_t a = face.vertex[e.local[side]], b = face.vertex[e.local[(side + 1) % e.corners]];
-    return edges_.at(ordered(a, b)).first + static_cast<std::int32_t>(a < b ? m : p_ - m) - 1;
+    return node_between(face.vertex[e.local[side]], face.vertex[e.local[(side + 1) % e.corners]], m);
   }
 
   void place_inside(std::size_t f) {
@@ -519,13 +521,106 @@ class Raiser {
     for (const CurveMesh& curve : mesh_.curves)
       for (std::size_t k = 1; k < curve.vertices.size(); ++k) {
         const std::int32_t a = curve.vertices[k - 1], b = curve.vertices[k];
-        const std::int32_t first = edges_.at(ordered(a, b)).first;
         out_.edges.insert(out_.edges.end(), {a, b});
-        for (std::size_t m = 1; m < p_; ++m) out_.edges.push_back(first + static_cast<std::int32_t>(a < b ? m : p_ - m) - 1);
+        for (std::size_t m = 1; m < p_; ++m) out_.edges.push_back(node_between(a, b, m));
         out_.edge_refs.push_back(curve.shown_ref());
       }
     for (const FaceMesh& face : mesh_.faces)
       if (!face.name.empty()) out_.face_names.emplace_back(face.shown_ref(), face.name);
+  }
+
+  /// The node of order p at rank m from vertex a to b.
+  [[nodiscard]] std::int32_t node_between(std::int32_t a, std::int32_t b, std::size_t m) const {
+    return edges_.at(ordered(a, b)).first + static_cast<std::int32_t>(a < b ? m : p_ - m) - 1;
+  }
+
+  // Nodes of edges follow their vertices; inner nodes are next to the images of their masters.
+  void link_nodes(const PeriodicLink& of) {
+    PeriodicLink link{of.dimension, of.master, of.slave, of.map, {}};
+    std::map<std::int32_t, std::int32_t> master;
+    for (const auto& [slave, image] : of.nodes)
+      if (slave < out_.corners && image < out_.corners) master.emplace(slave, image), link.nodes.push_back({slave, image});
+    const auto link_edge = [&](std::int32_t a, std::int32_t b) {
+      const auto ma = master.find(a), mb = master.find(b);
+      if (ma == master.end() || mb == master.end() || !edges_.contains(ordered(a, b)) || !edges_.contains(ordered(ma->second, mb->second))) return;
+      for (std::size_t m = 1; m < p_; ++m) link.nodes.push_back({node_between(a, b, m), node_between(ma->second, mb->second, m)});
+    };
+    if (of.dimension == 1)
+      for (const CurveMesh& curve : mesh_.curves)
+        for (std::size_t k = 1; curve.shown_ref() == of.slave && k < curve.vertices.size(); ++k) link_edge(curve.vertices[k - 1], curve.vertices[k]);
+    if (of.dimension == 2) {
+      std::map<std::vector<std::int32_t>, const Element*> masters;  // by ascending vertices
+      const auto corners_of = [](const Element& e) { return std::vector<std::int32_t>(e.node.begin(), e.node.begin() + e.corners); };
+      for (const Element& e : elements_) {
+        if (mesh_.faces[e.face].shown_ref() != of.master) continue;
+        std::vector<std::int32_t> corners = corners_of(e);
+        std::sort(corners.begin(), corners.end());
+        masters.emplace(std::move(corners), &e);
+      }
+      for (const Element& e : elements_) {
+        if (mesh_.faces[e.face].shown_ref() != of.slave) continue;
+        std::vector<std::int32_t> images;
+        for (const std::int32_t v : corners_of(e))
+          if (const auto image = master.find(v); image != master.end()) images.push_back(image->second);
+        for (int i = 0; i < e.corners; ++i) link_edge(e.node[static_cast<std::size_t>(i)], e.node[static_cast<std::size_t>((i + 1) % e.corners)]);
+        std::sort(images.begin(), images.end());
+        const auto found = masters.find(images);
+        if (found != masters.end()) link_inner(e, *found->second, link);
+      }
+    }
+    std::sort(link.nodes.begin(), link.nodes.end());
+    link.nodes.erase(std::unique(link.nodes.begin(), link.nodes.end()), link.nodes.end());
+    out_.periodic.push_back(std::move(link));
+  }
+
+  // Repairs have moved nodes of a face and of its image each in their own way: the image follows.
+  void follow_masters() {
+    std::vector<char> on_curve(out_.nodes.size(), 0);
+    for (const MeshAssociation::OnCurve& on : on_curves_) on_curve[on.node] = 1;
+    for (const PeriodicLink& link : out_.periodic) {
+      if (link.dimension != 2) continue;
+      const std::map<std::int32_t, std::int32_t> master = [&] {
+        std::map<std::int32_t, std::int32_t> by_slave;
+        for (const auto& [slave, image] : link.nodes) by_slave.emplace(slave, image);
+        return by_slave;
+      }();
+      std::map<std::size_t, Wanted> wanted;  // by face
+      std::vector<std::size_t> changed;
+      for (std::size_t k = 0; k < elements_.size(); ++k) {
+        const Element& e = elements_[k];
+        if (mesh_.faces[e.face].shown_ref() != link.slave) continue;
+        const double size = norm(out_.nodes[e.node[0]] - out_.nodes[e.node[2]]);
+        for (std::size_t i = static_cast<std::size_t>(e.corners); i < shape(e).node_count(); ++i) {
+          const auto found = master.find(e.node[i]);
+          if (found == master.end() || on_curve[e.node[i]] != 0) continue;
+          const Vec3 image = link.map(out_.nodes[found->second]);
+          if (norm(image - out_.nodes[e.node[i]]) <= rounding_of::digits * size) continue;
+          changed.push_back(k);
+          if (is_finite(node_uv_[found->second]) && is_finite(node_uv_[e.node[i]])) {
+            Wanted& of = wanted[static_cast<std::size_t>(e.face)];
+            of.node.push_back(e.node[i]), of.target.push_back(image), of.guess.push_back(node_uv_[e.node[i]]), of.reach.push_back(rounding_of::sizes * size);
+          } else {
+            out_.nodes[e.node[i]] = image, node_uv_[e.node[i]] = {nan, nan};
+          }
+        }
+      }
+      for (const auto& [f, of] : wanted) place(f, of);
+      std::erase_if(invalid_, [&](std::size_t k) { return std::binary_search(changed.begin(), changed.end(), k); });
+      changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+      for (const std::size_t k : changed)
+        if (score(elements_[k]) < least_jacobian) invalid_.push_back(k);
+      std::sort(invalid_.begin(), invalid_.end());
+    }
+  }
+
+  void link_inner(const Element& slave, const Element& master, PeriodicLink& link) const {
+    for (std::size_t i = shape(slave).first_inner(); i < shape(slave).node_count(); ++i) {
+      std::int32_t nearest = -1;
+      double least = infinity;
+      for (std::size_t k = shape(master).first_inner(); k < shape(master).node_count(); ++k)
+        if (const double apart = norm(link.map(out_.nodes[master.node[k]]) - out_.nodes[slave.node[i]]); apart < least) least = apart, nearest = master.node[k];
+      if (nearest >= 0) link.nodes.push_back({slave.node[i], nearest});
+    }
   }
 
   // Nodes that repairs have moved off the surface have no parameters.

@@ -64,7 +64,7 @@ std::string curved_msh(const HighOrderMesh& given, bool association, bool versio
   for (const auto& [ref, name] : mesh.face_names) faces.push_back({.ref = ref, .name = name});
   EntityNames names = mesh.names;
   names.face_solids.clear();  // dolfinx rejects groups of solids, which have no elements here
-  file.node_refs = &refs, file.names = &names, file.faces = &faces;
+  file.node_refs = &refs, file.names = &names, file.faces = &faces, file.periodic = &mesh.periodic;
   for (const Rows& rows : rows_of(mesh))
     for (std::size_t e = 0; e < rows.refs.size(); ++e)
       file.elements.push_back({rows.dimension, rows.gmsh, rows.corners, rows.refs[e], std::span(rows.nodes).subspan(e * rows.width, rows.width)});

@@ -78,7 +78,7 @@ class Periodic(unittest.TestCase):
                 self.check(self.mesh("cube.step", *AXES, *options), 3)
 
     def test_elements_of_all_kinds(self):
-        for element in ("p2", "q1.0", "q1.1", "q2.0", "q2.1"):
+        for element in ("p2", "p3", "p4", "q1.0", "q1.1", "q2.0", "q2.1", "q3", "q3.1", "q4.1"):
             for cell, options, pairs in (("fcc.step", AXES, None), ("annulus.step", SECTOR, 1)):
                 with self.subTest(element=element, cell=cell):
                     path = self.mesh(cell, *options, "--element", element)
@@ -141,7 +141,7 @@ class Periodic(unittest.TestCase):
             gmsh = importlib.import_module("gmsh")
         except ImportError:
             raise unittest.SkipTest("Python has no gmsh") from None
-        for element in ("p1", "p2"):  # of version 2.2 Gmsh reads no pairs, not even its own
+        for element in ("p1", "p2", "p3", "q3.1"):  # of version 2.2 Gmsh reads no pairs, not even its own
             with self.subTest(element=element):
                 path = self.mesh("fcc.step", *AXES, "--element", element, name="cell.msh")
                 gmsh.initialize()

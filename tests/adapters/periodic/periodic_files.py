@@ -27,8 +27,8 @@ class Mesh:
         self.cells, self.nodes = {}, {}  # corners, and all nodes
         for element in content["Elements"][1:]:
             kind, face, nodes = int(element[1]), int(element[4]), [int(n) for n in element[5:]]
-            if kind in (2, 3, 9, 16):
-                self.cells.setdefault(face, []).append(nodes[:3 if kind in (2, 9) else 4])
+            if kind in (2, 9, 21, 23, 3, 10, 16, 36, 37):
+                self.cells.setdefault(face, []).append(nodes[:3 if kind in (2, 9, 21, 23) else 4])
                 self.nodes.setdefault(face, []).append(nodes)
         self.pairs, rows = [], iter(content.get("Periodic", [["0"]])[1:])
         for dimension, slave, master in rows:
