@@ -33,6 +33,15 @@ def angle_between(p, q):
     return abs(math.degrees(math.atan2(p[0] * q[1] - p[1] * q[0], p[0] * q[0] + p[1] * q[1])))
 
 
+def signed_volume(mesh):
+    """Inside triangles that are counterclockwise from outside."""
+    sum6 = 0
+    for corners in mesh.triangles:
+        (a, b, c), (d, e, f), (g, h, i) = (mesh.vertices[v] for v in corners)
+        sum6 += a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    return sum6 / 6
+
+
 class Figures(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="carreau figures ")
@@ -132,6 +141,29 @@ class Figures(unittest.TestCase):
             _, figures = self.mesh("mesh", self.path("aircraft.fmt"), "--lengths", "--join", "30", *options)
             self.assertEqual(figures["open_edges"], 0)
             self.assertGreater(figures["q2_mean"], quality)
+
+    @unittest.skipUnless(shutil.which("tetgen"), "without tetgen")
+    def test_tetrahedra_around_an_aircraft_as_figure_4_34(self):
+        """The uniform mesh of a box around the Boeing has about 485 000 tetrahedra of mean quality .5; ours lie around our aircraft."""
+        sys.path.insert(0, os.path.join(DATA, "..", "..", "bench"))
+        import aircraft
+        aircraft.write_plot3d(self.path("aircraft.fmt"), aircraft.aircraft())
+        mesh, _ = self.mesh("mesh", self.path("aircraft.fmt"), "--size", "0.6", "--lengths", "--join", "30")
+        with open(self.path("hole.off"), "w") as file:  # turned around: a cavity of the box
+            file.write(f"OFF {len(mesh.vertices)} {len(mesh.triangles)} 0\n")
+            file.writelines(f"{x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in mesh.vertices)
+            file.writelines(f"3 {a} {c} {b}\n" for a, b, c in mesh.triangles)
+        corners = [(x, y, z) for x in (-4, 74) for y in (-34, 34) for z in (-9, 15)]
+        with open(self.path("box.off"), "w") as file:
+            file.write("OFF 8 6 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in corners))
+            file.write("4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n")
+        done = subprocess.run([PROGRAM, "volume", self.path("box.off"), self.path("hole.off"), "--size", "1.29", "--engine", "tetgen",
+                               "-o", self.path("volume.mesh"), "--json"], capture_output=True, text=True, timeout=280)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        volume = json.loads(done.stdout)["volume"]
+        self.assertAlmostEqual(volume["tetrahedra"] / 485000, 1, delta=0.1)
+        inside = signed_volume(mesh)
+        self.assertAlmostEqual(volume["solids"][0]["volume"] / (78 * 68 * 24 - inside), 1, delta=1e-3)
 
     def test_a_fragment_of_dna_as_figure_4_30(self):
         """637 atoms have 154 220 vertices and 309 004 triangles, 485 an atom; here 120 atoms of 1BNA."""
