@@ -2,6 +2,7 @@
 // Faces of different solids that lie on each other, and their common area.
 #include <gtest/gtest.h>
 #include <assembly/common_area.h>
+#include <assembly/domain_cells.h>
 #include <assembly/face_contacts.h>
 #include <shape_file.h>
 #include <solids.h>
@@ -10,7 +11,11 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <Precision.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <array>
 #include <chrono>
@@ -156,6 +161,31 @@ TEST(Contacts, OfAThousandParts) {
   std::printf("2700 contacts of 1000 parts: %.2f s\n", seconds.count());
   ASSERT_EQ(contacts.size(), 2700U);
   for (const FaceContact& contact : contacts) EXPECT_NEAR(contact.area, 1, 1e-9);
+}
+
+/// Domains of planes, cylinders and spheres with round holes and crossing cuts, also beyond their boxes.
+TEST(Contacts, StatesOfPointsMatchTheClassifier) {
+  TopoDS_Shape body = BRepAlgoAPI_Cut(box(0, 0, 0, 3, 2, 1), cylinder(1, 1, -1, 0.4, 3)).Shape();
+  body = BRepAlgoAPI_Cut(body, BRepPrimAPI_MakeSphere(gp_Pnt(2.2, 1, 1), 0.6).Shape()).Shape();
+  body = BRepAlgoAPI_Cut(body, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-1, 1, 0.6), gp_Dir(1, 0, 0)), 0.3, 5).Shape()).Shape();
+  std::mt19937 dice(7);
+  const auto share = [&] { return static_cast<double>(dice()) / 4294967295.0 * 1.2 - 0.1; };
+  int inside = 0, outside = 0;
+  for (TopExp_Explorer faces(body, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face& face = TopoDS::Face(faces.Current());
+    carreau_occ::DomainCells cells(face);
+    const BRepTopAdaptor_FClass2d classifier(face, Precision::PConfusion());
+    double u0, u1, v0, v1;
+    BRepTools::UVBounds(face, u0, u1, v0, v1);
+    for (int k = 0; k < 2000; ++k) {
+      const double u = u0 + (u1 - u0) * share(), v = v0 + (v1 - v0) * share();
+      const TopAbs_State state = classifier.Perform(gp_Pnt2d(u, v));
+      ASSERT_EQ(cells.state(gp_Pnt2d(u, v)), state) << u << " " << v;
+      ++(state == TopAbs_IN ? inside : outside);
+    }
+  }
+  EXPECT_GT(inside, 2000);
+  EXPECT_GT(outside, 2000);
 }
 
 }  // namespace contact_tests

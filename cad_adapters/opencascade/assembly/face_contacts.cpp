@@ -6,7 +6,6 @@
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <ElSLib.hxx>
@@ -34,6 +33,7 @@
 #include <optional>
 
 #include "assembly/common_area.h"
+#include "assembly/domain_cells.h"
 #include "extent.h"
 #include "faults.h"
 
@@ -75,14 +75,24 @@ class ContactAreas {
   }
 
  private:
+  /// Points of a face in the middle of cells, and the sum of their areas.
+  struct Points {
+    struct At {
+      gp_Pnt p;
+      gp_Vec outside;
+    };
+    std::vector<At> list;
+    double all = 0;
+  };
   struct Looked {
     int solid = 0;
     Bnd_Box box;
     std::unique_ptr<BRepAdaptor_Surface> surface;
-    std::unique_ptr<BRepTopAdaptor_FClass2d> inside;
+    std::unique_ptr<DomainCells> inside;
     Handle(ShapeAnalysis_Surface) projection;
     std::optional<double> area;
     std::optional<std::vector<Segment>> borders;  // in its own plane
+    std::map<int, Points> points;                 // by the number in each direction
   };
   Looked& at(int f) { return looked_[static_cast<std::size_t>(f - 1)]; }
   [[nodiscard]] TopoDS_Face face(int f) const { return TopoDS::Face(faces_(f)); }
@@ -229,9 +239,9 @@ class ContactAreas {
 
   // ---- other surfaces ----
 
-  const BRepTopAdaptor_FClass2d& domain(int f) {
+  DomainCells& domain(int f) {
     Looked& looked = at(f);
-    if (!looked.inside) looked.inside = std::make_unique<BRepTopAdaptor_FClass2d>(face(f), Precision::PConfusion());
+    if (!looked.inside) looked.inside = std::make_unique<DomainCells>(face(f));
     return *looked.inside;
   }
 
@@ -252,29 +262,42 @@ class ContactAreas {
     gp_Pnt foot;
     normal = outside(f, uv.X(), uv.Y(), foot);
     if (foot.Distance(p) > tolerance_) return false;
-    const TopAbs_State state = domain(f).Perform(uv);
+    const TopAbs_State state = domain(f).state(uv);
     return state == TopAbs_IN || state == TopAbs_ON;
   }
 
-  /// Shares of the area of face f that lies on face g, by points in the middle of cells.
-  double share_on(int f, int g, int n, gp_Pnt& place) {
-    double u0, u1, v0, v1, all = 0, common = 0;
+  /// A face has equal points for all other faces.
+  const Points& points(int f, int n) {
+    std::map<int, Points>& known = at(f).points;
+    if (const auto found = known.find(n); found != known.end()) return found->second;
+    Points made;
+    double u0, u1, v0, v1;
     BRepTools::UVBounds(face(f), u0, u1, v0, v1);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         const gp_Pnt2d uv(u0 + (u1 - u0) * (i + 0.5) / n, v0 + (v1 - v0) * (j + 0.5) / n);
-        if (domain(f).Perform(uv) != TopAbs_IN) continue;
+        if (domain(f).state(uv) != TopAbs_IN) continue;
         gp_Pnt p;
         const gp_Vec normal = outside(f, uv.X(), uv.Y(), p);
-        all += normal.Magnitude();
-        ++points_;
-        if (at(g).box.IsOut(p)) continue;
-        gp_Vec other;
-        if (!lies_on(p, g, other) || normal * other > 0) continue;
-        if (common == 0) place = p;
-        common += normal.Magnitude();
+        made.all += normal.Magnitude();
+        made.list.push_back({p, normal});
       }
-    return all > 0 ? common / all : 0;
+    return known.emplace(n, std::move(made)).first->second;
+  }
+
+  /// Shares of the area of face f that lies on face g, by points in the middle of cells.
+  double share_on(int f, int g, int n, gp_Pnt& place) {
+    double common = 0;
+    const Points& mine = points(f, n);
+    for (const auto& [p, normal] : mine.list) {
+      if (at(g).box.IsOut(p)) continue;
+      gp_Vec other;
+      if (!lies_on(p, g, other) || normal * other > 0) continue;
+      if (common == 0) place = p;
+      common += normal.Magnitude();
+    }
+    points_ += static_cast<int>(mine.list.size());
+    return mine.all > 0 ? common / mine.all : 0;
   }
 
   double common_area_of_points(int f, int g, gp_Pnt& place) {
