@@ -8,12 +8,8 @@
 
 #include "support/vec.h"
 
+namespace carreau {
 namespace {
-
-using carreau::ColumnOrder;
-using carreau::LeastSquares;
-using carreau::Vec2;
-using carreau::Vec3;
 
 /// Rows 1, t, t^2 and t^3 at `rows` places t of [0, 1].
 LeastSquares cubic(std::size_t rows) {
@@ -70,7 +66,7 @@ TEST(LeastSquares, ReportsDependentColumns) {
 
 TEST(LeastSquares, InvertsTheHilbertMatrix) {
   // Savage and Lukacs 1954: the inverse has whole numbers.
-  const std::vector<double> inverse = carreau::inverse_of(
+  const std::vector<double> inverse = inverse_of(
       std::vector<double>{1, 1. / 2, 1. / 3, 1. / 4, 1. / 2, 1. / 3, 1. / 4, 1. / 5, 1. / 3, 1. / 4, 1. / 5, 1. / 6, 1. / 4, 1. / 5, 1. / 6, 1. / 7}, 4);
   const double exact[] = {16, -120, 240, -140, -120, 1200, -2700, 1680, 240, -2700, 6480, -4200, -140, 1680, -4200, 2800};
   for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(inverse[i], exact[i], 1e-8);
@@ -86,3 +82,4 @@ TEST(Points, HaveSumsAndMultiplesThatArePoints) {
 }
 
 }  // namespace
+}  // namespace carreau
