@@ -228,6 +228,22 @@ class Cells(unittest.TestCase):
                             self.assertEqual(made.euler_of_skin(), 8)
                         self.require_sound(self.path("cell.msh2"), element)
 
+    def test_estimates_of_one_side_count_for_both(self):
+        """Values vary beside x = 0 alone; the next mesh is as fine at x = 1."""
+        source, last = os.path.join(CELLS, "cube.step"), self.path("last.msh2")
+        self.mesh(source, "-o", self.path("last.mesh"), name="last.msh2", size="0.15")
+        places = Mesh(last).points
+        values = [math.exp(-40 * (places[n][0] ** 2 + (places[n][1] - .5) ** 2 + (places[n][2] - .5) ** 2)) for n in sorted(places)]
+        self.path("last.sol", f"MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n{len(values)}\n1 1\n" + "\n".join(map(repr, values)) + "\nEnd\n")
+        done = run("adapt", source, "--mesh", self.path("last.mesh"), "--sol", self.path("last.sol"), "-o", self.path("next.msh2"), *AXES[:2], "--size", ".2", "--min", ".02")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        made = Mesh(self.path("next.msh2"))
+        self.assertEqual(made.mismatch(), 0)
+        self.assertEqual(len(made.faces()), 1)
+        low, high = ([n for n, p in made.points.items() if p[0] == at] for at in (0, 1))
+        self.assertEqual(len(low), len(high))
+        self.assertGreater(len(low), 2 * sum(p[0] == 0 for p in places.values()))
+
     def test_classes_of_spheres(self):
         """Pieces of spheres in the corners, on the edges and on the faces of a cube: glued, they are one sphere of eight pieces, three of four and
         three of two. A vertex on n sides of the cube has 2^n images."""

@@ -88,7 +88,7 @@ class Mirror(unittest.TestCase):
                 free = {n: p for n, p in made.points.items() if n not in on_faces}
                 self.assertEqual(max(p[0] for p in free.values()), 1.5)
                 self.assertEqual(min(p[0] for p in free.values()), -1.5)
-                # Of the segment, the arc and the edge in the plane.
+                # The segment, the arc and the edge in the plane have vertices there.
                 self.assertEqual(sum(p[0] == 0 and abs(p[2] - .9) < 1e-12 for p in free.values()), 1)
                 self.assertEqual(sum(abs(p[0]) < 1e-12 and abs(p[2] - 1.8) < 1e-12 for p in free.values()), 1)
                 self.assertGreater(sum(abs(p[0]) < 1e-12 and 1 - 1e-9 < p[2] < 1.2 + 1e-9 for p in free.values()), 2)
