@@ -24,7 +24,7 @@ std::array<Vec3, 4> cubic_of(const Vec3& p, const Vec3& q, const Vec3& r, const 
   return {p, Vec3((-19 * p + 24 * q - 8 * r + 3 * s) / 3), Vec3((32 * p - 56 * q + 40 * r - 16 * s) / 3), Vec3((-16 * p + 32 * q - 32 * r + 16 * s) / 3)};
 }
 
-/// Of 16 of the samples: the lines of the middle are left for the measure of the error.
+/// Interpolates 16 of the samples: the lines of the middle measure the error.
 BicubicTerms terms_of(const Samples& samples) {
   std::array<Vec3, 16> rows;
   BicubicTerms terms;
