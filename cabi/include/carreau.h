@@ -702,7 +702,7 @@ typedef struct carreau_layers_report {
   size_t struct_size;
   int64_t cells;                              /* in all faces */
   int32_t rows, fewest_rows;                  /* above an edge of a curve: largest and smallest number; 0: an edge has none */
-  double first_min, first_mean, first_max;    /* heights of cells in the first row, model length */
+  double first_min, first_mean, first_max;    /* heights of cells in the first row, model length; times u_tau / nu: y+ */
   double growth_min, growth_mean, growth_max; /* 0 if there is one row */
 } carreau_layers_report;
 /* Gives the report on the set `index`, from 0 in the order of carreau_add_layers. Errors: ARGUMENT (index), SEQUENCE (no

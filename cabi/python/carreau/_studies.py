@@ -114,7 +114,8 @@ class Studies:
         self._call(lib().clear_layers)
 
     def layers(self, index: int = 0) -> LayersReport:
-        """Measures of a set of layers of the last mesh, in the order of add_layers()."""
+        """Measures of a set of layers of the last mesh, in the order of add_layers(). The first heights times a friction velocity over
+        viscosity are y+."""
         return asked(c.carreau_layers_report, lambda out: self._call(lib().session_layers, index, out))  # type: ignore[no-any-return]
 
     def clear_background(self) -> None:
