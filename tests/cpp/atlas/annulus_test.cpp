@@ -213,7 +213,7 @@ TEST(Annulus, IsC1FromTheOuterBorder) {
                               std::hypot(left[0].u - right[0].u, left[1].u - right[1].u)) /
                      scale;
             };
-            // Where knots are 1e-5 from one another slopes change fast, but they do not jump.
+            // Slopes change fast between knots that are 1e-5 apart, but they do not jump.
             EXPECT_LT(jump(1e-13), std::max(1e-6, .2 * jump(1e-12))) << made << " " << phi << " " << tau;
             EXPECT_LT(jump(1e-13), 1e-3);
           }
