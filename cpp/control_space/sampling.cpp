@@ -98,7 +98,6 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
   const double planned = by_vertices ? std::min(cells_per_vertex * vertices_, min_cells)
                                      : static_cast<double>(options_.min_samples) / samples_per_cell;
   const double least = by_vertices ? std::max(planned, fewest_cells) : min_cells;
-  spare_samples_ = by_vertices ? spare_samples_per_cell * planned : spare_samples;
   cells = std::max(cells, planned);
   cells = std::min(cells, static_cast<double>(options_.max_samples) / (2 * samples_per_cell));
   vertices_per_cell_ = vertices_ / cells;
@@ -331,7 +330,7 @@ bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexc
 
 double ControlSpaceSampling::samples_for_smooth_fields() const noexcept {
   const double others = options_.thorough ? 0 : std::max(vertices_ - vertices_that_count, 0.0);
-  return spare_samples_ + options_.samples_per_vertex * (vertices_ - (1 - share_of_others) * others);
+  return spare_samples + options_.samples_per_vertex * (vertices_ - (1 - share_of_others) * others);
 }
 
 // Cells to split, in their order. Crowded cells are split as far as max_samples allows, cells beyond the tolerance

@@ -111,7 +111,6 @@ class ControlSpaceSampling {
   Vec2 box_;
   double floor_ = 0;              // of eigenvalues of the metric in units of the box
   double vertices_ = 1;           // that the mesh will have
-  double spare_samples_ = 0;      // beyond the samples for vertices
   double vertices_per_cell_ = 1;  // a cell that holds many more is split in any case
   std::optional<Lattice> lattice_;
   std::optional<BorderSamples> border_;

@@ -29,8 +29,9 @@ inline constexpr double usual_vertices_per_cell = 10;
 inline constexpr double many_vertices = 10'000;
 /// Cells. Least number in the first grid.
 inline constexpr double min_cells = 25;
-/// Cells. Least number without min_samples: for each vertex, up to min_cells, and altogether. [1: mean Q2 of 1BNA stays]
-inline constexpr double cells_per_vertex = 0.5, fewest_cells = 9;
+/// Cells. Least number without min_samples: for each vertex, up to min_cells, and altogether. [time only; fewer spare
+/// samples: mean Q2 of frame.step .875 to .871]
+inline constexpr double cells_per_vertex = 1, fewest_cells = 9;
 /// Samples. Cost of a cell of a uniform grid: a node, its centre, its share of the border.
 inline constexpr double samples_per_cell = 2.4;
 /// Cells. Number along a side of the first grid.
@@ -65,8 +66,6 @@ inline constexpr double much_stretched = 30;
 inline constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
 /// Samples. Allowance beyond the samples for each vertex where errors are no larger than edges can show;
 inline constexpr double spare_samples = 100;
-/// without min_samples so many for each cell that is planned,
-inline constexpr double spare_samples_per_cell = 4;
 /// Vertices. in a large mesh only so many count,
 inline constexpr double vertices_that_count = 1500;
 /// Share. and this of the others. [surface: Calls.AreAtMostFiveAVertexWhenGeometric]

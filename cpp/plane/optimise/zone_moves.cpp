@@ -35,7 +35,7 @@ void search_at(SearchZone& zone, int v, double step, int turns) {
   }
 }
 
-// Of the star of v; `worst`: the triangle that costs most.
+// Returns the cost of the star of v, and in `worst` the triangle that costs most.
 double star_cost(SearchZone& zone, int v, std::size_t& worst) {
   const std::vector<std::int32_t>& link = zone.star.link;
   double sum = 0, most = 0;

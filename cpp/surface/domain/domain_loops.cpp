@@ -79,7 +79,7 @@ double side_of_inside(const PlaneDomain& domain, const Boundary& boundary, const
   return vote;
 }
 
-/// As side_of_inside(), if the chain is the whole boundary and does not meet itself for certain; otherwise 0.
+/// Returns the sign of side_of_inside() if one chain is the boundary and certainly does not meet itself; otherwise 0.
 int side_of_star(const PlaneDomain& domain, std::span<const Chain> chains) {
   if (chains.size() != 1 || !chains[0].closed) return 0;
   std::vector<std::pair<int, int>> edges;
