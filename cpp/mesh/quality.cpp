@@ -335,6 +335,7 @@ Part measured(const TriangleLists& mesh, int threads, std::pair<double, double> 
   std::vector<Part> parts((mesh.size() + part_size - 1) / part_size);
   each_part(mesh.size(), threads, [&](std::size_t i) {
     Part& part = parts[i];
+    for (Values* values : {&part.q1_values, &part.q2_values}) values->lowest.reserve(part_size / 8);
     mesh.for_each(i * part_size, std::min((i + 1) * part_size, mesh.size()), [&](std::size_t, const std::array<std::int32_t, 3>& corners) {
       const auto [q1, q2] = part.measure(mesh.vertices(), corners);
       part.q1_values.add(q1, bounds.first), part.q2_values.add(q2, bounds.second);
