@@ -43,7 +43,7 @@ struct Values {
     sum += other.sum, low = std::min(low, other.low), high = std::max(high, other.high);
     lowest.insert(lowest.end(), other.lowest.begin(), other.lowest.end());
   }
-  /// Of n values; none if the first percentile is not among the lowest.
+  /// Returns the distribution of n values, or none if the first percentile is not among the lowest.
   [[nodiscard]] std::optional<Distribution> distribution(std::size_t n) {
     if (n == 0) return Distribution{};
     if (lowest.size() <= n / 100) return {};
@@ -187,7 +187,7 @@ std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
   return all;
 }
 
-// By the edges of each vertex.
+// Lists the edges of each vertex.
 Connections connections_of_any(const TriangleLists& mesh, int threads) {
   const std::size_t n = mesh.vertices().size();
   EdgesByVertex edges(mesh, threads);

@@ -15,7 +15,7 @@
 #include "plane/division/zone.h"
 #include "plane/kernel/boundary.h"
 #include "plane/kernel/thresholds.h"
-#include "support/free_memory.h"
+#include "support/memory/free_memory.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
 #include "support/work_sizes.h"

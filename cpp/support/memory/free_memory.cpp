@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/free_memory.h"
+#include "support/memory/free_memory.h"
 
 #if defined(__linux__)
 #include <features.h>
