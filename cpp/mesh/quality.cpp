@@ -43,7 +43,7 @@ struct Values {
     sum += other.sum, low = std::min(low, other.low), high = std::max(high, other.high);
     lowest.insert(lowest.end(), other.lowest.begin(), other.lowest.end());
   }
-  /// Of n values; none if the first percentile is not among the lowest.
+  /// Returns the distribution of n values, or none if the first percentile is not among the lowest.
   [[nodiscard]] std::optional<Distribution> distribution(std::size_t n) {
     if (n == 0) return Distribution{};
     if (lowest.size() <= n / 100) return {};
@@ -187,7 +187,7 @@ std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
   return all;
 }
 
-// By the edges of each vertex.
+// Lists the edges of each vertex.
 Connections connections_of_any(const TriangleLists& mesh, int threads) {
   const std::size_t n = mesh.vertices().size();
   EdgesByVertex edges(mesh, threads);
@@ -335,6 +335,7 @@ Part measured(const TriangleLists& mesh, int threads, std::pair<double, double> 
   std::vector<Part> parts((mesh.size() + part_size - 1) / part_size);
   each_part(mesh.size(), threads, [&](std::size_t i) {
     Part& part = parts[i];
+    for (Values* values : {&part.q1_values, &part.q2_values}) values->lowest.reserve(part_size / 8);
     mesh.for_each(i * part_size, std::min((i + 1) * part_size, mesh.size()), [&](std::size_t, const std::array<std::int32_t, 3>& corners) {
       const auto [q1, q2] = part.measure(mesh.vertices(), corners);
       part.q1_values.add(q1, bounds.first), part.q2_values.add(q2, bounds.second);

@@ -262,6 +262,7 @@ std::vector<std::int32_t> all_graphs(std::span<const Vec3> vertices, std::span<c
   std::vector<std::int32_t> graph(triangles.size(), -1);
   const std::int32_t of_faces = find_face_graphs(vertices, triangles, sound.view, faces, graph, threads, monitor);
   std::vector<std::int32_t> rest;
+  if (of_faces == 0) rest.reserve(sound.numbers.size());
   for (const std::int32_t t : sound.numbers)
     if (graph[static_cast<std::size_t>(t)] < 0) rest.push_back(t);
   if (rest.empty()) return graph;

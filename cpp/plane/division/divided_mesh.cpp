@@ -15,6 +15,7 @@
 #include "plane/division/zone.h"
 #include "plane/kernel/boundary.h"
 #include "plane/kernel/thresholds.h"
+#include "support/memory/free_memory.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
 #include "support/work_sizes.h"
@@ -223,6 +224,15 @@ class Assembly {
   PlaneMesh mesh_;
 };
 
+PlaneMesh assembled(const Pieces& pieces, const std::vector<MeshedPiece>& meshes, const ZoneContext& context) {
+  const JoinedPieces joined = join(pieces, meshes);
+  const Zone zone = improved_zone(joined, context);
+  return Assembly(joined, zone, context).run();
+}
+
+// The meshes of its pieces have had 20 bytes a triangle, and the arrays of the next steps are too large for their places. [memory only]
+constexpr double many_triangles = 5e6;
+
 }  // namespace
 
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
@@ -237,10 +247,8 @@ std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSp
   try {
     const std::optional<Pieces> pieces = cut(context, a_piece);
     if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};
-    const std::vector<MeshedPiece> meshes = mesh_pieces(*pieces, context);
-    const JoinedPieces joined = join(*pieces, meshes);
-    const Zone zone = improved_zone(joined, context);
-    PlaneMesh mesh = Assembly(joined, zone, context).run();
+    PlaneMesh mesh = assembled(*pieces, mesh_pieces(*pieces, context), context);
+    if (static_cast<double>(mesh.triangles.size()) > many_triangles) return_free_memory();
     if (static_cast<std::int64_t>(mesh.triangles.size()) > options.max_triangles)
       throw LimitError("the mesh of the plane domain has reached the limit of " +
                        std::to_string(options.max_triangles) + " triangles");

@@ -73,6 +73,7 @@ TEST(Memory, AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh) {
               (high - mesh) / triangles, allocations.load());
   EXPECT_GT(triangles, 950'000);
   EXPECT_LE((high - mesh) / triangles, 40);
+  EXPECT_LE(high / triangles, 56);
   // Structures grow; nothing is allocated for each triangle.
   EXPECT_LT(static_cast<double>(allocations.load()), 0.01 * triangles);
 }
