@@ -34,6 +34,6 @@ inline constexpr int tidy_passes = 2, tidy_passes_at_last = 5;
 /// Evaluations of the surface, for each triangle of the mesh and for each triangle of a group beyond tolerances. Triangles that stay beyond
 /// are reported. So many for each triangle take as long as the mesh of the patches: it evaluates less and computes more. The last number is
 /// allowed in any case: a tenth of a second.
-inline constexpr std::int64_t max_evaluations = 24, max_evaluations_of_group = 4500, always_evaluations = 150'000;
+inline constexpr std::int64_t max_evaluations = 28, max_evaluations_of_group = 5250, always_evaluations = 175'000;
 
 }  // namespace carreau::thresholds::certify
