@@ -38,7 +38,7 @@ void expect_consistent(const SurfaceJet& jet) {
   }
   // Gauss and mean curvature by their usual quotients.
   const double det = first.e * first.g - first.f * first.f;
-  EXPECT_NEAR(frame->gauss(), (second->l * second->n - second->m * second->m) / det, scale * frame->largest());
+  EXPECT_NEAR(frame->k1 * frame->k2, (second->l * second->n - second->m * second->m) / det, scale * frame->largest());
   EXPECT_NEAR(frame->mean(), (first.e * second->n - 2 * first.f * second->m + first.g * second->l) / (2 * det), scale);
 }
 
@@ -121,7 +121,7 @@ TEST(PrincipalFrame, TheMonkeySaddleIsFlatAtItsCentre) {
   const double r2 = dot(p, p);
   const auto beside = principal_frame(monkey_saddle_jet(p));
   ASSERT_TRUE(beside);
-  EXPECT_NEAR(beside->gauss(), -36 * r2 / std::pow(1 + 9 * r2 * r2, 2), 1e-12);
+  EXPECT_NEAR(beside->k1 * beside->k2, -36 * r2 / std::pow(1 + 9 * r2 * r2, 2), 1e-12);
 }
 
 TEST(PrincipalFrame, DoesNotDependOnTheScaleOfParameters) {
