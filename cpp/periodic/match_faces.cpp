@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "model/format_point.h"
 #include "model/traces.h"
 #include "periodic/closest.h"
 #include "periodic/find_map.h"
@@ -18,9 +19,9 @@
 #include "predicates/polygon_locator.h"
 #include "support/error.h"
 #include "support/format.h"
-#include "model/format_point.h"
 #include "support/infinity.h"
 #include "support/shares.h"
+#include "support/short_number.h"
 
 namespace carreau {
 
@@ -89,7 +90,7 @@ class Matcher {
                          std::to_string(given.masters.size()) + " master faces: they must be as many");
     if (given.map && !(given.map->distortion() <= isometry_tolerance))
       throw InvalidModel("the map of a periodicity changes lengths: R R^T differs from the identity by " +
-                         format_number(given.map->distortion()));
+                         short_number(given.map->distortion()));
     if (given.map && !is_finite(given.map->shift)) throw InvalidModel("the map of a periodicity is not finite");
     if (norm(given.direction) > 0)
       add_translation(given.direction);
@@ -416,7 +417,7 @@ class Matcher {
     look(slave, master, map.inverse(), false);
     const std::string names = "the image of face " + std::to_string(ref(master)) + " and face " + std::to_string(ref(slave));
     if (worst > gap_)
-      return names + " do not match: their boundaries are " + format_number(worst) + " apart at " + format_point(where);
+      return names + " do not match: their boundaries are " + short_number(worst) + " apart at " + format_point(where);
     double corner = 0;
     Vec3 at(0, 0, 0);
     const auto look_at_corners = [&](const std::vector<Vec3>& from, const std::vector<Vec3>& to, const Isometry& by, bool there) {
@@ -430,11 +431,11 @@ class Matcher {
     look_at_corners(corners_of(slave), corners_of(master), map.inverse(), false);
     if (corner > gap_)
       return names + " do not match: their boundaries are one, but a corner at " + format_point(at) + " has no partner within " +
-             format_number(corner);
+             short_number(corner);
     if (faces_[master].curves.size() == faces_[slave].curves.size())
       return names + " do not match: they have one boundary, and lie on different sides of it or curve differently";
     return names + " do not match: they have " + std::to_string(faces_[master].curves.size()) + " and " +
-           std::to_string(faces_[slave].curves.size()) + " curves, which differ by up to " + format_number(worst);
+           std::to_string(faces_[slave].curves.size()) + " curves, which differ by up to " + short_number(worst);
   }
 
   const CurveModel& model_;

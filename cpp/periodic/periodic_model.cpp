@@ -14,6 +14,7 @@
 #include "support/error.h"
 #include "support/format.h"
 #include "support/shares.h"
+#include "support/short_number.h"
 
 namespace carreau {
 
@@ -142,7 +143,7 @@ class Classes {
     if (same && worst <= gaps_of_chain * result_.gap) return;
     throw InvalidModel(Where{.face = ref(known.slave)},
                        "two chains of periodicities carry face " + std::to_string(ref(known.master)) + " onto the face, " +
-                           format_number(worst) + " apart: by faces " + path_of(parent, known.slave) + " and by faces " +
+                           short_number(worst) + " apart: by faces " + path_of(parent, known.slave) + " and by faces " +
                            path_of(parent, by) + ", " + std::to_string(ref(known.slave)));
   }
 
@@ -262,7 +263,7 @@ class Classes {
     }
     throw InvalidModel(Where{.curve = model_.curve(known.image.curve).ref},
                        "two chains of periodicities carry curve " + std::to_string(shape.ref) + " onto the curve, " +
-                           format_number(worst) + " apart; one is that by curves " + curve_path(parent, known.image.curve));
+                           short_number(worst) + " apart; one is that by curves " + curve_path(parent, known.image.curve));
   }
 
   // ---- corners ----

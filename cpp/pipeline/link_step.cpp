@@ -3,7 +3,7 @@
 #include <string>
 
 #include "pipeline/base/run.h"
-#include "support/format.h"
+#include "support/short_number.h"
 #include "surface/carry/periodic_links.h"
 
 namespace carreau {
@@ -17,7 +17,7 @@ void link_periodic(CompositeRun& run, bool reports) {
   run.monitor.message(Level::summary, "periodic: " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
                                           (of_curves ? " of curves, " : " of faces, ") +
                                           std::to_string(of_curves ? found.nodes_of_curves : found.nodes_of_faces) + " pairs of vertices, " +
-                                          format_number(found.worst) + " apart at most");
+                                          short_number(found.worst) + " apart at most");
 }
 
 }  // namespace carreau

@@ -16,6 +16,7 @@
 #include "model/format_point.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/short_number.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/carry/carry_patch.h"
 
@@ -82,7 +83,7 @@ class Maker {
     for (std::size_t k = 0; same && k < mids.size() && mids.size() == images.size(); ++k) image_[{{mids[k], true}, {images[k], true}}] = pair.map;
     if (!same || worst > max_miss)
       throw InvalidModel("lines of the triangles that are periodic could not be divided alike, near " + format_point(mesh_.vertices[to.front()]) + ": " +
-                         std::to_string(from.size() - 1) + " and " + std::to_string(to.size() - 1) + " edges, " + format_number(worst) + " sizes apart");
+                         std::to_string(from.size() - 1) + " and " + std::to_string(to.size() - 1) + " edges, " + short_number(worst) + " sizes apart");
   }
 
   // Smooth curves of triangles depend on the triangles of one side: the image is as good a place.
@@ -171,7 +172,7 @@ class Maker {
   void require_near(const TrianglePair& pair, double apart, double size, const Vec3& at) const {
     if (size == 0 || apart <= std::max(periodic_.gap, max_miss * size)) return;
     throw InvalidModel(Where{.face = mesh_.faces[pair.slave].ref}, "the image of the mesh of face " + std::to_string(mesh_.faces[pair.master].ref) + " is " +
-                                                                       format_number(apart) + " away from the triangles at " + format_point(at));
+                                                                       short_number(apart) + " away from the triangles at " + format_point(at));
   }
 
   void replace_face(const TrianglePair& pair) {
@@ -305,7 +306,7 @@ class Maker {
     }
     const std::size_t count = faces.empty() ? periodic_.lines.size() : faces.size();
     monitor_.message(Level::summary, "periodic: " + std::to_string(count) + (count == 1 ? " pair of " : " pairs of ") + (faces.empty() ? "lines, " : "faces, ") +
-                                         std::to_string(nodes) + " pairs of vertices, " + format_number(worst_) + " apart at most");
+                                         std::to_string(nodes) + " pairs of vertices, " + short_number(worst_) + " apart at most");
   }
 
   const PeriodicTriangles& periodic_;

@@ -23,6 +23,7 @@
 #include "support/format.h"
 #include "support/infinity.h"
 #include "support/shares.h"
+#include "support/short_number.h"
 
 namespace carreau {
 
@@ -280,7 +281,7 @@ class Finder {
   [[nodiscard]] std::string why_not(int master, int slave, const Isometry& map) const {
     const Miss miss = miss_between(master, slave, map);
     return "the image of face " + std::to_string(ref(master)) + " and face " + std::to_string(ref(slave)) + " do not match: their boundaries " +
-           (miss.distance > result_.gap ? "are " + format_number(miss.distance) + " apart at " + format_point(miss.where)
+           (miss.distance > result_.gap ? "are " + short_number(miss.distance) + " apart at " + format_point(miss.where)
                                         : "are one, but their lines end at different corners");
   }
 
@@ -343,7 +344,7 @@ class Finder {
       const auto first = std::ranges::min_element(chain, {}, apart);
       if (apart(*first) > result_.gap)
         throw InvalidModel("a closed line of the triangles has no vertex at the image " + format_point(image.front()) +
-                           " of the first vertex of its periodic partner: the nearest is " + format_number(apart(*first)) + " away");
+                           " of the first vertex of its periodic partner: the nearest is " + short_number(apart(*first)) + " away");
       std::rotate(chain.begin(), first, chain.end());
       chain.push_back(chain.front());
     }
