@@ -482,6 +482,10 @@ class Sizes(Folder):
         self.assertEqual(b["triangles"], 16 * a["triangles"])
         self.assertEqual(c["triangles"], a["triangles"])
         self.assertAlmostEqual(c["quality"]["area"] / a["quality"]["area"], 2.25, places=9)
+        for name in ("same.mesh", "carried.mesh"):  # a geometry that has not changed keeps each bit
+            self.run_mesh(first, "--size", "0.3", "-o", name, "-q", *(("--carry-from", first) if name == "carried.mesh" else ()))
+        with open(self.path("same.mesh"), "rb") as same, open(self.path("carried.mesh"), "rb") as carried:
+            self.assertEqual(same.read(), carried.read())
         self.refused(self.write("two.bpt", TWO_SQUARES), "-o", "d.vtu", "--carry-from", first, sentence="topologies differ")
         self.refused(first, "-o", "d.vtu", "--match", "name", sentence="--carry-from")
         for element, kinds in (("p3", " 21 "), ("p4", " 23 "), ("q3", " 36 "), ("q4", " 37 "), ("q3.1", " 36 "), ("q4.1", " 37 ")):
