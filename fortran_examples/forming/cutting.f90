@@ -70,7 +70,8 @@ program cutting
       call hold
       if (told%imposed_vertices > 0) block%self_contact = .true.
       fallen = max(fallen, before - told%area)
-      if (before - told%area > 2) print '(a, f6.2, a, f6.2, a)', "the chip breaks at ", i*increment, " mm: ", before - told%area, " mm2 fall"
+      if (before - told%area > 2) &
+        print '(a, f6.2, a, f6.2, a)', "the chip breaks at ", i*increment, " mm: ", before - told%area, " mm2 fall"
       before = told%area
       call carreau_mesh_quality(mesh, quality, status)
       worst = min(worst, quality%q2_min)
