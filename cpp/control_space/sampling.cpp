@@ -94,17 +94,13 @@ void ControlSpaceSampling::look_at_probe_points() {
 void ControlSpaceSampling::choose_grid(const Survey& s) {
   vertices_ = std::max(s.vertices_in_box * s.share, 1.0);
   double cells = std::min(vertices_, std::sqrt(vertices_ * many_vertices)) / usual_vertices_per_cell;
-  const bool by_vertices = options_.min_samples == 0;
-  const double planned = by_vertices ? std::min(cells_per_vertex * vertices_, min_cells)
-                                     : static_cast<double>(options_.min_samples) / samples_per_cell;
-  const double least = by_vertices ? std::max(planned, fewest_cells) : min_cells;
-  cells = std::max(cells, planned);
+  cells = std::max(cells, static_cast<double>(options_.min_samples) / samples_per_cell);
   cells = std::min(cells, static_cast<double>(options_.max_samples) / (2 * samples_per_cell));
   vertices_per_cell_ = vertices_ / cells;
   // Powers of four are left to the tree, so that large cells remain possible where the mesh is coarse.
-  double coarsest = std::max(cells / s.share, least);
+  double coarsest = std::max(cells / s.share, min_cells);
   const auto shorter_side = [&](double count) { return std::sqrt(count * std::min(s.aspect, 1 / s.aspect)); };
-  while (coarsest >= 4 * least && shorter_side(coarsest / 4) >= min_side) coarsest /= 4;
+  while (coarsest >= 4 * min_cells && shorter_side(coarsest / 4) >= min_side) coarsest /= 4;
   const auto side = [](double count) {
     return static_cast<int>(std::clamp(std::round(count), double{min_side}, double{max_side}));
   };

@@ -29,9 +29,6 @@ inline constexpr double usual_vertices_per_cell = 10;
 inline constexpr double many_vertices = 10'000;
 /// Cells. Least number in the first grid.
 inline constexpr double min_cells = 25;
-/// Cells. Least number without min_samples: for each vertex, up to min_cells, and altogether. [time only; fewer spare
-/// samples: mean Q2 of frame.step .875 to .871]
-inline constexpr double cells_per_vertex = 1, fewest_cells = 9;
 /// Samples. Cost of a cell of a uniform grid: a node, its centre, its share of the border.
 inline constexpr double samples_per_cell = 2.4;
 /// Cells. Number along a side of the first grid.

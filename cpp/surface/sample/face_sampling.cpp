@@ -106,8 +106,6 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
   };
   ControlSpaceOptions space_options;
   space_options.probe_points = probe_points;
-  // A mesh of few vertices needs few. Checks of edges much shorter than sizes need the usual number.
-  if (facts != nullptr && input.slope == 0) space_options.min_samples = 0;
   space_options.tolerance = std::max(input.tolerance, rules.source_accuracy());
   const SampledDomain domain = sampled_domain(input.domain->plane);
   if (input.slope > 0)
