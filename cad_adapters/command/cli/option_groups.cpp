@@ -97,7 +97,7 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
                            "Size near entities, growing linearly to the size around: face:3=.1:2 (size:reach); repeatable"))
       ->type_name("ENTITIES=LENGTH:LENGTH");
   repeated(app->add_option("--layers", options.layers,
-                           "Rows of cells along edges: edge:le*=first:.001,ratio:1.2,count:20 (yplus:1,u_tau/nu:5e4 may replace first); repeatable"))
+                           "Rows along edges: edge:le*=first:.001,ratio:1.2,count:20 or yplus:1,u_tau/nu:5e4; repeatable"))
       ->type_name("ENTITIES=LAYERS");
   app->add_option("--sizes", options.sizes.path, "File .json of sizes: size, angle, size-on, near, ... (carreau-mesh(1)); options override it")
       ->check(not_empty)
