@@ -36,7 +36,7 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
     folds_.mended_charts = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       folds_.mended_charts += before[i].coefficient != primitives_[i].coefficient ? 1 : 0;
-    FoundFolds rest = find_folds(*this);
+    FoundFolds rest = find_folds(*this, report.folded_after == 0);
     if (rest.first.empty()) return;
     found.first = std::move(rest.first);
     if (report.folded_after > 0) break;

@@ -81,6 +81,7 @@ class FoldSearch {
     (void)look_at_square(chart, (low + high) / 2, (high - low).maxCoeff() / 2, 0);
   }
 
+  [[nodiscard]] const std::string& first() const { return found_.first; }
   [[nodiscard]] FoundFolds found() && { return std::move(found_); }
 
  private:
@@ -172,10 +173,11 @@ class FoldSearch {
 
 }  // namespace
 
-FoundFolds find_folds(const BlendedSurface& surface) {
+FoundFolds find_folds(const BlendedSurface& surface, bool needs_places) {
   FoldSearch search(surface);
-  for (std::size_t t = 0; t < surface.covering().triples().size(); ++t) search.look_at_triple(t);
-  for (std::size_t i = 0; i < surface.covering().charts().size(); ++i) search.look_at_pure_zone(i);
+  const auto goes_on = [&] { return needs_places || search.first().empty(); };
+  for (std::size_t t = 0; t < surface.covering().triples().size() && goes_on(); ++t) search.look_at_triple(t);
+  for (std::size_t i = 0; i < surface.covering().charts().size() && goes_on(); ++i) search.look_at_pure_zone(i);
   return std::move(search).found();
 }
 

@@ -18,6 +18,7 @@ struct FoundFolds {
 /// A fold is a place where the normal is against the planes of the charts. The check divides a grid on each T, narrow
 /// strips between knots of phi and of borders, and pure zones. The derivative of the normal's area, times a factor of safety, bounds
 /// the area inside a cell; a cell without a bound is divided, and after fourteen divisions it counts as a fold.
-FoundFolds find_folds(const BlendedSurface& surface);
+/// If places are not needed, it ends at the first fold.
+FoundFolds find_folds(const BlendedSurface& surface, bool needs_places);
 
 }  // namespace carreau::atlas
