@@ -104,10 +104,8 @@ class PartBorders {
     Rounding r;
     r.at = part_.angle[k];
     double before_it = share * (r.at - part_.angle[k - 1]), behind_it = share * (part_.angle[k + 1] - r.at);
-    if (part_.outer_first) {  // vertices of both borders can be seen in nearly one direction
-      before_it = std::min(before_it, thresholds::most_uneven_arc * behind_it);
-      behind_it = std::min(behind_it, thresholds::most_uneven_arc * before_it);
-    }
+    before_it = std::min(before_it, thresholds::most_uneven_arc * behind_it);
+    behind_it = std::min(behind_it, thresholds::most_uneven_arc * before_it);
     r.first = r.at - before_it, r.last = r.at + behind_it;
     const Vec2 &before = part_.line[k - 1], &after = part_.line[k];
     const double radii[] = {radius_on(before, r.first), radius_on(before, r.at), radius_on(after, r.last)};

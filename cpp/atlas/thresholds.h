@@ -13,7 +13,8 @@ inline constexpr double rounded_share = 1.0 / 3;
 /// hook of fig. 5.28 is covered less than from inside.
 inline constexpr double steepest_outer = 5;
 
-/// Ratio of both sides of an arc on an outer border: an arc that is much wider on one side is a step on the other one.
+/// Ratio of both sides of an arc: its radius is that of the farther end, so an arc that is much wider on one side is a
+/// step on the other side. [BlendedSurface.IrregularSpheresAreAccepted]
 inline constexpr double most_uneven_arc = 4;
 
 /// A smooth outer border from which the inner one follows keeps this share of the room at joints, so that its edge there can be parallel to

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "geometry/atlas/fold_check.h"
-#include "geometry/atlas/thresholds.h"
 #include "support/error.h"
+#include "support/work_bounds.h"
 
 namespace carreau::atlas {
 namespace {
@@ -27,19 +27,22 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
     primitives_.push_back(primitive_of(coarse_heights(covering_, chart), chart.frame));
   }
   const std::vector<Primitive> before = primitives_;
-  std::string fold;
-  for (int parts = thresholds::grid_of_t; parts <= thresholds::finest_grid_of_t; parts *= 2) {
-    const FoldReport report = mend_folds(covering_, heights_, primitives_, parts);
-    if (parts == thresholds::grid_of_t) folds_ = report;
+  FoundFolds found;
+  for (int round = 0; round < work_bounds::rounds; ++round) {
+    // Folds that the grid misses are watched from the next round on.
+    const FoldReport report = mend_folds(covering_, heights_, primitives_, found.places);
+    if (round == 0) folds_ = report;
     folds_.folded_after = report.folded_after;
     folds_.mended_charts = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       folds_.mended_charts += before[i].coefficient != primitives_[i].coefficient ? 1 : 0;
-    fold = find_fold(*this);
-    if (fold.empty()) return;
-    if (report.folded_after > 0) break;  // a finer grid sees more folds, not fewer
+    FoundFolds rest = find_folds(*this, report.folded_after == 0);
+    if (rest.first.empty()) return;
+    found.first = std::move(rest.first);
+    if (report.folded_after > 0) break;
+    found.places.insert(found.places.end(), rest.places.begin(), rest.places.end());
   }
-  throw DomainError(fold);
+  throw DomainError(found.first);
 }
 
 template <typename Number>

@@ -2,10 +2,8 @@
 #include "geometry/atlas/fold_places.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/atlas/thresholds.h"
-#include "support/rounding_of.h"
 
 namespace carreau::atlas {
 
@@ -36,21 +34,19 @@ double FoldPlace::jacobian(const std::vector<Primitive>& primitives) const {
   return dot(cross(t.by_u, t.by_v), normal);
 }
 
-FoldGrid::FoldGrid(const Covering& covering, int parts) : covering_(covering) {
-  const int n = parts;
+FoldGrid::FoldGrid(const Covering& covering, const std::vector<PlaceOfT>& given)
+    : covering_(covering), given_(covering.triples().size()) {
+  constexpr int n = thresholds::grid_of_t;
+  const auto is_shared = [](const Node& node) {
+    return std::all_of(node.weight.begin(), node.weight.end(), [](const Slope& w) { return w.f < 1; });
+  };
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j) {
       const Node node = node_at((i * corner_of_t(1) + j * corner_of_t(2)) / n);
-      if (std::all_of(node.weight.begin(), node.weight.end(), [](const Slope& w) { return w.f < 1; }))
-        nodes_.push_back(node);
+      if (is_shared(node)) nodes_.push_back(node);
     }
-  in_strips_.resize(covering.triples().size());
-  for (std::size_t t = 0; t < in_strips_.size(); ++t)
-    for (int c = 0; c < 3; ++c)
-      for (const Vec2& phi : narrow_strips(covering, t, c))
-        for (int k = 0; k < thresholds::cells_of_strip; ++k)
-          in_strips_[t].push_back(
-              value_of(from_polar(c, polar_at((k + .5) / thresholds::cells_of_strip, phi.sum() / 2))));
+  for (const PlaceOfT& place : given)
+    if (is_shared(node_at(place.at))) given_[place.triple].push_back(place.at);
 }
 
 FoldGrid::Node FoldGrid::node_at(const Vec2& place) {
@@ -61,25 +57,6 @@ FoldGrid::Node FoldGrid::node_at(const Vec2& place) {
     node.place[static_cast<std::size_t>(c)] = {share_of(polar), polar.phi};
   }
   return node;
-}
-
-std::vector<Vec2> narrow_strips(const Covering& covering, std::size_t triple, int corner) {
-  const auto c = static_cast<std::size_t>(corner);
-  const Triple& t = covering.triples()[triple];
-  const Annulus& annulus = covering.charts()[static_cast<std::size_t>(t.chart[c])].annulus;
-  std::vector<double> knots{0, sixth_turn};
-  for (const Part& part : annulus.parts())
-    for (const double phi : part.phi)
-      if (const double at = std::fmod(phi - t.slot[c] * sixth_turn + 2 * annulus.period(), annulus.period());
-          at < sixth_turn)
-        knots.push_back(at);
-  std::sort(knots.begin(), knots.end());
-  constexpr double wide = 2.0 / thresholds::cells_of_t;
-  std::vector<Vec2> strips;
-  for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    if (const double width = knots[k + 1] - knots[k]; width <= wide && width > rounding_of::places)
-      strips.emplace_back(knots[k], knots[k + 1]);
-  return strips;
 }
 
 FoldPlace FoldGrid::place(std::size_t triple, const Node& node) const {

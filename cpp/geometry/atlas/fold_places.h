@@ -30,21 +30,22 @@ struct FoldPlace {
   [[nodiscard]] double jacobian(const std::vector<Primitive>& primitives) const;
 };
 
-/// The strips of a T between knots of phi of the chart at a corner that are narrower than cells of the check: the area
-/// changes in steps across knots. Each strip is a pair of angles about the corner.
-std::vector<Vec2> narrow_strips(const Covering& covering, std::size_t triple, int corner);
+/// A place of a T, where the final check looks.
+struct PlaceOfT {
+  std::size_t triple = 0;
+  Vec2 at{0, 0};
+};
 
-/// Places of all T on a grid, and in narrow strips; values common to all T are computed once.
+/// Places of all T on a grid, and given ones; values common to all T are computed once.
 class FoldGrid {
  public:
-  /// `parts` of the sides of T.
-  FoldGrid(const Covering& covering, int parts);
+  FoldGrid(const Covering& covering, const std::vector<PlaceOfT>& given);
 
   /// Places of a T where charts share it.
   template <typename Visit>
   void visit_triple(std::size_t triple, Visit&& visit) const {
     for (const Node& node : nodes_) visit(place(triple, node));
-    for (const Vec2& at : in_strips_[triple]) visit(place(triple, node_at(at)));
+    for (const Vec2& at : given_[triple]) visit(place(triple, node_at(at)));
   }
   /// Places where a chart is alone: on its triangles and at the border of its pure zone.
   [[nodiscard]] std::vector<FoldPlace> of_pure_zone(std::size_t chart) const;
@@ -60,7 +61,7 @@ class FoldGrid {
 
   const Covering& covering_;
   std::vector<Node> nodes_;
-  std::vector<std::vector<Vec2>> in_strips_;  ///< by T
+  std::vector<std::vector<Vec2>> given_;  ///< by T
 };
 
 }  // namespace carreau::atlas

@@ -45,11 +45,12 @@ std::vector<std::size_t> sorted(std::vector<std::size_t> list) {
 
 class FoldMender {
  public:
-  FoldMender(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives, int parts)
+  FoldMender(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives,
+             const std::vector<PlaceOfT>& given)
       : covering_(covering),
         heights_(heights),
         primitives_(primitives),
-        grid_(covering, parts),
+        grid_(covering, given),
         rank_(primitives.size(), none) {}
 
   FoldReport mend() {
@@ -231,8 +232,8 @@ class FoldMender {
 }  // namespace
 
 FoldReport mend_folds(const Covering& covering, const HeightBlend& heights, std::vector<Primitive>& primitives,
-                      int parts) {
-  return FoldMender(covering, heights, primitives, parts).mend();
+                      const std::vector<PlaceOfT>& given) {
+  return FoldMender(covering, heights, primitives, given).mend();
 }
 
 }  // namespace carreau::atlas

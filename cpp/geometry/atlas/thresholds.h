@@ -20,8 +20,8 @@ inline constexpr int rings_away = 2;
 /// Parts of the grid on each T: some 1500 places that charts share. Folds are narrow: of the T of joint.off with folds
 /// on this grid, a grid of 24 parts misses two thirds, 48 parts three eighths.
 inline constexpr int grid_of_t = 96;
-/// If the final check finds folds between its places, the repair starts again on a grid of twice as many parts, up to these.
-inline constexpr int finest_grid_of_t = 192;
+/// Parts of the sides of a cell of the final check, if the cell has a fold: folds may be as narrow as .003 of T.
+inline constexpr int grid_of_cell = 16;
 /// Area of the surface over the area of its charts' planes: below, a place counts as turned over. The bound is above 0,
 /// because nearly folded places are meshed poorly.
 inline constexpr double least_jacobian = 0.25;
@@ -37,7 +37,7 @@ inline constexpr int mend_steps = 30;
 /// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
 inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 
-/// The final check: cells of the grid on each T, cells along a narrow strip between two knots of phi, divisions of the square around a pure
+/// The final check: cells of the grid on each T, cells along a narrow strip between two knots of phi or of borders, divisions of the square around a pure
 /// zone before a place counts, divisions of a cell without a bound, and the factor on derivatives that bounds the area between places.
 /// All cells of spheres, tori and ellipsoids have a bound after six divisions; a cell that has none after fourteen is rejected.
 inline constexpr int cells_of_t = 32, cells_of_strip = 16, square_divisions = 4, cell_divisions = 14;
