@@ -68,9 +68,9 @@ class Atlas(unittest.TestCase):
         self.assertRegex(done.stdout, r"folds +0 edges")
 
     def test_large_clusters_make_a_surface_without_folds_or_a_message(self):
-        lines = torus(36, 18, 2, .8)
-        self.assertIn("turned over near", self.mesh("torus.off", lines, 2, "--reach", "3", "--size", ".2"))
-        self.check_torus(self.mesh("torus.off", lines, 0, "--border", "cubic", "--size", ".18"))  # at .2 one face of 82 needs a repair
+        self.assertIn("turned over near", self.mesh("torus.off", torus(30, 15, 2, .8), 2, "--reach", "3", "--size", ".2"))
+        # At .18 and .2 one face of 82 needs a repair.
+        self.check_torus(self.mesh("torus.off", torus(36, 18, 2, .8), 0, "--border", "cubic", "--size", ".19"))
         done = subprocess.run([PROGRAM, "mesh", "x.bpt", "--reach", "2", "-o", "y.mesh"], capture_output=True, text=True)
         self.assertIn("--reach goes with --surface atlas, not with 'x.bpt'", done.stderr)
 

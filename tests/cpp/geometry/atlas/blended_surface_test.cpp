@@ -264,7 +264,7 @@ TEST(BlendedSurface, FoldsThatRemainAreRejectedWithAPlace) {
   EXPECT_GT(repaired.folds().folded_before, 0u);
   expect_no_fold(repaired);
   try {
-    const BlendedSurface surface{Covering(torus, {.hops = 3})};
+    const BlendedSurface surface{Covering(test::torus(2, .8, 20, 10), {.hops = 3})};
     FAIL();
   } catch (const DomainError& e) {
     EXPECT_NE(std::string(e.what()).find("the blended surface is turned over near ("), std::string::npos) << e.what();
