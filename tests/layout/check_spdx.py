@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every source file states its licence in one of its first lines, as SPDX requires.
+"""Every source file states its licence in one of its first lines, as SPDX requires. The top has no file that a run has written.
 
     check_spdx.py <project> [--add]    --add: writes the line where it is missing
 """
@@ -14,14 +14,19 @@ LINES = 4  # a script has its interpreter first, an encoding may follow
 SLASHES, HASH, STARS, BANG, MARKUP = "// {}", "# {}", "/* {} */", "! {}", "<!-- {} -->"
 COMMENTS = {".cpp": SLASHES, ".h": STARS, ".hpp": SLASHES, ".c": STARS, ".js": SLASHES, ".css": STARS, ".html": MARKUP, ".f90": BANG,
             ".f": "C {}", ".py": HASH, ".sh": HASH, ".cmake": HASH, ".toml": HASH, ".map": STARS}
+TOP = {"CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json", "CONTRIBUTING.md", "LICENSE", "README.md"}
 NAMES = {"CMakeLists.txt": HASH, "rules": HASH, "run": HASH}
 
 
-def sources(project):
+def tracked(project):
+    """Names of the files of the repository; none of an archive without its history."""
     listed = subprocess.run(["git", "-C", project, "ls-files", "-z"], capture_output=True, text=True)
-    if listed.returncode == 0:
-        names = [name for name in listed.stdout.split("\0") if name]
-    else:  # an archive without its history
+    return [name for name in listed.stdout.split("\0") if name] if listed.returncode == 0 else []
+
+
+def sources(project):
+    names = tracked(project)
+    if not names:
         names = [str(p.relative_to(project)) for p in pathlib.Path(project).rglob("*") if p.is_file() and "build" not in p.parts]
     for name in sorted(names):
         path = pathlib.Path(project, name)
@@ -54,7 +59,10 @@ def main():
         else:
             print(f"{path}: no line {TAG}")
     print(f"{checked} files, {len(missing)} without")
-    return 1 if (missing and not args.add) or checked < 100 else 0
+    strays = [name for name in tracked(args.project) if "/" not in name and name not in TOP and not name.startswith(".")]
+    for name in strays:
+        print(f"{name}: does not belong to the top of the project")
+    return 1 if (missing and not args.add) or strays or checked < 100 else 0
 
 
 if __name__ == "__main__":
