@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "mesh/vertex_hash.h"
 #include "support/infinity.h"
 #include "support/stepped_tasks.h"
 #include "support/unfilled.h"
@@ -216,16 +217,10 @@ Connections connections_of_any(const TriangleLists& mesh, int threads) {
   return all;
 }
 
-/// A number of 48 bits for each vertex, shifted: sums of such numbers are equal by chance once in 2^48. (Steele, Lea, Flood,
-/// "Fast splittable pseudorandom number generators", 2014)
+// Sums have a count in their low bits, and 48 bits of hashes above it.
 constexpr int count_bits = 16;
 constexpr std::uint64_t count_mask = (std::uint64_t{1} << count_bits) - 1;
-std::uint64_t hashed(std::int32_t v) noexcept {
-  std::uint64_t x = (static_cast<std::uint64_t>(v) + 1) * 0x9E3779B97F4A7C15U;
-  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ x >> 27) * 0x94D049BB133111EBU;
-  return (x ^ x >> 31) << count_bits;
-}
+std::uint64_t above_count(std::int32_t v) noexcept { return vertex_hash(v) << count_bits; }
 
 // Edges between vertices on curves alone, if the triangles round every other vertex close: then these have as many edges as triangles.
 // In low bits a sum counts the triangles of a vertex, in high bits it adds the next vertices round it and subtracts the ones before.
@@ -244,7 +239,7 @@ std::optional<Connections> connections_at_curves(const TriangleLists& mesh, int 
   std::vector<std::vector<Ends>> of_part((mesh.size() + part_size - 1) / part_size);
   each_part(mesh.size(), threads, [&](std::size_t part) {
     mesh.for_each(part * part_size, std::min((part + 1) * part_size, mesh.size()), [&](std::size_t, const std::array<std::int32_t, 3>& t) {
-      const std::uint64_t a = hashed(t[0]), b = hashed(t[1]), c = hashed(t[2]);
+      const std::uint64_t a = above_count(t[0]), b = above_count(t[1]), c = above_count(t[2]);
       add(t[0], b - c + 1), add(t[1], c - a + 1), add(t[2], a - b + 1);
       const auto on = [&](std::int32_t v) { return static_cast<std::size_t>(v) < on_curves; };
       if (on(t[0]) + on(t[1]) + on(t[2]) < 2) return;

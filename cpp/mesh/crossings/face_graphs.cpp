@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/crossings/outline.h"
+#include "mesh/vertex_hash.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -21,15 +22,6 @@ constexpr std::size_t min_face = 256, max_gaps = 4;
 constexpr double min_seen = 0.4, max_turned_away = 0.05;
 // Removals of triangles at vertices that alone connect parts of a face. [time only]
 constexpr int max_removals = 3;
-
-/// A number for each vertex; sums of such numbers are equal by chance once in 2^64. (Steele, Lea, Flood, "Fast splittable
-/// pseudorandom number generators", 2014)
-std::uint64_t hashed(std::int32_t v) noexcept {
-  std::uint64_t x = (static_cast<std::uint64_t>(v) + 1) * 0x9E3779B97F4A7C15U;
-  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ x >> 27) * 0x94D049BB133111EBU;
-  return x ^ x >> 31;
-}
 
 /// One face. Its state lives as long as its search.
 class FaceGraph {
@@ -120,7 +112,7 @@ class FaceGraph {
   }
   void add_sides(const std::array<std::int32_t, 3>& t) {
     const std::array<bool, 3> outside{may_be_outside(t[0]), may_be_outside(t[1]), may_be_outside(t[2])};
-    const std::array<std::uint64_t, 3> hash{hashed(t[0]), hashed(t[1]), hashed(t[2])};
+    const std::array<std::uint64_t, 3> hash{vertex_hash(t[0]), vertex_hash(t[1]), vertex_hash(t[2])};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t next = i == 2 ? 0 : i + 1, before = i == 0 ? 2 : i - 1;
       if (!outside[i])

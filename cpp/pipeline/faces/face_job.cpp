@@ -13,6 +13,7 @@
 #include "support/infinity.h"
 #include "support/rounding_of.h"
 #include "support/shares.h"
+#include "support/work_bounds.h"
 #include "surface/domain/domain_check.h"
 #include "surface/improve/refinement.h"
 #include "surface/improve/shape_in_space.h"
@@ -129,7 +130,7 @@ void FaceJob::set_rows_apart() {
 
 // Rows beside turned triangles lose half of their height, and the face is made again. Returns false if no row is near.
 bool FaceJob::retreat() {
-  if (!rows_) return false;
+  if (!rows_ || retreats_ == work_bounds::rounds) return false;
   const PatchMesh& mesh = best_->mesh;
   const std::size_t before = row_limits_.size(), given = given_.domain->plane.vertices.size();
   const auto at = [&](std::int32_t v) {
@@ -143,6 +144,7 @@ bool FaceJob::retreat() {
     halve_rows_near(input_.face, (1. / 3) * (p + q + r), longest, rows_->cells, at, false, row_limits_);
   }
   if (row_limits_.size() == before) return false;
+  ++retreats_;
   if (even_) cad_ = even_->host_cad, rules_ = even_->host_rules, even_.reset();
   input_ = given_;
   rows_.reset(), rows_known_ = false;

@@ -104,7 +104,7 @@ class FaceJob final : public SteppedTask {
   EdgeSizes bounded_edges_;  // in place of the edges of input_ if these are too small
   std::optional<LimitError> beyond_limit_;
   Step next_ = Step::sample;
-  int corrections_ = 0, refills_ = 0;
+  int corrections_ = 0, refills_ = 0, retreats_ = 0;
   std::size_t vertices_when_refilled_ = 0;
   std::vector<std::vector<Vec2>> undersampled_;  // that meshes so far have missed
   std::vector<Vec2> probe_points_;
