@@ -19,6 +19,7 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "surface/assembly/whole_mesh.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/invalid_report.h"
@@ -55,7 +56,7 @@ class Carrier {
       carry_face(work, f);
       monitor_.progress(Phase::patches, to_.model.faces[match_.face[f]].ref, static_cast<double>(f + 1) / static_cast<double>(faces));
     }
-    if (report_.failed > 0) drop_unused_vertices();
+    if (report_.failed > 0) (void)drop_unused(out_);  // vertices inside of faces that have failed
     const std::vector<refining::WorstShape> worst = refining::worst_shapes(old);
     std::vector<refining::WorstShape> before(faces);
     for (std::size_t f = 0; f < faces; ++f) before[match_.face[f]] = worst[f];
@@ -330,25 +331,6 @@ class Carrier {
     return std::any_of(points.begin(), points.end(), [&](const FacePoint& point) { return point.uv == face.uv[v]; });
   }
 
-  // Vertices inside of faces that have failed.
-  void drop_unused_vertices() {
-    SurfaceMesh& mesh = out_.mesh;
-    std::vector<std::int32_t> number(mesh.vertices.size(), -1);
-    const auto all = [&mesh](const auto& use) {
-      for (FaceMesh& face : mesh.faces) std::for_each(face.vertex.begin(), face.vertex.end(), use);
-      for (CurveMesh& curve : mesh.curves) std::for_each(curve.vertices.begin(), curve.vertices.end(), use);
-    };
-    all([&](std::int32_t& v) { number[v] = 0; });
-    std::int32_t n = 0;
-    for (std::size_t v = 0; v < number.size(); ++v) {
-      if (number[v] < 0) continue;
-      mesh.vertices[n] = mesh.vertices[v], mesh.vertex_ref[n] = mesh.vertex_ref[v], out_.vertex_size[n] = out_.vertex_size[v];
-      number[v] = n++;
-    }
-    mesh.vertices.resize(n), mesh.vertex_ref.resize(n), out_.vertex_size.resize(n);
-    all([&](std::int32_t& v) { v = number[v]; });
-  }
-
   /// The edge of a curve of the mesh before that has a node.
   struct NodeOfCurve {
     std::size_t curve = 0, segment = 0;
@@ -423,7 +405,7 @@ class Carrier {
     const FaceMesh& before = from_.result.mesh.faces[f];
     FaceMesh& after = out_.mesh.faces[match_.face[f]];
     const bool flipped = flipped_[f] != 0;
-    after.mid.assign(before.mid.size(), {-1, -1, -1});
+    carry_mids(before, flipped, after);
     after.mid_vertex = before.mid_vertex, after.mid_uv.assign(before.mid_uv.size(), Vec2{0, 0});
     std::vector<char> done(before.mid_uv.size(), 0);
     std::vector<std::int32_t> inside;
@@ -431,10 +413,7 @@ class Carrier {
     for (std::size_t t = 0; t < before.mid.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t mid = before.mid[t][i];
-        if (mid < 0) continue;
-        const std::size_t image = flipped && t < 2 * static_cast<std::size_t>(before.quads) ? t ^ 1U : t;
-        after.mid[image][flipped ? 2 - i : i] = mid;
-        if (std::exchange(done[mid], 1) != 0) continue;
+        if (mid < 0 || std::exchange(done[mid], 1) != 0) continue;
         const std::int32_t a = before.triangles[t][i], b = before.triangles[t][(i + 1) % 3];
         const Vec2 &p = before.uv[a], &q = after.uv[a];
         const Vec2 edge = before.uv[b] - p, there = after.uv[b] - q, off = before.mid_uv[mid] - p;

@@ -21,6 +21,7 @@
 #include "surface/carry/periodic_links.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/invalid_report.h"
+#include "surface/elements/base/poles.h"
 #include "surface/elements/second_order/quadratic.h"
 
 namespace carreau {
@@ -176,33 +177,6 @@ class Refiner {
     }
   }
 
-  // The place that the way from `other` reaches: a pole has any place of its side.
-  struct Box {
-    Vec2 low, high;
-  };
-  static Vec2 arrival(const FaceMesh& face, const std::map<std::int32_t, Box>& poles, std::int32_t v, std::int32_t other) {
-    Vec2 p = face.uv[v];
-    const auto pole = poles.find(face.vertex[v]);
-    if (pole == poles.end() || poles.contains(face.vertex[other])) return p;
-    const auto& [low, high] = pole->second;
-    if (low.y() == high.y()) p.x() = std::clamp(face.uv[other].x(), low.x(), high.x());
-    if (low.x() == high.x()) p.y() = std::clamp(face.uv[other].y(), low.y(), high.y());
-    return p;
-  }
-
-  static std::map<std::int32_t, Box> poles_of(const FaceMesh& face) {
-    std::map<std::int32_t, Box> poles;
-    for (const Triangle& t : face.flattened)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t a = t[i], b = t[(i + 1) % 3];
-        if (face.vertex[a] != face.vertex[b]) continue;
-        const Box box{face.uv[a].cwiseMin(face.uv[b]), face.uv[a].cwiseMax(face.uv[b])};
-        const auto [pole, is_new] = poles.try_emplace(face.vertex[a], box);
-        if (!is_new) pole->second = {pole->second.low.cwiseMin(box.low), pole->second.high.cwiseMax(box.high)};
-      }
-    return poles;
-  }
-
   /// Returns the shapes of the parents of its triangles; none if nothing was divided.
   std::vector<float> divide_face(std::size_t f, const std::vector<CurveSide>& curve_sides_of_face) {
     FaceMesh& face = mesh_.faces[f];
@@ -225,7 +199,7 @@ class Refiner {
       Vec3 xyz;
     };
     std::vector<New> inside;
-    const std::map<std::int32_t, Box> poles = poles_of(face);
+    const Poles poles(face);
     std::map<Key, std::int32_t> joined;  // edges that flattened triangles have twice
     for (const Triangle& t : face.flattened)
       for (std::size_t i = 0; i < 3; ++i)
@@ -252,7 +226,7 @@ class Refiner {
         middle_[e] = twice->second;
         continue;
       }
-      const Vec2 p = arrival(face, poles, a, b), q = arrival(face, poles, b, a);
+      const Vec2 p = poles.arrival(a, b), q = poles.arrival(b, a);
       const std::int32_t mid = mids.empty() ? -1 : mids[e];
       const Vec2 uv = mid >= 0 ? face.mid_uv[mid] : Vec2(0.5 * (p + q));
       const std::int32_t vertex = add_vertex({0, 0, 0});

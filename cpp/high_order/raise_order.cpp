@@ -16,6 +16,7 @@
 #include "support/infinity.h"
 #include "support/pieces.h"
 #include "support/rounding_of.h"
+#include "surface/elements/base/poles.h"
 
 namespace carreau {
 
@@ -122,32 +123,6 @@ class Raiser {
     first_element_.push_back(elements_.size());
   }
 
-  struct Box {
-    Vec2 low, high;
-  };
-  // Sides of (u, v) that are one point of space.
-  static std::map<std::int32_t, Box> poles_of(const FaceMesh& face) {
-    std::map<std::int32_t, Box> poles;
-    for (std::size_t v = 0; v < face.uv.size(); ++v) {
-      const auto [pole, is_new] = poles.try_emplace(face.vertex[v], Box{face.uv[v], face.uv[v]});
-      if (!is_new) pole->second = {pole->second.low.cwiseMin(face.uv[v]), pole->second.high.cwiseMax(face.uv[v])};
-    }
-    std::map<std::int32_t, Box> found;
-    for (const auto& t : face.flattened)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (const std::int32_t v = face.vertex[t[i]]; v == face.vertex[t[(i + 1) % 3]]) found[v] = poles.at(v);
-    return found;
-  }
-  static Vec2 arrival(const FaceMesh& face, const std::map<std::int32_t, Box>& poles, std::int32_t v, const Vec2& other) {
-    Vec2 p = face.uv[v];
-    const auto pole = poles.find(face.vertex[v]);
-    if (pole == poles.end()) return p;
-    const auto& [low, high] = pole->second;
-    if (low.y() == high.y()) p.x() = std::clamp(other.x(), low.x(), high.x());
-    if (low.x() == high.x()) p.y() = std::clamp(other.y(), low.y(), high.y());
-    return p;
-  }
-
   /// Nodes of a face with the points that they are near.
   struct Wanted {
     std::vector<std::int32_t> node;
@@ -182,7 +157,7 @@ class Raiser {
 
   void place_edges(std::size_t f) {
     const FaceMesh& face = mesh_.faces[f];
-    const std::map<std::int32_t, Box> poles = poles_of(face);
+    const Poles poles(face);
     Wanted wanted;
     for (std::size_t k = first_element_[f]; k < first_element_[f + 1]; ++k) {
       const Element& e = elements_[k];
@@ -193,7 +168,7 @@ class Raiser {
         if (!is_new) continue;
         found->second = {add_nodes(p_ - 1), false};
         const Vec3 &from = mesh_.vertices[face.vertex[a]], &to = mesh_.vertices[face.vertex[b]];
-        const Vec2 uv_from = arrival(face, poles, a, face.uv[b]), uv_to = arrival(face, poles, b, face.uv[a]);
+        const Vec2 uv_from = poles.arrival(a, face.uv[b]), uv_to = poles.arrival(b, face.uv[a]);
         for (std::size_t m = 1; m < p_; ++m) {
           wanted.node.push_back(found->second.first + static_cast<std::int32_t>(m) - 1);
           wanted.target.push_back(lerp(from, to, places_[m])), wanted.guess.push_back(lerp(uv_from, uv_to, places_[m]));
@@ -234,18 +209,14 @@ class Raiser {
   // (u, v) of a corner, which at a pole is the mean of the others.
   [[nodiscard]] std::array<Vec2, 4> corners_uv(const Element& e) const {
     const FaceMesh& face = mesh_.faces[e.face];
-    const std::map<std::int32_t, Box>& poles = poles_known(e.face);
+    if (!poles_ || &poles_->face() != &face) poles_.emplace(face);
     std::array<Vec2, 4> uv;
     for (int i = 0; i < e.corners; ++i) {
       Vec2 mean{0, 0};
       for (int k = 1; k < e.corners; ++k) mean += face.uv[e.local[(i + k) % e.corners]] / (e.corners - 1);
-      uv[i] = arrival(face, poles, e.local[i], mean);
+      uv[i] = poles_->arrival(e.local[i], mean);
     }
     return uv;
-  }
-  [[nodiscard]] const std::map<std::int32_t, Box>& poles_known(std::int32_t f) const {
-    if (poles_of_ != f) poles_ = poles_of(mesh_.faces[f]), poles_of_ = f;
-    return poles_;
   }
 
   void want_inner(const Element& e, Wanted& wanted) const {
@@ -713,8 +684,7 @@ class Raiser {
   std::vector<std::size_t> first_element_;  // by face
   std::map<Key, std::vector<std::size_t>> around_;
   std::vector<std::size_t> invalid_;
-  mutable std::map<std::int32_t, Box> poles_;  // of face poles_of_
-  mutable std::int32_t poles_of_ = -1;
+  mutable std::optional<Poles> poles_;  // of the last face
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "support/error.h"
 #include "support/format.h"
 #include "support/infinity.h"
+#include "surface/assembly/whole_mesh.h"
 
 namespace carreau {
 
@@ -30,22 +31,6 @@ struct Outcome {
 
 using Edge = std::array<std::int32_t, 2>;
 Edge edge_of(std::int32_t a, std::int32_t b) { return a < b ? Edge{a, b} : Edge{b, a}; }
-
-/// Vertices - edges + triangles.
-std::int64_t euler(const SurfaceMesh& mesh) {
-  std::vector<Edge> edges;
-  std::vector<char> used(mesh.vertices.size(), 0);
-  for (const FaceMesh& face : mesh.faces)
-    for (const auto& t : face.triangles)
-      for (int i = 0; i < 3; ++i) {
-        edges.push_back(edge_of(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]));
-        used[face.vertex[t[i]]] = 1;
-      }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return std::count(used.begin(), used.end(), 1) - static_cast<std::int64_t>(edges.size()) +
-         static_cast<std::int64_t>(mesh.triangle_count());
-}
 
 class Collapser {
  public:
@@ -282,7 +267,7 @@ bool collapse_together(std::span<const FaceCollapse> faces, CompositeResult& res
 
 void collapse_one_by_one(std::span<const FaceCollapse> faces, CompositeResult& result, Monitor& monitor) {
   const std::size_t defects = count_defects(result.mesh);
-  const std::int64_t characteristic = euler(result.mesh);
+  const std::int64_t characteristic = euler_number(result.mesh);
   std::vector<const FaceCollapse*> order = pointers_to(faces), done;
   std::stable_sort(order.begin(), order.end(),
                    [](const FaceCollapse* p, const FaceCollapse* q) { return p->width < q->width; });
@@ -291,7 +276,7 @@ void collapse_one_by_one(std::span<const FaceCollapse> faces, CompositeResult& r
     monitor.checkpoint();
     done.push_back(face);
     auto outcome = outcome_of(done, result);
-    if (outcome && outcome->mesh.triangle_count() > 0 && euler(outcome->mesh) == characteristic &&
+    if (outcome && outcome->mesh.triangle_count() > 0 && euler_number(outcome->mesh) == characteristic &&
         count_defects(outcome->mesh) <= defects)
       best = std::move(outcome);
     else

@@ -36,6 +36,12 @@ void carry_elements(const FaceMesh& from, const std::vector<std::int32_t>& verte
   // Halves of a quadrilateral (a, b, c, d) are (a, b, c) and (a, c, d); images of these corners are (a, d, c) and (a, c, b).
 }
 
+void carry_mids(const FaceMesh& from, bool flipped, FaceMesh& to) {
+  to.mid.resize(from.mid.size());
+  for (std::size_t t = 0; t < from.mid.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) to.mid[image_triangle(from, t, flipped)][flipped ? 2 - i : i] = from.mid[t][i];
+}
+
 void follow_master(Cad& cad, const FacePair& pair, const std::vector<char>& fixed, const std::vector<char>& fixed_mids, double exact,
                    SurfaceMesh& mesh) {
   const FaceMesh& from = mesh.faces[pair.master];

@@ -16,6 +16,8 @@ std::vector<std::int32_t> local_images(const FaceMesh& from, const FaceMesh& to,
 
 /// Gives the slave the elements of its master: `vertex` maps local vertices as above.
 void carry_elements(const FaceMesh& from, const std::vector<std::int32_t>& vertex, bool flipped, FaceMesh& to);
+/// Gives the sides of its triangles the nodes of its master's, with their numbers (FaceMesh::mid).
+void carry_mids(const FaceMesh& from, bool flipped, FaceMesh& to);
 
 /// Moves vertices and nodes inside the slave to the images of the master's. `fixed`: local vertices, and nodes on edges, that
 /// stay where they are. `exact`: see place_images().

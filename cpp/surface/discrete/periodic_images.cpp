@@ -17,8 +17,8 @@
 #include "support/error.h"
 #include "support/format.h"
 #include "support/short_number.h"
+#include "surface/assembly/whole_mesh.h"
 #include "surface/carry/carry_faces.h"
-#include "surface/carry/carry_patch.h"
 
 namespace carreau {
 
@@ -66,7 +66,7 @@ class Maker {
       monitor_.checkpoint();
       replace_face(pair);
     }
-    drop_unused();
+    drop_former();
     report();
   }
 
@@ -194,9 +194,7 @@ class Maker {
     std::vector<std::int32_t> local;
     for (std::size_t v = 0; v < from.vertex.size(); ++v) local.push_back(static_cast<std::int32_t>(v));
     carry_elements(from, local, turned, made);
-    made.mid.resize(from.mid.size());
-    for (std::size_t t = 0; t < from.mid.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) made.mid[image_triangle(from, t, turned)][turned ? 2 - i : i] = from.mid[t][i];
+    carry_mids(from, turned, made);
     const std::vector<std::int32_t>& feet = vertices.feet;
     for (const auto& t : made.triangles) made.spread.push_back(feet[t[0]] == feet[t[1]] && feet[t[1]] == feet[t[2]] ? 0 : 1);
     PeriodicLink& link = mesh_.periodic.emplace_back(PeriodicLink{.dimension = 2, .master = from.shown_ref(), .slave = to.shown_ref(), .map = pair.map});
@@ -244,37 +242,12 @@ class Maker {
   }
 
   // The former vertices and nodes of slaves.
-  void drop_unused() {
-    std::vector<std::int32_t> number(mesh_.vertices.size(), -1), mid_number(mesh_.mid_vertices.size(), -1);
-    for (const FaceMesh& face : mesh_.faces) {
-      for (const auto& t : face.triangles)
-        for (const std::int32_t v : t) number[face.vertex[v]] = 0;
-      for (const std::int32_t m : face.mid_vertex) mid_number[m] = 0;
-    }
-    const std::int32_t n = renumber(number, [&](std::size_t v, std::int32_t to) {
-      mesh_.vertices[to] = mesh_.vertices[v], mesh_.vertex_ref[to] = mesh_.vertex_ref[v], result_.vertex_size[to] = result_.vertex_size[v];
-    });
-    const std::int32_t mids = renumber(mid_number, [&](std::size_t v, std::int32_t to) { mesh_.mid_vertices[to] = mesh_.mid_vertices[v]; });
-    mesh_.vertices.resize(n), mesh_.vertex_ref.resize(n), result_.vertex_size.resize(n), mesh_.mid_vertices.resize(mids);
-    for (FaceMesh& face : mesh_.faces) {
-      for (std::int32_t& v : face.vertex) v = number[v];
-      for (std::int32_t& m : face.mid_vertex) m = mid_number[m];
-    }
-    for (CurveMesh& curve : mesh_.curves) {
-      for (std::int32_t& v : curve.vertices) v = number[v];
-      for (std::int32_t& m : curve.mid) m = mid_number[m];
-    }
+  void drop_former() {
+    const NewNumbers now = drop_unused(result_);
+    const auto first_mid = static_cast<std::int32_t>(mesh_.vertices.size());
     for (PeriodicLink& link : mesh_.periodic)
       for (auto& pair : link.nodes)
-        for (std::int32_t& node : pair) node = node >= 0 ? number[node] : n + mid_number[~node];
-  }
-
-  template <typename Move>
-  static std::int32_t renumber(std::vector<std::int32_t>& number, const Move& move) {
-    std::int32_t n = 0;
-    for (std::size_t v = 0; v < number.size(); ++v)
-      if (number[v] >= 0) move(v, n), number[v] = n++;
-    return n;
+        for (std::int32_t& node : pair) node = node >= 0 ? now.vertex[node] : first_mid + now.mid[~node];
   }
 
   void report() {

@@ -9,36 +9,20 @@
 #include "mesh/crossings/changed_triangles.h"
 #include "mesh/crossings/shared_search.h"
 #include "mesh/flat_mesh.h"
-#include "model/bucket_sort.h"
 #include "support/stepped_tasks.h"
+#include "surface/assembly/whole_mesh.h"
 #include "surface/remesh/base/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-/// Vertices - edges + triangles.
-std::int64_t euler(const SurfaceMesh& mesh) {
-  std::vector<MeshEdge> edges;
-  std::vector<char> used(mesh.vertices.size(), 0);
-  for (const FaceMesh& face : mesh.faces)
-    for (const auto& t : face.triangles)
-      for (int i = 0; i < 3; ++i) {
-        edges.push_back(mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]));
-        used[face.vertex[t[i]]] = 1;
-      }
-  bucket_sort(edges, mesh.vertices.size(), [](const MeshEdge& e) { return e[0]; });
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return std::ranges::count(used, 1) - static_cast<std::int64_t>(edges.size()) +
-         static_cast<std::int64_t>(mesh.triangle_count());
-}
-
 // Crossings aside.
 std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before, int threads, Monitor& monitor) {
   std::vector<std::string> defects;
   std::array<std::int64_t, 2> numbers{};
   const std::array<std::function<void()>, 3> work{[&] { defects = find_defects(made, {.closed = false, .limit = 1}); },
-                                                  [&] { numbers[0] = euler(made); }, [&] { numbers[1] = euler(before); }};
+                                                  [&] { numbers[0] = euler_number(made); }, [&] { numbers[1] = euler_number(before); }};
   run_each(work.size(), false, threads, [&](std::size_t k, Monitor&) { work[k](); }, monitor);
   if (!defects.empty() && find_defects(before, {.closed = false, .limit = 1}).empty()) return defects.front();
   return numbers[0] != numbers[1] ? "its Euler number would differ" : "";

@@ -17,6 +17,7 @@
 #include "predicates/predicates.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
+#include "surface/assembly/whole_mesh.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/carry/carry_patch.h"
 #include "surface/elements/cross_patch/invalid_elements.h"
@@ -53,7 +54,7 @@ class CellCarrier {
     for (const FacePair& pair : periodic_.pairs) {
       if (why_.empty() && !mesh_.faces[pair.master].triangles.empty()) carry(pair);
     }
-    if (why_.empty()) drop_unused();
+    if (why_.empty()) (void)drop_unused(made_);  // former vertices of slaves
     return why_;
   }
 
@@ -244,9 +245,7 @@ class CellCarrier {
     }
     image.triangles.clear();
     carry_elements(from, local, pair.flipped, image);
-    image.mid.resize(from.mid.size());
-    for (std::size_t t = 0; t < from.mid.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) image.mid[image_triangle(from, t, pair.flipped)][pair.flipped ? 2 - i : i] = from.mid[t][i];
+    carry_mids(from, pair.flipped, image);
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {
       const auto is_turned = [](const FaceMesh& face, const std::array<std::int32_t, 3>& of) {
         return !(orientation(face.uv[of[0]], face.uv[of[1]], face.uv[of[2]]) > 0);
@@ -304,38 +303,6 @@ class CellCarrier {
     mesh_.vertex_ref.push_back(0);
     made_.vertex_size.push_back(made_.vertex_size[like]);
     return static_cast<std::int32_t>(mesh_.vertices.size()) - 1;
-  }
-
-  // ---- the former vertices of slaves ----
-
-  void drop_unused() {
-    std::vector<char> used(mesh_.vertices.size(), 0), used_mid(mesh_.mid_vertices.size(), 0);
-    const auto for_each = [&](const auto& vertex, const auto& mid) {
-      for (FaceMesh& face : mesh_.faces) {
-        for (std::int32_t& v : face.vertex) vertex(v);
-        for (std::int32_t& v : face.mid_vertex) mid(v);
-      }
-      for (CurveMesh& curve : mesh_.curves) {
-        for (std::int32_t& v : curve.vertices) vertex(v);
-        for (std::int32_t& v : curve.mid) mid(v);
-      }
-    };
-    for_each([&](std::int32_t v) { used[v] = 1; }, [&](std::int32_t v) { used_mid[v] = 1; });
-    std::vector<std::int32_t> number, mid_number;
-    const auto keep = [](const std::vector<char>& kept, std::vector<std::int32_t>& numbers, const auto& move) {
-      std::int32_t n = 0;
-      for (std::size_t v = 0; v < kept.size(); ++v) {
-        numbers.push_back(n);
-        if (kept[v] != 0) move(v, n++);
-      }
-      return static_cast<std::size_t>(n);
-    };
-    const std::size_t n = keep(used, number, [&](std::size_t v, std::int32_t to) {
-      mesh_.vertices[to] = mesh_.vertices[v], mesh_.vertex_ref[to] = mesh_.vertex_ref[v], made_.vertex_size[to] = made_.vertex_size[v];
-    });
-    mesh_.vertices.resize(n), mesh_.vertex_ref.resize(n), made_.vertex_size.resize(n);
-    mesh_.mid_vertices.resize(keep(used_mid, mid_number, [&](std::size_t v, std::int32_t to) { mesh_.mid_vertices[to] = mesh_.mid_vertices[v]; }));
-    for_each([&](std::int32_t& v) { v = number[v]; }, [&](std::int32_t& v) { v = mid_number[v]; });
   }
 
   const CurveModel& model_;

@@ -16,11 +16,8 @@ namespace carreau {
 
 namespace {
 
-/// A node between two local vertices.
-struct Node {
-  SurfacePlace place;
-  std::int32_t vertex = -1;  ///< of PlacedVertices, on a line; -1: new, and free
-};
+/// A node between two local vertices, on a line or inside: then it is new, and free.
+using Node = LineMiddle;
 
 /// Nodes of all edges, by local vertices.
 class NodeMaker {
@@ -45,15 +42,9 @@ class NodeMaker {
   std::int32_t node_between(std::int32_t a, std::int32_t b) {
     const auto [found, is_new] = of_edge_.try_emplace(mesh_edge(a, b), static_cast<std::int32_t>(nodes.size()));
     if (!is_new) return found->second;
-    const auto [low, high] = std::minmax(a, b);
-    nodes.push_back(is_imposed(cells_, lines_, a, b) ? on_line(low, high) : inside(low, high));
+    const MeshEdge ends = mesh_edge(a, b);
+    nodes.push_back(is_imposed(cells_, lines_, a, b) ? middle_on_line(vertices_, lines_, cells_, ends) : inside(ends));
     return found->second;
-  }
-
-  [[nodiscard]] Node on_line(std::int32_t a, std::int32_t b) {
-    const std::int32_t m = lines_.middle_of(mesh_edge(cells_.vertex[a], cells_.vertex[b]));
-    const Vec3 normal = cells_.quads.place(a).normal + cells_.quads.place(b).normal;
-    return {vertices_.place_towards(m, normal), m};
   }
 
   [[nodiscard]] double size_along(std::int32_t v, const Vec3& way) const {
@@ -63,14 +54,11 @@ class NodeMaker {
     return l > 0 ? norm(way) / l : wanted.h;
   }
 
-  [[nodiscard]] Node inside(std::int32_t a, std::int32_t b) const {
-    const Vec3 p = cells_.quads.place(a).xyz, q = cells_.quads.place(b).xyz, way = q - p;
-    const double at_a = size_along(a, way), at_b = size_along(b, way);
+  [[nodiscard]] Node inside(const MeshEdge& ends) const {
+    const Vec3 p = cells_.quads.place(ends[0]).xyz, q = cells_.quads.place(ends[1]).xyz, way = q - p;
+    const double at_a = size_along(ends[0], way), at_b = size_along(ends[1], way);
     const Vec3 target = lerp(p, q, metric_middle(1 / at_a, 2 / (at_a + at_b), 1 / at_b));
-    if (const auto found = place_from(surface_, cells_.quads, std::array{a, b}, target)) return {*found, -1};
-    Node node{cells_.quads.place(a), -1};
-    node.place.xyz = target;
-    return node;
+    return {place_from(surface_, cells_.quads, ends, target), -1};
   }
 
   const AtlasSurface& surface_;

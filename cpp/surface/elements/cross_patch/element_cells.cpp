@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "model/union_find.h"
@@ -131,11 +132,16 @@ bool is_imposed(const ElementCells& cells, const LineMiddles& lines, std::int32_
   return lines.is_edge(mesh_edge(cells.vertex[a], cells.vertex[b]));
 }
 
-std::optional<SurfacePlace> place_from(const AtlasSurface& surface, const SpaceQuads& quads,
-                                       std::span<const std::int32_t> starts, const Vec3& target) {
+LineMiddle middle_on_line(const PlacedVertices& vertices, LineMiddles& lines, const ElementCells& cells, const MeshEdge& local) {
+  const auto [a, b] = local;
+  const std::int32_t m = lines.middle_of(mesh_edge(cells.vertex[a], cells.vertex[b]));
+  return {vertices.place_towards(m, cells.quads.place(a).normal + cells.quads.place(b).normal), m};
+}
+
+SurfacePlace place_from(const AtlasSurface& surface, const SpaceQuads& quads, std::span<const std::int32_t> starts, const Vec3& target) {
   for (const std::int32_t v : starts)
     if (const SurfacePlace& from = quads.place(v); from.regular)
-      if (const auto found = surface.towards(from, target)) return found;
+      if (const auto found = surface.towards(from, target)) return *found;
   // The place of a start on a line may belong to the other side of the line. Only the line itself can be reached from
   // there.
   std::optional<SurfacePlace> best;
@@ -145,7 +151,10 @@ std::optional<SurfacePlace> place_from(const AtlasSurface& surface, const SpaceQ
     const auto found = surface.beside(from, target);
     if (found && (!best || norm(found->xyz - target) < norm(best->xyz - target))) best = found;
   }
-  return best;
+  if (best) return *best;
+  SurfacePlace place = quads.place(starts[0]);
+  place.xyz = target;
+  return place;
 }
 
 void put_vertices(const ElementCells& cells, PlacedVertices& vertices, std::vector<std::int32_t>& vertex) {

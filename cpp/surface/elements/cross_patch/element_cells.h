@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,9 +28,16 @@ ElementCells element_cells(const AtlasSurface& surface, const PlacedVertices& ve
 /// An edge that is imposed, between local vertices.
 [[nodiscard]] bool is_imposed(const ElementCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b);
 
+/// The middle of an imposed edge: a vertex of space, with its place beside the cells.
+struct LineMiddle {
+  SurfacePlace place;
+  std::int32_t vertex = -1;
+};
+LineMiddle middle_on_line(const PlacedVertices& vertices, LineMiddles& lines, const ElementCells& cells, const MeshEdge& local);
+
 /// The surface between local vertices, near a place of space. If barriers are in the way of all vertices, the result
-/// lies on the nearest barrier.
-std::optional<SurfacePlace> place_from(const AtlasSurface& surface, const SpaceQuads& quads,
+/// lies on the nearest barrier; if no vertex has a way, it is the place of space.
+SurfacePlace place_from(const AtlasSurface& surface, const SpaceQuads& quads,
                                        std::span<const std::int32_t> starts, const Vec3& target);
 
 /// Cuts edges in two, quadrilaterals in four, triangles in three, lines too, and halves the sizes.

@@ -11,6 +11,7 @@
 #include "mesh/elements/jacobian.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "surface/assembly/whole_mesh.h"
 #include "surface/elements/base/invalid_report.h"
 #include "surface/remesh/base/charts.h"
 
@@ -192,44 +193,11 @@ bool joins_wrongly_at_curves(const SurfaceMesh& mesh) {
   return w < wanted.size();
 }
 
-/// Numbers of the kept items, in their order; -1: dropped.
-std::vector<std::int32_t> numbers_of(const std::vector<char>& kept) {
-  std::vector<std::int32_t> number(kept.size(), -1);
-  std::int32_t next = 0;
-  for (std::size_t v = 0; v < kept.size(); ++v)
-    if (kept[v] != 0) number[v] = next++;
-  return number;
-}
-template <typename T>
-void keep(const std::vector<char>& kept, std::vector<T>& values) {
-  if (values.size() != kept.size()) return;
-  std::size_t next = 0;
-  for (std::size_t v = 0; v < kept.size(); ++v)
-    if (kept[v] != 0) values[next++] = values[v];
-  values.resize(next);
-}
-
-// Drops vertices and nodes that only faces without a mesh had.
+// Drops vertices and nodes that only faces without a mesh had. Vertices of curves stay.
 void drop_lost(SizedMesh& made) {
-  SurfaceMesh& mesh = made.mesh;
-  std::vector<char> vertex(mesh.vertices.size(), 0), node(mesh.mid_vertices.size(), 0);
-  for (const FaceMesh& face : mesh.faces) {
-    for (const std::int32_t v : face.vertex) vertex[v] = 1;
-    for (const std::int32_t v : face.mid_vertex) node[v] = 1;
-  }
-  for (CurveMesh& curve : mesh.curves) {
-    for (const std::int32_t v : curve.vertices) vertex[v] = 1;
-    const bool lost = std::ranges::all_of(curve.uses, [&](const CurveMeshUse& use) { return mesh.faces[use.face].status == FaceStatus::failed; });
-    if (lost) curve.mid.clear();  // its vertices stay
-    for (const std::int32_t v : curve.mid) node[v] = 1;
-  }
-  const std::vector<std::int32_t> of_vertex = numbers_of(vertex), of_node = numbers_of(node);
-  keep(vertex, mesh.vertices), keep(vertex, mesh.vertex_ref), keep(vertex, made.vertex_size), keep(node, mesh.mid_vertices);
-  const auto renumber = [](const std::vector<std::int32_t>& number, std::vector<std::int32_t>& all) {
-    for (std::int32_t& v : all) v = number[v];
-  };
-  for (FaceMesh& face : mesh.faces) renumber(of_vertex, face.vertex), renumber(of_node, face.mid_vertex);
-  for (CurveMesh& curve : mesh.curves) renumber(of_vertex, curve.vertices), renumber(of_node, curve.mid);
+  for (CurveMesh& curve : made.mesh.curves)
+    if (std::ranges::all_of(curve.uses, [&](const CurveMeshUse& use) { return made.mesh.faces[use.face].status == FaceStatus::failed; })) curve.mid.clear();
+  (void)drop_unused(made);
 }
 
 // False: all faces that are meshed have triangles.

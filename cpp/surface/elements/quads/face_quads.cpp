@@ -8,6 +8,7 @@
 #include "cad/batches.h"
 #include "periodic/thresholds.h"
 #include "support/rounding_of.h"
+#include "surface/assembly/whole_mesh.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/carry/image_vertices.h"
 #include "surface/elements/quads/quad_shape.h"
@@ -155,8 +156,8 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
 
 namespace {
 
-/// Drops unused local vertices, and marks their vertices of the mesh.
-void compact(FaceQuads& quads, std::vector<char>& gone) {
+/// Drops unused local vertices.
+void compact(FaceQuads& quads) {
   quads.patch.cells.insert(quads.patch.cells.end(), quads.rows.begin(), quads.rows.end());
   const std::size_t n = quads.patch.uv.size();
   std::vector<std::int32_t> now(n, -1);
@@ -164,10 +165,7 @@ void compact(FaceQuads& quads, std::vector<char>& gone) {
     for (int k = 0; k < corners_of(cell); ++k) now[cell[k]] = 0;
   std::int32_t count = 0;
   for (std::size_t v = 0; v < n; ++v) {
-    if (now[v] < 0 && quads.patch.fixed[v] == 0) {
-      if (quads.vertex[v] >= 0) gone[quads.vertex[v]] = 1;
-      continue;
-    }
+    if (now[v] < 0 && quads.patch.fixed[v] == 0) continue;
     now[v] = count;
     quads.patch.uv[count] = quads.patch.uv[v], quads.vertex[count] = quads.vertex[v];
     quads.xyz[count] = quads.xyz[v], quads.size[count] = quads.size[v];
@@ -182,25 +180,6 @@ void compact(FaceQuads& quads, std::vector<char>& gone) {
   quads.now = std::move(now);
 }
 
-/// New numbers of the vertices of the mesh.
-std::vector<std::int32_t> drop(const std::vector<char>& gone, CompositeResult& result) {
-  SurfaceMesh& mesh = result.mesh;
-  std::vector<std::int32_t> now(gone.size(), -1);
-  std::int32_t count = 0;
-  for (std::size_t v = 0; v < gone.size(); ++v) {
-    if (gone[v] != 0) continue;
-    mesh.vertices[count] = mesh.vertices[v];
-    mesh.vertex_ref[count] = mesh.vertex_ref[v];
-    result.vertex_size[count] = result.vertex_size[v];
-    now[v] = count++;
-  }
-  const auto size = static_cast<std::size_t>(count);
-  mesh.vertices.resize(size), mesh.vertex_ref.resize(size), result.vertex_size.resize(size);
-  for (CurveMesh& curve : mesh.curves)
-    for (std::int32_t& v : curve.vertices) v = now[v];
-  return now;
-}
-
 // Fills sizes where no metric is known, with the lengths of the edges there.
 void find_missing_sizes(FaceQuads& quads) {
   if (std::find(quads.size.begin(), quads.size.end(), 0.) == quads.size.end()) return;
@@ -213,7 +192,7 @@ void find_missing_sizes(FaceQuads& quads) {
     if (quads.size[v] == 0 && count[v] > 0) quads.size[v] = sum[v] / count[v];
 }
 
-void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeResult& result) {
+void put_back(FaceQuads& quads, CompositeResult& result) {
   SurfaceMesh& mesh = result.mesh;
   FaceMesh& face = mesh.faces[quads.face];
   for (std::size_t v = 0; v < quads.vertex.size(); ++v) {
@@ -224,7 +203,6 @@ void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeR
       result.vertex_size.push_back(quads.size[v]);
       continue;
     }
-    in_mesh = now[in_mesh];
     if (quads.size[v] >= 0) mesh.vertices[in_mesh] = quads.xyz[v], result.vertex_size[in_mesh] = quads.size[v];
   }
   face.uv = std::move(quads.patch.uv);
@@ -244,13 +222,12 @@ void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeR
 }  // namespace
 
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result) {
-  std::vector<char> gone(result.mesh.vertices.size(), 0);
   for (FaceQuads& quads : faces) {
     find_missing_sizes(quads);
-    compact(quads, gone);
+    compact(quads);
+    put_back(quads, result);
   }
-  const std::vector<std::int32_t> now = drop(gone, result);
-  for (FaceQuads& quads : faces) put_back(quads, now, result);
+  (void)drop_unused(result);
   part_equal_diagonals(result.mesh);
 }
 

@@ -175,7 +175,8 @@ class FaceMender : public Mender<FaceMender, Vec2> {
       const double found = score(cells()[c]);
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells()[c]);
-      add_coarse(cells()[c], sides, report.coarse);
+      for (int i = 0; i < corner_count(cells()[c].kind); ++i)
+        if (const CurveSide* side = side_at(cells()[c], i, sides)) report.coarse.push_back({side->curve, side->segment});
       add_cusps(cells()[c], sides, report.cusps);
       add_finer(cells()[c], report.finer[f_]);
       if (c < face_.quads) report.quads[f_].push_back(c);
@@ -200,16 +201,17 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     const auto sides = finer_sides({corners.data(), n}, least, work_.options.element);
     finer.insert(finer.end(), sides.begin(), sides.end());
   }
+  static const CurveSide* side_at(const Cell& cell, int i, const std::vector<CurveSide>& sides) {
+    const int n = corner_count(cell.kind);
+    const auto [a, b] = std::minmax(cell.nodes[i % n], cell.nodes[(i + 1) % n]);
+    const auto at = std::lower_bound(sides.begin(), sides.end(), CurveSide{a, b, 0, 0, -1});
+    return at != sides.end() && at->a == a && at->b == b ? &*at : nullptr;
+  }
   // Adds cusps of elements whose validity depends on the nodes of two edges of curves alone.
   void add_cusps(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CuspEnd>& cusps) const {
     const int n = corner_count(cell.kind);
-    const auto side_at = [&](int i) -> const CurveSide* {
-      const auto [a, b] = std::minmax(cell.nodes[i % n], cell.nodes[(i + 1) % n]);
-      const auto at = std::lower_bound(sides.begin(), sides.end(), CurveSide{a, b, 0, 0, -1});
-      return at != sides.end() && at->a == a && at->b == b ? &*at : nullptr;
-    };
     for (int i = 0; i < n; ++i) {
-      const CurveSide *from = side_at(i + n - 1), *to = side_at(i);
+      const CurveSide *from = side_at(cell, i + n - 1, sides), *to = side_at(cell, i, sides);
       if (from == nullptr || to == nullptr) continue;
       const std::int32_t corner = cell.nodes[i];
       const auto tangent = [&](int side, int end) -> Vec3 {
@@ -221,14 +223,6 @@ class FaceMender : public Mender<FaceMender, Vec2> {
         const auto& chain = work_.result.mesh.curves[side->curve].vertices;
         cusps.push_back({side->curve, side->segment, chain[side->segment] == face_.vertex[corner]});
       }
-    }
-  }
-  static void add_coarse(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CurveEdge>& coarse) {
-    const int n = corner_count(cell.kind);
-    for (int i = 0; i < n; ++i) {
-      const auto [a, b] = std::minmax(cell.nodes[i], cell.nodes[(i + 1) % n]);
-      const auto at = std::lower_bound(sides.begin(), sides.end(), CurveSide{a, b, 0, 0, -1});
-      if (at != sides.end() && at->a == a && at->b == b) coarse.push_back({at->curve, at->segment});
     }
   }
 

@@ -13,6 +13,7 @@
 #include "support/rounding_of.h"
 #include "surface/carry/carry_faces.h"
 #include "surface/elements/base/curve_middles.h"
+#include "surface/elements/base/poles.h"
 #include "surface/elements/base/thresholds.h"
 #include "surface/layers/middle_columns.h"
 
@@ -115,12 +116,11 @@ class CurveNodes {
 class FaceNodes {
  public:
   FaceNodes(const ElementWork& work, std::size_t f, CurveNodes& of_curves)
-      : work_(work), of_curves_(of_curves), f_(f), face_(work.result.mesh.faces[f]) {}
+      : work_(work), of_curves_(of_curves), f_(f), face_(work.result.mesh.faces[f]), poles_(face_) {}
 
   void run() {
     face_.mid.assign(face_.triangles.size(), {-1, -1, -1});
     face_.mid_uv.clear(), face_.mid_vertex.clear();
-    find_poles();
     number_sides();
     place_in_plane();
     place_on_curves();
@@ -171,34 +171,8 @@ class FaceNodes {
     for (std::size_t e = 0; e < edges_.size(); ++e) face_.mid_uv[e] = middle_uv(edges_[e]);
   }
 
-  // Sides of (u, v) that are one point of space, by its vertex.
-  void find_poles() {
-    for (const std::array<std::int32_t, 3>& t : face_.flattened)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t a = t[i], b = t[(i + 1) % 3];
-        if (face_.vertex[a] != face_.vertex[b]) continue;
-        const Vec2 low = face_.uv[a].cwiseMin(face_.uv[b]), high = face_.uv[a].cwiseMax(face_.uv[b]);
-        const auto [pole, is_new] = poles_.try_emplace(face_.vertex[a], Box{low, high});
-        if (is_new) continue;
-        pole->second.low = pole->second.low.cwiseMin(low), pole->second.high = pole->second.high.cwiseMax(high);
-      }
-  }
-
-  // The place in (u, v) where the way from `other` reaches the vertex. At a pole whose side is a line of one parameter,
-  // the way keeps the other parameter, as the shortest way in space does.
-  [[nodiscard]] Vec2 arrival(std::int32_t v, std::int32_t other) const {
-    Vec2 p = face_.uv[v];
-    const auto pole = poles_.find(face_.vertex[v]);
-    if (pole == poles_.end() || poles_.contains(face_.vertex[other])) return p;
-    const auto& [low, high] = pole->second;
-    const Vec2 q = face_.uv[other];
-    if (low.y() == high.y()) p.x() = std::clamp(q.x(), low.x(), high.x());
-    if (low.x() == high.x()) p.y() = std::clamp(q.y(), low.y(), high.y());
-    return p;
-  }
-
   [[nodiscard]] Vec2 middle_uv(const Key& edge) const {
-    const Vec2 p = arrival(edge[0], edge[1]), q = arrival(edge[1], edge[0]), d = q - p;
+    const Vec2 p = poles_.arrival(edge[0], edge[1]), q = poles_.arrival(edge[1], edge[0]), d = q - p;
     const std::optional<ControlSpace>& space = work_.result.spaces[f_];
     if (!space) return 0.5 * (p + q);
     const auto at_end = [&](std::int32_t v, const Vec2& at) {
@@ -317,10 +291,7 @@ class FaceNodes {
   CurveNodes& of_curves_;
   std::size_t f_;
   FaceMesh& face_;
-  struct Box {
-    Vec2 low, high;
-  };
-  std::map<std::int32_t, Box> poles_;  // by vertex in space
+  Poles poles_;
   std::vector<Key> edges_;             // by index in mid_uv
   std::vector<Metric2> metrics_;       // by local vertex; empty: without a control space
   std::vector<char> fixed_;
