@@ -148,10 +148,10 @@ class Cells(unittest.TestCase):
 
     def test_other_elements_cross_patches(self):
         """Slaves get the images of their masters' elements, with their nodes; the rest crosses borders of patches. Six tubes, glued, have
-        genus 3, a divided torus is a torus, and the sector of a pipe has one pair."""
+        genus 3, and the sector of a pipe has one pair. An eighth of a sphere may have one triangle, whose normal is as near to its neighbours' normals."""
         tubes = self.path("tubes.bpt", six_tubes())
         cases = ((os.path.join(CELLS, "annulus.step"), ("--periodic", "rotate:0,0,0:0,0,1:60"), "0.2", 1), (os.path.join(CELLS, "sector24.step"), ("--periodic", "rotate:0,0,0:0,0,1:15"), ".05", 1),
-                 (tubes, AXES, "0.2", 0))
+                 (tubes, AXES, "0.2", 0), (os.path.join(CELLS, "fcc.step"), AXES, ".2", 3))
         for element in ("p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"):
             for source, options, size, faces in cases:
                 with self.subTest(element, source=source):
@@ -168,6 +168,8 @@ class Cells(unittest.TestCase):
                         self.assertEqual(on_face, {m for _, m in nodes})
                     if source == tubes:
                         self.assertEqual(self.euler_of(made), -4)
+                    if source.endswith("fcc.step"):
+                        self.assertEqual(made.euler_of_skin(), 8)
                     self.require_sound(path, element)
 
     def test_closed_curves_that_maps_carry_onto_themselves(self):
