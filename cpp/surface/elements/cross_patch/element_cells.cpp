@@ -93,7 +93,8 @@ class CellMaker {
     const std::vector<std::int32_t>& sides = sides_[piece];
     const SurfacePlace* best = nullptr;
     for (const SurfacePlace& place : vertices_.places(v))
-      if (place.regular && std::ranges::find(sides, side_of(place)) != sides.end() && (best == nullptr || dot(place.normal, normal) > dot(best->normal, normal)))
+      if (place.regular && std::ranges::find(sides, side_of(place)) != sides.end() &&
+          (best == nullptr || dot(place.normal, normal) > dot(best->normal, normal)))
         best = &place;
     return best != nullptr ? *best : vertices_.place_towards(v, normal);
   }
