@@ -6,17 +6,20 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "association/mesh_curves.h"
 #include "high_order/thresholds.h"
 #include "mesh/local_search.h"
 #include "periodic/closest.h"
+#include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
 #include "support/rounding_of.h"
 #include "surface/elements/base/poles.h"
+#include "surface/carry/nodes_by_place.h"
 
 namespace carreau {
 
@@ -103,6 +106,7 @@ class Raiser {
           const std::size_t at = (k - 1) * p_ + i;
           out_.nodes[node] = fine.xyz[at];
           on_curves_.push_back({node, mesh_.curves[c].shown_ref(), fine.t_of_use[owner][at]});
+          place_of_[node] = {on_curves_.size() - 1, on_sides_.size(), &use};
           const std::vector<CurveUse>& uses = model_.curve(d.curve).uses;
           for (std::size_t u = 0; u < uses.size(); ++u) on_sides_.push_back({node, uses[u].face, fine.uv_of_use[u][at]});
         }
@@ -516,6 +520,7 @@ class Raiser {
       if (ma == master.end() || mb == master.end() || !edges_.contains(ordered(a, b)) || !edges_.contains(ordered(ma->second, mb->second))) return;
       for (std::size_t m = 1; m < p_; ++m) link.nodes.push_back({node_between(a, b, m), node_between(ma->second, mb->second, m)});
     };
+    if (of.dimension == 1 && of.master == of.slave) return link_itself(of);
     if (of.dimension == 1)
       for (const CurveMesh& curve : mesh_.curves)
         for (std::size_t k = 1; curve.shown_ref() == of.slave && k < curve.vertices.size(); ++k) link_edge(curve.vertices[k - 1], curve.vertices[k]);
@@ -544,8 +549,84 @@ class Raiser {
     out_.periodic.push_back(std::move(link));
   }
 
+  // All maps of a curve onto itself at once, with the first of them.
+  void link_itself(const PeriodicLink& of) {
+    const auto is_of_curve = [&of](const PeriodicLink& link) { return link.dimension == 1 && link.master == of.master && link.slave == of.master; };
+    if (std::any_of(out_.periodic.begin(), out_.periodic.end(), is_of_curve)) return;
+    std::vector<std::int32_t> nodes;
+    for (const CurveMesh& curve : mesh_.curves)
+      if (curve.shown_ref() == of.master) nodes.insert(nodes.end(), curve.vertices.begin(), curve.vertices.end());
+    for (const MeshAssociation::OnCurve& on : on_curves_)
+      if (on.ref == of.master) nodes.push_back(on.node);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    const NodesByPlace::Positions position = [this](std::int32_t v) { return out_.nodes[v]; };
+    const NodesByPlace places(nodes, position, out_.corners, thresholds::periodic::max_gap * result_.report.diag);
+    std::vector<NodeImages> images;
+    for (const PeriodicLink& link : mesh_.periodic) {
+      if (!is_of_curve(link)) continue;
+      NodeImages& all = images.emplace_back();
+      for (const std::int32_t v : nodes) places.for_near(link.map(out_.nodes[v]), v, [&](std::int32_t w) { all.push_back({v, w}); });
+    }
+    std::vector<NodeImages> pairs = pairs_of_orbits(images);
+    std::size_t m = 0;
+    for (const PeriodicLink& link : mesh_.periodic) {
+      if (!is_of_curve(link)) continue;
+      std::sort(pairs[m].begin(), pairs[m].end());
+      out_.periodic.push_back({1, of.master, of.master, link.map, std::move(pairs[m++])});
+    }
+  }
+
+  /// A node of a curve: its record there, its first record by use, and the use that has the curve's parameter.
+  struct CurvePlace {
+    std::size_t on_curve = 0, side = 0;
+    const CurveUse* use = nullptr;
+  };
+
+  // Tables of lengths have placed nodes of curves; images of nodes have the places of the images, first on the roots of classes.
+  void follow_on_curves() {
+    const double exact = rounding_of::places * thresholds::periodic::max_gap * result_.report.diag;
+    std::set<std::int32_t> moved;
+    for (const bool itself : {true, false})
+      for (const PeriodicLink& link : out_.periodic) {
+        if (link.dimension != 1 || (link.master == link.slave) != itself) continue;
+        for (const auto& [slave, master] : link.nodes)
+          if (const auto found = place_of_.find(slave); found != place_of_.end() && move_on_curve(slave, found->second, master, link.map, exact))
+            moved.insert(slave);
+      }
+    for (std::size_t k = 0; k < elements_.size() && !moved.empty(); ++k) {
+      const Element& e = elements_[k];
+      if (std::none_of(e.node.begin(), e.node.begin() + static_cast<std::ptrdiff_t>(shape(e).node_count()), [&](std::int32_t v) { return moved.contains(v); })) continue;
+      std::erase(invalid_, k);
+      if (score(e) < least_jacobian) invalid_.insert(std::lower_bound(invalid_.begin(), invalid_.end(), k), k);
+    }
+  }
+
+  // True: by more than rounding.
+  bool move_on_curve(std::int32_t node, const CurvePlace& place, std::int32_t master, const Isometry& map, double exact) {
+    const Vec3 target = map(out_.nodes[master]);
+    const bool is_near = norm(target - out_.nodes[node]) <= exact, is_off = !is_finite(node_uv_[master]);
+    node_uv_[node] = node_uv_[master];
+    if (is_near || is_off) {
+      out_.nodes[node] = target;
+      return !is_near;
+    }
+    const CurveSupport& support = model_.support(*place.use);
+    double& t = on_curves_[place.on_curve].t;
+    const CurvePoint found = find_closest(model_, *place.use, t, support.t.front(), support.t.back(), target);
+    t = found.t;
+    out_.nodes[node] = found.distance <= exact ? target : found.xyz;
+    for (std::size_t k = place.side; k < on_sides_.size() && on_sides_[k].node == node; ++k) {
+      ClosestPoint point{on_sides_[k].uv, {}, 0};
+      find_closest(model_.cad, mesh_.faces[static_cast<std::size_t>(on_sides_[k].face)].ref, {&target, 1}, {&point, 1});
+      on_sides_[k].uv = point.uv;
+    }
+    return true;
+  }
+
   // Repairs have moved nodes of a face and of its image each in their own way: the image follows.
   void follow_masters() {
+    follow_on_curves();
     std::vector<char> on_curve(out_.nodes.size(), 0);
     for (const MeshAssociation::OnCurve& on : on_curves_) on_curve[on.node] = 1;
     for (const PeriodicLink& link : out_.periodic) {
@@ -680,6 +761,7 @@ class Raiser {
   };
   std::vector<MeshAssociation::OnCurve> on_curves_;  // nodes of curves
   std::vector<OnSide> on_sides_;                     // the same by use
+  std::map<std::int32_t, CurvePlace> place_of_;      // by node of a curve
   std::vector<Element> elements_;
   std::vector<std::size_t> first_element_;  // by face
   std::map<Key, std::vector<std::size_t>> around_;

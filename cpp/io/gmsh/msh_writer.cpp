@@ -416,18 +416,20 @@ class MshText {
 
   void add_periodic() {
     if (mesh_.periodic == nullptr) return;
-    std::map<std::pair<int, int>, Link> links;  // by dimension and tag; an entity has one master in the format
+    std::map<std::array<int, 3>, Link> links;  // by dimension, tag and rank; an entity has one master beside itself in the format
     for (const PeriodicLink& link : *mesh_.periodic) {
       const Entities& entities = entities_[link.dimension];
       const auto slave = entities.find(link.slave), master = entities.find(link.master);
-      if (slave == entities.end() || master == entities.end() || slave == master) continue;  // no entity is its own master
-      Link& all = links.try_emplace({link.dimension, slave->second.tag}, Link{master->second.tag, link.map, {}}).first->second;
+      if (slave == entities.end() || master == entities.end()) continue;
+      std::array<int, 3> key{link.dimension, slave->second.tag, 0};
+      while (slave == master && (key[2] == 0 || links.contains(key))) ++key[2];  // each map onto itself has a block
+      Link& all = links.try_emplace(key, Link{master->second.tag, link.map, {}}).first->second;
       if (all.master == master->second.tag) all.nodes.insert(all.nodes.end(), link.nodes.begin(), link.nodes.end());
     }
     if (links.empty()) return;
     text_ += "$Periodic\n" + std::to_string(links.size()) + "\n";
     for (const auto& [key, link] : links) {
-      number(text_, key.first), number(text_, key.second), number(text_, link.master), end_line(text_);
+      number(text_, key[0]), number(text_, key[1]), number(text_, link.master), end_line(text_);
       text_ += version_2_ ? "Affine " : "16 ";
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) number(text_, link.map.row[static_cast<std::size_t>(i)][k]);

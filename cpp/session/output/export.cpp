@@ -275,6 +275,8 @@ void add_periodic(FlatMesh& flat) {
     for (const PeriodicLink& link : flat.periodic)
       for (const auto& [slave, of] : link.nodes)
         if (link.dimension == dimension && known[slave] == 0) master.values[slave] = of, known[slave] = 1;
+  const std::vector<double> direct = master.values;
+  for (double& value : master.values) value = direct[static_cast<std::size_t>(value)];  // a master may have a master on its own curve
   flat.fields.push_back(std::move(master));
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -12,12 +11,13 @@
 #include "periodic/root_maps.h"
 #include "periodic/shared_curves.h"
 #include "surface/carry/carry_patch.h"
+#include "surface/carry/nodes_by_place.h"
 
 namespace carreau {
 
 namespace {
 
-using Nodes = std::vector<std::array<std::int32_t, 2>>;
+using Nodes = NodeImages;
 
 void sort_uniquely(Nodes& nodes) {
   std::sort(nodes.begin(), nodes.end());
@@ -36,7 +36,7 @@ class Linker {
     add_corners();
     for (const CurveClass& all : periodic_.curves)
       for (const CurveMember& member : all.members) add_curve(all, member);
-    for (const CurveClass& all : periodic_.curves) add_cycle(all);
+    for (const CurveClass& all : periodic_.curves) add_itself(all);
     for (std::size_t i = 0; i < periodic_.pairs.size(); ++i) add_face(i);
     return figures_;
   }
@@ -59,26 +59,25 @@ class Linker {
     return node < first_mid_ ? mesh_.vertices[node] : mesh_.mid_vertices[node - first_mid_];
   }
 
-  // Ends of curves carry corners with them; a map of a corner is the map of one of its curves.
+  // The first corner of a class is the master of all others.
   void add_corners() {
-    std::vector<char> done(topology_.points.size(), 0);
+    std::vector<int> curve_at(topology_.points.size(), -1);
     for (const CurveClass& all : periodic_.curves)
       for (const CurveMember& member : all.members) {
-        const int root = all.members.front().image.curve, c = member.image.curve;
-        const Curve &from = topology_.curves[root], &to = topology_.curves[c];
-        const bool closed = from.end1 == from.end2;
-        if (c == root || (closed && member.image.shift != 0 && !from.degenerate)) continue;
-        const bool turned = !closed && member.image.reversed;
-        for (const auto& [p, q] : {std::pair(from.end1, turned ? to.end2 : to.end1), std::pair(from.end2, turned ? to.end1 : to.end2)}) {
-          if (p == q || done[q] != 0) continue;
-          const std::int32_t v = vertex_of(root, p), w = vertex_of(c, q);
-          if (v < 0 || w < 0) continue;
-          done[q] = 1;
-          PeriodicLink linked = link(0, topology_.points[p].ref, topology_.points[q].ref, member.map);
-          linked.nodes.push_back({w, v});
-          keep(std::move(linked));
-        }
+        const Curve& curve = topology_.curves[member.image.curve];
+        curve_at[curve.end1] = curve_at[curve.end2] = member.image.curve;
       }
+    for (std::size_t c = 0; c < periodic_.corners.size(); ++c) {
+      const std::vector<int>& corners = periodic_.corners[c];
+      const std::int32_t v = vertex_of(curve_at[corners.front()], corners.front());
+      for (std::size_t k = 1; k < corners.size() && v >= 0; ++k) {
+        const std::int32_t w = vertex_of(curve_at[corners[k]], corners[k]);
+        if (w < 0) continue;
+        PeriodicLink linked = link(0, topology_.points[corners.front()].ref, topology_.points[corners[k]].ref, periodic_.corner_maps[c][k]);
+        linked.nodes.push_back({w, v});
+        keep(std::move(linked));
+      }
+    }
   }
 
   // Cross-patch remeshing may divide curves where the faces beside change, and turn them round.
@@ -94,6 +93,7 @@ class Linker {
   }
 
   [[nodiscard]] std::int32_t vertex_of(int curve, int point) const {
+    if (curve < 0) return -1;
     if (mesh_.independent) {
       const Vec3& place = topology_.points[point].position;
       for (const std::int32_t v : on_curve_[curve])
@@ -107,56 +107,63 @@ class Linker {
 
   void add_curve(const CurveClass& all, const CurveMember& member) {
     const int root = all.members.front().image.curve, c = member.image.curve;
-    const Curve& shape = topology_.curves[root];
     const CurveMesh &from = mesh_.curves[root], &to = mesh_.curves[c];
-    if (c == root || shape.degenerate) return;
+    if (c == root || topology_.curves[root].degenerate) return;
     if (mesh_.independent) {
       PeriodicLink linked = link(1, from.shown_ref(), to.shown_ref(), member.map);
       link_by_places(on_curve_[root], on_curve_[c], linked);
       return;
     }
-    if (from.vertices.size() != to.vertices.size() || from.vertices.empty()) return;
-    if (from.vertices.size() != curves_[root].xyz.size()) return;
-    const std::vector<std::int32_t>&vertices = from.vertices, &images = to.vertices;
-    const bool closed = shape.end1 == shape.end2;
     PeriodicLink linked = link(1, from.shown_ref(), to.shown_ref(), member.map);
-    const auto n = static_cast<int>(from.vertices.size()) - 1;
-    std::vector<int> image;
-    for (int k = 0; k <= n; ++k) {
-      image.push_back(vertex_image(curves_[root], curves_[c], member.image, closed, k));
-      if (image.back() < 0) return;
-      linked.nodes.push_back({images[image.back()], vertices[k]});
-    }
-    for (int k = 0; k < n && !from.mid.empty(); ++k) {
-      const int i = image[k] % n, j = image[k + 1] % n;
-      const int segment = (i + 1) % n == j && !(n == 1 && member.image.reversed) ? i : j;
-      linked.nodes.push_back({first_mid_ + to.mid[n == 1 ? 0 : segment], first_mid_ + from.mid[k]});
-    }
+    for (const auto& [v, w] : images_on_curve(root, member.image)) linked.nodes.push_back({w, v});
     keep(std::move(linked));
   }
 
-  // A closed curve that maps carry onto itself: images of the vertices of its first arc.
-  void add_cycle(const CurveClass& all) {
-    const int root = all.members.front().image.curve;
-    const CurveMesh& curve = mesh_.curves[root];
-    if (all.cycle.is_trivial() || mesh_.independent || curve.vertices.size() != curves_[root].xyz.size()) return;
-    const auto n = static_cast<std::size_t>(curves_[root].segments());
-    std::vector<char> known(n, 0);
-    const std::vector<CurveMember> maps = maps_of_root(all);
-    std::vector<PeriodicLink> links;
-    for (const CurveMember& each : maps) links.push_back(link(1, curve.shown_ref(), curve.shown_ref(), each.map));
-    for (std::size_t v = 0; v < n; ++v) {
-      if (known[v] != 0) continue;
-      known[v] = 1;
-      for (std::size_t m = 0; m < maps.size(); ++m) {
-        const int w = vertex_image(curves_[root], curves_[root], maps[m].image, true, static_cast<int>(v)) % static_cast<int>(n);
-        if (w < 0 || known[w] != 0) continue;
-        known[w] = 1;
-        links[m].nodes.push_back({curve.vertices[w], curve.vertices[v]});
-      }
+  // Nodes of a root with their images on a curve of its class; none where the mesh has other vertices than the curves.
+  [[nodiscard]] Nodes images_on_curve(int root, const CurveImage& onto) const {
+    const Curve& shape = topology_.curves[root];
+    const CurveMesh &from = mesh_.curves[root], &to = mesh_.curves[onto.curve];
+    if (from.vertices.size() != to.vertices.size() || from.vertices.empty() || from.vertices.size() != curves_[root].xyz.size()) return {};
+    const bool closed = shape.end1 == shape.end2;
+    const auto n = static_cast<int>(from.vertices.size()) - 1;
+    Nodes nodes;
+    std::vector<int> image;
+    for (int k = 0; k <= n; ++k) {
+      image.push_back(vertex_image(curves_[root], curves_[onto.curve], onto, closed, k));
+      if (image.back() < 0) return {};
+      nodes.push_back({from.vertices[k], to.vertices[image.back()]});
     }
-    for (PeriodicLink& each : links)
-      if (!each.nodes.empty()) keep(std::move(each));
+    for (int k = 0; k < n && !from.mid.empty(); ++k) {
+      const int i = image[k] % n, j = image[k + 1] % n;
+      const int segment = (i + 1) % n == j && !(n == 1 && onto.reversed) ? i : j;
+      nodes.push_back({first_mid_ + from.mid[k], first_mid_ + to.mid[n == 1 ? 0 : segment]});
+    }
+    return nodes;
+  }
+
+  // A curve that maps carry onto itself: the first node of each orbit is the master of the others.
+  void add_itself(const CurveClass& all) {
+    const int root = all.members.front().image.curve;
+    const std::vector<CurveMember> maps = maps_of_root(all);
+    if (maps.empty() || topology_.curves[root].degenerate) return;
+    const CurveMesh& curve = mesh_.curves[root];
+    std::vector<Nodes> images;
+    if (mesh_.independent) {
+      const NodesByPlace places(on_curve_[root], positions_, first_mid_, periodic_.gap);
+      for (const CurveMember& each : maps) {
+        Nodes& nodes = images.emplace_back();
+        for (const std::int32_t v : on_curve_[root])
+          places.for_near(each.map(position(v)), v, [&](std::int32_t w) { nodes.push_back({v, w}); });
+      }
+    } else {
+      for (const CurveMember& each : maps) images.push_back(images_on_curve(root, each.image));
+    }
+    const std::vector<Nodes> pairs = pairs_of_orbits(images);
+    for (std::size_t m = 0; m < maps.size(); ++m) {
+      PeriodicLink linked = link(1, curve.shown_ref(), curve.shown_ref(), maps[m].map);
+      linked.nodes = pairs[m];
+      if (!linked.nodes.empty()) keep(std::move(linked));
+    }
   }
 
   void add_face(std::size_t index) {
@@ -188,23 +195,8 @@ class Linker {
 
   // Cross-patch meshes have their elements in another order. Vertices are images of vertices, nodes on edges of nodes.
   void link_by_places(const std::vector<std::int32_t>& from, const std::vector<std::int32_t>& to, PeriodicLink& linked) {
-    const double gap = periodic_.gap, width = 4 * gap;
-    using Cell = std::array<std::int64_t, 3>;
-    const auto cell_of = [width](const Vec3& p) -> Cell {
-      return {std::llround(p.x() / width), std::llround(p.y() / width), std::llround(p.z() / width)};
-    };
-    std::map<Cell, std::vector<std::int32_t>> slaves;
-    for (const std::int32_t v : to) slaves[cell_of(position(v))].push_back(v);
-    for (const std::int32_t v : from) {
-      const Vec3 image = linked.map(position(v));
-      std::set<Cell> cells;
-      for (int corner = 0; corner < 8; ++corner)
-        cells.insert(cell_of(image + gap * Vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1)));
-      for (const Cell& cell : cells)
-        if (const auto found = slaves.find(cell); found != slaves.end())
-          for (const std::int32_t w : found->second)
-            if (norm(position(w) - image) <= gap && (w < first_mid_) == (v < first_mid_)) linked.nodes.push_back({w, v});
-    }
+    const NodesByPlace places(to, positions_, first_mid_, periodic_.gap);
+    for (const std::int32_t v : from) places.for_near(linked.map(position(v)), v, [&](std::int32_t w) { linked.nodes.push_back({w, v}); });
     keep(std::move(linked));
   }
 
@@ -213,11 +205,27 @@ class Linker {
   const std::vector<DiscreteCurve>& curves_;
   SurfaceMesh& mesh_;
   std::int32_t first_mid_;
+  NodesByPlace::Positions positions_ = [this](std::int32_t node) { return position(node); };
   std::vector<std::vector<std::int32_t>> on_curve_;  // of a cross-patch mesh: vertices and nodes, by curve of the topology
   LinkFigures figures_;
 };
 
 }  // namespace
+
+std::vector<NodeImages> pairs_of_orbits(const std::vector<NodeImages>& images) {
+  std::map<std::int32_t, std::int32_t> first;  // of the orbit, by node
+  for (const NodeImages& of_map : images)
+    for (const auto& [v, w] : of_map) {
+      std::int32_t& least = first.try_emplace(v, v).first->second;
+      least = std::min(least, w);
+    }
+  std::set<std::int32_t> placed;
+  std::vector<NodeImages> pairs(images.size());
+  for (std::size_t m = 0; m < images.size(); ++m)
+    for (const auto& [v, w] : images[m])
+      if (first.at(v) == v && w != v && placed.insert(w).second) pairs[m].push_back({w, v});
+  return pairs;
+}
 
 LinkFigures link_nodes(const PeriodicModel& periodic, const Topology& topology, const std::vector<DiscreteCurve>& curves, SurfaceMesh& mesh) {
   return Linker(periodic, topology, curves, mesh).run();

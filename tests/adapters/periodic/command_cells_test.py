@@ -148,10 +148,10 @@ class Cells(unittest.TestCase):
 
     def test_other_elements_cross_patches(self):
         """Slaves get the images of their masters' elements, with their nodes; the rest crosses borders of patches. Six tubes, glued, have
-        genus 3, a divided torus is a torus, and the sector of a pipe has one pair."""
+        genus 3, and the sector of a pipe has one pair. An eighth of a sphere may have one triangle, whose normal is as near to its neighbours' normals."""
         tubes = self.path("tubes.bpt", six_tubes())
         cases = ((os.path.join(CELLS, "annulus.step"), ("--periodic", "rotate:0,0,0:0,0,1:60"), "0.2", 1), (os.path.join(CELLS, "sector24.step"), ("--periodic", "rotate:0,0,0:0,0,1:15"), ".05", 1),
-                 (tubes, AXES, "0.2", 0))
+                 (tubes, AXES, "0.2", 0), (os.path.join(CELLS, "fcc.step"), AXES, ".2", 3))
         for element in ("p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"):
             for source, options, size, faces in cases:
                 with self.subTest(element, source=source):
@@ -168,12 +168,15 @@ class Cells(unittest.TestCase):
                         self.assertEqual(on_face, {m for _, m in nodes})
                     if source == tubes:
                         self.assertEqual(self.euler_of(made), -4)
+                    if source.endswith("fcc.step"):
+                        self.assertEqual(made.euler_of_skin(), 8)
                     self.require_sound(path, element)
 
     def test_closed_curves_that_maps_carry_onto_themselves(self):
         """A pipe under turns by 60 degrees: its circles repeat. A ball of two halves under half a turn: its circle is reversed, and one half is the
         image of the other one."""
-        for turn, options in ((60, ()), (60, ("--face-size", "1=.07")), (72, ("--size-map", ".05 + .1*abs(x)")), (90, ("--element", "p2"))):
+        for turn, options in ((60, ()), (60, ("--face-size", "1=.07")), (72, ("--size-map", ".05 + .1*abs(x)")), (90, ("--element", "p2")), (90, ("--element", "q3")),
+                              (60, ("--cross-patch",)), (60, ("--cross-patch", "--element", "p2")), (60, ("--cross-patch", "--element", "q1.1"))):
             with self.subTest(turn=turn, options=options):
                 made = Mesh(self.mesh(os.path.join(CELLS, "pipe.step"), "--periodic", f"rotate:0,0,0:0,0,1:{turn}", *options, size="0.2"))
                 rim = {n: p for n, p in made.points.items() if min(abs(p[2]), abs(p[2] - 1)) < 1e-9 and min(abs(math.hypot(*p[:2]) - r) for r in (.5, 1)) < 1e-9}
@@ -181,7 +184,15 @@ class Cells(unittest.TestCase):
                 for x, y, z in rim.values():
                     image = (x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle), z)
                     self.assertLess(min(math.dist(image, p) for p in rim.values()), 4e-12)
-                self.assertEqual(run("check", self.path("cell.msh2")).returncode, 0)
+                # The pairs are of the circles with themselves: each node that is no master is the image of one master.
+                self.assertEqual({pair[:2] + pair[2:3] for pair in made.pairs}, {(1, c, c) for pair in made.pairs for c in pair[1:2]})
+                self.assertLess(made.mismatch(), 4e-12)
+                slaves = [slave for pair in made.pairs for slave, _ in pair[4]]
+                masters = {master for pair in made.pairs for _, master in pair[4]}
+                self.assertEqual(len(slaves), len(set(slaves)))
+                self.assertEqual(masters | set(slaves), set(rim))
+                self.assertEqual(len(rim), len(masters) * 360 // turn)
+                self.require_sound(self.path("cell.msh2"), "q" if "q1.1" in options else "p1")
         for options in ((), ("--size-map", ".1 + .1*abs(y)"), ("--element", "p2"), ("--element", "q1.1"), ("--cross-patch", "--element", "p2")):
             with self.subTest(options=options):
                 made = Mesh(self.mesh(os.path.join(CELLS, "lens.step"), "--periodic", "rotate:0,0,0:1,0,0:180", *options, size="0.25"))
@@ -273,6 +284,12 @@ class Cells(unittest.TestCase):
                 heights = sorted(p[2] for p in made.points.values() if abs(p[0]) < 1e-12 and abs(p[1]) < 1e-12)
                 for low, high in zip(heights, reversed(heights)):
                     self.assertLess(abs(low + high - 1), 2e-12)
+                itself = [nodes for dimension, slave, master, _, nodes in made.pairs if dimension == 1 and slave == master]
+                self.assertEqual([len(nodes) for nodes in itself], [len(heights) // 2, len(itself[1])])
+                # Two corners of an edge that is turned are one pair; no master is a slave.
+                corners = [pair[1:3] for pair in made.pairs if pair[0] == 0]
+                self.assertEqual(len(corners), 4)
+                self.assertEqual({slave for slave, _ in corners} & {master for _, master in corners}, set())
                 for _, slave, master, _, nodes in made.faces():
                     self.assertTrue(made.same_cells(slave, master, nodes))
 

@@ -27,11 +27,18 @@ class CellMaker {
  public:
   CellMaker(const AtlasSurface& surface, const PlacedVertices& vertices, const LineMiddles& lines,
             const std::vector<SpaceCell>& triangles)
-      : vertices_(vertices), lines_(lines), triangles_(triangles), corners_(3 * triangles.size()), made_{SpaceQuads(surface), {}} {}
+      : charts_(surface.charts()),
+        vertices_(vertices),
+        lines_(lines),
+        triangles_(triangles),
+        corners_(3 * triangles.size()),
+        pieces_(triangles.size()),
+        made_{SpaceQuads(surface), {}} {}
 
   ElementCells run(Monitor& monitor) {
     join_over_edges();
     monitor.checkpoint();
+    find_sides();
     add_vertices();
     monitor.checkpoint();
     find_flat_corners();
@@ -57,6 +64,40 @@ class CellMaker {
     if (at(s, 0) != at(t, 1)) return;  // a Moebius strip
     corners_.merge(3 * s.triangle + s.rank, 3 * t.triangle + (t.rank + 1) % 3);
     corners_.merge(3 * s.triangle + (s.rank + 1) % 3, 3 * t.triangle + t.rank);
+    pieces_.merge(s.triangle, t.triangle);
+  }
+
+  [[nodiscard]] std::int32_t side_of(const SurfacePlace& place) const {
+    return place.foot.triangle < 0 ? -1 : charts_.triangles()[place.foot.triangle].side;
+  }
+
+  // A piece between lines lies on one side of the atlas, which all its vertices have.
+  void find_sides() {
+    sides_.resize(triangles_.size());
+    std::vector<char> begun(triangles_.size(), 0);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const std::size_t piece = pieces_.find(t);
+      std::vector<std::int32_t>& common = sides_[piece];
+      for (std::size_t i = 0; i < 3 && (begun[piece] == 0 || common.size() > 1); ++i) {
+        std::vector<std::int32_t> here;
+        for (const SurfacePlace& place : vertices_.places(triangles_[t][i])) here.push_back(side_of(place));
+        if (begun[piece] == 0)
+          common = here, begun[piece] = 1;
+        else
+          std::erase_if(common, [&here](std::int32_t side) { return std::ranges::find(here, side) == here.end(); });
+      }
+    }
+  }
+
+  // At a corner where the normals of several faces are equally near to a large triangle's, its piece decides.
+  [[nodiscard]] const SurfacePlace& place_of(std::int32_t v, const Vec3& normal, std::size_t piece) const {
+    const std::vector<std::int32_t>& sides = sides_[piece];
+    const SurfacePlace* best = nullptr;
+    for (const SurfacePlace& place : vertices_.places(v))
+      if (place.regular && std::ranges::find(sides, side_of(place)) != sides.end() &&
+          (best == nullptr || dot(place.normal, normal) > dot(best->normal, normal)))
+        best = &place;
+    return best != nullptr ? *best : vertices_.place_towards(v, normal);
   }
 
   void add_vertices() {
@@ -74,7 +115,7 @@ class CellMaker {
         const std::size_t root = corners_.find(3 * t + i);
         const std::int32_t v = triangles_[t][i];
         if (local[root] < 0) {
-          local[root] = made_.quads.add_vertex(vertices_.place_towards(v, normal[root]), vertices_.wanted(v),
+          local[root] = made_.quads.add_vertex(place_of(v, normal[root], pieces_.find(t)), vertices_.wanted(v),
                                                !vertices_.is_free(v));
           made_.vertex.push_back(v);
         }
@@ -113,10 +154,13 @@ class CellMaker {
     return dot(d, e) < std::cos(least * std::numbers::pi / 180) * norm(d) * norm(e);
   }
 
+  const Charts& charts_;
   const PlacedVertices& vertices_;
   const LineMiddles& lines_;
   const std::vector<SpaceCell>& triangles_;
   UnionFind corners_;  // corners of triangles that are one vertex of a smooth side
+  UnionFind pieces_;   // triangles that are joined without a line between
+  std::vector<std::vector<std::int32_t>> sides_ = {};  // by root of a piece: sides of the atlas
   ElementCells made_;
 };
 
