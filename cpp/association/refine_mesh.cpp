@@ -13,6 +13,7 @@
 #include "association/keep_shapes.h"
 #include "association/mesh_curves.h"
 #include "association/periodic_refinement.h"
+#include "association/pole_corners.h"
 #include "association/thresholds.h"
 #include "cad/batches.h"
 #include "mesh/editable_mesh.h"
@@ -177,46 +178,26 @@ class Refiner {
   }
 
   // The place that the way from `other` reaches: a pole has any place of its side.
-  struct Box {
-    Vec2 low, high;
-  };
-  static Vec2 arrival(const FaceMesh& face, const std::map<std::int32_t, Box>& poles, std::int32_t v, std::int32_t other) {
-    Vec2 p = face.uv[v];
+  static Vec2 arrival(const FaceMesh& face, const std::map<std::int32_t, PoleSide>& poles, std::int32_t v, std::int32_t other) {
     const auto pole = poles.find(face.vertex[v]);
-    if (pole == poles.end() || poles.contains(face.vertex[other])) return p;
-    const auto& [low, high] = pole->second;
-    if (low.y() == high.y()) p.x() = std::clamp(face.uv[other].x(), low.x(), high.x());
-    if (low.x() == high.x()) p.y() = std::clamp(face.uv[other].y(), low.y(), high.y());
-    return p;
-  }
-
-  static std::map<std::int32_t, Box> poles_of(const FaceMesh& face) {
-    std::map<std::int32_t, Box> poles;
-    for (const Triangle& t : face.flattened)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t a = t[i], b = t[(i + 1) % 3];
-        if (face.vertex[a] != face.vertex[b]) continue;
-        const Box box{face.uv[a].cwiseMin(face.uv[b]), face.uv[a].cwiseMax(face.uv[b])};
-        const auto [pole, is_new] = poles.try_emplace(face.vertex[a], box);
-        if (!is_new) pole->second = {pole->second.low.cwiseMin(box.low), pole->second.high.cwiseMax(box.high)};
-      }
-    return poles;
+    if (pole == poles.end() || poles.contains(face.vertex[other])) return face.uv[v];
+    return pole->second.arrival(face.uv[v], face.uv[other]);
   }
 
   /// Returns the shapes of the parents of its triangles; none if nothing was divided.
   std::vector<float> divide_face(std::size_t f, const std::vector<CurveSide>& curve_sides_of_face) {
     FaceMesh& face = mesh_.faces[f];
-    std::vector<Key> keys;
-    keys.reserve(2 * face.triangles.size());
     bool any = false;
-    for_sides(face, [&](std::int32_t a, std::int32_t b) {
-      keys.push_back(ordered(a, b));
-      any = any || marks_->has(face.vertex[a], face.vertex[b]);
-    });
+    for_sides(face, [&](std::int32_t a, std::int32_t b) { any = any || marks_->has(face.vertex[a], face.vertex[b]); });
     if (!any) {
       face.mid.clear(), face.mid_uv.clear(), face.mid_vertex.clear();
       return {};
     }
+    const std::map<std::int32_t, PoleSide> poles = poles_of(face);
+    if (!periodic_) part_poles(face, poles, curve_sides_of_face);
+    std::vector<Key> keys;
+    keys.reserve(2 * face.triangles.size());
+    for_sides(face, [&](std::int32_t a, std::int32_t b) { keys.push_back(ordered(a, b)); });
     const EdgeList local(std::move(keys), face.uv.size());
     middle_.assign(local.size(), -1);
     struct New {
@@ -225,7 +206,6 @@ class Refiner {
       Vec3 xyz;
     };
     std::vector<New> inside;
-    const std::map<std::int32_t, Box> poles = poles_of(face);
     std::map<Key, std::int32_t> joined;  // edges that flattened triangles have twice
     for (const Triangle& t : face.flattened)
       for (std::size_t i = 0; i < 3; ++i)
