@@ -2,7 +2,9 @@
 #include "association/divide_elements.h"
 
 #include "mesh/quality.h"
+#include "predicates/convex_quad.h"
 #include "predicates/predicates.h"
+#include "surface/elements/quads/quad_shape.h"
 
 namespace carreau::refining {
 
@@ -18,7 +20,7 @@ class Division {
     triangles_.reserve(4 * face_.triangles.size()), before_.reserve(4 * face_.triangles.size());
     for (std::size_t k = 0; k < static_cast<std::size_t>(face_.quads); ++k) divide_quad(face_.quad(k), add_centre);
     place_centres(centres_);
-    before_.assign(triangles_.size(), 0);  // parts of quadrilaterals have no shape to keep
+    before_.assign(triangles_.size(), 0);  // triangles of quadrilaterals have no shape to keep
     for (std::size_t t = 2 * static_cast<std::size_t>(face_.quads); t < face_.triangles.size(); ++t) {
       divide_triangle(face_.triangles[t]);
       before_.resize(triangles_.size(), static_cast<float>(shape(face_.triangles[t])));
@@ -31,7 +33,7 @@ class Division {
       face_.quads = 0, face_.triangles = std::move(triangles_);
     } else {
       set_cells(face_, quads_, triangles_, vertices_);
-      before_.insert(before_.begin(), 2 * quads_.size(), 0);
+      before_.insert(before_.begin(), of_quads_.begin(), of_quads_.end());
     }
     return std::move(before_);
   }
@@ -43,6 +45,22 @@ class Division {
   }
   [[nodiscard]] double shape(const Triangle& t) const { return shape_of(face_, t, vertices_); }
 
+  [[nodiscard]] float quad_shape(const std::array<std::int32_t, 4>& q) const {
+    std::array<Vec3, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = vertices_[face_.vertex[q[i]]];
+    return static_cast<float>(min_shape(p));
+  }
+
+  // The blend of the sides (Coons 1967): a side that bends moves it by half of its bulge, the mean of middles by a quarter. A corner at a
+  // pole has any place of its side, for which the blend may not fit.
+  [[nodiscard]] Vec2 centre_of(const std::array<std::int32_t, 4>& q, const std::array<std::int32_t, 4>& m) const {
+    Vec2 mean{0, 0}, blend{0, 0};
+    for (std::size_t i = 0; i < 4; ++i) mean += 0.25 * face_.uv[m[i]], blend += 0.5 * face_.uv[m[i]] - 0.25 * face_.uv[q[i]];
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!is_convex_quad(face_.uv[q[i]], face_.uv[m[i]], blend, face_.uv[m[(i + 3) % 4]])) return mean;
+    return blend;
+  }
+
   void divide_quad(const std::array<std::int32_t, 4>& q, const std::function<std::int32_t(const Vec2&)>& add_centre) {
     std::array<std::int32_t, 4> m{};
     std::vector<std::int32_t> polygon;
@@ -53,10 +71,10 @@ class Division {
     }
     if (polygon.size() == 4) {
       quads_.push_back(q);
+      of_quads_.insert(of_quads_.end(), 2, quad_shape(q));
     } else if (polygon.size() == 8) {
-      Vec2 uv{0, 0};
-      for (const std::int32_t v : m) uv += 0.25 * face_.uv[v];
-      const std::int32_t centre = add_centre(uv);
+      const std::int32_t centre = add_centre(centre_of(q, m));
+      of_quads_.insert(of_quads_.end(), 8, quad_shape(q));
       centres_.push_back(centre);
       for (std::size_t i = 0; i < 4; ++i) quads_.push_back({q[i], m[i], centre, m[(i + 3) % 4]});
     } else {
@@ -130,6 +148,7 @@ class Division {
   std::vector<std::array<std::int32_t, 4>> quads_;
   std::vector<Triangle> triangles_;
   std::vector<float> before_;  // of triangles_
+  std::vector<float> of_quads_;  // two for each of quads_
   std::vector<std::int32_t> centres_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "association/divide_elements.h"
 #include "association/harmonic_map.h"
+#include "association/keep_quads.h"
 #include "association/thresholds.h"
 #include "mesh/editable_mesh.h"
 #include "model/format_point.h"
@@ -149,15 +150,24 @@ void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
   const double poor = isotropic_ ? poor_shape : 0;
   repair(f, triangles_below(face, [&](std::size_t) { return poor; }), false);
   if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], kept_shape) - shape_loss, 0.0); }), true);
+  if (face.quads == 0) return;
+  std::vector<double> kept;
+  for (const float shape : before) kept.push_back(isotropic_ ? std::max(std::min<double>(shape, kept_shape) - shape_loss, 0.0) : 0);
+  restore_quads(mesh_.faces[f], mesh_.vertices, cad_, isotropic_, fixed_of(face), kept, monitor_);
+}
+
+std::vector<char> ShapeKeeper::fixed_of(const FaceMesh& face) const {
+  std::vector<char> fixed(face.uv.size());
+  for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = fixed_[face.vertex[v]];
+  for (const Triangle& t : face.flattened)
+    for (const std::int32_t v : t) fixed[v] = 1;
+  return fixed;
 }
 
 void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, bool moves) {
   FaceMesh& face = mesh_.faces[f];
   if (worse.empty()) return;
-  std::vector<char> fixed(face.uv.size());
-  for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = fixed_[face.vertex[v]];
-  for (const Triangle& t : face.flattened)
-    for (const std::int32_t v : t) fixed[v] = 1;
+  std::vector<char> fixed = fixed_of(face);
   for (std::size_t t = 0; t < 2 * static_cast<std::size_t>(face.quads); ++t)
     for (const std::int32_t v : face.triangles[t]) fixed[v] = 1;
   Surroundings around(face, mesh_.vertices, fixed, worse);

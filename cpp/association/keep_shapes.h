@@ -13,13 +13,14 @@
 namespace carreau::refining {
 
 /// Restores the shapes of divided triangles. The middle of a curve's edge lies beside its chord, by its sagitta: triangles beside curves lose
-/// height, and may turn. Swaps and moves as after meshing repair them, two rings around. Vertices of curves and quadrilaterals stay.
+/// height, and may turn. Swaps and moves as after meshing repair them, two rings around; restore_quads() moves vertices of quadrilaterals.
+/// Vertices of curves stay.
 class ShapeKeeper {
  public:
   /// `isotropic`: shapes in space count; else only turned triangles are repaired. Keeps references.
   ShapeKeeper(SurfaceMesh& mesh, Cad& cad, bool isotropic, Monitor& monitor);
 
-  /// `before`: the shape of the parent of each triangle of the face. Does not evaluate the host if no shape is worse.
+  /// `before`: as divide_elements() returns it. Does not evaluate the host if no shape is worse.
   void restore(std::size_t face, std::span<const float> before);
 
  private:
@@ -35,6 +36,7 @@ class ShapeKeeper {
   template <typename Kept>
   [[nodiscard]] std::vector<std::int32_t> triangles_below(const FaceMesh& face, const Kept& kept) const;
   void repair(std::size_t face, const std::vector<std::int32_t>& worse, bool moves);
+  [[nodiscard]] std::vector<char> fixed_of(const FaceMesh& face) const;
   [[nodiscard]] bool is_curve_edge(std::int32_t v, std::int32_t w) const;
 
   SurfaceMesh& mesh_;

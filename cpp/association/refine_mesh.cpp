@@ -13,6 +13,7 @@
 #include "association/keep_shapes.h"
 #include "association/mesh_curves.h"
 #include "association/periodic_refinement.h"
+#include "association/pole_corners.h"
 #include "association/thresholds.h"
 #include "cad/batches.h"
 #include "mesh/editable_mesh.h"
@@ -180,17 +181,17 @@ class Refiner {
   /// Returns the shapes of the parents of its triangles; none if nothing was divided.
   std::vector<float> divide_face(std::size_t f, const std::vector<CurveSide>& curve_sides_of_face) {
     FaceMesh& face = mesh_.faces[f];
-    std::vector<Key> keys;
-    keys.reserve(2 * face.triangles.size());
     bool any = false;
-    for_sides(face, [&](std::int32_t a, std::int32_t b) {
-      keys.push_back(ordered(a, b));
-      any = any || marks_->has(face.vertex[a], face.vertex[b]);
-    });
+    for_sides(face, [&](std::int32_t a, std::int32_t b) { any = any || marks_->has(face.vertex[a], face.vertex[b]); });
     if (!any) {
       face.mid.clear(), face.mid_uv.clear(), face.mid_vertex.clear();
       return {};
     }
+    const Poles poles(face);
+    if (!periodic_) part_poles(face, poles, curve_sides_of_face);
+    std::vector<Key> keys;
+    keys.reserve(2 * face.triangles.size());
+    for_sides(face, [&](std::int32_t a, std::int32_t b) { keys.push_back(ordered(a, b)); });
     const EdgeList local(std::move(keys), face.uv.size());
     middle_.assign(local.size(), -1);
     struct New {
@@ -199,7 +200,6 @@ class Refiner {
       Vec3 xyz;
     };
     std::vector<New> inside;
-    const Poles poles(face);
     std::map<Key, std::int32_t> joined;  // edges that flattened triangles have twice
     for (const Triangle& t : face.flattened)
       for (std::size_t i = 0; i < 3; ++i)

@@ -40,6 +40,9 @@ class Poles {
     return of_vertex_.contains(face_.vertex[other]) ? face_.uv[v] : arrival(v, face_.uv[other]);
   }
 
+  [[nodiscard]] bool empty() const noexcept { return of_vertex_.empty(); }
+  /// `vertex`: of space.
+  [[nodiscard]] bool contains(std::int32_t vertex) const { return of_vertex_.contains(vertex); }
   [[nodiscard]] const FaceMesh& face() const noexcept { return face_; }
 
  private:

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes of quadrilaterals that a refinement keeps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cad/cad.h"
+#include "mesh/surface_mesh.h"
+#include "support/monitor.h"
+
+namespace carreau::refining {
+
+/// Moves vertices of elements whose shape is below `kept`, worst first, on the surface, where the worst element around is best: the search
+/// that ends the meshing of quadrilaterals (WorstQuads). `fixed`: by local vertex; `kept`: by triangle of the face. `isotropic`: shapes
+/// in space count; else only turned elements. Does not evaluate the host if no element is worse.
+void restore_quads(FaceMesh& face, std::vector<Vec3>& vertices, Cad& cad, bool isotropic, std::vector<char> fixed, std::span<const double> kept,
+                   Monitor& monitor);
+
+/// The number of elements that are turned, in (u, v) or in space.
+std::size_t count_turned(const FaceMesh& face, const std::vector<Vec3>& vertices);
+
+}  // namespace carreau::refining
