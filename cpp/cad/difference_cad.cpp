@@ -33,6 +33,8 @@ constexpr double narrow_steps[] = {1, 0.125, 0.015625};
 // around the place that must lie inside, as a share of the way.
 constexpr double steps_inside[] = {32, 8, 2, 256};
 constexpr double radius_inside = 0.5;
+// Step there, as a share of the radius: differences of a root lose a digit by 1 / 16, none by 1 / 64.
+constexpr double step_inside = 1.0 / 64;
 // A fourth of the step changes derivatives by less than the first share of them, unless they grow without bound; and
 // rounding changes them by less than the second share of the first derivatives over the box.
 constexpr double singular_change = 0.25, rounding_change = 1e-3;
@@ -295,7 +297,7 @@ bool DifferenceCad::add_from_inside(int face, const Task& task, Vec2 uv, Differe
       if (!admits(face, uv, disc, proof)) continue;
       for (const unsigned bit : {want_first, want_second}) {
         if (bit > task.missing || (surface_gives_ & bit) != 0) continue;
-        const double share = std::min(1.0, radius_inside * steps / 2);
+        const double share = std::min(1.0, radius_inside * steps * step_inside);
         const Task own = bit == task.missing ? task : Task{bit, want_position, first_step};
         if (!add_differences_at(face, own, inside, {share * u.step, Side::central}, {share * v.step, Side::central}, Proof::places, out)) return false;
       }
