@@ -20,12 +20,26 @@ constexpr double first_step = 1e-5;
 constexpr double second_step = 2e-4;
 // Points whose stencils are evaluated in one batch.
 constexpr std::size_t chunk = 512;
-// Directions of formulas beside a boundary: their bisectors, and half the angle between both, in radians. Corners of a
-// domain are seldom sharper than the last one.
-constexpr int bisectors = 16;
-constexpr double half_angles[] = {0.785, 0.35, 0.12, 0.03};
+// Directions of formulas beside a boundary: half the angle between both, in radians, and the number of their bisectors.
+// Corners of a domain are seldom sharper than the last one.
+struct Fan {
+  double half_angle;
+  int bisectors;
+};
+constexpr Fan fans[] = {{0.785, 16}, {0.35, 16}, {0.12, 48}, {0.03, 192}};
 // Fractions of the usual step, where domains are narrow.
 constexpr double narrow_steps[] = {1, 0.125, 0.015625};
+// Steps from the boundary to a place whose derivatives replace those of a singular boundary, or of a cusp; and the radius
+// around the place that must lie inside, as a share of the way.
+constexpr double steps_inside[] = {32, 8, 2, 256};
+constexpr double radius_inside = 0.5;
+// Step there, as a share of the radius: differences of a root lose a digit by 1 / 16, none by 1 / 64.
+constexpr double step_inside = 1.0 / 64;
+// A fourth of the step changes derivatives by less than the first share of them, unless they grow without bound; and
+// rounding changes them by less than the second share of the first derivatives over the box.
+constexpr double singular_change = 0.25, rounding_change = 1e-3;
+// Places inside by which positions outside are extrapolated, in ways from the boundary.
+constexpr double ways_inside[] = {1, 0.5, 0.25};
 
 // Points of all formulas of one (u, v), in the order in which `combine` reads the values.
 void append_points(bool second_from_position, Vec2 uv, DifferenceStep u, DifferenceStep v, std::vector<Vec2>& points) {
@@ -93,12 +107,19 @@ void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
 }
 
 void DifferenceCad::set_boundary(int face, std::vector<BoundaryCurve> boundary) {
-  domains_.insert_or_assign(face, ParameterDomain(std::move(boundary)));
+  domains_.insert_or_assign(face, Domain{ParameterDomain(boundary), TrimmedDomain(face, boundary)});
 }
 
-bool DifferenceCad::admits(int face, Vec2 uv, std::span<const Vec2> points) const {
+const DifferenceCad::Domain* DifferenceCad::domain_of(int face) const {
   const auto domain = domains_.find(face);
-  return domain == domains_.end() || domain->second.admits(uv, points);
+  return domain == domains_.end() ? nullptr : &domain->second;
+}
+
+bool DifferenceCad::admits(int face, Vec2 uv, std::span<const Vec2> points, Proof proof) {
+  const Domain* const domain = domain_of(face);
+  if (domain == nullptr || proof == Proof::none) return true;
+  if (proof == Proof::steps) return domain->steps.admits(uv, points);
+  return std::all_of(points.begin(), points.end(), [&](const Vec2& p) { return domain->places.contains(p, *this); });
 }
 
 DifferenceCad::Box DifferenceCad::box_at(int face, const Vec2& uv) const {
@@ -109,7 +130,40 @@ DifferenceCad::Box DifferenceCad::box_at(int face, const Vec2& uv) const {
   return {uv - half, uv + half};
 }
 
+// Meshes have places between a concave curve and its chords, on which the source need not be defined.
 void DifferenceCad::surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
+  const Domain* const domain = domain_of(face);
+  if (domain == nullptr) return surface_inside(face, want, uv, out);
+  std::vector<Vec2> inside;
+  std::vector<std::optional<Vec2>> closest(uv.size());
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    closest[i] = domain->places.closest_from_outside(uv[i], *this);
+    if (!closest[i]) inside.push_back(uv[i]);
+  }
+  if (inside.size() == uv.size()) return surface_inside(face, want, uv, out);
+  std::vector<SurfaceJet> jets(inside.size());
+  surface_inside(face, want, inside, jets);
+  for (std::size_t i = 0, next = 0; i < uv.size(); ++i) out[i] = closest[i] ? extrapolated(face, want, uv[i], *closest[i]) : jets[next++];
+}
+
+// Derivatives are the closest ones. Three places on a line through the closest one give the position by a parabola: it
+// stays near the surface if derivatives grow without bound at the boundary.
+SurfaceJet DifferenceCad::extrapolated(int face, unsigned want, const Vec2& uv, const Vec2& closest) {
+  SurfaceJet jet;
+  surface_inside(face, want, {&closest, 1}, {&jet, 1});
+  if ((want & want_position) == 0) return jet;
+  for (const double a : ways_inside) {
+    const Vec2 places[] = {closest - a * (uv - closest), closest - 2 * a * (uv - closest)};
+    if (!admits(face, closest, places, Proof::places)) continue;
+    SurfaceJet values[2];
+    surface_inside(face, want_position, places, values);
+    jet.s = ((1 + a) * (1 + 2 * a) * jet.s - 2 * (1 + 2 * a) * values[0].s + (1 + a) * values[1].s) / (2 * a * a);
+    break;
+  }
+  return jet;
+}
+
+void DifferenceCad::surface_inside(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
   const unsigned given = want & surface_gives_, missing = want & ~surface_gives_;
   if (given != 0) source_->surface(face, given, uv, out);
   for (const unsigned bit : {want_first, want_second}) {
@@ -123,7 +177,6 @@ void DifferenceCad::surface(int face, unsigned want, std::span<const Vec2> uv, s
 }
 
 void DifferenceCad::add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
-  const bool second_from_position = task.missing == want_second && task.from == want_position;
   std::vector<Vec2> points;
   std::vector<std::pair<DifferenceStep, DifferenceStep>> steps;
   steps.reserve(uv.size());
@@ -134,8 +187,8 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
                          v = difference_step(p.y(), box.low.y(), box.high.y(), task.relative);
     steps.emplace_back(u, v);
     const std::size_t first = points.size();
-    append_points(second_from_position, p, u, v, points);
-    beside.push_back(admits(face, p, std::span(points).subspan(first)) ? 0 : 1);
+    append_points(task.second_from_position(), p, u, v, points);
+    beside.push_back(admits(face, p, std::span(points).subspan(first), Proof::steps) ? 0 : 1);
     if (beside.back() != 0) points.resize(first);
   }
   std::vector<SurfaceJet> values(points.size());
@@ -157,10 +210,10 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
 }
 
 bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v,
-                                       bool anywhere, SurfaceJet& out) {
+                                       Proof proof, SurfaceJet& out) {
   std::vector<Vec2> points;
-  append_points(task.missing == want_second && task.from == want_position, uv, u, v, points);
-  if (!anywhere && !admits(face, uv, points)) return false;
+  append_points(task.second_from_position(), uv, u, v, points);
+  if (!admits(face, uv, points, proof)) return false;
   std::vector<SurfaceJet> values(points.size());
   try {
     source_->surface(face, task.from, points, values);
@@ -173,12 +226,12 @@ bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, Diff
 
 // Differences along two directions that lead into the domain, transformed to those of u and v: with the matrix W of both
 // steps, the gradient g becomes W^T g and the Hessian H becomes W^T H W.
-bool DifferenceCad::add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out) {
-  const bool second_from_position = task.missing == want_second && task.from == want_position;
+bool DifferenceCad::add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out) {
+  const bool second_from_position = task.second_from_position();
   const Stencil along = stencil_of(second_from_position ? 2 : 1, Side::forward), mixed = stencil_of(1, Side::forward);
   std::vector<Vec2> points;
   for (const double narrow : narrow_steps)
-    for (const double half_angle : half_angles)
+    for (const auto& [half_angle, bisectors] : fans)
       for (int k = 0; k < bisectors; ++k) {
         const double angle = 2 * std::numbers::pi * k / bisectors;
         const auto step_at = [&](double a) -> Vec2 { return {narrow * u.step * std::cos(a), narrow * v.step * std::sin(a)}; };
@@ -188,7 +241,7 @@ bool DifferenceCad::add_along_directions(int face, const Task& task, Vec2 uv, Di
           for (int i = 0; i < along.count; ++i) points.push_back(uv + along.offset[i] * w);
         for (int i = 0; second_from_position && i < mixed.count; ++i)
           for (int j = 0; j < mixed.count; ++j) points.push_back(uv + mixed.offset[i] * w1 + mixed.offset[j] * w2);
-        if (!admits(face, uv, points)) continue;
+        if (!admits(face, uv, points, proof)) continue;
         std::vector<SurfaceJet> values(points.size());
         try {
           source_->surface(face, task.from, points, values);
@@ -229,25 +282,79 @@ bool DifferenceCad::add_along_directions(int face, const Task& task, Vec2 uv, Di
   return false;
 }
 
-// The host's domain ends near the point, inside of its box: every pair of sides that the box allows is evaluated.
-void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out) {
-  const Box box = box_at(face, uv);
-  DifferenceStep u = difference_step(uv.x(), box.low.x(), box.high.x(), task.relative),
-                 v = difference_step(uv.y(), box.low.y(), box.high.y(), task.relative);
+// Derivatives of a place inside, near uv, all of them.
+bool DifferenceCad::add_from_inside(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out) {
+  constexpr int directions = 32, around = 8;
+  for (const double steps : steps_inside)
+    for (int k = 0; k < directions; ++k) {
+      const auto at = [&](int i, int n, double way) -> Vec2 {
+        const double angle = 2 * std::numbers::pi * i / n;
+        return {way * u.step * std::cos(angle), way * v.step * std::sin(angle)};
+      };
+      const Vec2 inside = uv + at(k, directions, steps);
+      std::vector<Vec2> disc{inside};
+      for (int i = 0; i < around; ++i) disc.push_back(inside + at(i, around, radius_inside * steps));
+      if (!admits(face, uv, disc, proof)) continue;
+      for (const unsigned bit : {want_first, want_second}) {
+        if (bit > task.missing || (surface_gives_ & bit) != 0) continue;
+        const double share = std::min(1.0, radius_inside * steps * step_inside);
+        const Task own = bit == task.missing ? task : Task{bit, want_position, first_step};
+        if (!add_differences_at(face, own, inside, {share * u.step, Side::central}, {share * v.step, Side::central}, Proof::places, out)) return false;
+      }
+      return true;
+    }
+  return false;
+}
+
+bool DifferenceCad::add_on_any_side(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out) {
   const auto sides = [](Side side) {
     return side == Side::central ? std::vector{Side::central, Side::forward, Side::backward} : std::vector{side};
   };
-  const std::vector<Side> sides_u = sides(u.side), sides_v = sides(v.side);
-  // No step may be proved to stay inside: cusps, strips narrower than a hundredth of their length.
-  const bool is_bounded = domains_.find(face) != domains_.end();
-  for (const bool anywhere : {false, true}) {
-    for (const Side side_u : sides_u)
-      for (const Side side_v : sides_v) {
-        u.side = side_u, v.side = side_v;
-        if (add_differences_at(face, task, uv, u, v, anywhere, out)) return;
-      }
-    if (!is_bounded) break;
-    if (!anywhere && add_along_directions(face, task, uv, u, v, out)) return;
+  for (const Side side_u : sides(u.side))
+    for (const Side side_v : sides(v.side))
+      if (add_differences_at(face, task, uv, {u.step, side_u}, {v.step, side_v}, proof, out)) return true;
+  return false;
+}
+
+// Derivatives of a hemisphere over its disc grow without bound towards the circle, and no difference there approaches
+// them: its curvature comes from a place inside.
+void DifferenceCad::avoid_singular_boundary(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out) {
+  DifferenceStep finer_u = u, finer_v = v;
+  finer_u.step /= 4, finer_v.step /= 4;
+  SurfaceJet finer;
+  if (!add_on_any_side(face, task, uv, finer_u, finer_v, Proof::steps, finer) &&
+      !add_along_directions(face, task, uv, finer_u, finer_v, Proof::steps, finer))
+    return;
+  const Box box = box_at(face, uv);
+  const Vec2 size = box.high - box.low;
+  const auto norm_of = [&](const SurfaceJet& jet) {
+    return size.x() * size.x() * norm(jet.suu) + size.x() * size.y() * norm(jet.suv) + size.y() * size.y() * norm(jet.svv);
+  };
+  SurfaceJet change;
+  change.suu = finer.suu - out.suu, change.suv = finer.suv - out.suv, change.svv = finer.svv - out.svv;
+  if (!(norm_of(change) > singular_change * norm_of(finer))) return;
+  SurfaceJet first;
+  surface_inside(face, want_first, {&uv, 1}, {&first, 1});
+  if (norm_of(change) > rounding_change * (size.x() * norm(first.su) + size.y() * norm(first.sv)))
+    add_from_inside(face, task, uv, u, v, Proof::steps, out);
+}
+
+// The host's domain ends near the point, inside of its box: every pair of sides that the box allows is evaluated.
+void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out) {
+  const Box box = box_at(face, uv);
+  const DifferenceStep u = difference_step(uv.x(), box.low.x(), box.high.x(), task.relative),
+                       v = difference_step(uv.y(), box.low.y(), box.high.y(), task.relative);
+  if (domain_of(face) == nullptr) {
+    if (add_on_any_side(face, task, uv, u, v, Proof::none, out)) return;
+  } else {
+    if (add_on_any_side(face, task, uv, u, v, Proof::steps, out) || add_along_directions(face, task, uv, u, v, Proof::steps, out)) {
+      if (task.second_from_position()) avoid_singular_boundary(face, task, uv, u, v, out);
+      return;
+    }
+    // No step is proved to stay inside: cusps, strips narrower than a hundredth of their length. The curves decide.
+    for (const double narrow : narrow_steps)
+      if (add_on_any_side(face, task, uv, {narrow * u.step, u.side}, {narrow * v.step, v.side}, Proof::places, out)) return;
+    if (add_along_directions(face, task, uv, u, v, Proof::places, out) || add_from_inside(face, task, uv, u, v, Proof::places, out)) return;
   }
   throw CallbackError(
       Where{.face = face, .uv = uv},

@@ -10,6 +10,7 @@
 #include "cad/cad.h"
 #include "cad/parameter_domain.h"
 #include "cad/stencil.h"
+#include "cad/trimmed_domain.h"
 
 namespace carreau {
 
@@ -18,8 +19,10 @@ namespace carreau {
 /// when they are given (1e-10), else from positions (1e-7). On curves the points stay in [a, b]. On surfaces they stay
 /// in the face's box when it is known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
 /// They stay in the closed domain if its boundary is known (set_boundary): beside it formulas are one-sided, along
-/// directions that lead inside if the directions of u and v do not. Otherwise, and in cusps, one-sided formulas replace
-/// values that are not finite or fail. If all formulas fail, the error is a CallbackError at (u, v).
+/// directions that lead inside if the directions of u and v do not. Then a place outside, between a curve and its chord,
+/// does not reach the source either: places inside give its position, and the boundary beside it its derivatives.
+/// Without a boundary, one-sided formulas replace values that are not finite or fail. If all formulas fail, the error is
+/// a CallbackError at (u, v).
 class DifferenceCad : public Cad {
  public:
   /// *_gives: the Want bits that `source` answers itself; want_position must be among them.
@@ -45,24 +48,38 @@ class DifferenceCad : public Cad {
   struct Box {
     Vec2 low, high;
   };
+  /// `steps` proves quickly that steps stay inside, `places` decides by the curves.
+  struct Domain {
+    ParameterDomain steps;
+    TrimmedDomain places;
+  };
   /// Plan of the differences for the missing bits: derivatives of order `want`, from order `from`.
   struct Task {
     unsigned missing = 0;
     unsigned from = want_position;
     double relative = 0;
+    [[nodiscard]] bool second_from_position() const noexcept { return missing == want_second && from == want_position; }
   };
+  /// Decides which steps are allowed.
+  enum class Proof { none, steps, places };
   [[nodiscard]] Box box_at(int face, const Vec2& uv) const;
+  void surface_inside(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out);
+  SurfaceJet extrapolated(int face, unsigned want, const Vec2& uv, const Vec2& closest);
   void add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out);
-  bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, bool anywhere, SurfaceJet& out);
+  bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out);
   void add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out);
-  bool add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
-  /// True if steps from uv to the points provably stay in the domain; always if its boundary is not known.
-  [[nodiscard]] bool admits(int face, Vec2 uv, std::span<const Vec2> points) const;
+  bool add_on_any_side(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out);
+  bool add_along_directions(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out);
+  bool add_from_inside(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, Proof proof, SurfaceJet& out);
+  void avoid_singular_boundary(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
+  [[nodiscard]] const Domain* domain_of(int face) const;
+  /// True if steps from uv to the points stay in the domain by `proof`; always if its boundary is not known.
+  [[nodiscard]] bool admits(int face, Vec2 uv, std::span<const Vec2> points, Proof proof);
 
   std::unique_ptr<Cad> source_;
   unsigned surface_gives_, curve_gives_;
   std::map<int, Box> boxes_;
-  std::map<int, ParameterDomain> domains_;
+  std::map<int, Domain> domains_;
 };
 
 }  // namespace carreau

@@ -32,14 +32,14 @@ BoxTree::Box box_around(const Vec2& a, const Vec2& b, double margin) {
   return box;
 }
 
+}  // namespace
+
 std::pair<Vec2, Vec2> box_of(std::span<const BoundaryCurve> boundary) {
   Vec2 low{infinity, infinity}, high{-infinity, -infinity};
   for (const BoundaryCurve& curve : boundary)
     for (const Vec2& p : curve.uv) low = low.cwiseMin(p), high = high.cwiseMax(p);
   return {low, high};
 }
-
-}  // namespace
 
 void join_ends(std::vector<BoundaryCurve>& boundary) {
   const auto [low, high] = box_of(boundary);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cad/cad.h"
@@ -12,6 +13,8 @@ namespace carreau {
 
 /// Gives the ends of curves that are nearest to each other, in shares of the extents of all, one point: the chords form loops then.
 void join_ends(std::vector<BoundaryCurve>& boundary);
+/// The lowest and highest parameters of the samples.
+std::pair<Vec2, Vec2> box_of(std::span<const BoundaryCurve> boundary);
 
 /// Proves by the samples of the boundary, without the host, that steps lead into the domain. Searches are safe from
 /// several threads.

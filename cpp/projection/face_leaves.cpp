@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "projection/face_boundary.h"
 #include "projection/thresholds.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
@@ -395,7 +396,7 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
   const auto [low, high] = box_of_boundary(of, supports);
   pieces.region = {low, high};
   if (low.x() < high.x() && low.y() < high.y()) {
-    if (!is_box(of, supports, low, high)) pieces.domain.emplace(of, supports);
+    if (!is_box(of, supports, low, high)) pieces.domain.emplace(of.ref, boundary_of(of, supports));
     BoxTree::Box extent;
     for (const CurveSupport& support : supports)
       for (const Vec3& p : support.xyz) extent.add(p);

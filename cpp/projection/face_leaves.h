@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "cad/cad.h"
+#include "cad/trimmed_domain.h"
 #include "curve/support.h"
 #include "model/model.h"
 #include "projection/restricted_step.h"
-#include "projection/trimmed_domain.h"
 #include "support/box_tree.h"
 #include "support/monitor.h"
 

@@ -13,6 +13,7 @@
 #include "cad/part_cad.h"
 #include "geometry/discrete/discrete_cad.h"
 #include "geometry/discrete/refinement.h"
+#include "projection/face_boundary.h"
 #include "projection/point_search.h"
 #include "projection/thresholds.h"
 #include "support/error.h"
@@ -205,7 +206,7 @@ void Projector::State::prepare(int threads, Monitor& monitor) {
     }
     const auto [low, high] = box_of_boundary(face, supports.of_face[f]);
     std::optional<TrimmedDomain> domain;  // answers where the host fails
-    if (low.x() < high.x() && low.y() < high.y() && !is_box(face, supports.of_face[f], low, high)) domain.emplace(face, supports.of_face[f]);
+    if (low.x() < high.x() && low.y() < high.y() && !is_box(face, supports.of_face[f], low, high)) domain.emplace(face.ref, boundary_of(face, supports.of_face[f]));
     of_faces[f] = pieces_of_face(model, f, supports.of_face[f],
                                  [&](std::span<const Vec2> uv, std::span<SurfaceJet> jets) {
                                    evaluate_about(f, domain ? &*domain : nullptr, want_position, uv, jets);

@@ -10,7 +10,7 @@
 #include "measure/composite_evaluation.h"
 #include "measure/discrete_evaluation.h"
 #include "model/geometries.h"
-#include "projection/trimmed_domain.h"
+#include "projection/face_boundary.h"
 #include "session/gluing.h"
 #include "support/infinity.h"
 #include "fields/part_monitor.h"

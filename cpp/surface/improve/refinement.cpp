@@ -42,7 +42,7 @@ class Refinement {
     // A bend needs two or three halvings. More divisions show a surface that is rough at every scale.
     constexpr std::size_t max_divisions = 32;
     // A division adds two triangles: guaranteed planes at most double the mesh.
-    const std::size_t most = std::isfinite(kept_.triangle_angle_deg) ? mesh_.plane.triangles.size() / 2 : max_divisions * wrong.size();
+    const std::size_t most = std::isfinite(kept_.triangle_angle_deg) ? mesh_.plane.triangles.size() : max_divisions * wrong.size();
     left_ = Budget(static_cast<std::int64_t>(std::min(most, max_divisions * wrong.size())));
     std::vector<int> still = improve_ring_by_ring(
         wrong, {}, left_, monitor_, [this](int t) { return !is_sound(t); }, [this](int t) { return mend(t); },
@@ -274,8 +274,9 @@ class Refinement {
     if (!(norm(m - lerp(a, b, 0.5)) < norm(b - a)) || norm(m - c) < least || norm(m - d) < least)
       return false;
     if (is_flat(a, m, c) || is_flat(m, b, c) || is_flat(b, m, d) || is_flat(m, a, d)) return false;
-    // Angles of triangles that follow the surface are not worth slivers.
-    const auto is_poor = [&](const Vec3& u, const Vec3& v, const Vec3& w) { return quality_q2(u, v, w) < min_divided_shape; };
+    // Angles of triangles that follow the surface are not worth slivers, unless planes are guaranteed.
+    const double poor = std::isfinite(kept_.triangle_angle_deg) ? min_guaranteed_shape : min_divided_shape;
+    const auto is_poor = [&](const Vec3& u, const Vec3& v, const Vec3& w) { return quality_q2(u, v, w) < poor; };
     if (least > 0 && input_.isotropic && (is_poor(a, m, c) || is_poor(m, b, c) || is_poor(b, m, d) || is_poor(m, a, d))) return false;
     editable_->split(q, uv, m);
     if (with_normals_) mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{0, 0, 0}));

@@ -19,6 +19,8 @@ namespace refinement {
 /// Shape of the triangles that a division for an angle or a distance makes, with isotropic sizes. Halves of an equilateral
 /// triangle have .75.
 inline constexpr double min_divided_shape = 0.4;
+/// The same if planes of triangles keep their angle (geo_guarantee 2): beside a long straight side they need halves of halves.
+inline constexpr double min_guaranteed_shape = 0.1;
 /// Largest number of divisions that lead to a triangle. If all triangles beside a coarse chord are turned over,
 /// divisions would continue until vertices coincide.
 inline constexpr std::uint8_t deepest = 12;

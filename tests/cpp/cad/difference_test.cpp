@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "cad/difference_cad.h"
+#include "cad/fundamental_forms.h"
 #include "cad/parameter_domain.h"
 #include "cad/stencil.h"
+#include "cad/trimmed_domain.h"
 #include "surfaces.h"
 
 namespace carreau {
@@ -283,6 +287,71 @@ TEST(DifferenceCad, NeverLeavesADomainWhoseBoundaryIsKnown) {
         }
       for (const Vec2& p : source->asked) ASSERT_TRUE(shape.contains(p)) << shape.name << ": " << p.x() << " " << p.y();
     }
+}
+
+/// A crescent: the unit disc without another one at .6, with corners of 35 degrees.
+Vec2 on_crescent(int ic, double t) { return ic == 1 ? on_circle(1, t) : Vec2{0.6 - std::cos(t), std::sin(t)}; }
+bool in_crescent(Vec2 p) { return norm(p) <= 1 && norm(p - Vec2{0.6, 0}) >= 1; }
+std::vector<BoundaryCurve> around_crescent() {
+  const double corner = std::acos(0.3);
+  const auto of = [](int ic, double a, double b) { return sampled(ic, a, b, 40, [ic](double t) { return on_crescent(ic, t); }); };
+  return {of(1, corner, 2 * pi - corner), of(2, -corner, corner)};
+}
+
+TEST(TrimmedDomain, DecidesByTheCurves) {
+  auto host = std::make_unique<Source>();
+  host->curve_of = on_crescent;
+  DifferenceCad cad(std::move(host), want_position, want_position);
+  const TrimmedDomain crescent(1, around_crescent());
+  std::vector<Vec2> places;
+  for (int i = -100; i <= 100; ++i)
+    for (int j = -100; j <= 100; ++j) places.emplace_back(0.0103 * i, 0.0103 * j);
+  for (int i = 0; i < 4000; ++i) places.push_back(on_crescent(1, std::acos(0.3)) + on_circle(std::pow(10, -1 - i % 1000 * 0.005), 0.618 * i));
+  for (const Vec2& p : places) {
+    EXPECT_EQ(crescent.contains(p, cad), in_crescent(p)) << p.transpose();
+    const std::optional<Vec2> closest = crescent.closest_from_outside(p, cad);
+    EXPECT_EQ(closest.has_value(), !in_crescent(p));
+    if (closest) {
+      EXPECT_NEAR(std::min(std::abs(norm(*closest) - 1), std::abs(norm(*closest - Vec2{0.6, 0}) - 1)), 0, 1e-13);
+    }
+  }
+  for (const BoundaryCurve& curve : around_crescent())
+    for (const Vec2& p : curve.uv) EXPECT_TRUE(crescent.contains(p, cad)) << p.transpose();
+}
+
+TEST(DifferenceCad, ExtrapolatesPlacesOutside) {
+  // Third differences of the positions bound the error; the host is not called outside.
+  auto host = std::make_unique<Source>();
+  host->jet = exact;
+  host->curve_of = on_crescent;
+  Source* const source = host.get();
+  DifferenceCad cad(std::move(host), want_position, want_position);
+  cad.set_parameter_box(1, {-1, -1}, {0.6, 1});
+  cad.set_boundary(1, around_crescent());
+  for (const double d : {0.01, 0.001})
+    for (int i = -10; i <= 10; ++i) {
+      const Vec2 p = Vec2{0.6, 0} - (1 - d) * on_circle(1, 0.1 * i);
+      const SurfaceJet jet = surface_at(cad, 1, everything, p);
+      EXPECT_LE(norm(jet.s - exact(p).s), 10 * d * d * d + 1e-12) << d;
+      EXPECT_LE(norm(jet.su - exact(p).su), 10 * d);
+    }
+  for (const Vec2& p : source->asked) EXPECT_LE(1, norm(p - Vec2{0.6, 0}) + 1e-12) << p.transpose();
+}
+
+TEST(DifferenceCad, TakesCurvaturesFromInsideIfTheBoundaryIsSingular) {
+  // A hemisphere over its disc: slopes are infinite on the circle.
+  auto host = std::make_unique<Source>();
+  host->jet = [](Vec2 p) { return SurfaceJet{{p.x(), p.y(), std::sqrt(std::max(0.0, 1 - dot(p, p)))}, {}, {}, {}, {}, {}}; };
+  host->curve_of = [](int, double t) { return on_circle(1, t); };
+  DifferenceCad cad(std::move(host), want_position, want_position);
+  cad.set_parameter_box(1, {-1, -1}, {1, 1});
+  cad.set_boundary(1, {sampled(1, 0, 2 * pi, 200, [](double t) { return on_circle(1, t); })});
+  for (int i = 0; i < 20; ++i) {
+    const SurfaceJet jet = surface_at(cad, 1, everything, on_circle(1, i));
+    const PrincipalFrame frame = principal_frame(jet).value();
+    EXPECT_NEAR(std::abs(frame.k1), 1, 0.01);
+    EXPECT_NEAR(std::abs(frame.k2), 1, 0.01);
+  }
 }
 
 TEST(DifferenceCad, RejectsInvalidBoxes) {
