@@ -37,7 +37,17 @@ class NearVertices {
     stack[top++] = {0, std::ssize(order_)};
     while (top > 0) {
       const auto [begin, end] = stack[--top];
-      if (begin == end) continue;
+      const auto sees = [&](int v) {
+        const Vec3& p = points_[static_cast<std::size_t>(v)];
+        return !(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach;
+      };
+      if (end - begin <= leaf) {
+        left_ -= end - begin;
+        if (left_ < 0) return;
+        for (std::ptrdiff_t k = begin; k < end; ++k)
+          if (const int v = order_[static_cast<std::size_t>(k)]; sees(v) && !visit(v)) return;
+        continue;
+      }
       if (--left_ < 0) return;
       const std::ptrdiff_t middle = (begin + end) / 2;
       const int v = order_[static_cast<std::size_t>(middle)];
@@ -45,7 +55,7 @@ class NearVertices {
       const int axis = axis_[static_cast<std::size_t>(middle)];
       if (high[axis] >= p[axis]) stack[top++] = {middle + 1, end};
       if (low[axis] <= p[axis]) stack[top++] = {begin, middle};
-      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && !visit(v)) return;
+      if (sees(v) && !visit(v)) return;
     }
   }
 
@@ -61,11 +71,12 @@ class NearVertices {
   };
   // Twice as many as there are halves of halves.
   static constexpr std::size_t deepest = 128;
+  static constexpr std::ptrdiff_t leaf = 4;  // points
   // Vertices of the tree: sound boundaries of thousands of edges look at 30 a point.
   static constexpr std::int64_t fewest_looked_at = 1'000'000, looked_at_a_point = 300;
 
   void part(std::ptrdiff_t begin, std::ptrdiff_t end) {
-    if (end - begin < 2) return;
+    if (end - begin <= leaf) return;
     Vec3 low = points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])], high = low;
     for (std::ptrdiff_t k = begin + 1; k < end; ++k) {
       const Vec3& p = points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])];
