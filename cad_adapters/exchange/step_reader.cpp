@@ -250,6 +250,19 @@ void choose_encoding(const std::string& path) {
   Interface_Static::SetCVal("read.step.codepage", is_utf8(path) ? "UTF8" : "CP1252");
 }
 
+/// While one lives, translation does not look for smooth edges: no mesh depends on the marks that it would leave.
+class WithoutSmoothEdges {
+ public:
+  WithoutSmoothEdges() : before_(Interface_Static::RVal(angle)) { Interface_Static::SetRVal(angle, 0); }
+  ~WithoutSmoothEdges() { Interface_Static::SetRVal(angle, before_); }
+  WithoutSmoothEdges(const WithoutSmoothEdges&) = delete;
+  WithoutSmoothEdges& operator=(const WithoutSmoothEdges&) = delete;
+
+ private:
+  static constexpr const char* angle = "read.encoderegularity.angle";
+  double before_;
+};
+
 }  // namespace
 }  // namespace carreau_occ
 
@@ -258,6 +271,7 @@ using namespace carreau_occ;
 void carreau_translate_step(const std::string& path, const Message_ProgressRange& progress, ShapeFile& file) {
   STEPControl_Reader reader;  // settings are known once there is one
   choose_encoding(path);
+  const WithoutSmoothEdges plain;
   const Handle(PlainStepLibrary) library = new PlainStepLibrary;
   reader.WS()->SetLibrary(library);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) refuse(path, "is not a readable STEP file");

@@ -69,10 +69,11 @@ void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame
   const auto fill = [&] { options.frontal ? advance_front(placement) : split_long_edges(placement); };
   if (!options.squares) fill();
   bool seeded = false;
-  for (const std::vector<Vec2>& places : options.undersampled)
-    seeded =
-        std::any_of(places.begin(), places.end(), [&](Vec2 p) { return seed_region(placement, frame.inward(p)); }) ||
-        seeded;
+  for (const std::vector<Vec2>& places : options.undersampled) {
+    int hint = work.mesh.vertices.back().triangle;
+    const auto seed = [&](Vec2 p) { return seed_region(placement, frame.inward(p), hint); };
+    seeded = std::any_of(places.begin(), places.end(), seed) || seeded;
+  }
   if (seeded) fill();
   placement.forget_touched();
 }

@@ -13,8 +13,8 @@ namespace carreau::plane {
 namespace {
 
 // A walk can end at a hole: then from the nearest vertex.
-int triangle_at(const Triangulation& mesh, const Vec2& p) {
-  const int t = mesh.locate(p, mesh.vertices.back().triangle);
+int triangle_at(const Triangulation& mesh, const Vec2& p, int hint) {
+  const int t = mesh.locate(p, hint);
   if (t >= 0) return t;
   int nearest = 0;
   double best = infinity;
@@ -27,10 +27,12 @@ int triangle_at(const Triangulation& mesh, const Vec2& p) {
 
 }  // namespace
 
-bool seed_region(Placement& placement, Vec2 place) {
+bool seed_region(Placement& placement, Vec2 place, int& hint) {
   const Triangulation& mesh = placement.mesh;
-  const int start = triangle_at(mesh, place);
-  if (start < 0 || !try_insert(placement, place, start, seed_distance)) return false;
+  const int start = triangle_at(mesh, place, hint);
+  if (start < 0) return false;
+  hint = start;
+  if (!try_insert(placement, place, start, seed_distance)) return false;
   const Eigen2 e = eigen(placement.field.at(place));
   const Vec2 base = (1 / std::sqrt(e.major)) * e.direction;
   const Vec2 height = (0.5 * std::numbers::sqrt3 / std::sqrt(e.minor)) * Vec2{-e.direction.y(), e.direction.x()};

@@ -84,8 +84,10 @@ class Refiner {
               edges_to_split_for_bulges(curve_model_, curves_, f, *result_.domain[f], closeness_->coefficient(f));
           found.edges.insert(found.edges.end(), bulging.begin(), bulging.end());
           if (!found.ask_metric) return;
+          int wide = -1;  // the last edge that a strip has shown to be too long
           for (const Strip& strip : found.strips)
-            if (lies_between(curve_model_, f, *result_.domain[f], strip)) found.edges.push_back(strip.edge);
+            if (strip.edge != wide && lies_between(curve_model_, f, *result_.domain[f], strip))
+              found.edges.push_back(wide = strip.edge);
           const std::vector<int> close = edges_to_split_for_closeness(
               result_.domain[f]->plane, space_of(f, monitor), closeness_->coefficient(f), closeness_->is_bounded(f));
           found.edges.insert(found.edges.end(), close.begin(), close.end());

@@ -2,6 +2,7 @@
 #include "surface/refine/strips.h"
 
 #include <algorithm>
+#include <array>
 
 #include "predicates/polygon_locator.h"
 #include "support/angles.h"
@@ -108,8 +109,10 @@ std::vector<Strip> find_strips(const CurveModel& model, const std::vector<Discre
 bool lies_between(const CurveModel& model, int face, const FaceDomain& domain, const Strip& strip) {
   const std::vector<Vec2>& uv = domain.plane.vertices;
   const PlaneEdge& edge = domain.plane.edges[strip.edge];
-  const auto at = [&](Vec2 p) { return surface_at(model.cad, model.model.faces[face].ref, want_position, p).s; };
-  return norm(at(strip.middle) - at(uv[strip.vertex])) <= norm(at(uv[edge.a]) - at(uv[edge.b]));
+  const std::array<Vec2, 4> points{strip.middle, uv[strip.vertex], uv[edge.a], uv[edge.b]};
+  std::array<SurfaceJet, 4> at;
+  model.cad.surface(model.model.faces[face].ref, want_position, points, at);
+  return norm(at[0].s - at[1].s) <= norm(at[2].s - at[3].s);
 }
 
 }  // namespace carreau

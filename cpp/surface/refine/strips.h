@@ -19,7 +19,7 @@ struct Strip {
 /// Vertices that are nearer to an edge than its length times `coef`, by coefficient_of_width(). If a strip is narrower
 /// than its long edges bulge, the chord of an edge passes by vertices of the other side. Vertices near a corner where
 /// curves meet are left to the check in the metric, which includes angles. Away from the corner, bulges are as
-/// elsewhere. Costs no callback.
+/// elsewhere. Costs no callback. Strips of an edge follow each other.
 std::vector<Strip> find_strips(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
                                const FaceDomain& domain, double coef);
 
