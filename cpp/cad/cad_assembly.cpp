@@ -113,6 +113,12 @@ unsigned CadAssembly::curve_gives() const noexcept {
   return all;
 }
 
+bool CadAssembly::is_continued(int face) const noexcept {
+  const Part* const part = part_of_face(face);
+  if (part != nullptr) return carreau::is_continued(*part->cad, face - part->first_face + 1);
+  return host_ && carreau::is_continued(*host_, face);
+}
+
 void CadAssembly::set_parameter_box(int face, Vec2 low, Vec2 high) {
   of_face(face, 0, [&](Cad& cad, int own) { cad.set_parameter_box(own, low, high); });
 }

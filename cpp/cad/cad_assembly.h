@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "cad/cad.h"
+#include "cad/continued_cad.h"
 
 namespace carreau {
 
 /// Forwards calls about faces and points of part k to it, by its own references. They are the references of the
 /// assembly less first_face - 1 and first_point - 1. All others are the host's. Errors of a part name references of the
 /// assembly. Re-entrant when all parts are; gives the orders that all parts give.
-class CadAssembly final : public Cad {
+class CadAssembly final : public Cad, public ContinuedCad {
  public:
   struct Part {
     std::shared_ptr<Cad> cad;
@@ -35,6 +35,7 @@ class CadAssembly final : public Cad {
   [[nodiscard]] CallCounts counts() const noexcept override;
   [[nodiscard]] unsigned surface_gives() const noexcept override;
   [[nodiscard]] unsigned curve_gives() const noexcept override;
+  [[nodiscard]] bool is_continued(int face) const noexcept override;
   void set_parameter_box(int face, Vec2 low, Vec2 high) override;
   void set_boundary(int face, std::vector<BoundaryCurve> boundary) override;
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cad/call_counter.h"
+#include "cad/checked_cad.h"
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"

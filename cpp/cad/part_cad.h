@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "cad/cad.h"
+#include "cad/continued_cad.h"
 
 namespace carreau {
 
@@ -16,7 +16,7 @@ struct CurvePart {
 };
 
 /// Passes everything on; curves (face, ic) in `parts` are replaced by the parts. Keeps a reference to `host`.
-class PartCad final : public Cad {
+class PartCad final : public Cad, public ContinuedCad {
  public:
   using Parts = std::map<std::pair<int, int>, CurvePart>;
   PartCad(Cad& host, Parts parts) : host_(host), parts_(std::move(parts)) {}
@@ -45,6 +45,7 @@ class PartCad final : public Cad {
   [[nodiscard]] CallCounts counts() const noexcept override { return host_.counts(); }
   [[nodiscard]] unsigned surface_gives() const noexcept override { return host_.surface_gives(); }
   [[nodiscard]] unsigned curve_gives() const noexcept override { return host_.curve_gives(); }
+  [[nodiscard]] bool is_continued(int face) const noexcept override { return carreau::is_continued(host_, face); }
   void set_parameter_box(int face, Vec2 low, Vec2 high) override { host_.set_parameter_box(face, low, high); }
   void set_boundary(int face, std::vector<BoundaryCurve> boundary) override {
     for (BoundaryCurve& curve : boundary) curve.ic = whole(face, curve.ic);

@@ -20,18 +20,6 @@ namespace {
 
 using namespace thresholds::control_space;
 
-void find_box(const SampledDomain& domain, Survey& s) {
-  if (domain.edges.empty()) throw DomainError("the parameter domain has no boundary");
-  s.low = s.high = domain.vertices[domain.edges[0].first];
-  for (const auto& [a, b] : domain.edges)
-    for (const Vec2& p : {domain.vertices[a], domain.vertices[b]}) {
-      s.low = s.low.cwiseMin(p);
-      s.high = s.high.cwiseMax(p);
-    }
-  const Vec2 w = s.high - s.low;
-  if (!(w.x() > 0) || !(w.y() > 0)) throw DomainError("the parameter domain has no area");
-}
-
 // The points of the box's regular n x n grid of cell centres that are inside.
 std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int n) {
   std::vector<Vec2> points;
@@ -80,18 +68,6 @@ int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLoca
   return count;
 }
 
-// The smallest eigenvalue allowed, from the smallest lengths of the box at the samples.
-double floor_from(std::vector<double> shortest, double longest) {
-  std::sort(shortest.begin(), shortest.end());
-  double usual = shortest[shortest.size() / 2];
-  if (!(usual > 0)) usual = shortest.back();
-  if (!(usual > 0)) usual = longest > 0 ? longest : 1;
-  const double length = std::min(min_box_length, shares::negligible * usual);
-  return length * length;
-}
-
-Metric2 in_box(Metric2 m, const Vec2& w) { return {m.a * w.x() * w.x(), m.b * w.x() * w.y(), m.c * w.y() * w.y()}; }
-
 // Relative change between two metrics; the eigenvalues must not be too small.
 double change(Metric2 p, Metric2 q, double floor) {
   const auto root = [floor](Metric2 m) {
@@ -115,10 +91,37 @@ double ratio_of_changes(std::span<const Metric2> m, double floor) {
 
 }  // namespace
 
+Box2 box_of(const SampledDomain& domain) {
+  if (domain.edges.empty()) throw DomainError("the parameter domain has no boundary");
+  Box2 box{domain.vertices[domain.edges[0].first], domain.vertices[domain.edges[0].first]};
+  for (const auto& [a, b] : domain.edges)
+    for (const Vec2& p : {domain.vertices[a], domain.vertices[b]}) {
+      box.low = box.low.cwiseMin(p);
+      box.high = box.high.cwiseMax(p);
+    }
+  const Vec2 w = box.high - box.low;
+  if (!(w.x() > 0) || !(w.y() > 0)) throw DomainError("the parameter domain has no area");
+  return box;
+}
+
+double floor_from(std::vector<double> shortest, double longest) {
+  std::sort(shortest.begin(), shortest.end());
+  double usual = shortest[shortest.size() / 2];
+  if (!(usual > 0)) usual = shortest.back();
+  if (!(usual > 0)) usual = longest > 0 ? longest : 1;
+  const double length = std::min(min_box_length, shares::negligible * usual);
+  return length * length;
+}
+
+Metric2 in_box(Metric2 m, const Vec2& w) noexcept {
+  return {m.a * w.x() * w.x(), m.b * w.x() * w.y(), m.c * w.y() * w.y()};
+}
+
 Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
               const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask, bool square) {
   Survey s;
-  find_box(domain, s);
+  const Box2 box = box_of(domain);
+  s.low = box.low, s.high = box.high;
   std::vector<Vec2> uv;
   const std::size_t stride = std::max<std::size_t>(1, domain.edges.size() / max_border_points);
   for (std::size_t e = 0; e < domain.edges.size() && uv.size() < max_border_points; e += stride) {

@@ -25,8 +25,20 @@ struct Survey {
 /// Area of the part of a unit mesh that belongs to a vertex, two equilateral triangles: sqrt(3) / 2.
 extern const double area_per_vertex;
 
-/// `ask` evaluates the sampler. `square`: cells should be as square in the metric as possible. Throws DomainError when
-/// the domain has no boundary or its box has no area.
+/// The box of the boundary. Throws DomainError when the domain has no boundary or its box has no area.
+struct Box2 {
+  Vec2 low, high;
+};
+Box2 box_of(const SampledDomain& domain);
+
+/// The smallest eigenvalue allowed in units of the box, from smallest and largest lengths of the box at samples.
+double floor_from(std::vector<double> shortest, double longest);
+
+/// A metric in units of a box with these sides.
+Metric2 in_box(Metric2 m, const Vec2& w) noexcept;
+
+/// `ask` evaluates the sampler. `square`: cells should be as square in the metric as possible. Throws as
+/// box_of().
 Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
               const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask, bool square);
 

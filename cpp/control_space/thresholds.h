@@ -117,6 +117,13 @@ inline constexpr std::size_t table_per_leaf = 2;
 /// Points. Number along each side of a cut leaf; they determine its part inside. [ControlSpace.MeasureIsTheArea...]
 inline constexpr int cut_leaf_points = 4;
 
+// Even grids (even_space)
+/// Edges. Width of a cell, and least number of cells along a side. [EvenSpace, as below]
+inline constexpr double even_cell = 1.25;
+inline constexpr int min_even_side = 2;
+/// Edges. Length of a side of the box, and squared edges: its area. In larger boxes the tree takes fewer samples.
+inline constexpr double max_even_edges = 40, max_even_edges2 = 100;
+
 // Undersampled regions
 /// Vertices of a unit mesh. Smaller squares may contain none. [surface: Verification, as all below]
 inline constexpr double crowd = 4;

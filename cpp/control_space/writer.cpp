@@ -173,18 +173,23 @@ void ControlSpaceWriter::straighten_sides() {
     const TreeCell& cell = tree_[leaf];
     for (int side = 0; side < 4; ++side) {
       if (coarser_beside(cell, side) >= 0) continue;
-      const Metric2 a = lattice_.value(cell.node[detail::ends_of_sides[side][0]]);
-      const Metric2 b = lattice_.value(cell.node[detail::ends_of_sides[side][1]]);
       const std::int32_t at = cell.node[detail::middles_of_sides[side]];
-      const Metric2 middle = lattice_.value(at);
-      const Metric2 mean = 0.5 * (a + b);
-      const Metric2 inner = 2.0 * middle + -1.0 * mean;
-      if (surely_definite(inner, a, b)) continue;
-      const double least = shares::notable * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
-      if (smaller_eigenvalue(inner) >= least) continue;
-      lattice_.fix(at, 0.5 * (mean + definite_between(mean, inner, least)));
+      Metric2 middle = lattice_.value(at);
+      if (make_side_definite(lattice_.value(cell.node[detail::ends_of_sides[side][0]]), middle,
+                             lattice_.value(cell.node[detail::ends_of_sides[side][1]])))
+        lattice_.fix(at, middle);
     }
   }
+}
+
+bool ControlSpaceWriter::make_side_definite(Metric2 a, Metric2& middle, Metric2 b) noexcept {
+  const Metric2 mean = 0.5 * (a + b);
+  const Metric2 inner = 2.0 * middle + -1.0 * mean;
+  if (surely_definite(inner, a, b)) return false;
+  const double least = shares::notable * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
+  if (smaller_eigenvalue(inner) >= least) return false;
+  middle = 0.5 * (mean + definite_between(mean, inner, least));
+  return true;
 }
 
 // If a side is half of a coarser side, its middle lies on the quadratic of the coarser side.
@@ -205,26 +210,50 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
     v[detail::middles_of_sides[side]] =
         first_half ? 0.375 * low + 0.75 * middle + -0.125 * high : 0.375 * high + 0.75 * middle + -0.125 * low;
   }
-  // The centre's Bernstein coefficient, kept definite as on the sides.
+  make_centre_definite(v);
+  return v;
+}
+
+// The centre's Bernstein coefficient, kept definite as on the sides.
+void ControlSpaceWriter::make_centre_definite(Nine& v) noexcept {
   const Metric2 corners = v[0] + v[2] + v[6] + v[8];
   const Metric2 inner_sides = 2.0 * (v[1] + v[3] + v[5] + v[7]) + -1.0 * corners;
   const Metric2 straight = 0.25 * inner_sides;
   const Metric2 inner = 4.0 * v[4] + -0.25 * corners + -0.5 * inner_sides;
-  if (surely_definite(inner, straight, straight)) return v;
+  if (surely_definite(inner, straight, straight)) return;
   const double least = shares::notable * smaller_eigenvalue(straight);
   if (smaller_eigenvalue(inner) < least) {
     const Metric2 definite = definite_between(straight, inner, least);
     v[4] = 0.0625 * corners + 0.125 * inner_sides + 0.25 * definite;
   }
-  return v;
+}
+
+// Simpson's rule in both directions.
+double ControlSpaceWriter::mean_determinant(const Nine& v) noexcept {
+  constexpr double weight[9] = {1, 4, 1, 4, 16, 4, 1, 4, 1};
+  double sum = 0;
+  for (int k = 0; k < 9; ++k) sum += weight[k] / 36 * accurate_determinant(v[k]);
+  return sum;
+}
+
+// Three values at -1, 0, 1 to coefficients of 1, s, s^2: first along rows, then across them.
+ControlSpace::Leaf ControlSpaceWriter::leaf_of(const Nine& v, double x, double y, double scale) noexcept {
+  ControlSpace::Leaf leaf{.x = x, .y = y, .scale = scale};
+  const auto quadratic = [](Metric2 low, Metric2 middle, Metric2 high) {
+    return std::array<Metric2, 3>{middle, 0.5 * (high + -1.0 * low), 0.5 * (low + high) + -1.0 * middle};
+  };
+  std::array<std::array<Metric2, 3>, 3> rows;
+  for (int r = 0; r < 3; ++r) rows[r] = quadratic(v[3 * r], v[3 * r + 1], v[3 * r + 2]);
+  for (int n = 0; n < 3; ++n) {
+    const auto column = quadratic(rows[0][n], rows[1][n], rows[2][n]);
+    for (int m = 0; m < 3; ++m) leaf.c[3 * m + n] = {column[m].a, column[m].b, column[m].c};
+  }
+  return leaf;
 }
 
 double ControlSpaceWriter::measure_of(const TreeCell& cell, const Nine& v) const {
   const double side = static_cast<double>(cell.size) / lattice_.step();
-  // Simpson's rule in both directions.
-  constexpr double weight[9] = {1, 4, 1, 4, 16, 4, 1, 4, 1};
-  double sum = 0;
-  for (int k = 0; k < 9; ++k) sum += weight[k] / 36 * accurate_determinant(v[k]);
+  const double sum = mean_determinant(v);
   double share = 1;
   const bool cut = cell.edges_begin != cell.edges_end;
   if (cut && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t n) { return !lattice_.inside(n); })) {
@@ -245,21 +274,8 @@ std::int32_t ControlSpaceWriter::write_leaf(const TreeCell& cell) {
   const double measure = cell.relevant ? measure_of(cell, v) : 0;
   space_.measures_.push_back(measure);
   space_.measure_ += measure;
-  ControlSpace::Leaf leaf;
-  leaf.x = (cell.i + 0.5 * cell.size) / table_step_;
-  leaf.y = (cell.j + 0.5 * cell.size) / table_step_;
-  leaf.scale = 2.0 * table_step_ / cell.size;
-  // Three values at -1, 0, 1 to coefficients of 1, s, s^2: first along rows, then across them.
-  const auto quadratic = [](Metric2 low, Metric2 middle, Metric2 high) {
-    return std::array<Metric2, 3>{middle, 0.5 * (high + -1.0 * low), 0.5 * (low + high) + -1.0 * middle};
-  };
-  std::array<std::array<Metric2, 3>, 3> rows;
-  for (int r = 0; r < 3; ++r) rows[r] = quadratic(v[3 * r], v[3 * r + 1], v[3 * r + 2]);
-  for (int n = 0; n < 3; ++n) {
-    const auto column = quadratic(rows[0][n], rows[1][n], rows[2][n]);
-    for (int m = 0; m < 3; ++m) leaf.c[3 * m + n] = {column[m].a, column[m].b, column[m].c};
-  }
-  space_.leaves_.push_back(leaf);
+  space_.leaves_.push_back(leaf_of(v, (cell.i + 0.5 * cell.size) / table_step_, (cell.j + 0.5 * cell.size) / table_step_,
+                                   2.0 * table_step_ / cell.size));
   return static_cast<std::int32_t>(space_.leaves_.size()) - 1;
 }
 

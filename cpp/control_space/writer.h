@@ -20,8 +20,23 @@ class ControlSpaceWriter {
   /// Call once.
   ControlSpace run();
 
+  /// An even grid of cells over a box.
+  struct EvenGrid {
+    Vec2 low, high;
+    int columns = 1, rows = 1;
+    std::vector<Metric2> roots;  ///< at corners, middles and centres of cells, row by row, in units of the cells
+    std::vector<double> shares;  ///< of the cells, row by row: inside the domain
+  };
+  static ControlSpace write(EvenGrid grid);
+
  private:
   using Nine = std::array<Metric2, 9>;  // row by row
+  /// Moves a value at the middle of a side towards the mean of its ends until the side is definite. Returns false if it
+  /// was.
+  static bool make_side_definite(Metric2 a, Metric2& middle, Metric2 b) noexcept;
+  static void make_centre_definite(Nine& nodes) noexcept;
+  [[nodiscard]] static double mean_determinant(const Nine& nodes) noexcept;
+  [[nodiscard]] static ControlSpace::Leaf leaf_of(const Nine& nodes, double x, double y, double scale) noexcept;
 
   void balance();
   void sort_leaves();

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "cad/cad.h"
+#include "cad/continued_cad.h"
 
 namespace carreau::molecule {
 
@@ -25,7 +25,7 @@ class Patch {
   [[nodiscard]] virtual double curve_radius(std::size_t curve) const = 0;
 };
 
-class PatchCad final : public Cad {
+class PatchCad final : public Cad, public ContinuedCad {
  public:
   /// `ref` must differ from the references of earlier patches. Not while others evaluate.
   void add(int ref, std::unique_ptr<const Patch> patch);
@@ -36,6 +36,8 @@ class PatchCad final : public Cad {
   std::optional<double> surface_radius(int face, Vec2 uv) override;
   std::optional<double> curve_radius(int face, int ic, double t) override;
   [[nodiscard]] bool reentrant() const noexcept override { return true; }
+  /// Charts of spheres and of tori have no end.
+  [[nodiscard]] bool is_continued(int) const noexcept override { return true; }
 
  private:
   [[nodiscard]] const Patch& patch(int face) const;

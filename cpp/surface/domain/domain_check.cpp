@@ -44,33 +44,43 @@ std::vector<int> edges_to_split_for_crossings(const PlaneDomain& domain) {
 }
 
 std::vector<int> edges_to_split_for_balance(const PlaneDomain& domain, const ControlSpace& metric, double ratio) {
-  if (!(ratio >= 2)) throw InvalidArgument("the ratio of the lengths of adjacent edges must be 2 or more");
-  require_sound(domain);
-  // A chain that is exactly geometric must not depend on rounding.
-  const double limit = ratio * (1 + 1e-9);
   std::vector<double> size;
   for (const PlaneEdge& e : domain.edges) {
     const Vec2 a = domain.vertices[e.a], b = domain.vertices[e.b];
     size.push_back(length(metric.at(lerp(a, b, 0.5)), b - a));
   }
+  return edges_to_split_for_balance(domain, size, ratio, 1);
+}
+
+std::vector<int> edges_to_split_for_balance(const PlaneDomain& domain, std::span<const double> size, double ratio, int reach) {
+  if (!(ratio >= 2)) throw InvalidArgument("the ratio of the lengths of adjacent edges must be 2 or more");
+  require_sound(domain);
+  // A chain that is exactly geometric must not depend on rounding.
+  const double limit = ratio * (1 + 1e-9);
   std::vector<char> split(domain.edges.size(), 0);
   const DomainIncidence incidence(domain, DomainIncidence::Which::all);
-  for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v) {
+  // Calls use(f) for the edges that follow edge i at its end v.
+  const auto for_next = [&](int i, int v, const auto& use) {
+    const PlaneEdge& e = domain.edges[i];
     const auto around = incidence.at(v);
-    const auto kind_count = [&](const PlaneEdge& e) {
-      return static_cast<std::size_t>(
-          std::count_if(around.begin(), around.end(), [&](int f) { return bounds(domain.edges[f]) == bounds(e); }));
+    const auto count = static_cast<std::size_t>(
+        std::count_if(around.begin(), around.end(), [&](int f) { return bounds(domain.edges[f]) == bounds(e); }));
+    for (const int j : around)
+      if (j != i && domain.edges[j].kind != PlaneEdgeKind::degenerate && follow_each_other(e, domain.edges[j], count)) use(j);
+  };
+  for (int i = 0; i < static_cast<int>(domain.edges.size()); ++i) {
+    const PlaneEdge& e = domain.edges[i];
+    if (e.kind == PlaneEdgeKind::degenerate) continue;
+    const auto compare = [&](int j) {
+      if (size[j] > 0 && size[i] > limit * size[j]) split[i] = 1;
     };
-    for (const int i : around) {
-      const PlaneEdge& e = domain.edges[i];
-      if (e.kind == PlaneEdgeKind::degenerate) continue;
-      const std::size_t count = kind_count(e);
-      for (const int j : around) {
+    for (const int v : {e.a, e.b})
+      for_next(i, v, [&](int j) {
+        compare(j);
+        if (reach < 2) return;
         const PlaneEdge& f = domain.edges[j];
-        if (i == j || f.kind == PlaneEdgeKind::degenerate || !follow_each_other(e, f, count)) continue;
-        if (size[j] > 0 && size[i] > limit * size[j]) split[i] = 1;
-      }
-    }
+        for_next(j, f.a == v ? f.b : f.a, compare);
+      });
   }
   return flagged(split);
 }

@@ -75,5 +75,8 @@ std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const C
 /// Edges more than `ratio` times longer, in the metric at the midpoints, than the next edge of their curve or loop (HDR
 /// sec. 3.3.3). Never a degenerate edge. Increasing. ratio >= 2, else InvalidArgument: below, halving need not end.
 std::vector<int> edges_to_split_for_balance(const PlaneDomain& domain, const ControlSpace& metric, double ratio = 2);
+/// `size`: the lengths of the edges. `reach` 2: more than `ratio` times longer than the second next edge, too, so that lengths
+/// double over two edges at most.
+std::vector<int> edges_to_split_for_balance(const PlaneDomain& domain, std::span<const double> size, double ratio, int reach);
 
 }  // namespace carreau

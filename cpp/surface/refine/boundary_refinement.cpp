@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "cad/continued_cad.h"
 #include "predicates/predicates.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
@@ -102,7 +103,9 @@ class Refiner {
         [this](int f, Found& found, Monitor& monitor) {
           if (!found.ask_metric) return;
           const PlaneDomain& plane = result_.domain[f]->plane;
-          found.edges = edges_to_split_for_balance(plane, space_of(f, monitor), options_.adjacent_ratio);
+          found.edges = has_one_size() && is_continued(curve_model_.cad, model_.faces[f].ref)
+                            ? edges_to_split_for_balance(plane, lengths_on_curves(plane), options_.adjacent_ratio, 2)
+                            : edges_to_split_for_balance(plane, space_of(f, monitor), options_.adjacent_ratio);
           if (!finest_) return;
           std::erase_if(found.edges, [&](int e) {
             return finest_->reached_by(curves_[plane.edges[e].curve], plane.edges[e].segment);
@@ -328,6 +331,22 @@ class Refiner {
   // curves decide, without a callback. With a gradation they decide together with the largest change of sizes up to the
   // middles of edges.
   [[nodiscard]] bool is_uneven(int f) const { return static_cast<std::size_t>(f) < uneven_.size() && uneven_[f] != 0; }
+  // Lengths on curves are exact then. Halved edges are exactly twice as long as their neighbours: in a metric that is sampled,
+  // or at the middle of a chord, the error of lengths would decide whether they stay.
+  [[nodiscard]] bool has_one_size() const { return rules_.constant() && isotropic_ && !limits_.want_places(); }
+  // Zero for degenerate edges.
+  [[nodiscard]] std::vector<double> lengths_on_curves(const PlaneDomain& plane) const {
+    std::vector<double> lengths;
+    for (const PlaneEdge& edge : plane.edges) {
+      if (edge.kind == PlaneEdgeKind::degenerate) {
+        lengths.push_back(0);
+        continue;
+      }
+      const std::vector<double>& r = curves_[edge.curve].r;
+      lengths.push_back((r[edge.segment + 1] - r[edge.segment]) * curve_model_.length(edge.curve));
+    }
+    return lengths;
+  }
   [[nodiscard]] bool may_be_unbalanced(int f) const {
     if (!rules_.constant() && (limits_.field == nullptr || !isotropic_)) return true;
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
@@ -354,12 +373,11 @@ class Refiner {
   // Loose spaces are enough to compare edges with their neighbours; they are kept while the curves change.
   const ControlSpace& space_of(int f, Monitor& monitor) {
     auto& space = spaces_[f];
-    if (!space) {
-      const PatchInput input{
-          .face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}, .isotropic = isotropic_, .limits = limits_};
-      space = sample_face(input, curve_model_.cad, rules_, {}, monitor);
-    }
+    if (!space) space = sample_face(input_of(f), curve_model_.cad, rules_, {}, monitor);
     return *space;
+  }
+  [[nodiscard]] PatchInput input_of(int f) const {
+    return {.face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}, .isotropic = isotropic_, .limits = limits_};
   }
 
   void report_what_still_crosses() {

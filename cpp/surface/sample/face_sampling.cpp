@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cad/continued_cad.h"
+#include "control_space/even_space.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
 #include "surface/sample/face_metric.h"
@@ -30,6 +32,11 @@ double usual_square(std::vector<double>& squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   return *middle > 0 ? *middle : infinity;
+}
+
+// True if the prescription may be evaluated in the whole box of the domain, and no detail of it is narrower than an edge.
+bool has_smooth_box(const PatchInput& input, const Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points) {
+  return rules.constant() && input.limits.field == nullptr && probe_points.empty() && is_continued(cad, input.ref);
 }
 
 /// The samples of a batch: metrics, and the first derivatives in jets.
@@ -110,9 +117,10 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
   const SampledDomain domain = sampled_domain(input.domain->plane);
   if (input.slope > 0)
     return ControlSpace::build_graded(domain, sampler, input.slope, !input.isotropic, space_options, monitor);
-  return ControlSpace::build(
-      domain, [&](std::span<const Vec2> uv, std::span<Metric2> metric) { sampler(uv, metric, {}); }, space_options,
-      monitor);
+  const MetricSampler metrics = [&](std::span<const Vec2> uv, std::span<Metric2> metric) { sampler(uv, metric, {}); };
+  if (has_smooth_box(input, cad, rules, probe_points))
+    if (std::optional<ControlSpace> even = build_even_space(domain, metrics, monitor)) return std::move(*even);
+  return ControlSpace::build(domain, metrics, space_options, monitor);
 }
 
 std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,
